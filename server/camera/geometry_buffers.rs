@@ -1,0 +1,138 @@
+//! Triangles on the device, and where copies of each solid are placed in a frame.
+
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+use nalgebra::Matrix4;
+use wgpu::util::DeviceExt;
+
+use super::gpu::Gpu;
+use super::mesh::{Color, Mesh};
+
+/// What can be drawn: the meshes of a renderer, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Solid {
+    /// Everything that stands still.
+    Stage,
+    Sphere,
+    Disc,
+    Ring,
+    Cube,
+    Cylinder,
+}
+
+/// One copy of a solid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub solid: Solid,
+    /// Affine, from the solid's unit frame to `base`. May stretch, but only along the solid's own
+    /// axes and a round solid equally across, else its normals would lie.
+    pub base_from_solid: Matrix4<f64>,
+    /// Multiplies the solid's colour.
+    pub color: Color,
+}
+
+impl Part {
+    /// The stage, which is in `base` already.
+    pub const fn stage(base_from_solid: Matrix4<f64>) -> Self {
+        Self { solid: Solid::Stage, base_from_solid, color: [255; 4] }
+    }
+}
+
+/// A [`Part`] as the shaders read it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(super) struct Instance {
+    /// The upper three rows of `base_from_solid`.
+    pub base_from_solid: [[f32; 4]; 3],
+    pub color: Color,
+}
+
+impl Instance {
+    /// Memory layout for the pipelines; locations as in the shaders.
+    pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Self>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &wgpu::vertex_attr_array![
+            3 => Float32x4, 4 => Float32x4, 5 => Float32x4, 6 => Unorm8x4
+        ],
+    };
+}
+
+impl From<&Part> for Instance {
+    fn from(part: &Part) -> Self {
+        let row = |row| std::array::from_fn(|column| part.base_from_solid[(row, column)] as f32);
+        Self { base_from_solid: [row(0), row(1), row(2)], color: part.color }
+    }
+}
+
+/// Copies of one solid that are drawn together.
+#[derive(Clone, Debug)]
+pub(super) struct Batch {
+    indices: Range<u32>,
+    instances: Range<u32>,
+}
+
+/// All meshes of a renderer in one pair of buffers, and the instances of the present frame.
+#[derive(Debug)]
+pub(super) struct GeometryBuffers {
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    /// The part of `indices` that is each mesh.
+    meshes: Vec<Range<u32>>,
+    instances: wgpu::Buffer,
+}
+
+impl GeometryBuffers {
+    /// Uploads `meshes`, one for each [`Solid`] in its order; a renderer that uses only the first
+    /// few passes only those. No frame may place more than `most_parts`.
+    pub fn new(gpu: &Gpu, meshes: &[Mesh], most_parts: u64) -> Self {
+        let mut all = Mesh::default();
+        let mut ranges = Vec::with_capacity(meshes.len());
+        for mesh in meshes {
+            let (vertex, index) = (all.vertices.len() as u32, all.indices.len() as u32);
+            all.vertices.extend_from_slice(&mesh.vertices);
+            all.indices.extend(mesh.indices.iter().map(|at| vertex + at));
+            ranges.push(index..all.indices.len() as u32);
+        }
+        let filled = |label, contents, usage| {
+            let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
+            gpu.device.create_buffer_init(&descriptor)
+        };
+        Self {
+            vertices: filled("vertices", bytemuck::cast_slice(&all.vertices), wgpu::BufferUsages::VERTEX),
+            indices: filled("indices", bytemuck::cast_slice(&all.indices), wgpu::BufferUsages::INDEX),
+            meshes: ranges,
+            instances: gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("instances"),
+                size: most_parts * size_of::<Instance>() as u64,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+        }
+    }
+
+    /// Places `parts` for the frame that is submitted next. Equal solids in a row are drawn at once.
+    pub fn place(&self, gpu: &Gpu, parts: &[Part]) -> Vec<Batch> {
+        let instances: Vec<Instance> = parts.iter().map(Instance::from).collect();
+        gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
+        let mut batches = Vec::new();
+        let mut first = 0;
+        for run in parts.chunk_by(|a, b| a.solid == b.solid) {
+            let next = first + run.len() as u32;
+            batches.push(Batch { indices: self.meshes[run[0].solid as usize].clone(), instances: first..next });
+            first = next;
+        }
+        batches
+    }
+
+    /// Draws what [`Self::place`] returned, in its order.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, batches: &[Batch]) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_vertex_buffer(1, self.instances.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for batch in batches {
+            pass.draw_indexed(batch.indices.clone(), 0, batch.instances.clone());
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Projections: from `base` to the device's clip space (x right, y up, depth 0 to 1).
+
+use nalgebra::Matrix4;
+
+use crate::geometry::{Point3, Vector3};
+
+/// Share of the camera's height above the table that is closer than it can see.
+const NEAR: f64 = 0.02;
+/// How far beyond the table the controllers' camera sees.
+const BEYOND_M: f64 = 0.05;
+
+/// Corrections of the picture's middle; each shrinks the error several times.
+const CENTERING_ROUNDS: usize = 8;
+
+/// A pinhole at (`x_m`, `y_m`, `height_m`) that looks straight down, image up = +y, with `span_m` of
+/// table across a square image: at depth d below it, x lands at 2·height·x/(span·d).
+pub(super) fn pinhole_down(x_m: f64, y_m: f64, height_m: f64, span_m: f64) -> Matrix4<f64> {
+    let zoom = 2.0 * height_m / span_m;
+    let (near, far) = (NEAR * height_m, height_m + BEYOND_M);
+    let slope = far / (far - near);
+    // Rows give clip x, y, z and w; w is the depth height − z.
+    Matrix4::new(
+        zoom,
+        0.0,
+        0.0,
+        -zoom * x_m, //
+        0.0,
+        zoom,
+        0.0,
+        -zoom * y_m, //
+        0.0,
+        0.0,
+        -slope,
+        slope * (height_m - near), //
+        0.0,
+        0.0,
+        -1.0,
+        height_m,
+    )
+}
+
+/// A fixed view in perspective.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Perspective {
+    pub clip_from_base: Matrix4<f64>,
+    pub eye_m: Point3<f64>,
+    /// Width seen at the distance of the middle of the picture.
+    pub span_m: f64,
+}
+
+/// Looks from direction `toward_eye` at the middle of `bounds`, just far enough away that all of
+/// them are in a picture of `aspect` (width over height) whose shorter side spans
+/// `field_of_view_rad`.
+pub(super) fn perspective_around(
+    bounds: &[Point3<f64>],
+    toward_eye: Vector3<f64>,
+    field_of_view_rad: f64,
+    aspect: f64,
+) -> Perspective {
+    let (mut middle, radius) = ball_around(bounds);
+    let [right, up, back] = axes(toward_eye);
+    let tangent = (0.5 * field_of_view_rad).tan();
+    let (tangent_x, tangent_y) = (tangent * aspect.max(1.0), tangent / aspect.min(1.0));
+    let mut distance = distance_to_hold(bounds, middle, [right, up, back], [tangent_x, tangent_y]);
+    for _ in 0..CENTERING_ROUNDS {
+        // What is near looks larger, so the middle of the picture is not the middle of the bounds.
+        for axis in [right, up] {
+            let seen = bounds.iter().map(|point| {
+                let p = point - middle;
+                axis.dot(&p) / (distance - back.dot(&p))
+            });
+            let (least, most) = seen.fold((f64::MAX, f64::MIN), |(least, most), at| (least.min(at), most.max(at)));
+            middle += axis * (0.5 * (least + most) * distance);
+        }
+        distance = distance_to_hold(bounds, middle, [right, up, back], [tangent_x, tangent_y]);
+    }
+    let eye_m = middle + back * distance;
+    let (near, far) = (0.1 * distance, 4.0 * (distance + radius));
+    let slope = far / (far - near);
+    let row = |axis: Vector3<f64>, scale: f64, offset: f64| {
+        let scaled = axis * scale;
+        [scaled.x, scaled.y, scaled.z, offset - scaled.dot(&eye_m.coords)]
+    };
+    let rows = [
+        row(right, 1.0 / tangent_x, 0.0),
+        row(up, 1.0 / tangent_y, 0.0),
+        row(back, -slope, -slope * near),
+        row(back, -1.0, 0.0),
+    ];
+    Perspective {
+        clip_from_base: Matrix4::from_fn(|row, column| rows[row][column]),
+        eye_m,
+        span_m: 2.0 * tangent_x * distance,
+    }
+}
+
+/// How far from `middle` the eye must be to have all `bounds` within the tangents to the right and up.
+fn distance_to_hold(
+    bounds: &[Point3<f64>],
+    middle: Point3<f64>,
+    [right, up, back]: [Vector3<f64>; 3],
+    [tangent_x, tangent_y]: [f64; 2],
+) -> f64 {
+    let needed = bounds.iter().map(|point| {
+        let p = point - middle;
+        let aside = (right.dot(&p).abs() / tangent_x).max(up.dot(&p).abs() / tangent_y);
+        back.dot(&p) + aside
+    });
+    needed.fold(f64::MIN, f64::max)
+}
+
+/// A parallel projection along the light that holds all `bounds`, for the shadow map.
+pub(super) fn parallel_around(bounds: &[Point3<f64>], toward_light: Vector3<f64>) -> Matrix4<f64> {
+    let (middle, radius) = ball_around(bounds);
+    let [right, up, back] = axes(toward_light);
+    let row = |axis: Vector3<f64>, scale: f64, offset: f64| {
+        let at_middle = axis.dot(&middle.coords);
+        [axis.x * scale, axis.y * scale, axis.z * scale, offset - at_middle * scale]
+    };
+    let rows = [
+        row(right, 1.0 / radius, 0.0),
+        row(up, 1.0 / radius, 0.0),
+        row(back, -0.5 / radius, 0.5),
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+    Matrix4::from_fn(|row, column| rows[row][column])
+}
+
+/// Right, up and back of somebody who looks against `toward_eye`, which must not be vertical.
+fn axes(toward_eye: Vector3<f64>) -> [Vector3<f64>; 3] {
+    let back = toward_eye.normalize();
+    let right = Vector3::z().cross(&back).normalize();
+    [right, back.cross(&right), back]
+}
+
+/// A ball that holds all points: the middle of their bounding box and the largest distance from it.
+fn ball_around(points: &[Point3<f64>]) -> (Point3<f64>, f64) {
+    let mut low = points[0];
+    let mut high = points[0];
+    for point in points {
+        low = low.inf(point);
+        high = high.sup(point);
+    }
+    let middle = nalgebra::center(&low, &high);
+    let radius = points.iter().map(|point| (point - middle).norm()).fold(0.0, f64::max);
+    (middle, radius)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pinhole_puts_table_metres_on_pixels() {
+        let clip_from_base = pinhole_down(0.1, -0.3, 0.3, 0.2);
+        let ndc = |x, y, z| clip_from_base.transform_point(&Point3::new(x, y, z));
+        assert!((ndc(0.2, -0.3, 0.0).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-12);
+        assert!((ndc(0.1, -0.2, 0.0).xy() - nalgebra::point![0.0, 1.0]).norm() < 1e-12);
+        // Half-way up to the camera everything is twice as large.
+        assert!((ndc(0.15, -0.3, 0.15).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-12);
+        assert!(ndc(0.1, -0.3, 0.01).z < ndc(0.1, -0.3, 0.0).z);
+        assert!((ndc(0.1, -0.3, 0.3 - 0.006).z).abs() < 1e-12);
+    }
+
+    #[test]
+    fn all_bounds_are_in_the_picture_whatever_its_shape() {
+        let bounds = [Point3::new(-0.3, -0.54, 0.0), Point3::new(0.28, -0.21, 0.0), Point3::new(0.0, 0.0, 0.6)];
+        for aspect in [0.4, 1.0, 16.0 / 9.0] {
+            let toward_eye = Vector3::new(0.4, -1.0, 0.8);
+            let view = perspective_around(&bounds, toward_eye, 0.6, aspect);
+            let mut touches = false;
+            for point in &bounds {
+                let ndc = view.clip_from_base.transform_point(point);
+                let most = ndc.x.abs().max(ndc.y.abs());
+                assert!(most <= 1.0 + 1e-9, "{aspect}: {ndc}");
+                assert!((0.0..1.0).contains(&ndc.z));
+                touches |= most > 1.0 - 1e-9;
+            }
+            assert!(touches, "the picture is larger than needed at {aspect}");
+        }
+    }
+
+    #[test]
+    fn the_shadow_map_holds_its_bounds() {
+        let bounds = [Point3::new(-0.3, -0.5, 0.0), Point3::new(0.3, 0.1, 0.6)];
+        let clip_from_base = parallel_around(&bounds, Vector3::new(-0.4, -0.3, 1.0));
+        for point in &bounds {
+            let ndc = clip_from_base.transform_point(point);
+            assert!(ndc.x.abs() <= 1.0 && ndc.y.abs() <= 1.0 && (0.0..=1.0).contains(&ndc.z));
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! The scene: the whole table in perspective, with one light, its shadows, and smooth edges.
+
+use bytemuck::{Pod, Zeroable};
+use nalgebra::Matrix4;
+
+use super::geometry_buffers::{GeometryBuffers, Part, Solid};
+use super::gpu::Gpu;
+use super::mesh::{self, Color};
+use super::pipeline::{self, Pass, bind, pipeline};
+use super::target::{DEPTH_FORMAT, Target};
+use super::{BEAD_RADIUS_M, CameraError, Stage, Subject, arm, optics, stage};
+use crate::geometry::{Point3, Rect, Vector3};
+use crate::image::CameraFrame;
+
+pub(super) const SHADER: &str = include_str!("../../shaders/scene.wgsl");
+
+/// Samples a pixel.
+const SAMPLES: u32 = 4;
+/// Columns and rows of the shadow map: under a millimetre of table each.
+const SHADOW_PX: u32 = 2048;
+/// From the middle of the table toward the eye: from the user's side, above, a little to the right.
+const TOWARD_EYE: [f64; 3] = [0.42, -1.0, 0.78];
+/// Across the shorter side of the picture.
+const FIELD_OF_VIEW_RAD: f64 = 0.5;
+/// From the middle of the table toward the light: over the user's left shoulder.
+const TOWARD_LIGHT: [f64; 3] = [-0.38, -0.42, 1.0];
+/// The arm mostly stays below this, and its elbow within this of the robot's foot.
+const ARM_TOP_M: f64 = 0.58;
+const ARM_ASIDE_M: f64 = 0.15;
+/// What is in the picture below the floor: the table's front, and a little air.
+const MARGIN_BELOW_M: f64 = 0.05;
+const BACKGROUND: Color = [226, 231, 237, 255];
+
+/// Shining colours, which say where something is rather than what it looks like.
+const BEAD: Color = [255, 196, 20, 255];
+const BEAD_HALO: Color = [255, 178, 0, 0];
+const GOAL: Color = [24, 150, 84, 0];
+/// Radius of the goal ring: the paper's distance at which the goal is reached.
+const GOAL_RADIUS_M: f64 = 0.02;
+/// Radius of the ring that helps to find the bead, which is a few pixels large.
+const HALO_RADIUS_M: f64 = 0.008;
+/// Rings lie this much above the floor.
+const RING_LIFT_M: f64 = 4e-4;
+/// Inner radius of a ring for an outer radius of 1.
+const RING_INNER: f64 = 0.75;
+
+/// Uniforms of `scene.wgsl`, laid out as there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(super) struct Scene {
+    /// Column-major.
+    pub clip_from_base: [[f32; 4]; 4],
+    /// Column-major; to the shadow map's clip space.
+    pub light_from_base: [[f32; 4]; 4],
+    /// Of length 1; the fourth is unused.
+    pub toward_light: [f32; 4],
+    /// The fourth is unused.
+    pub eye_m: [f32; 4],
+}
+
+/// Draws the scene of one stage.
+#[derive(Debug)]
+pub(super) struct SceneRenderer {
+    /// What must be in the picture.
+    bounds: Vec<Point3<f64>>,
+    picture: wgpu::RenderPipeline,
+    picture_bindings: wgpu::BindGroup,
+    shadow: wgpu::RenderPipeline,
+    shadow_bindings: wgpu::BindGroup,
+    shadow_view: wgpu::TextureView,
+    uniforms: wgpu::Buffer,
+    geometry: GeometryBuffers,
+    /// Of the last size asked for.
+    target: Option<Target>,
+}
+
+impl SceneRenderer {
+    /// `stage` has been checked.
+    pub fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, CameraError> {
+        gpu.checked("the scene", || Self::build(gpu, stage))
+    }
+
+    fn build(gpu: &Gpu, stage: &Stage) -> Self {
+        let device = &gpu.device;
+        let shadow_map = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("shadow map"),
+            size: wgpu::Extent3d { width: SHADOW_PX, height: SHADOW_PX, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: DEPTH_FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let shadow_view = shadow_map.create_view(&Default::default());
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("shadow map"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        let uniforms = pipeline::uniforms::<Scene>(gpu, "scene");
+        let module = pipeline::module(gpu, "scene", SHADER);
+        let shadow = pipeline(
+            gpu,
+            &Pass {
+                module: &module,
+                vertex: "shadow",
+                fragment: None,
+                samples: 1,
+                // Surfaces at a slant to the light must not shade themselves.
+                depth_bias: wgpu::DepthBiasState { constant: 2, slope_scale: 2.0, clamp: 0.0 },
+            },
+        );
+        let picture = pipeline(
+            gpu,
+            &Pass {
+                module: &module,
+                vertex: "vertex",
+                fragment: Some("fragment"),
+                samples: SAMPLES,
+                depth_bias: Default::default(),
+            },
+        );
+        let picture_resources = [
+            uniforms.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&shadow_view),
+            wgpu::BindingResource::Sampler(&sampler),
+        ];
+        // One mesh for each solid, in the order of `Solid`.
+        let meshes = [
+            stage::scene_mesh(stage),
+            mesh::unit_sphere(32),
+            mesh::unit_disc(32),
+            mesh::unit_ring(64, RING_INNER),
+            mesh::unit_cube(),
+            mesh::unit_cylinder(48),
+        ];
+        Self {
+            bounds: bounds(stage.workspace),
+            picture_bindings: bind(gpu, &picture, &picture_resources),
+            shadow_bindings: bind(gpu, &shadow, &picture_resources[..1]),
+            picture,
+            shadow,
+            shadow_view,
+            geometry: GeometryBuffers::new(gpu, &meshes, arm::MOST_PARTS + 8),
+            uniforms,
+            target: None,
+        }
+    }
+
+    /// `subject` and the size have been checked.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        subject: &Subject,
+        width_px: u32,
+        height_px: u32,
+    ) -> Result<CameraFrame, CameraError> {
+        // The old size is given back before the new one is asked for.
+        let target = match self.target.take() {
+            Some(kept) if (kept.width_px, kept.height_px) == (width_px, height_px) => kept,
+            _ => Target::new(gpu, width_px, height_px, SAMPLES)?,
+        };
+        let aspect = f64::from(width_px) / f64::from(height_px);
+        let toward_eye = Vector3::from(TOWARD_EYE);
+        let perspective = optics::perspective_around(&self.bounds, toward_eye, FIELD_OF_VIEW_RAD, aspect);
+        let toward_light = Vector3::from(TOWARD_LIGHT).normalize();
+        let light_from_base = optics::parallel_around(&self.bounds, toward_light);
+        let scene = Scene {
+            clip_from_base: perspective.clip_from_base.cast::<f32>().into(),
+            light_from_base: light_from_base.cast::<f32>().into(),
+            toward_light: toward_light.push(0.0).cast::<f32>().into(),
+            eye_m: perspective.eye_m.to_homogeneous().cast::<f32>().into(),
+        };
+        let encoder = gpu.checked("the scene", || {
+            gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
+            let batches = self.geometry.place(gpu, &parts(subject));
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+
+            let mut pass = self.begin_shadow(&mut encoder);
+            pass.set_pipeline(&self.shadow);
+            pass.set_bind_group(0, &self.shadow_bindings, &[]);
+            self.geometry.draw(&mut pass, &batches);
+            drop(pass);
+
+            let background = BACKGROUND.map(|level| f64::from(level) / 255.0);
+            let mut pass = target.begin(&mut encoder, background);
+            pass.set_pipeline(&self.picture);
+            pass.set_bind_group(0, &self.picture_bindings, &[]);
+            self.geometry.draw(&mut pass, &batches);
+            drop(pass);
+            encoder
+        })?;
+        let rgba = target.finish(gpu, encoder)?;
+        self.target = Some(target);
+        Ok(CameraFrame {
+            width_px,
+            height_px,
+            rgba,
+            tick: subject.tick,
+            camera_m: perspective.eye_m.coords.into(),
+            table_span_m: perspective.span_m,
+        })
+    }
+
+    fn begin_shadow<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadow map"),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.shadow_view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
+    }
+}
+
+/// Everything in the picture, equal solids side by side.
+fn parts(subject: &Subject) -> Vec<Part> {
+    let [bead_x_m, bead_y_m, _] = subject.bead_m;
+    let mut parts = arm::parts(subject);
+    parts.push(Part::stage(Matrix4::identity()));
+    parts.push(Part {
+        solid: Solid::Sphere,
+        base_from_solid: Matrix4::new_translation(&subject.bead_m.into()) * Matrix4::new_scaling(BEAD_RADIUS_M),
+        color: BEAD,
+    });
+    parts.push(ring([bead_x_m, bead_y_m], HALO_RADIUS_M, BEAD_HALO));
+    parts.extend(subject.goal_m.map(|goal_m| ring(goal_m, GOAL_RADIUS_M, GOAL)));
+    parts.sort_by_key(|part| part.solid);
+    parts
+}
+
+/// A flat ring on the floor.
+fn ring([x_m, y_m]: [f64; 2], radius_m: f64, color: Color) -> Part {
+    let at_m = Vector3::new(x_m, y_m, RING_LIFT_M);
+    Part {
+        solid: Solid::Ring,
+        base_from_solid: Matrix4::new_translation(&at_m) * Matrix4::new_scaling(radius_m),
+        color,
+    }
+}
+
+/// Corners of what the picture must hold: the table, and the arm above the robot's foot.
+fn bounds(workspace: &Rect) -> Vec<Point3<f64>> {
+    let table = stage::table(workspace);
+    let arm = [-ARM_ASIDE_M, ARM_ASIDE_M].map(|x_m| Point3::new(x_m, 0.0, ARM_TOP_M));
+    let mut bounds = arm.to_vec();
+    for x_m in [table.x_min_m, table.x_max_m] {
+        for y_m in [table.y_min_m, table.y_max_m] {
+            bounds.push(Point3::new(x_m, y_m, -MARGIN_BELOW_M));
+        }
+    }
+    bounds
+}

@@ -1,0 +1,212 @@
+//! Walls, floor and table as triangles, coloured for either view.
+
+use earcut::Earcut;
+
+use super::mesh::{Color, Mesh};
+use super::{CameraError, Stage};
+use crate::geometry::{Point3, Polygon, Rect, Vector3};
+
+/// Highest wall that is accepted.
+const MOST_WALL_M: f64 = 1.0;
+
+/// Colours of the controllers' view. Their Rec. 601 gray keeps the brightness contract: the floor
+/// and the bead stay at 200 or more, walls at 50 or less, whatever shades them.
+pub(super) mod controllers {
+    use super::Color;
+
+    /// Gray 240.
+    pub const FLOOR: Color = [238, 241, 240, 255];
+    /// The floor where a wall or the bead keeps the light off: gray 212.
+    pub const SHADOW: Color = [208, 213, 216, 255];
+    /// Gray 43; also what is drawn where there is nothing at all.
+    pub const WALL_TOP: Color = [62, 34, 40, 255];
+    /// Sides that face the light: gray 33.
+    pub const WALL_SIDE_LIT: Color = [48, 26, 32, 255];
+    /// Sides that do not: gray 18.
+    pub const WALL_SIDE_DARK: Color = [28, 13, 18, 255];
+    /// Gray 226, 206 at its darkest by [`BEAD_SHADE`].
+    pub const BEAD: Color = [255, 232, 120, 255];
+    /// Darkest share of the bead's colour.
+    pub const BEAD_SHADE: f64 = 0.91;
+}
+
+/// Colours of the scene, before light.
+mod scene {
+    use super::Color;
+
+    pub const FLOOR: Color = [240, 228, 214, 255];
+    pub const WALL: Color = [205, 98, 92, 255];
+    pub const BORDER: Color = [176, 78, 76, 255];
+    pub const TABLE: Color = [150, 160, 172, 255];
+}
+
+/// Metres that a shadow in the controllers' view moves in x and y for each metre of height: light
+/// from the upper left.
+pub(super) const SHADOW_PER_HEIGHT: [f64; 2] = [0.55, -0.65];
+/// Flat things on the floor are drawn this much above it, to lie on it and not in it. The pinhole
+/// moves by a two-hundredth of a pixel for it.
+pub(super) const SHADOW_LIFT_M: f64 = 5e-5;
+
+/// How far the wall outside the workspace reaches; farther away the background is as dark.
+const OUTSIDE_M: f64 = 2.0;
+/// Width of the border that the scene shows instead.
+const BORDER_M: f64 = 0.008;
+/// Margin of the scene's table.
+const TABLE_MARGIN_M: f64 = 0.04;
+/// Room for the robot's foot.
+const FOOT_M: f64 = 0.09;
+/// Thickness of the table.
+const TABLE_THICKNESS_M: f64 = 0.025;
+/// The table's top lies this much lower than the floor, which would else flicker in it.
+const TABLE_GAP_M: f64 = 0.001;
+
+/// Refuses geometry that cannot be drawn.
+pub(super) fn check(stage: &Stage) -> Result<(), CameraError> {
+    let refuse = |what: String| Err(CameraError::Stage { what });
+    let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = *stage.workspace;
+    let finite = [x_min_m, x_max_m, y_min_m, y_max_m].iter().all(|side| side.is_finite());
+    if !finite || x_min_m >= x_max_m || y_min_m >= y_max_m {
+        return refuse(format!("workspace x {x_min_m} to {x_max_m} m, y {y_min_m} to {y_max_m} m"));
+    }
+    if !(stage.wall_height_m > 0.0 && stage.wall_height_m <= MOST_WALL_M) {
+        let height_m = stage.wall_height_m;
+        return refuse(format!("wall height {height_m} m: it must be above 0 and at most 1 m"));
+    }
+    for (number, wall) in stage.walls.iter().enumerate() {
+        let odd = |point: &&[f64; 2]| !point.iter().all(|coordinate| coordinate.is_finite());
+        if let Some(point) = wall.rings().flatten().find(odd) {
+            return refuse(format!("wall {number} has a corner at {point:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// The stage for controllers: floor, shadows and walls, all outside being wall.
+pub(super) fn controllers_mesh(stage: &Stage) -> Mesh {
+    let mut mesh = Mesh::default();
+    floor(&mut mesh, stage.workspace, controllers::FLOOR);
+    let outside = border(stage.workspace, OUTSIDE_M);
+    let walls = || stage.walls.iter().chain([&outside]);
+    for wall in walls() {
+        shadow(&mut mesh, wall, stage.wall_height_m);
+    }
+    let [away_x, away_y] = SHADOW_PER_HEIGHT;
+    let side = |normal: Vector3<f64>| {
+        if normal.x * away_x + normal.y * away_y < 0.0 {
+            controllers::WALL_SIDE_LIT
+        } else {
+            controllers::WALL_SIDE_DARK
+        }
+    };
+    for wall in walls() {
+        let height_m = stage.wall_height_m;
+        prism(&mut mesh, wall, height_m, controllers::WALL_TOP, side);
+    }
+    mesh
+}
+
+/// The stage for people: floor and walls with a border, on a table that carries the robot too.
+pub(super) fn scene_mesh(stage: &Stage) -> Mesh {
+    let mut mesh = Mesh::default();
+    floor(&mut mesh, stage.workspace, scene::FLOOR);
+    for wall in stage.walls {
+        prism(&mut mesh, wall, stage.wall_height_m, scene::WALL, |_| scene::WALL);
+    }
+    let edge = border(stage.workspace, BORDER_M);
+    prism(&mut mesh, &edge, stage.wall_height_m, scene::BORDER, |_| scene::BORDER);
+    let table = table(stage.workspace);
+    mesh.cuboid(
+        Point3::new(table.x_min_m, table.y_min_m, -TABLE_GAP_M - TABLE_THICKNESS_M),
+        Point3::new(table.x_max_m, table.y_max_m, -TABLE_GAP_M),
+        scene::TABLE,
+    );
+    mesh
+}
+
+/// The table under workspace and robot.
+pub(super) fn table(workspace: &Rect) -> Rect {
+    // The robot's foot is at the origin.
+    Rect {
+        x_min_m: workspace.x_min_m.min(-FOOT_M) - TABLE_MARGIN_M,
+        x_max_m: workspace.x_max_m.max(FOOT_M) + TABLE_MARGIN_M,
+        y_min_m: workspace.y_min_m.min(-FOOT_M) - TABLE_MARGIN_M,
+        y_max_m: workspace.y_max_m.max(FOOT_M) + TABLE_MARGIN_M,
+    }
+}
+
+/// The frame of `width_m` around a rectangle.
+fn border(inner: &Rect, width_m: f64) -> Polygon {
+    let (west, east) = (inner.x_min_m, inner.x_max_m);
+    let (south, north) = (inner.y_min_m, inner.y_max_m);
+    let w = width_m;
+    Polygon {
+        exterior: vec![[west - w, south - w], [east + w, south - w], [east + w, north + w], [west - w, north + w]],
+        holes: vec![vec![[west, south], [west, north], [east, north], [east, south]]],
+    }
+}
+
+/// The workspace at z = 0.
+fn floor(mesh: &mut Mesh, workspace: &Rect, color: Color) {
+    let corners = [
+        Point3::new(workspace.x_min_m, workspace.y_min_m, 0.0),
+        Point3::new(workspace.x_max_m, workspace.y_min_m, 0.0),
+        Point3::new(workspace.x_max_m, workspace.y_max_m, 0.0),
+        Point3::new(workspace.x_min_m, workspace.y_max_m, 0.0),
+    ];
+    mesh.quad(corners, Vector3::z(), color);
+}
+
+/// Top and sides of a wall. `side` colours a side by its outward normal.
+fn prism(mesh: &mut Mesh, wall: &Polygon, height_m: f64, top: Color, side: impl Fn(Vector3<f64>) -> Color) {
+    flat(mesh, wall, Vector3::z() * height_m, top);
+    for (start, end) in edges(wall) {
+        let along = end - start;
+        // The wall is on the left of its rings, so outward is to the right.
+        let normal = Vector3::new(along.y, -along.x, 0.0);
+        if let Some(normal) = normal.try_normalize(0.0) {
+            let up = Vector3::z() * height_m;
+            mesh.quad([start, end, end + up, start + up], normal, side(normal));
+        }
+    }
+}
+
+/// The floor that a wall keeps the light off: its top, moved away from the light, and all that the
+/// top's edges sweep on the way. Areas overlap, which is harmless: they have one flat colour.
+fn shadow(mesh: &mut Mesh, wall: &Polygon, height_m: f64) {
+    let [away_x, away_y] = SHADOW_PER_HEIGHT;
+    let lift = Vector3::z() * SHADOW_LIFT_M;
+    let moved = lift + Vector3::new(away_x, away_y, 0.0) * height_m;
+    flat(mesh, wall, moved, controllers::SHADOW);
+    for (start, end) in edges(wall) {
+        let corners = [start + lift, end + lift, end + moved, start + moved];
+        mesh.quad(corners, Vector3::z(), controllers::SHADOW);
+    }
+}
+
+/// The polygon itself, facing up, moved by `offset` from z = 0.
+fn flat(mesh: &mut Mesh, wall: &Polygon, offset: Vector3<f64>, color: Color) {
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    let mut holes: Vec<u32> = Vec::new();
+    for ring in wall.rings() {
+        if !points.is_empty() {
+            holes.push(points.len() as u32);
+        }
+        points.extend_from_slice(ring);
+    }
+    let mut triangles: Vec<u32> = Vec::new();
+    Earcut::new().earcut_slice(&points, &holes, &mut triangles);
+    let first = mesh.vertices.len() as u32;
+    for [x, y] in points {
+        mesh.vertex(Point3::new(x, y, 0.0) + offset, Vector3::z(), color);
+    }
+    mesh.indices.extend(triangles.iter().map(|at| first + at));
+}
+
+/// Every edge of every ring, at z = 0, with the wall on its left.
+fn edges(wall: &Polygon) -> impl Iterator<Item = (Point3<f64>, Point3<f64>)> {
+    wall.rings().flat_map(|ring| {
+        let next = ring.iter().cycle().skip(1);
+        let on_table = |[x, y]: [f64; 2]| Point3::new(x, y, 0.0);
+        ring.iter().zip(next).map(move |(start, end)| (on_table(*start), on_table(*end)))
+    })
+}

@@ -1,0 +1,187 @@
+//! The promises of the module, checked on a real adapter.
+
+use super::test_support::{WALL_HEIGHT_M, WORKSPACE, block, gpu, posts, stage, subject};
+use super::*;
+use crate::geometry::Point2;
+use crate::image::GrayImage;
+
+/// Where a pixel's ray meets the plane at `z_m`.
+fn ground(frame: &CameraFrame, column: u32, row: u32, z_m: f64) -> Point2<f64> {
+    let half = 0.5 * f64::from(frame.width_px);
+    let pixel_m = frame.table_span_m / f64::from(frame.width_px);
+    let closer = (frame.camera_m[2] - z_m) / frame.camera_m[2];
+    Point2::new(
+        frame.camera_m[0] + (f64::from(column) + 0.5 - half) * pixel_m * closer,
+        frame.camera_m[1] - (f64::from(row) + 0.5 - half) * pixel_m * closer,
+    )
+}
+
+fn pixels(gray: &GrayImage) -> impl Iterator<Item = (u32, u32, u8)> {
+    let width = gray.width_px;
+    gray.pixels.iter().enumerate().map(move |(at, level)| ((at % width) as u32, (at / width) as u32, *level))
+}
+
+#[test]
+fn a_post_covers_the_pixels_that_geometry_says() {
+    let (x0, y0, x1, y1) = (-0.02, -0.40, 0.03, -0.36);
+    let walls = [block(x0, y0, x1, y1)];
+    let parameters = CameraParameters::default();
+    let mut camera = Camera::new(gpu(), &stage(&walls), &parameters).unwrap();
+    // A pinhole sees a prism as the hull of its foot and its top.
+    let covered = |frame: &CameraFrame, column, row| {
+        (0..=20).any(|step| {
+            let at = ground(frame, column, row, WALL_HEIGHT_M * f64::from(step) / 20.0);
+            (x0..=x1).contains(&at.x) && (y0..=y1).contains(&at.y)
+        })
+    };
+    for tool_m in [[0.0, -0.37, 0.1], [0.06, -0.41, 0.1], [-0.0601, -0.3333, 0.1]] {
+        // The bead is out of sight.
+        let frame = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap();
+        assert_eq!(frame.camera_m, [tool_m[0], tool_m[1], 0.3]);
+        let gray = frame.to_gray();
+        let inside = |column, row| WORKSPACE.contains(ground(&frame, column, row, 0.0));
+        let (mut right, mut all) = (0, 0);
+        for (column, row, level) in pixels(&gray).filter(|(c, r, _)| inside(*c, *r)) {
+            all += 1;
+            right += u32::from((level < 128) == covered(&frame, column, row));
+        }
+        let share = f64::from(right) / f64::from(all);
+        assert!(share >= 0.9995, "{share} of the pixels at {tool_m:?}");
+    }
+}
+
+#[test]
+fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
+    // The camera stands over the edge of a wall: the top's edge, seen from right above, is where
+    // the foot is.
+    let pixel_m = 0.2 / 480.0;
+    let walls = [block(0.0, -0.45, 0.05, -0.30)];
+    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    for (shift_px, first_dark) in [(-0.25, 240), (0.25, 240), (0.75, 239), (-0.75, 241)] {
+        let tool_m = [shift_px * pixel_m, -0.37, 0.1];
+        let gray = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap().to_gray();
+        let row = &gray.pixels[240 * 480..241 * 480];
+        assert_eq!(row.iter().position(|level| *level <= 50), Some(first_dark), "{shift_px}");
+    }
+    // +y is up: the wall ends at y = −.30, above the middle.
+    let gray = camera.capture(&subject([0.025, -0.37, 0.1], [0.2, -0.5, 0.0025])).unwrap().to_gray();
+    let level = |row: usize| gray.pixels[row * 480 + 240];
+    // .07 m · .3 / .295 above the middle, in pixels: the top is closer to the camera.
+    let top_px = 240.0 - 0.07 * (0.3 / 0.295) / pixel_m;
+    assert!(level(top_px.floor() as usize - 1) >= 200 && level(top_px.ceil() as usize + 1) <= 50);
+}
+
+#[test]
+fn every_pixel_keeps_the_brightness_contract() {
+    let walls = posts();
+    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let poses = [
+        ([0.0, -0.37], [0.04, -0.40, 0.0025]),
+        ([0.27, -0.22], [0.25, -0.25, 0.0025]),
+        ([-0.30, -0.54], [-0.28, -0.52, 0.0025]),
+        ([-0.24, -0.28], [-0.205, -0.28, 0.05]),
+        ([0.225, -0.505], [0.225, -0.505, 0.0025]),
+        ([-0.35, -0.60], [-0.29, -0.53, 0.0025]),
+    ];
+    for ([x_m, y_m], bead_m) in poses {
+        let frame = camera.capture(&subject([x_m, y_m, 0.1], bead_m)).unwrap();
+        let gray = frame.to_gray();
+        let mut bright = 0;
+        for (column, row, level) in pixels(&gray) {
+            assert!(level <= 50 || level >= 200, "gray {level} at {column}, {row}");
+            bright += usize::from(level >= 200);
+            let on_top = ground(&frame, column, row, WALL_HEIGHT_M);
+            let on_floor = ground(&frame, column, row, 0.0);
+            if !WORKSPACE.contains(on_top) && !WORKSPACE.contains(on_floor) {
+                assert!(level <= 50, "gray {level} outside at {on_floor}");
+            }
+        }
+        assert!(bright > 1000, "no floor in sight from {x_m}, {y_m}");
+        // The bead, where its centre is seen.
+        let closer = 0.3 / (0.3 - bead_m[2]);
+        let pixel = |offset_m: f64| (240.0 + offset_m * closer * 480.0 / 0.2) as usize;
+        let (column, row) = (pixel(bead_m[0] - x_m), pixel(y_m - bead_m[1]));
+        let at = 4 * (row * 480 + column);
+        let [red, _, blue] = [0, 1, 2].map(|channel| i32::from(frame.rgba[at + channel]));
+        assert!(gray.pixels[at / 4] >= 200);
+        assert!(red - blue > 20, "no bead at {column}, {row}");
+    }
+}
+
+#[test]
+fn controllers_see_neither_goal_nor_magnet_nor_arm() {
+    let walls = posts();
+    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let seen = subject([0.17, -0.30, 0.1], [0.15, -0.32, 0.0025]);
+    let mut other = seen;
+    other.goal_m = None;
+    other.block_size_m = [0.01; 3];
+    other.link_frames = [Isometry3::identity(); 6];
+    assert_eq!(camera.capture(&seen).unwrap(), camera.capture(&other).unwrap());
+}
+
+#[test]
+fn the_same_state_gives_the_same_bytes() {
+    let walls = posts();
+    let gpu = gpu();
+    let mut cameras = [0, 1].map(|_| Camera::new(gpu.clone(), &stage(&walls), &CameraParameters::default()).unwrap());
+    let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
+    let elsewhere = subject([-0.1, -0.45, 0.1], [0.04, -0.36, 0.0025]);
+    let [first, second] = &mut cameras;
+    let frame = first.capture(&state).unwrap();
+    let scene = first.scene(&state, 321, 201).unwrap();
+    assert_eq!((frame.tick, frame.rgba.len()), (7, 480 * 480 * 4));
+    assert_eq!(scene.rgba.len(), 321 * 201 * 4);
+    first.capture(&elsewhere).unwrap();
+    first.scene(&elsewhere, 100, 300).unwrap();
+    for camera in [first, second] {
+        assert!(camera.capture(&state).unwrap() == frame);
+        assert!(camera.scene(&state, 321, 201).unwrap() == scene);
+    }
+}
+
+#[test]
+fn the_scene_shows_arm_goal_and_bead() {
+    let walls = posts();
+    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let seen = subject([-0.05, -0.33, 0.1], [0.07, -0.41, 0.0025]);
+    let mut differences = Vec::new();
+    let whole = camera.scene(&seen, 640, 360).unwrap();
+    let hidden = [
+        Subject { goal_m: None, ..seen },
+        Subject { bead_m: [-0.2, -0.5, 0.0025], ..seen },
+        Subject { link_frames: [Isometry3::translation(9.0, 9.0, 0.0); 6], ..seen },
+    ];
+    for other in hidden {
+        let frame = camera.scene(&other, 640, 360).unwrap();
+        let pairs = whole.rgba.chunks(4).zip(frame.rgba.chunks(4));
+        differences.push(pairs.filter(|(a, b)| a != b).count());
+    }
+    assert!(differences[0] > 60 && differences[1] > 30, "{differences:?}");
+    assert!(differences[2] > 10_000, "{differences:?}");
+}
+
+#[test]
+fn cameras_of_one_device_work_in_several_threads() {
+    let gpu = gpu();
+    let walls = posts();
+    let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
+    let frames: Vec<CameraFrame> = std::thread::scope(|scope| {
+        let threads = [0, 1, 2].map(|_| {
+            scope.spawn(|| {
+                let stage = stage(&walls);
+                let mut camera = Camera::new(gpu.clone(), &stage, &CameraParameters::default()).unwrap();
+                (0..10).map(|_| camera.capture(&state).unwrap()).next_back()
+            })
+        });
+        threads.map(|thread| thread.join().unwrap().unwrap()).into()
+    });
+    assert!(frames.windows(2).all(|pair| pair[0] == pair[1]));
+}
+
+#[test]
+fn a_camera_may_move_to_another_thread() {
+    fn assert_send<T: Send>() {}
+    assert_send::<Camera>();
+    assert_send::<Box<dyn Eye + Send>>();
+}

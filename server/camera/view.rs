@@ -1,0 +1,147 @@
+//! The controllers' view: one pass of flat colours, with shadows that were baked into the stage.
+
+use bytemuck::{Pod, Zeroable};
+use nalgebra::{Matrix4, Vector3};
+
+use super::geometry_buffers::{GeometryBuffers, Part, Solid};
+use super::gpu::Gpu;
+use super::mesh::{self, Color, Mesh};
+use super::pipeline::{self, Pass, bind, pipeline};
+use super::stage::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
+use super::target::Target;
+use super::{BEAD_RADIUS_M, CameraError, CameraParameters, Stage, Subject, optics};
+use crate::image::CameraFrame;
+
+pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
+
+/// Samples a pixel: one, so that no pixel is a mixture of wall and floor.
+const SAMPLES: u32 = 1;
+/// Stage, the bead's shadow, the bead.
+const PARTS: u64 = 3;
+
+/// Uniforms of `view.wgsl`, laid out as there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(super) struct View {
+    /// Column-major.
+    pub clip_from_base: [[f32; 4]; 4],
+}
+
+/// Draws the controllers' view of one stage.
+#[derive(Debug)]
+pub(super) struct ViewRenderer {
+    parameters: CameraParameters,
+    pipeline: wgpu::RenderPipeline,
+    uniforms: wgpu::Buffer,
+    bindings: wgpu::BindGroup,
+    geometry: GeometryBuffers,
+    target: Target,
+}
+
+impl ViewRenderer {
+    /// `stage` and `parameters` have been checked.
+    pub fn new(gpu: &Gpu, stage: &Stage, parameters: CameraParameters) -> Result<Self, CameraError> {
+        let target = Target::new(gpu, parameters.size_px, parameters.size_px, SAMPLES)?;
+        gpu.checked("the controllers' view", || {
+            let module = pipeline::module(gpu, "view", SHADER);
+            let uniforms = pipeline::uniforms::<View>(gpu, "view");
+            let pipeline = pipeline(
+                gpu,
+                &Pass {
+                    module: &module,
+                    vertex: "vertex",
+                    fragment: Some("fragment"),
+                    samples: SAMPLES,
+                    depth_bias: Default::default(),
+                },
+            );
+            let bindings = bind(gpu, &pipeline, &[uniforms.as_entire_binding()]);
+            let meshes = [stage::controllers_mesh(stage), shaded_bead(), mesh::unit_disc(24)];
+            Self {
+                parameters,
+                pipeline,
+                uniforms,
+                bindings,
+                geometry: GeometryBuffers::new(gpu, &meshes, PARTS),
+                target,
+            }
+        })
+    }
+
+    /// `subject` has been checked.
+    pub fn draw(&mut self, gpu: &Gpu, subject: &Subject) -> Result<CameraFrame, CameraError> {
+        let CameraParameters { height_m, table_span_m, size_px } = self.parameters;
+        let [x_m, y_m, _] = subject.tool_m;
+        let clip_from_base = optics::pinhole_down(x_m, y_m, height_m, table_span_m);
+        let encoder = gpu.checked("the controllers' view", || {
+            let view = View { clip_from_base: clip_from_base.cast::<f32>().into() };
+            gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&view));
+            let batches = self.geometry.place(gpu, &parts(subject));
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = self.target.begin(&mut encoder, background());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.bindings, &[]);
+            self.geometry.draw(&mut pass, &batches);
+            drop(pass);
+            encoder
+        })?;
+        Ok(CameraFrame {
+            width_px: size_px,
+            height_px: size_px,
+            rgba: self.target.finish(gpu, encoder)?,
+            tick: subject.tick,
+            camera_m: [x_m, y_m, height_m],
+            table_span_m,
+        })
+    }
+}
+
+/// Wall: nothing is outside.
+fn background() -> [f64; 4] {
+    controllers::WALL_TOP.map(|level| f64::from(level) / 255.0)
+}
+
+fn parts(subject: &Subject) -> [Part; PARTS as usize] {
+    let bead_m = Vector3::from(subject.bead_m);
+    let [away_x, away_y] = SHADOW_PER_HEIGHT;
+    let shadow_m = Vector3::new(
+        bead_m.x + away_x * bead_m.z,
+        bead_m.y + away_y * bead_m.z,
+        // Above the walls' shadows, or else the two would fight.
+        2.0 * SHADOW_LIFT_M,
+    );
+    let round = |solid, at_m: Vector3<f64>, color| Part {
+        solid,
+        base_from_solid: Matrix4::new_translation(&at_m) * Matrix4::new_scaling(BEAD_RADIUS_M),
+        color,
+    };
+    [
+        Part::stage(Matrix4::identity()),
+        round(Solid::Disc, shadow_m, controllers::SHADOW),
+        round(Solid::Sphere, bead_m, [255; 4]),
+    ]
+}
+
+/// A ball whose shading is painted on: it never turns in the light.
+fn shaded_bead() -> Mesh {
+    let [away_x, away_y] = SHADOW_PER_HEIGHT;
+    let toward_light = Vector3::new(-away_x, -away_y, 1.0).normalize();
+    let mut ball = mesh::unit_sphere(24);
+    for vertex in &mut ball.vertices {
+        let normal = Vector3::from(vertex.normal).cast::<f64>();
+        vertex.color = bead_color(normal.dot(&toward_light));
+    }
+    ball
+}
+
+/// The bead's colour where its normal meets the light at this cosine: a highlight where it faces it.
+fn bead_color(cosine: f64) -> Color {
+    let shade = controllers::BEAD_SHADE + (1.0 - controllers::BEAD_SHADE) * cosine.max(0.0);
+    let shine = cosine.max(0.0).powi(12);
+    let mut color = controllers::BEAD;
+    for level in &mut color[..3] {
+        let lit = f64::from(*level) * shade;
+        *level = (lit + (255.0 - lit) * shine).round() as u8;
+    }
+    color
+}

@@ -1,0 +1,62 @@
+//! Commands, assembled from the floors below.
+
+mod evaluate;
+mod map;
+mod render;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::{Parser, Subcommand};
+
+use crate::camera::{AdapterChoice, CameraError, Gpu};
+
+/// A browser laboratory: a robot arm carries a magnetic bead through a maze.
+#[derive(Parser)]
+#[command(name = "ferry", version, about, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Repeat the paper's experiment: random trials, counted
+    Evaluate(evaluate::Arguments),
+    /// Render one frame to a PNG file, headless
+    Render(render::Arguments),
+    /// Check a map and print what it is
+    Map(map::Arguments),
+}
+
+/// Parses the arguments and runs the command; clap's own exits (help, usage) come back as codes.
+pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode> {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(usage) => {
+            usage.print()?;
+            return Ok(ExitCode::from(usage.exit_code() as u8));
+        }
+    };
+    tracing_subscriber::fmt()
+        .with_env_filter(
+            tracing_subscriber::EnvFilter::try_from_env("FERRY_LOG").unwrap_or_else(|_| "ferry=info,warn".into()),
+        )
+        .with_writer(std::io::stderr)
+        .init();
+    match arguments.command {
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Map(arguments) => map::run(&arguments),
+    }
+}
+
+/// Opens the graphics adapter; `FERRY_ADAPTER` (auto, vulkan, gl) overrides the choice.
+fn open_gpu() -> Result<Arc<Gpu>, CameraError> {
+    let choice = match std::env::var("FERRY_ADAPTER") {
+        Ok(name) => name.parse::<AdapterChoice>()?,
+        Err(_) => AdapterChoice::default(),
+    };
+    Gpu::open(choice)
+}

@@ -1,0 +1,67 @@
+//! `ferry render`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Context;
+
+use crate::camera::Subject;
+use crate::control::limits::Limits;
+use crate::evaluate::camera_for;
+use crate::geometry::{Point2, Point3};
+use crate::plant::{BEAD_RADIUS_M, Plant, contact::nearest_fit};
+use crate::robot::forward;
+use crate::scenario::Parameters;
+use crate::trial::{Arena, HOME_RAD};
+
+/// Arguments of `ferry render`.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// A map's name, or the path of an SVG
+    #[arg(long, default_value = "posts")]
+    map: String,
+    /// Where tool and bead are, in metres
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_point)]
+    at: Point2<f64>,
+    /// What the controllers see, or the whole scene
+    #[arg(long, value_enum, default_value = "camera")]
+    view: View,
+    /// PNG file to write
+    #[arg(long)]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum View {
+    Camera,
+    Scene,
+}
+
+fn parse_point(text: &str) -> Result<Point2<f64>, String> {
+    let (x, y) = text.split_once(',').ok_or("it must be X,Y in metres, as in -0.1,-0.33")?;
+    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("{part:?} is not a number"));
+    Ok(Point2::new(number(x)?, number(y)?))
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let arena = Arena::open(&arguments.map)?;
+    let tool_m = Point3::new(arguments.at.x, arguments.at.y, Parameters::default().tool_height_m);
+    let joints = Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0 }.position(tool_m, &HOME_RAD).context("--at")?;
+    // The tool may hang over a wall; the bead then lies beside it.
+    let bead = nearest_fit(&arena.map, arguments.at).context("--at: there is no room for the bead within 5 cm")?;
+    let subject = Subject {
+        tick: 0,
+        tool_m: tool_m.coords.into(),
+        bead_m: [bead.x, bead.y, BEAD_RADIUS_M],
+        goal_m: None,
+        link_frames: forward::link_frames(&joints),
+        block_size_m: Plant::new(Parameters::default().plant()).block_size_m(),
+    };
+    let mut camera = camera_for(&super::open_gpu()?, &arena.map)?;
+    let frame = match arguments.view {
+        View::Camera => camera.capture(&subject)?,
+        View::Scene => camera.scene(&subject, 1280, 720)?,
+    };
+    std::fs::write(&arguments.out, frame.to_png()?).with_context(|| arguments.out.display().to_string())?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,89 @@
+//! The switching law: which sub-controller has the arm (paper, equation 1; specification §4).
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Point2;
+use crate::scenario::{Parameters, SwitchingLaw};
+
+/// The active sub-controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Sub-controller 1 fetches the bead.
+    Approach,
+    /// Sub-controller 2 carries it.
+    Transport,
+}
+
+impl Mode {
+    /// The paper's index SL.
+    pub fn index(self) -> u8 {
+        match self {
+            Self::Approach => 1,
+            Self::Transport => 2,
+        }
+    }
+}
+
+/// What the law decided, and by how much.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision {
+    /// Active from now on.
+    pub mode: Mode,
+    /// Whether it was another one before.
+    pub switched: bool,
+    /// e: distance from tool to tracked bead in the plane.
+    pub error_m: f64,
+    /// The threshold that e was held against.
+    pub threshold_m: f64,
+}
+
+impl Decision {
+    /// One plain sentence.
+    pub fn reason(&self) -> String {
+        let (e_mm, limit_mm) = (self.error_m * 1e3, self.threshold_m * 1e3);
+        match (self.mode, self.switched) {
+            (Mode::Approach, true) => format!("bead lost: {e_mm:.0} mm away, more than T = {limit_mm:.0} mm"),
+            (Mode::Approach, false) => format!("fetching: {e_mm:.0} mm away, not yet within {limit_mm:.0} mm"),
+            (Mode::Transport, true) => format!("bead fetched: {e_mm:.0} mm away, within {limit_mm:.0} mm"),
+            (Mode::Transport, false) => format!("bead held: {e_mm:.0} mm away, within T = {limit_mm:.0} mm"),
+        }
+    }
+}
+
+/// Decides. SL = ½(3 + sgn(T − e)) with sgn(0) = +1; with hysteresis, sub-controller 1 keeps the arm
+/// until e is within the fetch radius, because the literal law ends the fetch T away from the bead,
+/// where the pull hardly beats friction, and chatters.
+pub fn decide(mode: Mode, tool_m: Point2<f64>, bead_m: Point2<f64>, parameters: &Parameters) -> Decision {
+    let error_m = (tool_m - bead_m).norm();
+    let fetching = mode == Mode::Approach && parameters.switching_law == SwitchingLaw::Hysteresis;
+    let threshold_m = if fetching { parameters.fetch_radius_m } else { parameters.threshold_m };
+    let next = if error_m <= threshold_m { Mode::Transport } else { Mode::Approach };
+    Decision { mode: next, switched: next != mode, error_m, threshold_m }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(mode: Mode, error_m: f64, law: SwitchingLaw) -> Mode {
+        let parameters = Parameters { switching_law: law, ..Parameters::default() };
+        decide(mode, Point2::origin(), Point2::new(error_m, 0.0), &parameters).mode
+    }
+
+    #[test]
+    fn the_literal_law_has_one_threshold_and_includes_it() {
+        for mode in [Mode::Approach, Mode::Transport] {
+            assert_eq!(at(mode, 0.10, SwitchingLaw::Literal), Mode::Transport);
+            assert_eq!(at(mode, 0.100001, SwitchingLaw::Literal), Mode::Approach);
+        }
+    }
+
+    #[test]
+    fn with_hysteresis_a_fetch_ends_at_one_centimetre_only() {
+        use SwitchingLaw::Hysteresis;
+        assert_eq!(at(Mode::Approach, 0.05, Hysteresis), Mode::Approach);
+        assert_eq!(at(Mode::Transport, 0.05, Hysteresis), Mode::Transport);
+        assert_eq!(at(Mode::Approach, 0.01, Hysteresis), Mode::Transport);
+        assert_eq!(at(Mode::Transport, 0.11, Hysteresis), Mode::Approach);
+    }
+}

@@ -1,0 +1,199 @@
+//! Attractor dynamics (paper, §IV-B): a linear system that flows to the goal, bent around obstacles
+//! by the modulation of Khansari-Zadeh & Billard (2012), "A dynamical system approach to realtime
+//! obstacle avoidance", §3.2.
+//!
+//! The literal law is the paper's. Behind a flat face it sticks: the goal's pull is normal to the
+//! face, the modulation cancels it, and the face's middle attracts. The improved law keeps a
+//! clearance, uses a star-shaped basis (Huber, Billard & Slotine 2019) and follows the contour, on one
+//! side until the goal is no longer behind the obstacle.
+
+mod modulation;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Transport, TransportInput};
+use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
+use crate::geometry::{Point2, Vector2};
+use crate::perception::ObstacleMask;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::{AttractorLaw, Parameters};
+
+pub use modulation::Superellipse;
+use modulation::{Basis, modulate};
+
+/// Largest part of an obstacle that is sensed, high and wide (paper, Example 1).
+const SENSED_M: f64 = 0.02;
+/// Obstacles beyond this Γ are no reason to follow a contour.
+const CONTOUR_GAMMA: f64 = 2.0;
+/// Contouring starts when the modulation leaves less than this share of the speed.
+const CONTOUR_SHARE: f64 = 0.5;
+/// Γ at which a contour is followed.
+const CONTOUR_TRACK_GAMMA: f64 = 1.15;
+
+/// Side on which a contour is followed, along the tangent (−n_y, n_x).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    fn sign(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+
+    fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
+/// The transport and its memory.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Attractor {
+    contour: Option<Side>,
+    /// Superellipses of the last control step.
+    sensed: Vec<Superellipse>,
+}
+
+impl Attractor {
+    /// What the last step was decided on.
+    pub fn sensed(&self) -> &[Superellipse] {
+        &self.sensed
+    }
+
+    /// Velocity of the tool at `point`, no faster than the transport speed.
+    fn velocity(&mut self, point: Point2<f64>, goal: Point2<f64>, parameters: &Parameters) -> Vector2<f64> {
+        // ṗ = (K − I)(P_g − p) with A = B = I (specification §5), slowed to what the bead can follow.
+        let limit_m_s = parameters.transport_speed_m_s;
+        let nominal = ((goal - point) * (parameters.attractor_gain - 1.0)).cap_magnitude(limit_m_s);
+        let rho = parameters.attractor_reactivity;
+        match parameters.attractor_law {
+            AttractorLaw::Literal => {
+                modulate(&self.sensed, point, nominal, rho, Basis::Normal).cap_magnitude(limit_m_s)
+            }
+            AttractorLaw::Improved => self.improved(point, nominal, rho),
+        }
+    }
+
+    fn improved(&mut self, point: Point2<f64>, nominal: Vector2<f64>, rho: f64) -> Vector2<f64> {
+        let speed = nominal.norm();
+        let closest = self.sensed.iter().min_by(|a, b| a.gamma(point).total_cmp(&b.gamma(point))).copied();
+        let Some(closest) = closest else { return nominal };
+        let gamma = closest.gamma(point);
+        let normal = closest.normal(point);
+        let tangent = Vector2::new(-normal.y, normal.x);
+        let free = modulate(&self.sensed, point, nominal, rho, Basis::Star);
+        let behind = normal.dot(&nominal) < 0.0 && gamma < CONTOUR_GAMMA;
+        if !behind {
+            self.contour = None;
+        } else if self.contour.is_none() && free.norm() < CONTOUR_SHARE * speed {
+            let left = tangent.dot(&nominal) >= 0.0;
+            self.contour = Some(if left { Side::Left } else { Side::Right });
+        }
+        let wanted = match self.contour {
+            None => free,
+            Some(side) => {
+                let along = tangent * side.sign() + normal * (CONTOUR_TRACK_GAMMA - gamma).clamp(-0.5, 0.5);
+                modulate(&self.sensed, point, along * speed, rho, Basis::Star)
+            }
+        };
+        // Inside the clearance, outward first: the wall itself may be a bead's radius away.
+        let outward = normal * (speed * (1.0 - gamma).clamp(0.0, 1.0));
+        (wanted + outward).try_normalize(1e-9).map_or(wanted, |direction| direction * speed)
+    }
+
+    /// Follows the flow at the servo's rate for one control period.
+    fn flow(&mut self, input: &TransportInput<'_>) -> Point2<f64> {
+        let ticks = (CONTROL_PERIOD_S / SERVO_PERIOD_S).round() as usize;
+        let mut point = input.tool_m;
+        for _ in 0..ticks {
+            point += self.velocity(point, input.goal_m, input.parameters) * SERVO_PERIOD_S;
+        }
+        // The straight segment may not be longer than the speed allows.
+        let reach_m = input.parameters.transport_speed_m_s * CONTROL_PERIOD_S;
+        input.tool_m + (point - input.tool_m).cap_magnitude(reach_m)
+    }
+}
+
+impl Transport for Attractor {
+    fn start_leg(&mut self) {
+        self.contour = None;
+    }
+
+    fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
+        let parameters = input.parameters;
+        let clearance_m = match parameters.attractor_law {
+            AttractorLaw::Literal => 0.0,
+            AttractorLaw::Improved => parameters.attractor_clearance_m,
+        };
+        self.sensed = ObstacleMask::of(input.percept)
+            .patches(input.tool_m, SENSED_M)
+            .iter()
+            .map(|patch| Superellipse::around(patch, parameters.attractor_safety_factor, clearance_m))
+            .collect();
+        let mut target_m = self.flow(input);
+        let blocked = |target| input.percept.obstacle_on_step(input.tool_m, target).is_some();
+        if parameters.attractor_law == AttractorLaw::Improved && blocked(target_m) {
+            if let Some(side) = self.contour {
+                self.contour = Some(side.opposite());
+                target_m = self.flow(input);
+            }
+        }
+        let speed_m_s = (target_m - input.tool_m).norm() / CONTROL_PERIOD_S;
+        Ok(TargetStep { target_m, speed_m_s: speed_m_s.min(parameters.transport_speed_m_s) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::perception::Patch;
+
+    fn flow_to(law: AttractorLaw, start: Point2<f64>, steps: usize) -> Point2<f64> {
+        // A flat 2-cm block in the way, sensed whole.
+        let patch = Patch {
+            center_m: Point2::new(0.0, 0.0),
+            half_size_m: Vector2::new(0.01, 0.01),
+            nearest_m: Point2::new(-0.01, 0.0),
+        };
+        let parameters = Parameters { attractor_law: law, ..Parameters::default() };
+        let clearance_m = if law == AttractorLaw::Improved { parameters.attractor_clearance_m } else { 0.0 };
+        let mut attractor = Attractor {
+            sensed: vec![Superellipse::around(&patch, parameters.attractor_safety_factor, clearance_m)],
+            ..Attractor::default()
+        };
+        let mut point = start;
+        for _ in 0..steps {
+            point += attractor.velocity(point, Point2::new(0.1, 0.0), &parameters) * SERVO_PERIOD_S;
+        }
+        point
+    }
+
+    #[test]
+    fn behind_the_middle_of_a_face_the_literal_law_sticks_and_the_improved_law_gets_round() {
+        let start = Point2::new(-0.1, 0.0);
+        let stuck = flow_to(AttractorLaw::Literal, start, 4000);
+        assert!(stuck.x < -0.01, "{stuck}");
+        let free = flow_to(AttractorLaw::Improved, start, 4000);
+        assert!((free - Point2::new(0.1, 0.0)).norm() < 0.005, "{free}");
+    }
+
+    #[test]
+    fn no_flow_enters_the_obstacle() {
+        for law in [AttractorLaw::Literal, AttractorLaw::Improved] {
+            for k in 0..40 {
+                let start = Point2::new(-0.1, -0.06 + 0.003 * f64::from(k));
+                for steps in [300, 600, 900, 1200] {
+                    let point = flow_to(law, start, steps);
+                    assert!(point.x.abs() > 0.01 || point.y.abs() > 0.01, "{law:?} {start} {point}");
+                }
+            }
+        }
+    }
+}

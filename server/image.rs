@@ -1,0 +1,100 @@
+//! Camera frames and gray images, and their encodings.
+
+use serde::{Deserialize, Serialize};
+
+/// What the camera returns: RGBA8 pixels with the moment and place they were taken.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CameraFrame {
+    /// Columns.
+    pub width_px: u32,
+    /// Rows.
+    pub height_px: u32,
+    /// Row-major RGBA, four bytes a pixel, the top row first.
+    pub rgba: Vec<u8>,
+    /// Tick at which the frame was taken.
+    pub tick: u64,
+    /// Optical centre in `base`.
+    pub camera_m: [f64; 3],
+    /// Width of table seen at z = 0.
+    pub table_span_m: f64,
+}
+
+/// An 8-bit gray image.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GrayImage {
+    /// Columns.
+    pub width_px: usize,
+    /// Rows.
+    pub height_px: usize,
+    /// Row-major, the top row first.
+    pub pixels: Vec<u8>,
+}
+
+/// Why an image could not be encoded.
+#[derive(Debug, thiserror::Error)]
+pub enum EncodeError {
+    /// The PNG encoder refused.
+    #[error("png: {0}")]
+    Png(#[from] png::EncodingError),
+    /// The JPEG encoder refused.
+    #[error("jpeg: {0}")]
+    Jpeg(#[from] jpeg_encoder::EncodingError),
+}
+
+impl CameraFrame {
+    /// Gray by Rec. 601 luma, rounded to the nearest level.
+    pub fn to_gray(&self) -> GrayImage {
+        let pixels = self
+            .rgba
+            .chunks_exact(4)
+            .map(|p| {
+                // 8-bit fixed point of .299, .587, .114: the weights add up to 65536.
+                let luma = 19595 * u32::from(p[0]) + 38470 * u32::from(p[1]) + 7471 * u32::from(p[2]);
+                ((luma + 32768) >> 16) as u8
+            })
+            .collect();
+        GrayImage {
+            width_px: self.width_px as usize,
+            height_px: self.height_px as usize,
+            pixels,
+        }
+    }
+
+    /// The frame as a PNG file.
+    pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
+        encode_png(self.width_px, self.height_px, png::ColorType::Rgba, &self.rgba)
+    }
+
+    /// The frame as a JPEG file; `quality` from 1 to 100.
+    pub fn to_jpeg(&self, quality: u8) -> Result<Vec<u8>, EncodeError> {
+        let mut out = Vec::with_capacity(64 * 1024);
+        jpeg_encoder::Encoder::new(&mut out, quality).encode(
+            &self.rgba,
+            self.width_px as u16,
+            self.height_px as u16,
+            jpeg_encoder::ColorType::Rgba,
+        )?;
+        Ok(out)
+    }
+}
+
+impl GrayImage {
+    /// The image as a gray PNG file.
+    pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
+        encode_png(
+            self.width_px as u32,
+            self.height_px as u32,
+            png::ColorType::Grayscale,
+            &self.pixels,
+        )
+    }
+}
+
+fn encode_png(width: u32, height: u32, color: png::ColorType, data: &[u8]) -> Result<Vec<u8>, EncodeError> {
+    let mut out = Vec::new();
+    let mut encoder = png::Encoder::new(&mut out, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.write_header()?.write_image_data(data)?;
+    Ok(out)
+}

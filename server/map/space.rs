@@ -1,0 +1,177 @@
+//! Free space on a grid: what is connected to what, how far it is to walk, and fair sampling.
+
+use pathfinding::prelude::dijkstra_all;
+use rand::{Rng, RngExt};
+
+use super::Map;
+use crate::geometry::Point2;
+
+/// Side of a cell.
+const CELL_M: f64 = 0.005;
+
+/// The points of a map that keep `clearance_m` from every wall, on a 5-mm grid.
+#[derive(Clone, Debug)]
+pub struct FreeSpace {
+    columns: usize,
+    origin_m: [f64; 2],
+    clearance_m: f64,
+    /// Component of each cell, row-major from the lower left; `None` where a wall is too near.
+    component: Vec<Option<u32>>,
+}
+
+impl FreeSpace {
+    /// Rasterises `map`; a cell is free when its centre keeps `clearance_m`.
+    pub fn new(map: &Map, clearance_m: f64) -> Self {
+        let w = map.workspace();
+        let columns = ((w.x_max_m - w.x_min_m) / CELL_M).round().max(1.0) as usize;
+        let rows = ((w.y_max_m - w.y_min_m) / CELL_M).round().max(1.0) as usize;
+        let mut space = Self {
+            columns,
+            origin_m: [w.x_min_m, w.y_min_m],
+            clearance_m,
+            component: vec![None; columns * rows],
+        };
+        let free: Vec<bool> = (0..columns * rows).map(|cell| map.clearance_m(space.center(cell)) >= clearance_m).collect();
+        let mut next = 0;
+        for seed in 0..free.len() {
+            if !free[seed] || space.component[seed].is_some() {
+                continue;
+            }
+            let mut stack = vec![seed];
+            space.component[seed] = Some(next);
+            while let Some(cell) = stack.pop() {
+                for (neighbour, _) in space.neighbours(cell) {
+                    if free[neighbour] && space.component[neighbour].is_none() {
+                        space.component[neighbour] = Some(next);
+                        stack.push(neighbour);
+                    }
+                }
+            }
+            next += 1;
+        }
+        space
+    }
+
+    fn center(&self, cell: usize) -> Point2<f64> {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        Point2::new(
+            self.origin_m[0] + (column as f64 + 0.5) * CELL_M,
+            self.origin_m[1] + (row as f64 + 0.5) * CELL_M,
+        )
+    }
+
+    fn cell(&self, point: Point2<f64>) -> Option<usize> {
+        let column = ((point.x - self.origin_m[0]) / CELL_M).floor();
+        let row = ((point.y - self.origin_m[1]) / CELL_M).floor();
+        let rows = self.component.len() / self.columns;
+        let inside = column >= 0.0 && row >= 0.0 && column < self.columns as f64 && row < rows as f64;
+        inside.then(|| row as usize * self.columns + column as usize)
+    }
+
+    /// The eight neighbours inside the grid, with the distance to each in micrometres.
+    fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> + use<> {
+        let (columns, rows) = (self.columns as isize, (self.component.len() / self.columns) as isize);
+        let (column, row) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
+        let steps = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+        steps.into_iter().filter_map(move |(dx, dy)| {
+            let (c, r) = (column + dx, row + dy);
+            let inside = c >= 0 && r >= 0 && c < columns && r < rows;
+            let length_um = if dx != 0 && dy != 0 { 7071 } else { 5000 };
+            inside.then_some(((r * columns + c) as usize, length_um))
+        })
+    }
+
+    /// How many connected parts there are.
+    pub fn components(&self) -> usize {
+        self.component.iter().flatten().max().map_or(0, |&last| last as usize + 1)
+    }
+
+    /// Centres of the free cells.
+    pub fn points(&self) -> impl Iterator<Item = Point2<f64>> + '_ {
+        (0..self.component.len()).filter(|&cell| self.component[cell].is_some()).map(|cell| self.center(cell))
+    }
+
+    /// Area of the free cells.
+    pub fn area_m2(&self) -> f64 {
+        self.points().count() as f64 * CELL_M * CELL_M
+    }
+
+    /// Component of the cell under `point`; if that cell is not free, of the nearest free one.
+    pub fn component_at(&self, point: Point2<f64>) -> Option<u32> {
+        if let Some(component) = self.cell(point).and_then(|cell| self.component[cell]) {
+            return Some(component);
+        }
+        (0..self.component.len())
+            .filter(|&cell| self.component[cell].is_some())
+            .min_by(|&a, &b| (self.center(a) - point).norm().total_cmp(&(self.center(b) - point).norm()))
+            .and_then(|cell| self.component[cell])
+    }
+
+    /// A uniform point of the free space, of one component if asked, exact to the map's clearance.
+    /// `None` if 10,000 draws find nothing.
+    pub fn sample(&self, map: &Map, component: Option<u32>, rng: &mut impl Rng) -> Option<Point2<f64>> {
+        let w = map.workspace();
+        (0..10_000).find_map(|_| {
+            let point = Point2::new(
+                rng.random_range(w.x_min_m..w.x_max_m),
+                rng.random_range(w.y_min_m..w.y_max_m),
+            );
+            let found = self.cell(point).and_then(|cell| self.component[cell]);
+            let wanted = found.is_some() && (component.is_none() || found == component);
+            (wanted && map.clearance_m(point) >= self.clearance_m).then_some(point)
+        })
+    }
+
+    /// Length of the shortest path from `from` to `to` over the grid (8-connected, so up to 8 % too
+    /// long), or `None` if there is none.
+    pub fn geodesic_m(&self, from: Point2<f64>, to: Point2<f64>) -> Option<f64> {
+        let (start, end) = (self.cell(from)?, self.cell(to)?);
+        if start == end {
+            return Some((to - from).norm());
+        }
+        if self.component[start].is_none() || self.component[start] != self.component[end] {
+            return None;
+        }
+        let reached = dijkstra_all(&start, |&cell| {
+            self.neighbours(cell).filter(|&(n, _)| self.component[n].is_some()).collect::<Vec<_>>()
+        });
+        reached.get(&end).map(|&(_, length_um)| f64::from(length_um) * 1e-6)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    fn two_rooms() -> Map {
+        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 200 200 200">
+            <rect x="-5" y="200" width="10" height="200"/></svg>"#;
+        Map::from_svg("rooms", svg).unwrap()
+    }
+
+    #[test]
+    fn rooms_are_components_and_no_path_joins_them() {
+        let map = two_rooms();
+        let space = FreeSpace::new(&map, 0.012);
+        let (left, right) = (Point2::new(-0.05, -0.3), Point2::new(0.05, -0.3));
+        assert_ne!(space.component_at(left), space.component_at(right));
+        assert_eq!(space.geodesic_m(left, right), None);
+        let there = space.geodesic_m(Point2::new(-0.05, -0.35), Point2::new(-0.05, -0.25)).unwrap();
+        assert!((there - 0.1).abs() < 0.01, "{there}");
+    }
+
+    #[test]
+    fn samples_keep_the_clearance_and_the_component() {
+        let map = two_rooms();
+        let space = FreeSpace::new(&map, 0.012);
+        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        let left = space.component_at(Point2::new(-0.05, -0.3));
+        for _ in 0..200 {
+            let point = space.sample(&map, left, &mut rng).unwrap();
+            assert!(point.x < 0.0 && map.clearance_m(point) >= 0.012);
+        }
+    }
+}

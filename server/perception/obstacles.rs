@@ -1,0 +1,165 @@
+//! Obstacles near the tool, as the attractor senses them: the part of each obstacle that is nearest,
+//! at most 2 cm high and wide (paper, Example 1).
+
+use super::{OBSTACLE_MEAN, Percept};
+use crate::geometry::{Point2, Vector2};
+
+/// Pixels a cell of the mask: 0.83 mm of table at the default camera.
+const CELL_PX: usize = 2;
+
+/// The dark cells of a frame, and which of them hang together.
+#[derive(Clone, Debug)]
+pub struct ObstacleMask {
+    columns: usize,
+    /// Component of each cell, 0 for free.
+    label: Vec<u16>,
+    components: u16,
+    center_m: Point2<f64>,
+    cell_m: f64,
+}
+
+/// A fitted rectangle, axis-aligned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// Centre.
+    pub center_m: Point2<f64>,
+    /// Half sides.
+    pub half_size_m: Vector2<f64>,
+    /// The seen point of this obstacle that is nearest to where it was asked from.
+    pub nearest_m: Point2<f64>,
+}
+
+impl ObstacleMask {
+    /// Finds the dark cells of a frame: a cell is dark when any of its pixels is.
+    pub fn of(percept: &Percept) -> Self {
+        let gray = &percept.gray;
+        let columns = gray.width_px / CELL_PX;
+        let rows = gray.height_px / CELL_PX;
+        let dark: Vec<bool> = (0..columns * rows)
+            .map(|cell| {
+                let (row, column) = (cell / columns * CELL_PX, cell % columns * CELL_PX);
+                (row..row + CELL_PX).any(|r| {
+                    let start = r * gray.width_px + column;
+                    gray.pixels[start..start + CELL_PX].iter().any(|&level| f64::from(level) < OBSTACLE_MEAN)
+                })
+            })
+            .collect();
+        let mut mask = Self {
+            columns,
+            label: vec![0; dark.len()],
+            components: 0,
+            center_m: percept.calibration.center_m,
+            cell_m: percept.calibration.m_per_px * CELL_PX as f64,
+        };
+        mask.flood(&dark);
+        mask
+    }
+
+    fn flood(&mut self, dark: &[bool]) {
+        let rows = self.label.len() / self.columns;
+        let mut stack = Vec::new();
+        for seed in 0..dark.len() {
+            if !dark[seed] || self.label[seed] != 0 {
+                continue;
+            }
+            self.components += 1;
+            self.label[seed] = self.components;
+            stack.push(seed);
+            while let Some(cell) = stack.pop() {
+                let (row, column) = (cell / self.columns, cell % self.columns);
+                for r in row.saturating_sub(1)..(row + 2).min(rows) {
+                    for c in column.saturating_sub(1)..(column + 2).min(self.columns) {
+                        let next = r * self.columns + c;
+                        if dark[next] && self.label[next] == 0 {
+                            self.label[next] = self.components;
+                            stack.push(next);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn point(&self, cell: usize) -> Point2<f64> {
+        let rows = self.label.len() / self.columns;
+        let (row, column) = (cell / self.columns, cell % self.columns);
+        let half = Vector2::new(self.columns as f64, rows as f64) / 2.0;
+        let offset = Vector2::new(column as f64 + 0.5 - half.x, half.y - row as f64 - 0.5);
+        self.center_m + offset * self.cell_m
+    }
+
+    /// Of each obstacle in view, the rectangle around the part that lies within a window of
+    /// `window_m` on its point nearest to `from`; nearest obstacle first.
+    pub fn patches(&self, from: Point2<f64>, window_m: f64) -> Vec<Patch> {
+        let mut nearest = vec![(f64::INFINITY, 0usize); usize::from(self.components) + 1];
+        for (cell, &label) in self.label.iter().enumerate().filter(|&(_, &label)| label != 0) {
+            let distance_m = (self.point(cell) - from).norm();
+            let best = &mut nearest[usize::from(label)];
+            if distance_m < best.0 {
+                *best = (distance_m, cell);
+            }
+        }
+        let mut order: Vec<(f64, usize)> = nearest.into_iter().skip(1).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order.into_iter().map(|(_, cell)| self.fit(cell, window_m)).collect()
+    }
+
+    /// Bounding rectangle of the cells of one obstacle inside the window around its nearest cell.
+    fn fit(&self, nearest: usize, window_m: f64) -> Patch {
+        let rows = self.label.len() / self.columns;
+        let reach = ((window_m / self.cell_m - 1.0) / 2.0).floor().max(0.0) as usize;
+        let (row, column) = (nearest / self.columns, nearest % self.columns);
+        let (mut low, mut high) = ((column, row), (column, row));
+        for r in row.saturating_sub(reach)..(row + reach + 1).min(rows) {
+            for c in column.saturating_sub(reach)..(column + reach + 1).min(self.columns) {
+                if self.label[r * self.columns + c] == self.label[nearest] {
+                    low = (low.0.min(c), low.1.min(r));
+                    high = (high.0.max(c), high.1.max(r));
+                }
+            }
+        }
+        let corner_a = self.point(low.1 * self.columns + low.0);
+        let corner_b = self.point(high.1 * self.columns + high.0);
+        let half_cell = Vector2::repeat(self.cell_m / 2.0);
+        Patch {
+            center_m: nalgebra::center(&corner_a, &corner_b),
+            half_size_m: (corner_a - corner_b).abs() / 2.0 + half_cell,
+            nearest_m: self.point(nearest),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::frame;
+    use super::*;
+
+    #[test]
+    fn a_patch_is_the_near_part_of_a_post_and_never_larger_than_its_window() {
+        let center = Point2::new(0.0, -0.3);
+        let post = |p: Point2<f64>| (p.x - 0.05).abs() < 0.02 && (p.y + 0.3).abs() < 0.02;
+        let mask = ObstacleMask::of(&Percept::of(&frame(center, post)));
+        let patches = mask.patches(center, 0.02);
+        assert_eq!(patches.len(), 1);
+        let patch = patches[0];
+        assert!((patch.nearest_m.x - 0.03).abs() < 1e-3);
+        assert!(patch.half_size_m.x <= 0.01 && patch.half_size_m.y <= 0.01);
+        assert!((patch.center_m.x - patch.half_size_m.x - 0.03).abs() < 1e-3);
+    }
+
+    #[test]
+    fn separate_posts_are_separate_and_the_nearest_comes_first() {
+        let center = Point2::new(0.0, -0.3);
+        let (far, near) = (Point2::new(-0.07, -0.3), Point2::new(0.0, -0.25));
+        let posts = |p: Point2<f64>| (p - far).norm() < 0.01 || (p - near).norm() < 0.01;
+        let patches = ObstacleMask::of(&Percept::of(&frame(center, posts))).patches(center, 0.02);
+        assert_eq!(patches.len(), 2);
+        assert!((patches[0].center_m - near).norm() < 5e-3 && (patches[1].center_m - far).norm() < 5e-3);
+    }
+
+    #[test]
+    fn an_empty_table_has_no_patches() {
+        let percept = Percept::of(&frame(Point2::new(0.0, -0.3), |_| false));
+        assert!(ObstacleMask::of(&percept).patches(Point2::new(0.0, -0.3), 0.02).is_empty());
+    }
+}

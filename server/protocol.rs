@@ -1,0 +1,308 @@
+//! Every message of the WebSocket, once, and its translation to and from `session`'s types.
+//!
+//! Text frames are JSON objects tagged by `type`. Binary frames carry pictures: one byte
+//! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
+//! little-endian, then the payload.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::geometry::{Polygon, Rect};
+use crate::scenario::{ControllerName, Parameters};
+
+/// Raised when an old page could misread the server.
+pub const PROTOCOL_VERSION: u32 = 1;
+/// Binary frame: the camera image, a JPEG file of 480×480.
+pub const BINARY_CAMERA_JPEG: u8 = 1;
+/// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
+pub const BINARY_OBSERVATION: u8 = 2;
+
+/// What a browser may send.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[ts(tag = "type", rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum ClientMessage {
+    /// Places the goal. Refused outside the workspace, in a wall or out of the arm's reach.
+    SetGoal { x_m: f64, y_m: f64 },
+    /// Removes the goal: the arm holds.
+    ClearGoal {},
+    /// The hand holds the bead and wants it here. `lift` carries it over walls.
+    Drag {
+        x_m: f64,
+        y_m: f64,
+        #[serde(default)]
+        #[ts(optional, as = "Option<bool>")]
+        lift: bool,
+    },
+    /// The hand lets go.
+    Release {},
+    /// Chooses sub-controller 2.
+    SelectController { controller: ControllerName },
+    /// Replaces the parameters; what is outside its range is refused, all or nothing.
+    Configure { parameters: Parameters },
+    /// Lets time run.
+    Run {},
+    /// Stops time.
+    Pause {},
+    /// Advances by so many ticks of 8 ms while paused.
+    Step { ticks: u32 },
+    /// Simulated seconds a second, 0.125 to 64.
+    SetSpeed { factor: f64 },
+    /// Back to the start, with this seed or the same one.
+    Reset {
+        #[serde(default)]
+        #[ts(optional, type = "number")]
+        seed: Option<u64>,
+    },
+    /// Another map; what is left out takes its default.
+    LoadScenario {
+        map: String,
+        #[serde(default)]
+        #[ts(optional)]
+        controller: Option<ControllerName>,
+        #[serde(default)]
+        #[ts(optional, type = "number")]
+        seed: Option<u64>,
+        #[serde(default)]
+        #[ts(optional)]
+        start_m: Option<[f64; 2]>,
+        #[serde(default)]
+        #[ts(optional)]
+        goal_m: Option<[f64; 2]>,
+        #[serde(default)]
+        #[ts(optional)]
+        parameters: Option<Parameters>,
+    },
+    /// Back to an earlier tick that is still held (see `state.oldest_tick`); pauses.
+    Rewind {
+        #[ts(type = "number")]
+        tick: u64,
+    },
+    /// Asks to be the operator.
+    TakeControl {},
+    /// Stops being the operator.
+    ReleaseControl {},
+}
+
+/// Who this browser is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// May send commands.
+    Operator,
+    /// Watches.
+    Viewer,
+}
+
+/// What the server sends as text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum ServerMessage {
+    /// First message of a connection; sent again when the role changes.
+    Hello(Hello),
+    /// What stands still: sent at the start and after each change.
+    Scene(Box<SceneMessage>),
+    /// What moves: at most 60 a second.
+    State(Box<StateMessage>),
+    /// Something happened once.
+    Event(EventMessage),
+    /// What the controller made of the last camera frame.
+    Overlay(OverlayMessage),
+    /// A message was refused; nothing changed.
+    Error(ErrorMessage),
+}
+
+/// See [`ServerMessage::Hello`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct Hello {
+    /// [`PROTOCOL_VERSION`].
+    pub protocol: u32,
+    /// Name of the session.
+    pub session: String,
+    /// Ferry's version.
+    pub version: String,
+    /// This browser's role.
+    pub role: Role,
+    /// Whether anybody is the operator.
+    pub operator_present: bool,
+    /// Graphics adapter that renders the camera.
+    pub adapter: String,
+}
+
+/// See [`ServerMessage::Scene`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct SceneMessage {
+    /// Name of the map.
+    pub map: String,
+    /// Maps that `load_scenario` knows.
+    pub maps: Vec<String>,
+    /// Controllers that `select_controller` knows.
+    pub controllers: Vec<ControllerName>,
+    /// The workspace.
+    pub workspace: Rect,
+    /// Walls inside the workspace, 5 mm high.
+    pub walls: Vec<Polygon>,
+    /// Seed in force.
+    #[ts(type = "number")]
+    pub seed: u64,
+    /// Parameters in force.
+    pub parameters: Parameters,
+    /// Their defaults.
+    pub defaults: Parameters,
+    /// Radius of the bead.
+    pub bead_radius_m: f64,
+    /// Side of the square of table that the camera sees.
+    pub camera_span_m: f64,
+    /// Largest distance at which the magnet's pull beats friction, for the parameters in force.
+    pub capture_radius_m: f64,
+    /// Seconds a tick.
+    pub tick_s: f64,
+}
+
+/// See [`ServerMessage::State`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct StateMessage {
+    /// Ticks since the start of the trial.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// `tick` in seconds.
+    pub sim_time_s: f64,
+    /// Earliest tick that `rewind` reaches.
+    #[ts(type = "number")]
+    pub oldest_tick: u64,
+    /// Latest tick that `rewind` reaches.
+    #[ts(type = "number")]
+    pub newest_tick: u64,
+    /// Whether time runs.
+    pub running: bool,
+    /// Asked simulated seconds a second.
+    pub speed_target: f64,
+    /// Achieved simulated seconds a second.
+    pub speed_achieved: f64,
+    /// Tool point: the middle of the block's lower face.
+    pub tool_m: [f64; 3],
+    /// Centre of the bead, the truth.
+    pub bead_m: [f64; 3],
+    /// The bead as the optical tracker gives it.
+    pub bead_tracked_m: [f64; 2],
+    /// Goal, if one is set.
+    pub goal_m: Option<[f64; 3]>,
+    /// Where the hand wants the bead, while it holds it.
+    pub hand_m: Option<[f64; 2]>,
+    /// Force of the hand's spring on the bead (0 when not held).
+    pub hand_force_n: f64,
+    /// Joint angles.
+    pub joints_rad: [f64; 6],
+    /// Active sub-controller, 1 or 2.
+    pub mode: u8,
+    /// Why it is active, one plain sentence.
+    pub reason: String,
+    /// Sub-controller 2 in use.
+    pub controller: ControllerName,
+    /// What the arm does in words: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
+    pub phase: String,
+    /// Tool minus bead, x.
+    pub tracking_error_x_m: f64,
+    /// Tool minus bead, y.
+    pub tracking_error_y_m: f64,
+    /// Its norm: the `e` of the switching law.
+    pub tracking_error_m: f64,
+    /// Distance from the tool to the goal.
+    pub goal_distance_m: Option<f64>,
+    /// Horizontal pull of the magnet on the bead.
+    pub pull_n: f64,
+    /// Vertical pull in units of the bead's weight; 1 is lift-off.
+    pub lift_ratio: f64,
+    /// Control steps of the current transport leg.
+    pub leg_steps: u32,
+    /// Control steps of the trial.
+    pub steps: u32,
+    /// Switches of the trial.
+    pub switches: u32,
+    /// Goals delivered since the reset.
+    pub deliveries: u32,
+    /// Disturbances by hand or script since the reset.
+    pub disturbances: u32,
+    /// Hash of the plant's state, in hex.
+    pub world_hash: String,
+    /// Whether this session is being recorded; the reason if not.
+    pub recording: String,
+}
+
+/// Kinds of event, for the timeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// The switching law changed the active sub-controller.
+    Switch,
+    /// The bead was taken or displaced.
+    Disturbance,
+    /// The goal was placed or removed.
+    Goal,
+    /// The tool came within 2 cm of the goal.
+    Reached,
+    /// The bead too.
+    Delivered,
+    /// The bead jumped to the magnet.
+    LiftOff,
+    /// A controller or a limit refused a step.
+    Refused,
+    /// A limit of steps was met.
+    Stopped,
+    /// Anything about the session itself.
+    Session,
+}
+
+/// See [`ServerMessage::Event`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct EventMessage {
+    /// When.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// When, in seconds.
+    pub sim_time_s: f64,
+    /// What.
+    pub kind: EventKind,
+    /// One plain sentence.
+    pub text: String,
+}
+
+/// An obstacle as the attractor sees it: a superellipse of exponent 4.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct SensedObstacle {
+    /// Centre.
+    pub center_m: [f64; 2],
+    /// Half sides of the fitted rectangle.
+    pub half_size_m: [f64; 2],
+    /// Half sides of the superellipse with its safety margin.
+    pub boundary_m: [f64; 2],
+}
+
+/// See [`ServerMessage::Overlay`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct OverlayMessage {
+    /// When the camera frame was taken.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// Obstacles sensed in it.
+    pub obstacles: Vec<SensedObstacle>,
+    /// Mean of the central 15×15 pixels, 0 to 255.
+    pub center_mean: f64,
+    /// Obstacle test: `center_mean` < 150.
+    pub obstacle: bool,
+    /// Next tool target.
+    pub target_m: Option<[f64; 2]>,
+}
+
+/// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct ErrorMessage {
+    /// For programs, such as `goal_in_wall`.
+    pub code: String,
+    /// For people: names the field and the value.
+    pub message: String,
+    /// The field at fault.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub field: Option<String>,
+}

@@ -1,0 +1,56 @@
+//! Lengths and limits of the UR5 (CB3).
+//!
+//! Source: Universal Robots, "DH parameters for calculations of kinematics and dynamics", and the
+//! UR5 technical specification. The link twists α are (π/2, 0, 0, π/2, −π/2, 0).
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Height of the shoulder axis above the base, m.
+pub const D1_M: f64 = 0.089159;
+/// Shoulder to elbow, m; negative in the maker's convention.
+pub const A2_M: f64 = -0.425;
+/// Elbow to wrist 1, m; negative in the maker's convention.
+pub const A3_M: f64 = -0.39225;
+/// Sideways offset of the wrist from the arm's plane through the base axis, m.
+pub const D4_M: f64 = 0.10915;
+/// Wrist 1 to wrist 2, m.
+pub const D5_M: f64 = 0.09465;
+/// Wrist 3 to the flange, m.
+pub const D6_M: f64 = 0.0823;
+
+/// One row of the Denavit-Hartenberg table, in the classic (distal) convention: the next frame is
+/// reached by Rz(θ)·Tz(d)·Tx(a)·Rx(α).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DhRow {
+    /// Offset along the joint's axis, m.
+    pub d_m: f64,
+    /// Length of the link, m.
+    pub a_m: f64,
+    /// Twist of the link, rad.
+    pub alpha_rad: f64,
+}
+
+/// The Denavit-Hartenberg table, from the base to the flange.
+pub const DH: [DhRow; 6] = [
+    row(D1_M, 0.0, FRAC_PI_2),
+    row(0.0, A2_M, 0.0),
+    row(0.0, A3_M, 0.0),
+    row(D4_M, 0.0, FRAC_PI_2),
+    row(D5_M, 0.0, -FRAC_PI_2),
+    row(D6_M, 0.0, 0.0),
+];
+
+/// Every joint turns within ± this angle, rad.
+pub const JOINT_LIMIT_RAD: f64 = 2.0 * PI;
+/// Greatest speed of every joint, rad/s (180°/s).
+pub const JOINT_SPEED_LIMIT_RAD_S: f64 = PI;
+/// Period of the CB3 controller, s (125 Hz).
+pub const SERVO_PERIOD_S: f64 = 0.008;
+
+const fn row(d_m: f64, a_m: f64, alpha_rad: f64) -> DhRow {
+    DhRow {
+        d_m,
+        a_m,
+        alpha_rad,
+    }
+}

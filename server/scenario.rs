@@ -1,0 +1,88 @@
+//! What is set up before a trial: one serde type behind links, files, forks and lessons.
+
+mod parameters;
+mod random;
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::geometry::Point2;
+
+pub use parameters::{AttractorLaw, ParameterError, Parameters, SwitchingLaw};
+pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
+
+/// Sub-controller 2, by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum ControllerName {
+    /// Attractor dynamics (paper, §IV-B).
+    Attractor,
+}
+
+impl ControllerName {
+    /// All that exist.
+    pub const ALL: [Self; 1] = [Self::Attractor];
+
+    /// The name in files and commands.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Attractor => "attractor",
+        }
+    }
+}
+
+impl std::str::FromStr for ControllerName {
+    type Err = UnknownController;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        let found = Self::ALL.into_iter().find(|known| known.as_str() == name);
+        found.ok_or_else(|| UnknownController { name: name.to_owned() })
+    }
+}
+
+/// No controller of that name.
+#[derive(Debug, thiserror::Error)]
+#[error("controller: there is no controller named {name:?}; there are {}", ControllerName::ALL.map(ControllerName::as_str).join(", "))]
+pub struct UnknownController {
+    /// The name asked for.
+    pub name: String,
+}
+
+/// A trial before its first tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Name of the map, or path of an SVG.
+    pub map: String,
+    /// Sub-controller 2.
+    pub controller: ControllerName,
+    /// Seed of everything random in the trial.
+    pub seed: u64,
+    /// Parameters at the start.
+    #[serde(default)]
+    pub parameters: Parameters,
+    /// Bead at the start, the tool above it; left out, a random free point.
+    #[serde(default)]
+    pub start_m: Option<Point2<f64>>,
+    /// Goal at the start; left out, none: the arm holds.
+    #[serde(default)]
+    pub goal_m: Option<Point2<f64>>,
+    /// How often the bead is lifted away during transport (specification §2, scripted).
+    #[serde(default)]
+    pub disturbances: u32,
+}
+
+impl Scenario {
+    /// The session that exists from the start: a map, nothing asked yet.
+    pub fn idle(map: &str, seed: u64) -> Self {
+        Self {
+            map: map.to_owned(),
+            controller: ControllerName::Attractor,
+            seed,
+            parameters: Parameters::default(),
+            start_m: None,
+            goal_m: None,
+            disturbances: 0,
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Everything an operator can tune, with the range of each.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::plant::{BlockOrientation, PlantParameters};
+use crate::tracking::TrackerParameters;
+
+/// Which switching law runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum SwitchingLaw {
+    /// Sub-controller 1 keeps control until the bead is within `fetch_radius_m`.
+    Hysteresis,
+    /// The paper's equation to the letter: one threshold both ways.
+    Literal,
+}
+
+/// Which attractor law runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum AttractorLaw {
+    /// The paper's law to the letter; it can stick behind a flat face.
+    Literal,
+    /// With contouring, a star-shaped basis and clearance.
+    Improved,
+}
+
+/// Everything an operator can tune. Ranges are in [`Parameters::check`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields, default)]
+pub struct Parameters {
+    /// How the block is turned.
+    pub block_orientation: BlockOrientation,
+    /// Height of the block's lower face above the table, .09 to .2 m.
+    pub tool_height_m: f64,
+    /// Coulomb friction of the bead on the table, 0 to 1.
+    pub friction: f64,
+    /// Viscous drag on the bead, 0 to .1 N·s/m.
+    pub drag_n_s_m: f64,
+    /// Threshold T of the switching law, .02 to .2 m.
+    pub threshold_m: f64,
+    /// Distance at which sub-controller 1 has fetched the bead, .002 m to `threshold_m`.
+    pub fetch_radius_m: f64,
+    /// Which switching law runs.
+    pub switching_law: SwitchingLaw,
+    /// Tool speed while approaching, .02 to .25 m/s.
+    pub approach_speed_m_s: f64,
+    /// Tool speed while transporting, .01 to .079 m/s.
+    pub transport_speed_m_s: f64,
+    /// Standard deviation of the tracker's noise, 0 to .01 m.
+    pub tracker_noise_m: f64,
+    /// Latency of the tracker, 0 to 50 ticks of 8 ms.
+    pub tracker_latency_ticks: u32,
+    /// Share of the tracker's samples that are lost, 0 to .9.
+    pub tracker_dropout: f64,
+    /// Which attractor law runs.
+    pub attractor_law: AttractorLaw,
+    /// Feedback gain K, 1.05 to 10 (K = kI; stable above 1).
+    pub attractor_gain: f64,
+    /// Safety factor sf on the superellipse's half sides, 1 to 2.
+    pub attractor_safety_factor: f64,
+    /// Reactivity ρ of the modulation, .2 to 5.
+    pub attractor_reactivity: f64,
+    /// Distance kept from walls by the improved law, 0 to .03 m.
+    pub attractor_clearance_m: f64,
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Self {
+            block_orientation: BlockOrientation::A,
+            tool_height_m: 0.100,
+            friction: 0.2,
+            drag_n_s_m: 0.01,
+            threshold_m: 0.10,
+            fetch_radius_m: 0.01,
+            switching_law: SwitchingLaw::Hysteresis,
+            approach_speed_m_s: 0.25,
+            transport_speed_m_s: 0.04,
+            tracker_noise_m: 0.001,
+            tracker_latency_ticks: 2,
+            tracker_dropout: 0.0,
+            attractor_law: AttractorLaw::Improved,
+            attractor_gain: 2.0,
+            attractor_safety_factor: 1.2,
+            attractor_reactivity: 1.0,
+            attractor_clearance_m: 0.012,
+        }
+    }
+}
+
+/// A parameter outside its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field} is {value}, it must be {least} to {most}")]
+pub struct ParameterError {
+    /// The field at fault.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Least value allowed.
+    pub least: f64,
+    /// Greatest value allowed.
+    pub most: f64,
+}
+
+impl Parameters {
+    /// Checks every range; the first field at fault is named.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        let ranges = [
+            ("tool_height_m", self.tool_height_m, 0.09, 0.2),
+            ("friction", self.friction, 0.0, 1.0),
+            ("drag_n_s_m", self.drag_n_s_m, 0.0, 0.1),
+            ("threshold_m", self.threshold_m, 0.02, 0.2),
+            ("fetch_radius_m", self.fetch_radius_m, 0.002, self.threshold_m),
+            ("approach_speed_m_s", self.approach_speed_m_s, 0.02, 0.25),
+            ("transport_speed_m_s", self.transport_speed_m_s, 0.01, 0.079),
+            ("tracker_noise_m", self.tracker_noise_m, 0.0, 0.01),
+            ("tracker_latency_ticks", f64::from(self.tracker_latency_ticks), 0.0, 50.0),
+            ("tracker_dropout", self.tracker_dropout, 0.0, 0.9),
+            ("attractor_gain", self.attractor_gain, 1.05, 10.0),
+            ("attractor_safety_factor", self.attractor_safety_factor, 1.0, 2.0),
+            ("attractor_reactivity", self.attractor_reactivity, 0.2, 5.0),
+            ("attractor_clearance_m", self.attractor_clearance_m, 0.0, 0.03),
+        ];
+        for (field, value, least, most) in ranges {
+            if !(least..=most).contains(&value) {
+                return Err(ParameterError { field, value, least, most });
+            }
+        }
+        Ok(())
+    }
+
+    /// The part that the physics are told.
+    pub fn plant(&self) -> PlantParameters {
+        PlantParameters {
+            block_orientation: self.block_orientation,
+            friction: self.friction,
+            drag_n_s_m: self.drag_n_s_m,
+        }
+    }
+
+    /// The part that the tracker is told.
+    pub fn tracker(&self) -> TrackerParameters {
+        TrackerParameters {
+            noise_m: self.tracker_noise_m,
+            latency_ticks: self.tracker_latency_ticks,
+            dropout: self.tracker_dropout,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_in_range_and_what_is_not_is_named() {
+        Parameters::default().check().unwrap();
+        let bad = Parameters { friction: -0.1, ..Parameters::default() };
+        assert_eq!(bad.check().unwrap_err().to_string(), "friction is -0.1, it must be 0 to 1");
+        let nan = Parameters { tool_height_m: f64::NAN, ..Parameters::default() };
+        assert_eq!(nan.check().unwrap_err().field, "tool_height_m");
+        let narrow = Parameters { threshold_m: 0.05, fetch_radius_m: 0.06, ..Parameters::default() };
+        assert_eq!(narrow.check().unwrap_err().field, "fetch_radius_m");
+    }
+}

@@ -1,0 +1,104 @@
+//! Random trials (specification §4): fair pairs of start and goal.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::{ControllerName, Parameters, Scenario};
+use crate::geometry::Point2;
+use crate::map::{FreeSpace, Map};
+
+/// Starts, goals and displaced beads keep this far from walls.
+pub const CLEARANCE_M: f64 = 0.012;
+/// Start and goal are at least this far apart, along the shortest way.
+pub const LEAST_DISTANCE_M: f64 = 0.15;
+/// Of the pairs, at least this share has its straight line blocked, on maps where that can be.
+const BLOCKED_SHARE: f64 = 0.6;
+/// Half width of the straight line when asking whether it is blocked: the bead's radius.
+const LINE_HALF_WIDTH_M: f64 = 0.0025;
+/// Draws before a map is given up.
+const DRAWS: usize = 2000;
+
+/// No fair trial fits the map.
+#[derive(Debug, thiserror::Error)]
+#[error("map: {map:?} has no two free points {LEAST_DISTANCE_M} m apart that keep {CLEARANCE_M} m from the walls")]
+pub struct RandomTrialError {
+    /// Name of the map.
+    pub map: String,
+}
+
+/// Where the bead starts when nothing is said: a seeded free point.
+pub fn start_point(map: &Map, space: &FreeSpace, seed: u64) -> Result<Point2<f64>, RandomTrialError> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    space.sample(map, None, &mut rng).ok_or_else(|| RandomTrialError { map: map.name().to_owned() })
+}
+
+impl Scenario {
+    /// The `index`-th random trial of a seed: the same for every controller, and whatever was drawn
+    /// before it.
+    pub fn random(
+        map: &Map,
+        map_name: &str,
+        space: &FreeSpace,
+        controller: ControllerName,
+        disturbances: u32,
+        seed: u64,
+        index: u64,
+    ) -> Result<Self, RandomTrialError> {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(index + 1);
+        // Every prefix of the trials holds its share of blocked pairs.
+        let share_before = (index as f64 * BLOCKED_SHARE).ceil();
+        let must_be_blocked = ((index + 1) as f64 * BLOCKED_SHARE).ceil() > share_before && !map.walls().is_empty();
+        let refuse = || RandomTrialError { map: map.name().to_owned() };
+        let mut fallback = None;
+        for _ in 0..DRAWS {
+            let Some((start, goal)) = draw_pair(map, space, &mut rng) else { continue };
+            if !must_be_blocked || !map.line_is_clear(start, goal, LINE_HALF_WIDTH_M) {
+                fallback = Some((start, goal));
+                break;
+            }
+            fallback = fallback.or(Some((start, goal)));
+        }
+        let (start, goal) = fallback.ok_or_else(refuse)?;
+        Ok(Self {
+            map: map_name.to_owned(),
+            controller,
+            seed: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(index),
+            parameters: Parameters::default(),
+            start_m: Some(start),
+            goal_m: Some(goal),
+            disturbances,
+        })
+    }
+}
+
+fn draw_pair(map: &Map, space: &FreeSpace, rng: &mut impl Rng) -> Option<(Point2<f64>, Point2<f64>)> {
+    let start = space.sample(map, None, rng)?;
+    let goal = space.sample(map, space.component_at(start), rng)?;
+    // The straight line is the lower bound, and cheap.
+    let far = (goal - start).norm() >= LEAST_DISTANCE_M
+        || space.geodesic_m(start, goal).is_some_and(|length_m| length_m >= LEAST_DISTANCE_M);
+    far.then_some((start, goal))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trials_keep_their_promises_and_do_not_depend_on_each_other() {
+        let map = Map::shipped("posts").unwrap();
+        let space = FreeSpace::new(&map, CLEARANCE_M);
+        let make = |index| Scenario::random(&map, "posts", &space, ControllerName::Attractor, 0, 1, index).unwrap();
+        let trials: Vec<Scenario> = (0..50).map(make).collect();
+        let mut blocked = 0;
+        for trial in &trials {
+            let (start, goal) = (trial.start_m.unwrap(), trial.goal_m.unwrap());
+            assert!(map.clearance_m(start) >= CLEARANCE_M && map.clearance_m(goal) >= CLEARANCE_M);
+            assert!(space.geodesic_m(start, goal).unwrap() >= LEAST_DISTANCE_M * 0.99);
+            blocked += usize::from(!map.line_is_clear(start, goal, LINE_HALF_WIDTH_M));
+        }
+        assert!(blocked >= 30, "{blocked} of 50 blocked");
+        assert_eq!(trials[33], make(33));
+    }
+}

@@ -1,0 +1,261 @@
+//! The trial: one episode as a pure loop. Live sessions, evaluation, replay and tests all run this
+//! one and no second.
+//!
+//! It is deterministic: scenario, seed and inputs give the same state at every tick. It reads no
+//! clock and draws only from the generator in its own state. The camera comes in from outside through
+//! [`Eye`], so that recorded frames, or recorded decisions, can stand in for it.
+
+mod decide;
+mod input;
+mod log;
+mod outcome;
+mod record;
+mod state;
+
+use std::sync::Arc;
+
+use crate::camera::{CameraError, Eye, Subject};
+use crate::control::{approach, limits::Limits, step_is_due};
+use crate::geometry::{Point2, Point3, Rect, Vector2};
+use crate::image::CameraFrame;
+use crate::map::{FreeSpace, Map, MapError};
+use crate::perception::Percept;
+use crate::plant::Plant;
+use crate::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
+use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, Scenario, start_point};
+
+pub use input::{Input, InputError};
+pub use log::{InputLog, LogError, LoggedTick};
+pub use outcome::{GOAL_RADIUS_M, Phase, StopReason};
+pub use record::{Event, EventKind, Moment, Sight, TickRecord};
+pub use state::{Counters, Decision, Mind, Motion, TrialState, World};
+
+/// Arm at rest over the workspace; the inverse's branch nearest to it is the one used throughout.
+pub const HOME_RAD: Joints = [
+    -std::f64::consts::FRAC_PI_2,
+    -std::f64::consts::FRAC_PI_2,
+    -std::f64::consts::FRAC_PI_2,
+    -std::f64::consts::FRAC_PI_2,
+    std::f64::consts::FRAC_PI_2,
+    0.0,
+];
+/// The tool changes height no faster than this.
+const LIFT_SPEED_M_S: f64 = 0.05;
+
+/// Why a trial could not be made or go on.
+#[derive(Debug, thiserror::Error)]
+pub enum TrialError {
+    /// The map was refused.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// No place to start.
+    #[error(transparent)]
+    Random(#[from] RandomTrialError),
+    /// A parameter is out of range.
+    #[error("parameters: {0}")]
+    Parameter(#[from] ParameterError),
+    /// Start or goal is impossible.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// No picture.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// A replay needs a decision at this tick and the log has none.
+    #[error("log: no decision at tick {tick}")]
+    MissingDecision {
+        /// The tick.
+        tick: u64,
+    },
+}
+
+/// A map made ready for trials; many trials share one.
+#[derive(Debug)]
+pub struct Arena {
+    /// Walls.
+    pub map: Map,
+    /// Free space that keeps [`CLEARANCE_M`].
+    pub space: FreeSpace,
+}
+
+impl Arena {
+    /// Opens a map by name or path.
+    pub fn open(name_or_path: &str) -> Result<Arc<Self>, MapError> {
+        Ok(Self::of(Map::open(name_or_path)?))
+    }
+
+    /// Makes a map ready.
+    pub fn of(map: Map) -> Arc<Self> {
+        let space = FreeSpace::new(&map, CLEARANCE_M);
+        Arc::new(Self { map, space })
+    }
+}
+
+/// Where a control step's decision comes from.
+pub enum Source<'a> {
+    /// The camera: decide from what it sees.
+    Eye(&'a mut dyn Eye),
+    /// A log: do what was decided.
+    Logged(Option<Decision>),
+}
+
+/// One episode.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    scenario: Scenario,
+    arena: Arc<Arena>,
+    plant: Plant,
+    state: TrialState,
+    /// Inputs since the last tick, for the log.
+    inputs: Vec<Input>,
+    events: Vec<Event>,
+}
+
+impl Trial {
+    /// Sets up a scenario in an arena that was made from its map.
+    pub fn new(scenario: Scenario, arena: Arc<Arena>) -> Result<Self, TrialError> {
+        scenario.parameters.check()?;
+        let start = match scenario.start_m {
+            Some(start) => start,
+            None => start_point(&arena.map, &arena.space, scenario.seed)?,
+        };
+        input::check_place("start_m", start, &arena.map)?;
+        let limits = limits_for(&scenario.parameters, arena.map.workspace());
+        let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
+        let joints = limits
+            .position(tool_m, &HOME_RAD)
+            .map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
+        let plant = Plant::new(scenario.parameters.plant());
+        let state = TrialState::at_start(&scenario, tool_m, joints);
+        let mut trial = Self { arena, plant, state, inputs: Vec::new(), events: Vec::new(), scenario };
+        if let Some(goal) = trial.scenario.goal_m {
+            trial.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y })?;
+            // Part of the scenario, not of the log.
+            trial.inputs.clear();
+        }
+        Ok(trial)
+    }
+
+    /// What it was set up with.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// Where it takes place.
+    pub fn arena(&self) -> &Arc<Arena> {
+        &self.arena
+    }
+
+    /// Its whole state, to be kept.
+    pub fn snapshot(&self) -> TrialState {
+        self.state.clone()
+    }
+
+    /// Its state, to be looked at.
+    pub fn state(&self) -> &TrialState {
+        &self.state
+    }
+
+    /// Back to a kept state of the same scenario.
+    pub fn restore(&mut self, state: TrialState) {
+        self.plant = Plant::new(state.world.parameters.plant());
+        self.state = state;
+        self.inputs.clear();
+        self.events.clear();
+    }
+
+    /// The tool point.
+    pub fn tool_m(&self) -> Point3<f64> {
+        Plant::tool_m(&self.state.world.plant.joints_rad)
+    }
+
+    /// What a camera would look at now.
+    pub fn subject(&self) -> Subject {
+        let world = &self.state.world;
+        let tool = self.tool_m();
+        let bead = world.plant.bead;
+        Subject {
+            tick: world.tick,
+            tool_m: tool.coords.into(),
+            bead_m: [bead.position_m.x, bead.position_m.y, bead.height_m(tool)],
+            goal_m: world.goal_m.map(|goal| [goal.x, goal.y]),
+            link_frames: forward::link_frames(&world.plant.joints_rad),
+            block_size_m: self.plant.block_size_m(),
+        }
+    }
+
+    /// Magnet's pull on the bead now.
+    pub fn load(&self) -> crate::plant::Load {
+        self.plant.load(self.tool_m(), self.state.world.plant.bead.position_m)
+    }
+
+    /// Advances one servo period of 8 ms. When the camera fails, nothing has changed.
+    pub fn tick(&mut self, source: Source<'_>) -> Result<TickRecord, TrialError> {
+        let tick = self.state.world.tick;
+        let mut decision = None;
+        let mut frame: Option<Arc<CameraFrame>> = None;
+        let mut percept: Option<Percept> = None;
+        if step_is_due(tick) {
+            let decided = match source {
+                Source::Eye(eye) => {
+                    let taken = eye.capture(&self.subject())?;
+                    let seen = Percept::of(&taken);
+                    let decided = self.decide(&seen);
+                    percept = Some(seen);
+                    frame = Some(Arc::new(taken));
+                    decided
+                }
+                Source::Logged(logged) => logged.ok_or(TrialError::MissingDecision { tick })?,
+            };
+            self.carry_out(&decided);
+            decision = Some(decided);
+        }
+        self.advance_reference();
+        self.sense();
+        self.state.world.tick += 1;
+        self.judge();
+        Ok(self.record(decision, frame, percept))
+    }
+
+    /// Moves the tool's reference along the motion, and arm and bead after it.
+    fn advance_reference(&mut self) {
+        let world = &mut self.state.world;
+        let limits = limits_for(&world.parameters, self.arena.map.workspace());
+        let here = world.reference_m.xy();
+        let wanted: Point2<f64> = match world.motion {
+            Motion::Hold => here,
+            Motion::Segment(step) => {
+                let way: Vector2<f64> = step.target_m - here;
+                here + way.cap_magnitude(step.speed_m_s * SERVO_PERIOD_S)
+            }
+            Motion::Track => {
+                let speed = world.parameters.approach_speed_m_s;
+                let velocity = approach::velocity(here, &world.tracker.estimate(), speed);
+                limits.keep_in(here + velocity * SERVO_PERIOD_S)
+            }
+        };
+        let rise_m = world.parameters.tool_height_m - world.reference_m.z;
+        let most_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
+        let next_m = Point3::new(wanted.x, wanted.y, world.reference_m.z + rise_m.clamp(-most_m, most_m));
+        let joints = world.reference_joints_rad;
+        let next_joints = match limits.position(next_m, &joints) {
+            Ok(next) => {
+                world.reference_m = next_m;
+                next
+            }
+            // A flight over the edge of the reach waits at the edge.
+            Err(_) => joints,
+        };
+        self.plant.step(&mut world.plant, &self.arena.map, &joints, &next_joints);
+        world.reference_joints_rad = next_joints;
+    }
+
+    fn sense(&mut self) {
+        let world = &mut self.state.world;
+        let parameters = world.parameters.tracker();
+        world.tracker.sample(world.plant.bead.position_m, &parameters, &mut world.rng);
+    }
+}
+
+fn limits_for(parameters: &Parameters, workspace: &Rect) -> Limits {
+    Limits { workspace: *workspace, speed_m_s: parameters.transport_speed_m_s }
+}

@@ -1,0 +1,141 @@
+//! A control step: what the controllers decide, and what the trial makes of it.
+
+use rand::Rng;
+
+use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
+use super::{Decision, Event, EventKind, Motion, Trial, limits_for};
+use crate::control::switching::{self, Mode};
+use crate::control::transport::TransportInput;
+use crate::control::{CONTROL_PERIOD_S, TargetStep};
+use crate::geometry::{Point2, Vector2};
+use crate::perception::Percept;
+use crate::plant::Bead;
+
+/// A scripted disturbance puts the bead down at least this far away (specification §2).
+const DISTURBANCE_M: f64 = 0.15;
+
+impl Trial {
+    /// Decides from a frame. Changes the mind only; the world waits for [`Self::carry_out`].
+    pub(super) fn decide(&mut self, percept: &Percept) -> Decision {
+        self.state.mind.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
+        let world = &self.state.world;
+        let tool = self.tool_m();
+        let bead = world.tracker.estimate().position_m;
+        let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters);
+        let hold = Decision { switching, motion: Motion::Hold, refusal: None };
+        if world.plant.bead.lifted_off {
+            return hold;
+        }
+        if switching.mode == Mode::Approach {
+            return Decision { motion: Motion::Track, ..hold };
+        }
+        let fetched = switching.switched;
+        let (Some(goal), false) = (world.goal_m, matches!(world.phase, Phase::Stopped(_)) && !fetched) else {
+            return hold;
+        };
+        if fetched {
+            self.state.mind.carrier.transport().start_leg();
+        }
+        let world = &self.state.world;
+        let proposed = if (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
+            Ok(settle_step(tool.xy(), goal, world.parameters.transport_speed_m_s))
+        } else {
+            let input =
+                TransportInput { percept, tool_m: tool.xy(), goal_m: goal, parameters: &world.parameters };
+            self.state.mind.carrier.transport().next_step(&input)
+        };
+        let limits = limits_for(&world.parameters, self.arena.map.workspace());
+        let seed = &world.reference_joints_rad;
+        let admitted = proposed.and_then(|step| limits.step(tool, &step, percept, seed).map(|()| step));
+        match admitted {
+            Ok(step) => Decision { motion: Motion::Segment(step), ..hold },
+            Err(refusal) => Decision { refusal: Some(refusal), ..hold },
+        }
+    }
+
+    /// Does what was decided: switches, counts, moves on, and lets the script strike.
+    pub(super) fn carry_out(&mut self, decision: &Decision) {
+        let tick = self.state.world.tick;
+        let switching = decision.switching;
+        if switching.switched {
+            self.state.world.counters.switches += 1;
+            let to = switching.mode.index();
+            let text = format!("sub-controller {to} takes over: {}", switching.reason());
+            self.events.push(Event::new(tick, EventKind::Switch, text));
+        }
+        if let Some(refusal) = &decision.refusal {
+            // Once, not at each step of a long hold.
+            if self.state.world.refusal.is_none() {
+                self.events.push(Event::new(tick, EventKind::Refused, format!("the arm holds: {refusal}")));
+            }
+        }
+        let fetched = switching.switched && switching.mode == Mode::Transport;
+        if fetched {
+            self.start_leg();
+            self.state.world.phase = Phase::Transporting;
+        }
+        let tool = self.tool_m().xy();
+        let world = &mut self.state.world;
+        world.switching = switching;
+        world.motion = decision.motion;
+        world.refusal.clone_from(&decision.refusal);
+        let at_goal = world.goal_m.is_some_and(|goal| (tool - goal).norm() <= GOAL_RADIUS_M);
+        self.progress(switching.mode, at_goal);
+        self.count();
+    }
+
+    fn count(&mut self) {
+        let world = &mut self.state.world;
+        let active = world.goal_m.is_some() && matches!(world.phase, Phase::Approaching | Phase::Transporting);
+        if !active {
+            return;
+        }
+        world.counters.steps += 1;
+        world.counters.goal_steps += 1;
+        if world.phase == Phase::Transporting {
+            world.counters.leg_steps += 1;
+            if world.script.at_leg_step == Some(world.counters.leg_steps) {
+                self.strike();
+            }
+        }
+        let counters = self.state.world.counters;
+        if counters.leg_steps > LEG_STEP_LIMIT {
+            self.stop(StopReason::LegSteps);
+        } else if counters.goal_steps > GOAL_STEP_LIMIT {
+            self.stop(StopReason::GoalSteps);
+        }
+    }
+
+    /// The scripted disturbance: the bead is lifted to a free point far away and put down.
+    fn strike(&mut self) {
+        let world = &mut self.state.world;
+        world.script.at_leg_step = None;
+        world.script.remaining -= 1;
+        let from = world.plant.bead.position_m;
+        let (map, space) = (&self.arena.map, &self.arena.space);
+        let component = space.component_at(from);
+        let far = |rng: &mut rand_chacha::ChaCha8Rng| far_point(map, space, component, from, rng);
+        if let Some(to) = far(&mut world.rng) {
+            world.plant.bead = Bead::at(to);
+            world.counters.disturbances += 1;
+            let text = format!("disturbed: the bead was lifted {:.0} cm away", (to - from).norm() * 100.0);
+            self.events.push(Event::new(world.tick, EventKind::Disturbance, text));
+        }
+    }
+}
+
+fn far_point(
+    map: &crate::map::Map,
+    space: &crate::map::FreeSpace,
+    component: Option<u32>,
+    from: Point2<f64>,
+    rng: &mut impl Rng,
+) -> Option<Point2<f64>> {
+    (0..1000).find_map(|_| space.sample(map, component, rng).filter(|to| (to - from).norm() >= DISTURBANCE_M))
+}
+
+/// Within 2 cm of the goal the tool goes straight onto it, so that the bead follows.
+fn settle_step(tool: Point2<f64>, goal: Point2<f64>, speed_m_s: f64) -> TargetStep {
+    let way: Vector2<f64> = (goal - tool).cap_magnitude(speed_m_s * CONTROL_PERIOD_S);
+    TargetStep { target_m: tool + way, speed_m_s }
+}

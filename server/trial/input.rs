@@ -1,0 +1,241 @@
+//! What an operator may do to a trial, checked before it touches anything.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Event, EventKind, Phase, Trial, limits_for};
+use crate::control::Refusal;
+use crate::control::transport::Carrier;
+use crate::geometry::{Point2, Point3};
+use crate::map::Map;
+use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
+use crate::scenario::{ControllerName, ParameterError, Parameters};
+
+/// One action; stands in the log at the tick that follows it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Input {
+    /// Places the goal.
+    SetGoal {
+        /// x.
+        x_m: f64,
+        /// y.
+        y_m: f64,
+    },
+    /// Removes the goal.
+    ClearGoal,
+    /// The hand takes the bead, or moves on with it.
+    Drag {
+        /// Pointer, x.
+        x_m: f64,
+        /// Pointer, y.
+        y_m: f64,
+        /// Whether it carries the bead over walls.
+        lift: bool,
+    },
+    /// While time stands, the hand puts the bead down somewhere else at once.
+    Place {
+        /// x.
+        x_m: f64,
+        /// y.
+        y_m: f64,
+    },
+    /// The hand lets go.
+    Release,
+    /// Another sub-controller 2.
+    SelectController(ControllerName),
+    /// Other parameters.
+    Configure(Box<Parameters>),
+}
+
+/// Why an input was refused; the trial is as it was.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum InputError {
+    /// Not a number.
+    #[error("{field} is {value}, it must be finite")]
+    NotFinite {
+        /// The field at fault.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Not on the table.
+    #[error("{field} ({x_m:.3}, {y_m:.3}) m is outside the workspace")]
+    OutsideWorkspace {
+        /// The field at fault.
+        field: &'static str,
+        /// x.
+        x_m: f64,
+        /// y.
+        y_m: f64,
+    },
+    /// In a wall, or nearer to one than the bead's radius.
+    #[error("{field} ({x_m:.3}, {y_m:.3}) m is in a wall or nearer to one than the bead's radius of 2.5 mm")]
+    InWall {
+        /// The field at fault.
+        field: &'static str,
+        /// x.
+        x_m: f64,
+        /// y.
+        y_m: f64,
+    },
+    /// The arm cannot go there.
+    #[error("{field}: {refusal}")]
+    Reach {
+        /// The field at fault.
+        field: &'static str,
+        /// Why.
+        refusal: Refusal,
+    },
+    /// A parameter out of range.
+    #[error("parameters: {0}")]
+    Parameter(#[from] ParameterError),
+}
+
+impl InputError {
+    /// For programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => "not_finite",
+            Self::OutsideWorkspace { .. } => "outside_workspace",
+            Self::InWall { .. } => "in_wall",
+            Self::Reach { .. } => "out_of_reach",
+            Self::Parameter(_) => "parameter_out_of_range",
+        }
+    }
+
+    /// The field at fault.
+    pub fn field(&self) -> &'static str {
+        match self {
+            Self::NotFinite { field, .. }
+            | Self::OutsideWorkspace { field, .. }
+            | Self::InWall { field, .. }
+            | Self::Reach { field, .. } => field,
+            Self::Parameter(error) => error.field,
+        }
+    }
+}
+
+/// Finite, on the table, and room for the bead.
+pub(super) fn check_place(field: &'static str, point: Point2<f64>, map: &Map) -> Result<(), InputError> {
+    check_finite(field, point)?;
+    let (x_m, y_m) = (point.x, point.y);
+    if !map.workspace().contains(point) {
+        return Err(InputError::OutsideWorkspace { field, x_m, y_m });
+    }
+    if map.clearance_m(point) < BEAD_RADIUS_M {
+        return Err(InputError::InWall { field, x_m, y_m });
+    }
+    Ok(())
+}
+
+fn check_finite(field: &'static str, point: Point2<f64>) -> Result<(), InputError> {
+    let bad = [point.x, point.y].into_iter().find(|value| !value.is_finite());
+    bad.map_or(Ok(()), |value| Err(InputError::NotFinite { field, value }))
+}
+
+impl Trial {
+    /// Applies one input between two ticks, or refuses it and changes nothing.
+    pub fn apply(&mut self, input: Input) -> Result<(), InputError> {
+        match &input {
+            Input::SetGoal { x_m, y_m } => self.set_goal(Point2::new(*x_m, *y_m))?,
+            Input::ClearGoal => self.clear_goal(),
+            Input::Drag { x_m, y_m, lift } => self.drag(Point2::new(*x_m, *y_m), *lift)?,
+            Input::Place { x_m, y_m } => self.place(Point2::new(*x_m, *y_m))?,
+            Input::Release => self.release(),
+            Input::SelectController(name) => {
+                self.state.controller = *name;
+                self.state.mind.carrier = Carrier::new(*name);
+            }
+            Input::Configure(parameters) => self.configure(parameters)?,
+        }
+        self.inputs.push(input);
+        Ok(())
+    }
+
+    fn set_goal(&mut self, goal: Point2<f64>) -> Result<(), InputError> {
+        let (field, map) = ("goal", &self.arena.map);
+        check_place(field, goal, map)?;
+        let world = &self.state.world;
+        let tool_m = Point3::new(goal.x, goal.y, world.parameters.tool_height_m);
+        limits_for(&world.parameters, map.workspace())
+            .position(tool_m, &world.reference_joints_rad)
+            .map_err(|refusal| InputError::Reach { field, refusal })?;
+        let world = &mut self.state.world;
+        world.goal_m = Some(goal);
+        world.reached_tick = None;
+        world.counters.goal_steps = 0;
+        if !matches!(world.phase, Phase::LiftedOff | Phase::Approaching) {
+            world.phase = Phase::Transporting;
+        }
+        let text = format!("goal placed at ({:.3}, {:.3}) m", goal.x, goal.y);
+        self.events.push(Event::new(world.tick, EventKind::Goal, text));
+        self.start_leg();
+        self.state.mind.carrier.transport().start_leg();
+        Ok(())
+    }
+
+    fn clear_goal(&mut self) {
+        let world = &mut self.state.world;
+        world.goal_m = None;
+        world.reached_tick = None;
+        self.events.push(Event::new(world.tick, EventKind::Goal, "goal removed"));
+    }
+
+    /// The pointer may be anywhere finite; the bead goes where walls let it.
+    fn drag(&mut self, pointer: Point2<f64>, lift: bool) -> Result<(), InputError> {
+        check_finite("drag", pointer)?;
+        let w = self.arena.map.workspace();
+        let target_m = Point2::new(pointer.x.clamp(w.x_min_m, w.x_max_m), pointer.y.clamp(w.y_min_m, w.y_max_m));
+        let world = &mut self.state.world;
+        let taken = world.plant.hand.is_none();
+        let put_down = world.plant.hand.is_some_and(|hand| hand.lift) && !lift;
+        world.plant.bead.lifted_off = false;
+        world.plant.hand = Some(Hand { target_m, lift });
+        if taken {
+            world.counters.disturbances += 1;
+            self.events.push(Event::new(world.tick, EventKind::Disturbance, "disturbed: a hand took the bead"));
+        }
+        if taken || put_down {
+            self.set_down();
+        }
+        Ok(())
+    }
+
+    fn place(&mut self, point: Point2<f64>) -> Result<(), InputError> {
+        check_place("drag", point, &self.arena.map)?;
+        let world = &mut self.state.world;
+        let from = world.plant.bead.position_m;
+        world.plant.bead = Bead::at(point);
+        world.plant.hand = None;
+        world.counters.disturbances += 1;
+        let text = format!("disturbed: a hand put the bead {:.0} cm away", (point - from).norm() * 100.0);
+        self.events.push(Event::new(world.tick, EventKind::Disturbance, text));
+        Ok(())
+    }
+
+    fn release(&mut self) {
+        if self.state.world.plant.hand.take().is_some() {
+            self.set_down();
+            let world = &self.state.world;
+            self.events.push(Event::new(world.tick, EventKind::Disturbance, "the hand let go"));
+        }
+    }
+
+    /// Puts the bead where it fits, nearest to where it is: it may have hung over a wall.
+    fn set_down(&mut self) {
+        let map = &self.arena.map;
+        let bead = &mut self.state.world.plant.bead;
+        let here = bead.position_m;
+        if map.clearance_m(here) < BEAD_RADIUS_M {
+            if let Some(fit) = contact::nearest_fit(map, here) {
+                *bead = Bead::at(fit);
+            }
+        }
+    }
+
+    fn configure(&mut self, parameters: &Parameters) -> Result<(), InputError> {
+        parameters.check()?;
+        self.plant = Plant::new(parameters.plant());
+        self.state.world.parameters = parameters.clone();
+        Ok(())
+    }
+}

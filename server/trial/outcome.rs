@@ -1,0 +1,147 @@
+//! How far the task is, and when it ends (specification §4).
+
+use serde::{Deserialize, Serialize};
+
+use super::{Event, EventKind, Motion, Trial};
+use crate::control::switching::Mode;
+use crate::robot::ur5::SERVO_PERIOD_S;
+
+/// The paper's test: the goal is reached when the tool is this near, and delivered when the bead is.
+pub const GOAL_RADIUS_M: f64 = 0.02;
+/// The bead may take this long to follow after the tool has reached the goal.
+pub const SETTLE_S: f64 = 5.0;
+/// Control steps a transport leg, anew after each fetch.
+pub const LEG_STEP_LIMIT: u32 = 150;
+/// Control steps a goal.
+pub const GOAL_STEP_LIMIT: u32 = 600;
+
+/// Progress of the task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// No goal: the arm holds.
+    Holding,
+    /// Sub-controller 1 fetches the bead.
+    Approaching,
+    /// Sub-controller 2 carries it.
+    Transporting,
+    /// The tool is at the goal, the bead follows.
+    Settling {
+        /// Since when.
+        since_tick: u64,
+    },
+    /// The bead is within 2 cm of the goal.
+    Delivered,
+    /// The bead jumped to the magnet.
+    LiftedOff,
+    /// A limit was met; the arm holds until the goal moves.
+    Stopped(StopReason),
+}
+
+/// Which limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum StopReason {
+    /// [`LEG_STEP_LIMIT`].
+    LegSteps,
+    /// [`GOAL_STEP_LIMIT`].
+    GoalSteps,
+    /// [`SETTLE_S`]: reached, but not delivered.
+    Settle,
+}
+
+impl std::fmt::Display for Phase {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Holding => "holding",
+            Self::Approaching => "approaching",
+            Self::Transporting => "transporting",
+            Self::Settling { .. } => "settling",
+            Self::Delivered => "delivered",
+            Self::LiftedOff => "lifted off",
+            Self::Stopped(StopReason::LegSteps) => "stopped: 150 steps without reaching the goal",
+            Self::Stopped(StopReason::GoalSteps) => "stopped: 600 steps without delivering",
+            Self::Stopped(StopReason::Settle) => "stopped: reached, but the bead did not follow within 5 s",
+        })
+    }
+}
+
+impl Phase {
+    /// Whether an evaluated episode ends here.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Delivered | Self::LiftedOff | Self::Stopped(_))
+    }
+}
+
+impl Trial {
+    /// Looks at the world after a tick: has the bead arrived, jumped, or been given up?
+    pub(super) fn judge(&mut self) {
+        let tick = self.state.world.tick;
+        let world = &mut self.state.world;
+        if world.plant.bead.lifted_off {
+            if world.phase != Phase::LiftedOff {
+                world.phase = Phase::LiftedOff;
+                world.motion = Motion::Hold;
+                self.events.push(Event::new(tick, EventKind::LiftOff, "lift-off: the bead jumped to the magnet"));
+            }
+            return;
+        }
+        if world.phase == Phase::LiftedOff {
+            world.phase = Phase::Holding;
+        }
+        let (Phase::Settling { since_tick }, Some(goal)) = (world.phase, world.goal_m) else { return };
+        let left_m = (world.plant.bead.position_m - goal).norm();
+        if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() {
+            world.phase = Phase::Delivered;
+            world.counters.deliveries += 1;
+            let text = format!("delivered: the bead is {:.0} mm from the goal", left_m * 1e3);
+            self.events.push(Event::new(tick, EventKind::Delivered, text));
+        } else if (tick - since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S {
+            self.stop(StopReason::Settle);
+        }
+    }
+
+    pub(super) fn stop(&mut self, reason: StopReason) {
+        let world = &mut self.state.world;
+        world.phase = Phase::Stopped(reason);
+        world.motion = Motion::Hold;
+        self.events.push(Event::new(world.tick, EventKind::Stopped, world.phase.to_string()));
+    }
+
+    /// A new leg begins: the goal moved or the bead was fetched.
+    pub(super) fn start_leg(&mut self) {
+        let tool = self.tool_m().xy();
+        let world = &mut self.state.world;
+        world.counters.leg_steps = 0;
+        world.script.at_leg_step = None;
+        if let (Some(goal), true) = (world.goal_m, world.script.remaining > 0) {
+            use rand::RngExt;
+            // No path is shorter than the straight line, so a step before its end always comes.
+            let step_m = world.parameters.transport_speed_m_s * crate::control::CONTROL_PERIOD_S;
+            let least_steps = (((goal - tool).norm() - GOAL_RADIUS_M) / step_m).floor().max(1.0) as u32;
+            world.script.at_leg_step = Some(world.rng.random_range(1..=least_steps));
+        }
+    }
+
+    /// Phase that follows from mode and goal at a control step, with what it brings along.
+    pub(super) fn progress(&mut self, mode: Mode, at_goal: bool) {
+        let world = &mut self.state.world;
+        let tick = world.tick;
+        match (mode, world.goal_m) {
+            (Mode::Approach, _) => world.phase = Phase::Approaching,
+            (Mode::Transport, None) => world.phase = Phase::Holding,
+            (Mode::Transport, Some(_)) if at_goal => {
+                if !matches!(world.phase, Phase::Settling { .. } | Phase::Delivered | Phase::Stopped(_)) {
+                    world.phase = Phase::Settling { since_tick: tick };
+                }
+                if world.reached_tick.is_none() {
+                    world.reached_tick = Some(tick);
+                    self.events.push(Event::new(tick, EventKind::Reached, "reached: the tool is within 2 cm of the goal"));
+                }
+            }
+            (Mode::Transport, Some(_)) => {
+                if !matches!(world.phase, Phase::Stopped(_)) {
+                    world.phase = Phase::Transporting;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! What a tick leaves behind, for viewers, recordings and tests.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Decision, Input, Phase, Trial};
+use crate::control::switching;
+use crate::control::transport::attractor::Superellipse;
+use crate::geometry::{Point2, Point3, Vector2};
+use crate::image::CameraFrame;
+use crate::perception::{Observation, Percept};
+use crate::plant::{Hand, Load, Plant};
+use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
+use crate::scenario::ControllerName;
+
+use super::state::Counters;
+
+
+
+/// Kinds of event, for the timeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// The switching law changed the active sub-controller.
+    Switch,
+    /// The bead was taken, displaced or let go.
+    Disturbance,
+    /// The goal was placed or removed.
+    Goal,
+    /// The tool came within 2 cm of the goal.
+    Reached,
+    /// The bead too.
+    Delivered,
+    /// The bead jumped to the magnet.
+    LiftOff,
+    /// A controller or a limit refused a step.
+    Refused,
+    /// A limit of steps or time was met.
+    Stopped,
+    /// Anything about the session itself.
+    Session,
+}
+
+/// Something happened once.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Event {
+    /// When.
+    pub tick: u64,
+    /// What.
+    pub kind: EventKind,
+    /// One plain sentence.
+    pub text: String,
+}
+
+impl Event {
+    /// An event.
+    pub fn new(tick: u64, kind: EventKind, text: impl Into<String>) -> Self {
+        Self { tick, kind, text: text.into() }
+    }
+}
+
+/// What the controller saw and made of it at a control step.
+#[derive(Clone, Debug)]
+pub struct Sight {
+    /// The frame.
+    pub frame: Arc<CameraFrame>,
+    /// Mean of the central 15×15 pixels.
+    pub center_mean: f64,
+    /// Obstacle test.
+    pub obstacle: bool,
+    /// The network's observation.
+    pub observation: Observation,
+    /// Obstacles that the attractor sensed.
+    pub sensed: Vec<Superellipse>,
+}
+
+/// One tick, told.
+#[derive(Clone, Debug)]
+pub struct TickRecord {
+    /// Ticks since the start, this one included.
+    pub tick: u64,
+    /// Inputs applied since the last tick.
+    pub inputs: Vec<Input>,
+    /// The control step's decision, if one was due.
+    pub decision: Option<Decision>,
+    /// What was seen for it; absent in a replay from logged decisions.
+    pub sight: Option<Sight>,
+    /// What happened.
+    pub events: Vec<Event>,
+    /// The moment after the tick.
+    pub moment: Moment,
+    /// See [`super::TrialState::world_hash`].
+    pub world_hash: u64,
+    /// See [`super::TrialState::mind_hash`].
+    pub mind_hash: u64,
+}
+
+/// A trial at one moment, in the words of viewers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// Ticks since the start.
+    pub tick: u64,
+    /// Tool point.
+    pub tool_m: Point3<f64>,
+    /// Bead, the truth.
+    pub bead_m: Point3<f64>,
+    /// Bead, as tracked.
+    pub tracked_m: Point2<f64>,
+    /// Goal.
+    pub goal_m: Option<Point2<f64>>,
+    /// Hand.
+    pub hand: Option<Hand>,
+    /// Force of the hand.
+    pub hand_force_n: f64,
+    /// Joint angles.
+    pub joints_rad: Joints,
+    /// Mode, and why.
+    pub switching: switching::Decision,
+    /// Sub-controller 2 in use.
+    pub controller: ControllerName,
+    /// Progress of the task.
+    pub phase: Phase,
+    /// Why the arm holds, if something was refused.
+    pub refusal: Option<String>,
+    /// Magnet on bead.
+    pub load: Load,
+    /// Counters.
+    pub counters: Counters,
+}
+
+impl Moment {
+    /// Simulated time.
+    pub fn sim_time_s(&self) -> f64 {
+        self.tick as f64 * SERVO_PERIOD_S
+    }
+
+    /// Tracking error: tool minus bead in the plane.
+    pub fn tracking_error_m(&self) -> Vector2<f64> {
+        self.tool_m.xy() - self.bead_m.xy()
+    }
+}
+
+impl Trial {
+    /// The present moment.
+    pub fn moment(&self) -> Moment {
+        let world = &self.state.world;
+        let tool_m = self.tool_m();
+        let bead = world.plant.bead;
+        Moment {
+            tick: world.tick,
+            tool_m,
+            bead_m: Point3::new(bead.position_m.x, bead.position_m.y, bead.height_m(tool_m)),
+            tracked_m: world.tracker.estimate().position_m,
+            goal_m: world.goal_m,
+            hand: world.plant.hand,
+            hand_force_n: Plant::hand_force_n(&world.plant),
+            joints_rad: world.plant.joints_rad,
+            switching: world.switching,
+            controller: self.state.controller,
+            phase: world.phase,
+            refusal: world.refusal.as_ref().map(ToString::to_string),
+            load: self.load(),
+            counters: world.counters,
+        }
+    }
+
+    /// Events since the last record, for inputs applied while time stands.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    pub(super) fn record(
+        &mut self,
+        decision: Option<Decision>,
+        frame: Option<Arc<CameraFrame>>,
+        percept: Option<Percept>,
+    ) -> TickRecord {
+        let moment = self.moment();
+        let workspace = self.arena.map.workspace();
+        let sight = frame.zip(percept).map(|(frame, percept)| Sight {
+            frame,
+            center_mean: percept.center_mean,
+            obstacle: percept.obstacle(),
+            observation: Observation::new(&percept.gray, moment.goal_m, moment.tool_m.xy(), workspace),
+            sensed: self.state.mind.carrier.sensed().to_vec(),
+        });
+        TickRecord {
+            tick: moment.tick,
+            inputs: std::mem::take(&mut self.inputs),
+            decision,
+            sight,
+            events: self.take_events(),
+            world_hash: self.state.world_hash(),
+            mind_hash: self.state.mind_hash(),
+            moment,
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! All that a trial remembers, split in two: the world, which a replay from logged decisions must
+//! reproduce, and the mind, which only a re-run from frames can.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::xxh3_64;
+
+use super::outcome::Phase;
+use crate::control::switching::{self, Mode};
+use crate::control::transport::Carrier;
+use crate::control::{Refusal, TargetStep};
+use crate::geometry::{Point2, Point3};
+use crate::plant::{Bead, PlantState};
+use crate::robot::Joints;
+use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::tracking::Tracker;
+
+/// What the tool's reference does until the next control step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Motion {
+    /// Stands.
+    Hold,
+    /// Runs a straight segment (sub-controller 2).
+    Segment(TargetStep),
+    /// Flies after the tracked bead, tick by tick (sub-controller 1).
+    Track,
+}
+
+/// One control step's outcome; stands in the log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision {
+    /// Which sub-controller, and why.
+    pub switching: switching::Decision,
+    /// What the arm does.
+    pub motion: Motion,
+    /// Why it holds, if something was refused.
+    pub refusal: Option<Refusal>,
+}
+
+/// Counters since the reset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Control steps.
+    pub steps: u32,
+    /// Control steps since the goal was placed.
+    pub goal_steps: u32,
+    /// Control steps of sub-controller 2 since the last fetch or goal.
+    pub leg_steps: u32,
+    /// Switches of the active sub-controller.
+    pub switches: u32,
+    /// Goals delivered.
+    pub deliveries: u32,
+    /// Disturbances by hand or script.
+    pub disturbances: u32,
+}
+
+/// Scripted disturbances still to come.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Script {
+    /// How many.
+    pub remaining: u32,
+    /// At which step of the present leg the next one strikes; drawn when the leg begins.
+    pub at_leg_step: Option<u32>,
+}
+
+/// Robot, bead, tracker and task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct World {
+    /// Ticks of 8 ms since the start.
+    pub tick: u64,
+    /// Parameters in force.
+    pub parameters: Parameters,
+    /// Goal, if any.
+    pub goal_m: Option<Point2<f64>>,
+    /// Arm, bead, hand.
+    pub plant: PlantState,
+    /// Optical tracker.
+    pub tracker: Tracker,
+    /// Generator of everything random below.
+    pub rng: ChaCha8Rng,
+    /// Where the tool should be.
+    pub reference_m: Point3<f64>,
+    /// The joints for it.
+    pub reference_joints_rad: Joints,
+    /// What the reference does.
+    pub motion: Motion,
+    /// The last switching decision.
+    pub switching: switching::Decision,
+    /// Why the arm holds, if something was refused at the last control step.
+    pub refusal: Option<Refusal>,
+    /// Progress of the task.
+    pub phase: Phase,
+    /// Tick at which the tool first came within 2 cm of this goal.
+    pub reached_tick: Option<u64>,
+    /// Counters.
+    pub counters: Counters,
+    /// Scripted disturbances.
+    pub script: Script,
+}
+
+/// What the controller remembers and last saw.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mind {
+    /// Sub-controller 2 with its memory.
+    pub carrier: Carrier,
+    /// Hash of the last gray image.
+    pub seen: u64,
+}
+
+/// A whole trial at one tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrialState {
+    /// See [`World`].
+    pub world: World,
+    /// Sub-controller 2 in use.
+    pub controller: ControllerName,
+    /// See [`Mind`].
+    pub mind: Mind,
+}
+
+impl TrialState {
+    pub(super) fn at_start(scenario: &Scenario, tool_m: Point3<f64>, joints_rad: Joints) -> Self {
+        let start = tool_m.xy();
+        let threshold_m = scenario.parameters.threshold_m;
+        Self {
+            world: World {
+                tick: 0,
+                parameters: scenario.parameters.clone(),
+                goal_m: None,
+                plant: PlantState { joints_rad, bead: Bead::at(start), hand: None },
+                tracker: Tracker::at(start),
+                rng: ChaCha8Rng::seed_from_u64(scenario.seed),
+                reference_m: tool_m,
+                reference_joints_rad: joints_rad,
+                motion: Motion::Hold,
+                switching: switching::Decision {
+                    mode: Mode::Transport,
+                    switched: false,
+                    error_m: 0.0,
+                    threshold_m,
+                },
+                refusal: None,
+                phase: Phase::Holding,
+                reached_tick: None,
+                counters: Counters::default(),
+                script: Script { remaining: scenario.disturbances, at_leg_step: None },
+            },
+            controller: scenario.controller,
+            mind: Mind { carrier: Carrier::new(scenario.controller), seen: 0 },
+        }
+    }
+
+    /// Hash of the world: equal in a replay from logged decisions.
+    pub fn world_hash(&self) -> u64 {
+        hash(&self.world)
+    }
+
+    /// Hash of the mind: equal in a re-run from frames.
+    pub fn mind_hash(&self) -> u64 {
+        hash(&(&self.mind, self.controller))
+    }
+}
+
+fn hash(value: &impl Serialize) -> u64 {
+    // Writing to a Vec fails on nothing that these types hold.
+    xxh3_64(&postcard::to_stdvec(value).expect("plain data serialises"))
+}
