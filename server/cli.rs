@@ -3,6 +3,7 @@
 mod evaluate;
 mod map;
 mod render;
+mod serve;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -17,11 +18,16 @@ use crate::camera::{AdapterChoice, CameraError, Gpu};
 #[command(name = "ferry", version, about, args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
+    /// Without a command, `ferry` serves.
+    #[command(flatten)]
+    serve: serve::Arguments,
 }
 
 #[derive(Subcommand)]
 enum Command {
+    /// Serve the laboratory page (the default)
+    Serve(serve::Arguments),
     /// Repeat the paper's experiment: random trials, counted
     Evaluate(evaluate::Arguments),
     /// Render one frame to a PNG file, headless
@@ -45,7 +51,8 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         )
         .with_writer(std::io::stderr)
         .init();
-    match arguments.command {
+    match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
+        Command::Serve(arguments) => serve::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),

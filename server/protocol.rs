@@ -9,6 +9,12 @@ use ts_rs::TS;
 
 use crate::geometry::{Polygon, Rect};
 use crate::scenario::{ControllerName, Parameters};
+use crate::trial::EventKind;
+
+mod convert;
+mod parse;
+#[cfg(test)]
+mod typescript;
 
 /// Raised when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 1;
@@ -17,7 +23,8 @@ pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
 pub const BINARY_OBSERVATION: u8 = 2;
 
-/// What a browser may send.
+/// What a browser may send. Fields are named and measured as everywhere: metres in `base`.
+#[allow(missing_docs)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[ts(tag = "type", rename_all = "snake_case")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -153,8 +160,9 @@ pub struct SceneMessage {
     pub bead_radius_m: f64,
     /// Side of the square of table that the camera sees.
     pub camera_span_m: f64,
-    /// Largest distance at which the magnet's pull beats friction, for the parameters in force.
-    pub capture_radius_m: f64,
+    /// Distances at which the magnet's pull beats friction, nearest and farthest, for the parameters
+    /// in force; none if it never does.
+    pub capture_m: Option<[f64; 2]>,
     /// Seconds a tick.
     pub tick_s: f64,
 }
@@ -197,6 +205,8 @@ pub struct StateMessage {
     pub mode: u8,
     /// Why it is active, one plain sentence.
     pub reason: String,
+    /// Why the arm holds, if a step was refused.
+    pub refusal: Option<String>,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
     /// What the arm does in words: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
@@ -225,32 +235,10 @@ pub struct StateMessage {
     pub disturbances: u32,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
-    /// Whether this session is being recorded; the reason if not.
+    /// `recording`, or why this session is not recorded.
     pub recording: String,
-}
-
-/// Kinds of event, for the timeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
-#[serde(rename_all = "snake_case")]
-pub enum EventKind {
-    /// The switching law changed the active sub-controller.
-    Switch,
-    /// The bead was taken or displaced.
-    Disturbance,
-    /// The goal was placed or removed.
-    Goal,
-    /// The tool came within 2 cm of the goal.
-    Reached,
-    /// The bead too.
-    Delivered,
-    /// The bead jumped to the magnet.
-    LiftOff,
-    /// A controller or a limit refused a step.
-    Refused,
-    /// A limit of steps was met.
-    Stopped,
-    /// Anything about the session itself.
-    Session,
+    /// Why the session ended, if it has.
+    pub ended: Option<String>,
 }
 
 /// See [`ServerMessage::Event`].

@@ -60,6 +60,9 @@ pub enum TrialError {
     /// No picture.
     #[error(transparent)]
     Camera(#[from] CameraError),
+    /// The system gives no thread to run in.
+    #[error("the session's thread could not start: {0}")]
+    Thread(String),
     /// A replay needs a decision at this tick and the log has none.
     #[error("log: no decision at tick {tick}")]
     MissingDecision {

@@ -104,6 +104,20 @@ impl ObstacleMask {
         order.into_iter().map(|(_, cell)| self.fit(cell, window_m)).collect()
     }
 
+    /// From a place over or beside an obstacle, the unit direction of the shortest way off it; `None`
+    /// where nothing is dark, or everything.
+    pub fn way_off(&self, from: Point2<f64>) -> Option<Vector2<f64>> {
+        let nearest = |dark: bool| {
+            (0..self.label.len())
+                .filter(|&cell| (self.label[cell] != 0) == dark)
+                .map(|cell| self.point(cell) - from)
+                .min_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+        };
+        let (to_free, to_dark) = (nearest(false)?, nearest(true)?);
+        let over = to_free.norm_squared() > to_dark.norm_squared();
+        (if over { to_free } else { -to_dark }).try_normalize(0.0)
+    }
+
     /// Bounding rectangle of the cells of one obstacle inside the window around its nearest cell.
     fn fit(&self, nearest: usize, window_m: f64) -> Patch {
         let rows = self.label.len() / self.columns;
@@ -155,6 +169,17 @@ mod tests {
         let patches = ObstacleMask::of(&Percept::of(&frame(center, posts))).patches(center, 0.02);
         assert_eq!(patches.len(), 2);
         assert!((patches[0].center_m - near).norm() < 5e-3 && (patches[1].center_m - far).norm() < 5e-3);
+    }
+
+    #[test]
+    fn the_way_off_leaves_by_the_nearest_edge_from_within_and_without() {
+        let center = Point2::new(0.0, -0.3);
+        for x in [0.003, -0.003] {
+            // The wall's edge is 3 mm to the right, or to the left, of the tool.
+            let mask = ObstacleMask::of(&Percept::of(&frame(center, |p| p.x < x)));
+            let way = mask.way_off(center).unwrap();
+            assert!((way - Vector2::x()).norm() < 0.2, "{x}: {way}");
+        }
     }
 
     #[test]

@@ -200,14 +200,19 @@ impl Trial {
         Ok(())
     }
 
-    fn place(&mut self, point: Point2<f64>) -> Result<(), InputError> {
-        check_place("drag", point, &self.arena.map)?;
+    fn place(&mut self, pointer: Point2<f64>) -> Result<(), InputError> {
+        check_finite("drag", pointer)?;
+        let w = self.arena.map.workspace();
+        let wanted = Point2::new(pointer.x.clamp(w.x_min_m, w.x_max_m), pointer.y.clamp(w.y_min_m, w.y_max_m));
+        let (x_m, y_m) = (wanted.x, wanted.y);
+        let fit = contact::nearest_fit(&self.arena.map, wanted).ok_or(InputError::InWall { field: "drag", x_m, y_m })?;
         let world = &mut self.state.world;
         let from = world.plant.bead.position_m;
-        world.plant.bead = Bead::at(point);
-        world.plant.hand = None;
-        world.counters.disturbances += 1;
-        let text = format!("disturbed: a hand put the bead {:.0} cm away", (point - from).norm() * 100.0);
+        world.plant.bead = Bead::at(fit);
+        if world.plant.hand.take().is_none() {
+            world.counters.disturbances += 1;
+        }
+        let text = format!("disturbed: a hand put the bead {:.0} cm away", (fit - from).norm() * 100.0);
         self.events.push(Event::new(world.tick, EventKind::Disturbance, text));
         Ok(())
     }

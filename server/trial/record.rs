@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Decision, Input, Phase, Trial};
+use super::{Decision, Input, Motion, Phase, Trial};
+use crate::camera::{CameraError, Eye};
 use crate::control::switching;
 use crate::control::transport::attractor::Superellipse;
 use crate::geometry::{Point2, Point3, Vector2};
@@ -119,6 +120,8 @@ pub struct Moment {
     pub switching: switching::Decision,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
+    /// What the tool's reference does.
+    pub motion: Motion,
     /// Progress of the task.
     pub phase: Phase,
     /// Why the arm holds, if something was refused.
@@ -158,6 +161,7 @@ impl Trial {
             joints_rad: world.plant.joints_rad,
             switching: world.switching,
             controller: self.state.controller,
+            motion: world.motion,
             phase: world.phase,
             refusal: world.refusal.as_ref().map(ToString::to_string),
             load: self.load(),
@@ -165,9 +169,28 @@ impl Trial {
         }
     }
 
-    /// Events since the last record, for inputs applied while time stands.
+    /// Events since the last call, which no record will then hold: for inputs while time stands.
     pub fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
+    }
+
+    /// What the camera sees now, outside any control step: changes nothing.
+    pub fn look(&self, eye: &mut dyn Eye) -> Result<Sight, CameraError> {
+        let frame = eye.capture(&self.subject())?;
+        let percept = Percept::of(&frame);
+        Ok(self.sight(Arc::new(frame), &percept))
+    }
+
+    fn sight(&self, frame: Arc<CameraFrame>, percept: &Percept) -> Sight {
+        let goal = self.state.world.goal_m;
+        let workspace = self.arena.map.workspace();
+        Sight {
+            center_mean: percept.center_mean,
+            obstacle: percept.obstacle(),
+            observation: Observation::new(&percept.gray, goal, self.tool_m().xy(), workspace),
+            sensed: self.state.mind.carrier.sensed().to_vec(),
+            frame,
+        }
     }
 
     pub(super) fn record(
@@ -176,15 +199,8 @@ impl Trial {
         frame: Option<Arc<CameraFrame>>,
         percept: Option<Percept>,
     ) -> TickRecord {
+        let sight = frame.zip(percept).map(|(frame, percept)| self.sight(frame, &percept));
         let moment = self.moment();
-        let workspace = self.arena.map.workspace();
-        let sight = frame.zip(percept).map(|(frame, percept)| Sight {
-            frame,
-            center_mean: percept.center_mean,
-            obstacle: percept.obstacle(),
-            observation: Observation::new(&percept.gray, moment.goal_m, moment.tool_m.xy(), workspace),
-            sensed: self.state.mind.carrier.sensed().to_vec(),
-        });
         TickRecord {
             tick: moment.tick,
             inputs: std::mem::take(&mut self.inputs),

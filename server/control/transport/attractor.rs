@@ -132,15 +132,20 @@ impl Transport for Attractor {
             AttractorLaw::Literal => 0.0,
             AttractorLaw::Improved => parameters.attractor_clearance_m,
         };
-        self.sensed = ObstacleMask::of(input.percept)
+        let mask = ObstacleMask::of(input.percept);
+        self.sensed = mask
             .patches(input.tool_m, SENSED_M)
             .iter()
             .map(|patch| Superellipse::around(patch, parameters.attractor_safety_factor, clearance_m))
             .collect();
         let mut target_m = self.flow(input);
-        let blocked = |target| input.percept.obstacle_on_step(input.tool_m, target).is_some();
-        if parameters.attractor_law == AttractorLaw::Improved && blocked(target_m) {
-            if let Some(side) = self.contour {
+        if parameters.attractor_law == AttractorLaw::Improved {
+            let reach_m = parameters.transport_speed_m_s * CONTROL_PERIOD_S;
+            let blocked = input.percept.obstacle_on_step(input.tool_m, target_m).is_some();
+            if let (true, Some(way)) = (input.percept.obstacle(), mask.way_off(input.tool_m)) {
+                // After a fetch the tool may stand over a wall that the bead leans on: off it first.
+                target_m = input.tool_m + way * reach_m;
+            } else if let (true, Some(side)) = (blocked, self.contour) {
                 self.contour = Some(side.opposite());
                 target_m = self.flow(input);
             }

@@ -1,0 +1,146 @@
+//! The web server: routes, the WebSocket, access, and the page.
+
+mod access;
+mod api;
+mod assets;
+mod hub;
+mod live;
+mod metrics;
+mod problem;
+
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::{Arc, RwLock};
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::routing::get;
+use axum::serve::ListenerExt;
+use tokio::net::TcpListener;
+use tokio::sync::watch;
+
+use crate::camera::Gpu;
+use crate::recording::{Recorder, RecordingError};
+use crate::scenario::Scenario;
+use crate::session::Session;
+use crate::trial::TrialError;
+
+use hub::Hub;
+
+/// Sessions at once; each has a thread, a camera and a recording.
+pub const SESSION_CAP: usize = 8;
+/// Largest request body.
+const BODY_LIMIT: usize = 1 << 20;
+/// The session that exists from the start.
+pub const MAIN_SESSION: &str = "main";
+
+/// Why the server could not start or go on.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// The address is taken or not ours.
+    #[error("cannot listen on {address}: {source}; choose another with --bind, as in --bind 127.0.0.1:0")]
+    Bind {
+        /// The address asked for.
+        address: SocketAddr,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Others could reach it.
+    #[error("--bind {address} lets other machines in, which Ferry does not allow yet; use 127.0.0.1 or [::1]")]
+    NotLoopback {
+        /// The address asked for.
+        address: SocketAddr,
+    },
+    /// A session could not start.
+    #[error(transparent)]
+    Trial(#[from] TrialError),
+    /// Its recording could not.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// The server itself.
+    #[error("server: {0}")]
+    Io(#[from] std::io::Error),
+}
+
+/// What every request sees.
+pub struct Server {
+    gpu: Arc<Gpu>,
+    /// Folder of the recordings.
+    recordings: PathBuf,
+    /// Sessions by id. Written by `POST` and `DELETE`, read by all.
+    sessions: RwLock<BTreeMap<String, Arc<Hub>>>,
+    /// Turns true when the server is to stop; every WebSocket watches it.
+    stopping: watch::Receiver<bool>,
+}
+
+impl Server {
+    /// A server with the session `main`.
+    pub fn new(gpu: Arc<Gpu>, data: PathBuf, stopping: watch::Receiver<bool>) -> Result<Arc<Self>, ServeError> {
+        let server = Arc::new(Self { gpu, recordings: data.join("recordings"), sessions: RwLock::default(), stopping });
+        server.open(MAIN_SESSION, Scenario::idle("posts", 1))?;
+        Ok(server)
+    }
+
+    /// Starts a session under an id that is free.
+    fn open(&self, id: &str, scenario: Scenario) -> Result<Arc<Hub>, ServeError> {
+        let started = jiff::Zoned::now().strftime("%Y%m%d-%H%M%S%.3f").to_string().replace('.', "-");
+        let recorder = Recorder::create(&self.recordings, &format!("{started}-{id}"))?;
+        let session = Session::start(id, scenario, self.gpu.clone(), Box::new(recorder))?;
+        let hub = Hub::start(id, session, self.gpu.adapter_name());
+        self.sessions.write().expect("no holder panics").insert(id.to_owned(), hub.clone());
+        Ok(hub)
+    }
+
+    fn find(&self, id: &str) -> Option<Arc<Hub>> {
+        self.sessions.read().expect("no holder panics").get(id).cloned()
+    }
+}
+
+/// All routes.
+pub fn router(server: Arc<Server>) -> Router {
+    Router::new()
+        .route("/healthz", get(|| async { "ok\n" }))
+        .route("/metrics", get(metrics::metrics))
+        .route("/api/maps", get(api::maps))
+        .route("/api/maps/{name}", get(api::map))
+        .route("/api/sessions", get(api::sessions).post(api::create_session))
+        .route("/api/sessions/{id}", get(api::session).delete(api::delete_session))
+        .route("/api/sessions/{id}/state", get(api::state))
+        .route("/api/sessions/{id}/camera.png", get(api::camera))
+        .route("/api/sessions/{id}/observation.png", get(api::observation))
+        .route("/api/sessions/{id}/live", get(live::live))
+        .route("/api/recordings", get(api::recordings))
+        .route("/api/recordings/{file}", get(api::recording))
+        .fallback(assets::page)
+        .layer(DefaultBodyLimit::max(BODY_LIMIT))
+        .layer(axum::middleware::from_fn(access::guard))
+        .with_state(server)
+}
+
+/// Opens the listener, or says what to do instead.
+pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
+    if !address.ip().is_loopback() {
+        return Err(ServeError::NotLoopback { address });
+    }
+    TcpListener::bind(address).await.map_err(|source| ServeError::Bind { address, source })
+}
+
+/// Serves until `stopping` turns true, then closes every session and recording.
+pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
+    let mut stopping = server.stopping.clone();
+    let stopped = async move {
+        // An error means that nobody can ask to stop any more, which is as good as asking.
+        let _ = stopping.wait_for(|&stop| stop).await;
+    };
+    let listener = listener.tap_io(|stream| {
+        // State messages are small and must not wait for each other.
+        if let Err(error) = stream.set_nodelay(true) {
+            tracing::debug!(%error, "no TCP_NODELAY");
+        }
+    });
+    axum::serve(listener, router(server.clone())).with_graceful_shutdown(stopped).await?;
+    let sessions = std::mem::take(&mut *server.sessions.write().expect("no holder panics"));
+    // Joining the sessions' threads and closing files blocks.
+    tokio::task::spawn_blocking(move || drop(sessions)).await.map_err(|error| std::io::Error::other(error).into())
+}

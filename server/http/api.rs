@@ -1,0 +1,171 @@
+//! Sessions, maps and recordings over plain HTTP.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::body::{Body, Bytes};
+use axum::extract::{Path, State};
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+use tokio_util::io::ReaderStream;
+
+use super::problem::Problem;
+use super::{SESSION_CAP, Server};
+use crate::map::{Map, MapError};
+use crate::protocol::StateMessage;
+use crate::recording;
+use crate::scenario::{ControllerName, Scenario};
+use crate::session::View;
+
+#[derive(Serialize)]
+pub struct Maps {
+    maps: Vec<String>,
+}
+
+pub async fn maps() -> Json<Maps> {
+    Json(Maps { maps: Map::shipped_names() })
+}
+
+pub async fn map(Path(name): Path<String>) -> Result<Response, Problem> {
+    let map = Map::shipped(&name).map_err(|error| match error {
+        MapError::Unknown { .. } => Problem::new(StatusCode::NOT_FOUND, "not_found", error.to_string()).field("name"),
+        error => Problem::internal(error),
+    })?;
+    Ok(attachment("image/svg+xml", &format!("{name}.svg"), map.svg().to_owned()))
+}
+
+#[derive(Serialize)]
+pub struct SessionSummary {
+    id: String,
+    map: String,
+    controller: ControllerName,
+    tick: u64,
+    running: bool,
+    recording: String,
+}
+
+impl SessionSummary {
+    fn of(id: &str, view: &View) -> Self {
+        Self {
+            id: id.to_owned(),
+            map: view.scenery.arena.map.name().to_owned(),
+            controller: view.moment.controller,
+            tick: view.moment.tick,
+            running: view.running,
+            recording: view.recording.clone(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+pub struct Sessions {
+    sessions: Vec<SessionSummary>,
+}
+
+pub async fn sessions(State(server): State<Arc<Server>>) -> Json<Sessions> {
+    let hubs = server.sessions.read().expect("no holder panics");
+    let sessions = hubs.iter().map(|(id, hub)| SessionSummary::of(id, &hub.session.watch().borrow())).collect();
+    Json(Sessions { sessions })
+}
+
+/// Body of `POST /api/sessions`; everything may be left out.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct NewSession {
+    map: String,
+    controller: ControllerName,
+    seed: u64,
+}
+
+impl Default for NewSession {
+    fn default() -> Self {
+        Self { map: "posts".into(), controller: ControllerName::Attractor, seed: 1 }
+    }
+}
+
+pub async fn create_session(State(server): State<Arc<Server>>, body: Bytes) -> Result<Response, Problem> {
+    let asked: NewSession = if body.is_empty() { NewSession::default() } else { parse(&body)? };
+    // Files are for the command line: no client path touches the file system.
+    Map::shipped(&asked.map).map_err(|error| {
+        Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "map_refused", error.to_string()).field("map")
+    })?;
+    let scenario = Scenario { controller: asked.controller, ..Scenario::idle(&asked.map, asked.seed) };
+    let id = {
+        let hubs = server.sessions.read().expect("no holder panics");
+        if hubs.len() >= SESSION_CAP {
+            let detail = format!("there are {SESSION_CAP} sessions already; delete one first");
+            return Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail));
+        }
+        (1..).map(|n| format!("session-{n}")).find(|id| !hubs.contains_key(id)).expect("numbers do not end")
+    };
+    let hub = server.open(&id, scenario).map_err(Problem::internal)?;
+    let summary = SessionSummary::of(&hub.id, &hub.session.watch().borrow());
+    Ok((StatusCode::CREATED, [(header::LOCATION, format!("/api/sessions/{id}"))], Json(summary)).into_response())
+}
+
+pub async fn session(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Json<SessionSummary>, Problem> {
+    let view = view(&server, &id)?;
+    Ok(Json(SessionSummary::of(&id, &view)))
+}
+
+pub async fn delete_session(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<StatusCode, Problem> {
+    let removed = server.sessions.write().expect("no holder panics").remove(&id);
+    let hub = removed.ok_or_else(|| Problem::not_found("session", &id))?;
+    // Joining the session's thread and closing its file blocks.
+    tokio::task::spawn_blocking(move || drop(hub)).await.map_err(Problem::internal)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+pub async fn state(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Json<StateMessage>, Problem> {
+    let view = view(&server, &id)?;
+    Ok(Json(StateMessage::from(&*view)))
+}
+
+pub async fn camera(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
+    let png = view(&server, &id)?.sight.1.frame.to_png().map_err(Problem::internal)?;
+    Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
+}
+
+pub async fn observation(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
+    let png = view(&server, &id)?.sight.1.observation.side_by_side().to_png().map_err(Problem::internal)?;
+    Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
+}
+
+#[derive(Serialize)]
+pub struct Recordings {
+    recordings: Vec<recording::Listed>,
+}
+
+pub async fn recordings(State(server): State<Arc<Server>>) -> Result<Json<Recordings>, Problem> {
+    Ok(Json(Recordings { recordings: recording::list(&server.recordings).map_err(Problem::internal)? }))
+}
+
+/// Only names that the list holds are opened, so that no client path touches the file system.
+pub async fn recording(State(server): State<Arc<Server>>, Path(file): Path<String>) -> Result<Response, Problem> {
+    let known = recording::list(&server.recordings).map_err(Problem::internal)?;
+    let wanted = file.strip_suffix(".rrd");
+    let listed = known.into_iter().find(|listed| Some(listed.id.as_str()) == wanted);
+    let id = listed.ok_or_else(|| Problem::not_found("recording", &file))?.id;
+    let name = format!("{id}.rrd");
+    let opened = tokio::fs::File::open(server.recordings.join(&name)).await.map_err(Problem::internal)?;
+    Ok(attachment("application/octet-stream", &name, Body::from_stream(ReaderStream::new(opened))))
+}
+
+fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
+    let hub = server.find(id).ok_or_else(|| Problem::not_found("session", id))?;
+    Ok(hub.session.watch().borrow().clone())
+}
+
+fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {
+    let mut reader = serde_json::Deserializer::from_slice(body);
+    serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let path = error.path().to_string();
+        Problem::new(StatusCode::BAD_REQUEST, "malformed", error.to_string()).field(&path)
+    })
+}
+
+fn attachment(kind: &'static str, name: &str, body: impl Into<Body>) -> Response {
+    let disposition = format!("attachment; filename=\"{name}\"");
+    ([(header::CONTENT_TYPE, kind.to_owned()), (header::CONTENT_DISPOSITION, disposition)], body.into()).into_response()
+}

@@ -1,0 +1,217 @@
+//! One session and all its browsers: each message is encoded once, and one browser is the operator.
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use axum::body::Bytes;
+use axum::extract::ws::Utf8Bytes;
+use serde::Serialize;
+use tokio::sync::watch;
+use tokio::time::Instant;
+
+use crate::protocol::{
+    BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, ServerMessage,
+    StateMessage,
+};
+use crate::session::{Session, View};
+
+/// Camera frames go out at most thirty times a second.
+const CAMERA_EVERY: Duration = Duration::from_millis(33);
+const JPEG_QUALITY: u8 = 85;
+
+/// The newest messages, ready to send. Parts that did not change are shared with the last one.
+#[derive(Clone)]
+pub struct Encoded {
+    pub state: Utf8Bytes,
+    pub scene: Utf8Bytes,
+    /// Raised when `scene` changes.
+    pub scene_version: u64,
+    pub overlay: Utf8Bytes,
+    pub camera: Bytes,
+    pub observation: Bytes,
+    /// Raised when the three above change.
+    pub sight_version: u64,
+}
+
+/// Who sits where.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seats {
+    /// Connection that is the operator.
+    pub operator: Option<u64>,
+    /// Connection that last asked an operator to make way.
+    pub asking: Option<u64>,
+    next: u64,
+}
+
+/// A session with its browsers.
+pub struct Hub {
+    pub id: String,
+    pub session: Session,
+    adapter: String,
+    encoded: watch::Receiver<Encoded>,
+    seats: watch::Sender<Seats>,
+    encoder: Mutex<Option<tokio::task::JoinHandle<()>>>,
+}
+
+impl Hub {
+    /// Starts encoding a session's views.
+    pub fn start(id: &str, session: Session, adapter: &str) -> Arc<Self> {
+        let views = session.watch();
+        let first = Encoder::default().encode(&views.borrow(), true);
+        let (publish, encoded) = watch::channel(first);
+        let encoder = tokio::spawn(encode_all(views, publish));
+        Arc::new(Self {
+            id: id.to_owned(),
+            session,
+            adapter: adapter.to_owned(),
+            encoded,
+            seats: watch::Sender::new(Seats::default()),
+            encoder: Mutex::new(Some(encoder)),
+        })
+    }
+
+    pub fn encoded(&self) -> watch::Receiver<Encoded> {
+        self.encoded.clone()
+    }
+
+    pub fn seats(&self) -> watch::Receiver<Seats> {
+        self.seats.subscribe()
+    }
+
+    /// A new connection; it becomes the operator if nobody is.
+    pub fn join(&self) -> u64 {
+        let mut own = 0;
+        self.seats.send_modify(|seats| {
+            seats.next += 1;
+            own = seats.next;
+            seats.operator = seats.operator.or(Some(own));
+        });
+        own
+    }
+
+    /// A connection ends or stops operating; an asking one takes over.
+    pub fn release(&self, connection: u64) {
+        self.seats.send_if_modified(|seats| {
+            let left_asking = seats.asking == Some(connection);
+            if left_asking {
+                seats.asking = None;
+            }
+            let left_operating = seats.operator == Some(connection);
+            if left_operating {
+                seats.operator = seats.asking.take();
+            }
+            left_asking || left_operating
+        });
+    }
+
+    /// Takes the operator's seat if it is free, asks its holder otherwise.
+    pub fn take(&self, connection: u64) {
+        self.seats.send_if_modified(|seats| match seats.operator {
+            Some(operator) if operator == connection => false,
+            Some(_) => {
+                seats.asking = Some(connection);
+                true
+            }
+            None => {
+                seats.operator = Some(connection);
+                true
+            }
+        });
+    }
+
+    pub fn hello(&self, connection: u64, seats: &Seats) -> Hello {
+        Hello {
+            protocol: PROTOCOL_VERSION,
+            session: self.id.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            role: if seats.operator == Some(connection) { Role::Operator } else { Role::Viewer },
+            operator_present: seats.operator.is_some(),
+            adapter: self.adapter.clone(),
+        }
+    }
+}
+
+impl Drop for Hub {
+    fn drop(&mut self) {
+        if let Some(encoder) = self.encoder.get_mut().ok().and_then(Option::take) {
+            encoder.abort();
+        }
+    }
+}
+
+async fn encode_all(mut views: watch::Receiver<Arc<View>>, publish: watch::Sender<Encoded>) {
+    let mut encoder = Encoder { last: Some(publish.borrow().clone()), ..Encoder::default() };
+    let mut camera_sent = Instant::now();
+    loop {
+        // A frame that came too soon after the last is sent when its time comes, unless superseded.
+        let changed = if encoder.owes_sight {
+            tokio::time::timeout_at(camera_sent + CAMERA_EVERY, views.changed()).await.unwrap_or(Ok(()))
+        } else {
+            views.changed().await
+        };
+        if changed.is_err() {
+            return;
+        }
+        let view = views.borrow_and_update().clone();
+        let camera_due = camera_sent.elapsed() >= CAMERA_EVERY;
+        let encoded = encoder.encode(&view, camera_due);
+        if camera_due {
+            camera_sent = Instant::now();
+        }
+        publish.send_replace(encoded);
+    }
+}
+
+#[derive(Default)]
+struct Encoder {
+    last: Option<Encoded>,
+    scene_version: Option<u64>,
+    sight: Option<Arc<(u64, crate::trial::Sight)>>,
+    owes_sight: bool,
+}
+
+impl Encoder {
+    fn encode(&mut self, view: &View, camera_due: bool) -> Encoded {
+        let mut next = self.last.clone().unwrap_or_else(|| Encoded {
+            state: Utf8Bytes::default(),
+            scene: Utf8Bytes::default(),
+            scene_version: 0,
+            overlay: Utf8Bytes::default(),
+            camera: Bytes::new(),
+            observation: Bytes::new(),
+            sight_version: 0,
+        });
+        next.state = json(&ServerMessage::State(Box::new(StateMessage::from(view))));
+        if self.scene_version != Some(view.scenery.version) {
+            self.scene_version = Some(view.scenery.version);
+            next.scene = json(&ServerMessage::Scene(Box::new(SceneMessage::from(&*view.scenery))));
+            next.scene_version += 1;
+        }
+        let seen = self.sight.as_ref().is_some_and(|sight| Arc::ptr_eq(sight, &view.sight));
+        self.owes_sight = !seen && !camera_due;
+        if !seen && camera_due {
+            self.sight = Some(view.sight.clone());
+            let (tick, sight) = &*view.sight;
+            next.overlay = json(&ServerMessage::Overlay(OverlayMessage::from(view)));
+            match sight.frame.to_jpeg(JPEG_QUALITY) {
+                Ok(jpeg) => next.camera = binary(BINARY_CAMERA_JPEG, *tick, &jpeg),
+                Err(error) => tracing::warn!(%error, "camera frame not encoded"),
+            }
+            next.observation = binary(BINARY_OBSERVATION, *tick, &sight.observation.bytes);
+            next.sight_version += 1;
+        }
+        self.last = Some(next.clone());
+        next
+    }
+}
+
+pub fn json(message: &impl Serialize) -> Utf8Bytes {
+    serde_json::to_string(message).expect("messages are plain data").into()
+}
+
+fn binary(kind: u8, tick: u64, payload: &[u8]) -> Bytes {
+    let mut bytes = vec![kind, 0, 0, 0];
+    bytes.extend((tick as u32).to_le_bytes());
+    bytes.extend(payload);
+    bytes.into()
+}

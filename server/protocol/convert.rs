@@ -1,0 +1,161 @@
+//! To and from `session`'s types.
+
+use super::{
+    ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SensedObstacle, StateMessage,
+};
+use crate::camera::CameraParameters;
+use crate::geometry::Point2;
+use crate::magnetics::force;
+use crate::map::Map;
+use crate::plant::BEAD_RADIUS_M;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::{ControllerName, Parameters};
+use crate::session::{Command, CommandError, Scenery, View};
+use crate::trial::{Event, Input, InputError, Motion, TrialError};
+
+impl ClientMessage {
+    /// The command for the session; `None` for what concerns the connection alone.
+    pub fn command(self) -> Option<Command> {
+        let point = |[x, y]: [f64; 2]| Point2::new(x, y);
+        Some(match self {
+            Self::SetGoal { x_m, y_m } => Command::Input(Input::SetGoal { x_m, y_m }),
+            Self::ClearGoal {} => Command::Input(Input::ClearGoal),
+            Self::Drag { x_m, y_m, lift } => Command::Input(Input::Drag { x_m, y_m, lift }),
+            Self::Release {} => Command::Input(Input::Release),
+            Self::SelectController { controller } => Command::Input(Input::SelectController(controller)),
+            Self::Configure { parameters } => Command::Input(Input::Configure(Box::new(parameters))),
+            Self::Run {} => Command::Run,
+            Self::Pause {} => Command::Pause,
+            Self::Step { ticks } => Command::Step(ticks),
+            Self::SetSpeed { factor } => Command::SetSpeed(factor),
+            Self::Reset { seed } => Command::Reset(seed),
+            Self::LoadScenario { map, controller, seed, start_m, goal_m, parameters } => Command::Load {
+                map,
+                controller,
+                seed,
+                start_m: start_m.map(point),
+                goal_m: goal_m.map(point),
+                parameters: parameters.map(Box::new),
+            },
+            Self::Rewind { tick } => Command::Rewind(tick),
+            Self::TakeControl {} | Self::ReleaseControl {} => return None,
+        })
+    }
+}
+
+impl From<&CommandError> for ErrorMessage {
+    fn from(error: &CommandError) -> Self {
+        let (code, field) = match error {
+            CommandError::Input(error) | CommandError::Trial(TrialError::Input(error)) => of_input(error),
+            CommandError::Map(_) | CommandError::Trial(TrialError::Map(_) | TrialError::Random(_)) => {
+                ("map_refused", Some("map"))
+            }
+            CommandError::Trial(TrialError::Parameter(error)) => ("parameter_out_of_range", Some(error.field)),
+            CommandError::Trial(_) => ("trial_failed", None),
+            CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
+            CommandError::Busy => ("busy", None),
+            CommandError::Ended => ("ended", None),
+        };
+        Self { code: code.to_owned(), message: error.to_string(), field: field.map(str::to_owned) }
+    }
+}
+
+fn of_input(error: &InputError) -> (&'static str, Option<&'static str>) {
+    (error.code(), Some(error.field()))
+}
+
+impl From<&Event> for EventMessage {
+    fn from(event: &Event) -> Self {
+        Self {
+            tick: event.tick,
+            sim_time_s: event.tick as f64 * SERVO_PERIOD_S,
+            kind: event.kind,
+            text: event.text.clone(),
+        }
+    }
+}
+
+impl From<&Scenery> for SceneMessage {
+    fn from(scenery: &Scenery) -> Self {
+        let map = &scenery.arena.map;
+        let p = &scenery.parameters;
+        Self {
+            map: map.name().to_owned(),
+            maps: Map::shipped_names(),
+            controllers: ControllerName::ALL.to_vec(),
+            workspace: *map.workspace(),
+            walls: map.walls().to_vec(),
+            seed: scenery.scenario.seed,
+            parameters: p.clone(),
+            defaults: Parameters::default(),
+            bead_radius_m: BEAD_RADIUS_M,
+            camera_span_m: CameraParameters::default().table_span_m,
+            capture_m: force::capture_interval_m(p.block_orientation, p.tool_height_m, p.friction)
+                .map(|(near, far)| [near, far]),
+            tick_s: SERVO_PERIOD_S,
+        }
+    }
+}
+
+impl From<&View> for StateMessage {
+    fn from(view: &View) -> Self {
+        let m = &view.moment;
+        let error = m.tracking_error_m();
+        Self {
+            tick: m.tick,
+            sim_time_s: m.sim_time_s(),
+            oldest_tick: view.rewind_ticks.0,
+            newest_tick: view.rewind_ticks.1,
+            running: view.running,
+            speed_target: view.speed_target,
+            speed_achieved: view.speed_achieved,
+            tool_m: m.tool_m.coords.into(),
+            bead_m: m.bead_m.coords.into(),
+            bead_tracked_m: m.tracked_m.coords.into(),
+            goal_m: m.goal_m.map(|goal| [goal.x, goal.y, 0.0]),
+            hand_m: m.hand.map(|hand| hand.target_m.coords.into()),
+            hand_force_n: m.hand_force_n,
+            joints_rad: m.joints_rad,
+            mode: m.switching.mode.index(),
+            reason: m.switching.reason(),
+            refusal: m.refusal.clone(),
+            controller: m.controller,
+            phase: m.phase.to_string(),
+            tracking_error_x_m: error.x,
+            tracking_error_y_m: error.y,
+            tracking_error_m: error.norm(),
+            goal_distance_m: m.goal_m.map(|goal| (m.tool_m.xy() - goal).norm()),
+            pull_n: m.load.lateral_n.norm(),
+            lift_ratio: m.load.lift_ratio(),
+            leg_steps: m.counters.leg_steps,
+            steps: m.counters.steps,
+            switches: m.counters.switches,
+            deliveries: m.counters.deliveries,
+            disturbances: m.counters.disturbances,
+            world_hash: format!("{:016x}", view.world_hash),
+            recording: view.recording.clone(),
+            ended: view.ended.clone(),
+        }
+    }
+}
+
+impl From<&View> for OverlayMessage {
+    fn from(view: &View) -> Self {
+        let (tick, sight) = &*view.sight;
+        let obstacles = sight.sensed.iter().map(|o| SensedObstacle {
+            center_m: o.center_m.coords.into(),
+            half_size_m: o.half_size_m.into(),
+            boundary_m: o.half_axes_m.into(),
+        });
+        Self {
+            tick: *tick,
+            obstacles: obstacles.collect(),
+            center_mean: sight.center_mean,
+            obstacle: sight.obstacle,
+            target_m: match view.moment.motion {
+                Motion::Segment(step) => Some(step.target_m.coords.into()),
+                Motion::Hold | Motion::Track => None,
+            },
+        }
+    }
+}

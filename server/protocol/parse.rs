@@ -1,0 +1,76 @@
+//! From text to a message, naming the field at fault.
+
+use serde_json::{Map, Value};
+
+use super::{ClientMessage, ErrorMessage};
+
+impl ClientMessage {
+    /// Parses a text frame.
+    pub fn parse(text: &str) -> Result<Self, ErrorMessage> {
+        let malformed = |message: String, field: Option<String>| ErrorMessage { code: "malformed".into(), message, field };
+        let value: Value = serde_json::from_str(text).map_err(|error| malformed(format!("not JSON: {error}"), None))?;
+        let Value::Object(mut fields) = value else {
+            return Err(malformed("a message is a JSON object".into(), None));
+        };
+        let kind = match fields.remove("type") {
+            Some(Value::String(kind)) => kind,
+            other => {
+                let found = other.map_or("missing".into(), |value| value.to_string());
+                return Err(malformed(format!("type is {found}, it must be a string"), Some("type".into())));
+            }
+        };
+        // With the tag outside, serde keeps track of the path to the field at fault.
+        let tagged = Value::Object(Map::from_iter([(kind.clone(), Value::Object(fields))]));
+        serde_path_to_error::deserialize(tagged).map_err(|error| {
+            let path = error.path().to_string();
+            let message = error.inner().to_string();
+            match path.strip_prefix(&format!("{kind}.")) {
+                Some(field) => malformed(format!("{field}: {message}"), Some(field.to_owned())),
+                None if path == kind || path == "." => {
+                    // Missing and unknown fields, and unknown types, are named by serde in backquotes.
+                    let field = message.split('`').nth(1).unwrap_or("type").to_owned();
+                    let field = if message.starts_with("unknown variant") { "type".to_owned() } else { field };
+                    malformed(message, Some(field))
+                }
+                None => malformed(message, Some(path)),
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(text: &str) -> (String, String) {
+        let error = ClientMessage::parse(text).unwrap_err();
+        assert_eq!(error.code, "malformed");
+        (error.field.unwrap_or_default(), error.message)
+    }
+
+    #[test]
+    fn messages_parse() {
+        assert_eq!(
+            ClientMessage::parse(r#"{"type":"set_goal","x_m":0.1,"y_m":-0.3}"#).unwrap(),
+            ClientMessage::SetGoal { x_m: 0.1, y_m: -0.3 }
+        );
+        assert_eq!(ClientMessage::parse(r#"{"type":"run"}"#).unwrap(), ClientMessage::Run {});
+        assert_eq!(ClientMessage::parse(r#"{"type":"reset"}"#).unwrap(), ClientMessage::Reset { seed: None });
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        assert_eq!(fault(r#"{"type":"set_goal","x_m":null,"y_m":0}"#).0, "x_m");
+        assert_eq!(fault(r#"{"type":"set_goal","x_m":0.1}"#).0, "y_m");
+        assert_eq!(fault(r#"{"type":"set_goal","x_m":0.1,"y_m":0,"z_m":1}"#).0, "z_m");
+        assert_eq!(fault(r#"{"type":"select_controller","controller":"magic"}"#).0, "controller");
+        assert_eq!(fault(r#"{"type":"step","ticks":-1}"#).0, "ticks");
+        let (field, message) = fault(r#"{"type":"fly"}"#);
+        assert_eq!(field, "type");
+        assert!(message.contains("fly") && message.contains("set_goal"), "{message}");
+        assert_eq!(fault(r#"{"x_m":1}"#).0, "type");
+        assert_eq!(fault("[]").0, "");
+        assert_eq!(fault("{").0, "");
+        assert_eq!(fault(r#"{"type":"configure","parameters":{"friction":"much"}}"#).0, "parameters.friction");
+    }
+}

@@ -1,0 +1,101 @@
+//! Simulated time against the wall clock: when the next tick is due, and how fast it really goes.
+
+use std::time::{Duration, Instant};
+
+use crate::robot::ur5::SERVO_PERIOD_S;
+
+/// Slowest simulated second a second.
+pub const SPEED_MIN: f64 = 0.125;
+/// Fastest asked for; what is achieved is shown.
+pub const SPEED_MAX: f64 = 64.0;
+/// A session that falls further behind lets the lost time go.
+const CATCH_UP: Duration = Duration::from_millis(100);
+/// Span over which the achieved speed is measured.
+const WINDOW: Duration = Duration::from_millis(500);
+
+/// When ticks are due.
+#[derive(Debug)]
+pub struct Pace {
+    factor: f64,
+    due: Instant,
+    window_start: Instant,
+    window_ticks: u32,
+    achieved: f64,
+}
+
+impl Pace {
+    /// A pace that starts now.
+    pub fn new(factor: f64, now: Instant) -> Self {
+        Self { factor, due: now, window_start: now, window_ticks: 0, achieved: 0.0 }
+    }
+
+    /// The factor asked for.
+    pub fn factor(&self) -> f64 {
+        self.factor
+    }
+
+    /// The factor achieved over the last half second.
+    pub fn achieved(&self) -> f64 {
+        self.achieved
+    }
+
+    /// Another factor, from now on.
+    pub fn set_factor(&mut self, factor: f64, now: Instant) {
+        *self = Self { achieved: self.achieved, ..Self::new(factor, now) };
+    }
+
+    /// Starts again after a pause.
+    pub fn restart(&mut self, now: Instant) {
+        *self = Self::new(self.factor, now);
+    }
+
+    /// Time left until the next tick; zero when it is due.
+    pub fn wait(&self, now: Instant) -> Duration {
+        self.due.saturating_duration_since(now)
+    }
+
+    /// A tick was done.
+    pub fn ticked(&mut self, now: Instant) {
+        self.due += Duration::from_secs_f64(SERVO_PERIOD_S / self.factor);
+        if now.saturating_duration_since(self.due) > CATCH_UP {
+            self.due = now;
+        }
+        self.window_ticks += 1;
+        let span = now.saturating_duration_since(self.window_start);
+        if span >= WINDOW {
+            self.achieved = f64::from(self.window_ticks) * SERVO_PERIOD_S / span.as_secs_f64();
+            self.window_start = now;
+            self.window_ticks = 0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_come_at_the_asked_rate_and_lost_time_is_let_go() {
+        let start = Instant::now();
+        let mut pace = Pace::new(2.0, start);
+        for _ in 0..10 {
+            pace.ticked(start);
+        }
+        assert_eq!(pace.wait(start), Duration::from_millis(40));
+        let late = start + Duration::from_secs(5);
+        pace.ticked(late);
+        assert_eq!(pace.wait(late), Duration::ZERO);
+        pace.ticked(late);
+        assert_eq!(pace.wait(late), Duration::from_millis(4));
+    }
+
+    #[test]
+    fn the_achieved_factor_is_simulated_time_over_wall_time() {
+        let start = Instant::now();
+        let mut pace = Pace::new(1.0, start);
+        for tick in 1..=63 {
+            pace.ticked(start + Duration::from_millis(16) * tick);
+        }
+        assert!((pace.achieved() - 0.5).abs() < 0.01, "{}", pace.achieved());
+    }
+}

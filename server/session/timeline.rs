@@ -1,0 +1,46 @@
+//! Moments to go back to: a snapshot before each control step of the last ten minutes.
+
+use std::collections::VecDeque;
+
+use crate::trial::TrialState;
+
+/// Four snapshots a second for ten minutes, a few kilobytes each.
+const MOST: usize = 2400;
+
+/// Snapshots in order of tick.
+#[derive(Debug, Default)]
+pub struct Timeline {
+    moments: VecDeque<TrialState>,
+}
+
+impl Timeline {
+    /// Keeps a state; what lay after it happens anew.
+    pub fn keep(&mut self, state: TrialState) {
+        self.forget_after(state.world.tick);
+        if self.moments.back().is_some_and(|last| last.world.tick == state.world.tick) {
+            self.moments.pop_back();
+        }
+        if self.moments.len() == MOST {
+            self.moments.pop_front();
+        }
+        self.moments.push_back(state);
+    }
+
+    /// Drops what lies after a tick.
+    pub fn forget_after(&mut self, tick: u64) {
+        while self.moments.back().is_some_and(|last| last.world.tick > tick) {
+            self.moments.pop_back();
+        }
+    }
+
+    /// The last state at or before a tick.
+    pub fn at(&self, tick: u64) -> Option<&TrialState> {
+        let after = self.moments.partition_point(|state| state.world.tick <= tick);
+        after.checked_sub(1).map(|index| &self.moments[index])
+    }
+
+    /// First and last tick kept.
+    pub fn range(&self) -> Option<(u64, u64)> {
+        Some((self.moments.front()?.world.tick, self.moments.back()?.world.tick))
+    }
+}

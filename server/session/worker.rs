@@ -1,0 +1,285 @@
+//! The session's thread.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use tokio::sync::{broadcast, watch};
+
+use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
+use super::timeline::Timeline;
+use super::{Command, CommandError, Request, STEP_MAX, Scenery, Sink, View};
+use crate::camera::{Camera, Gpu};
+use crate::control::step_is_due;
+use crate::evaluate::camera_for;
+use crate::geometry::Point2;
+use crate::scenario::Scenario;
+use crate::trial::{Arena, Event, EventKind, Input, Sight, Source, Trial, TrialError};
+
+/// Watchers get at most sixty views a second.
+const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
+/// While ticks are due without a pause, commands still wait no longer than this.
+const DRAIN_EVERY: Duration = Duration::from_millis(4);
+
+pub(super) struct Worker {
+    trial: Trial,
+    gpu: Arc<Gpu>,
+    camera: Camera,
+    sink: Box<dyn Sink>,
+    events: broadcast::Sender<Event>,
+    timeline: Timeline,
+    scenery: Arc<Scenery>,
+    sight: Arc<(u64, Sight)>,
+    running: bool,
+    pace: Pace,
+    ended: Option<String>,
+}
+
+impl Worker {
+    pub(super) fn new(
+        scenario: Scenario,
+        arena: Arc<Arena>,
+        gpu: Arc<Gpu>,
+        mut camera: Camera,
+        mut sink: Box<dyn Sink>,
+        events: broadcast::Sender<Event>,
+    ) -> Result<Self, TrialError> {
+        let trial = Trial::new(scenario, arena)?;
+        let scenery = Arc::new(scenery_of(&trial, 0));
+        sink.begin(&scenery);
+        let sight = Arc::new((0, trial.look(&mut camera)?));
+        let mut timeline = Timeline::default();
+        timeline.keep(trial.snapshot());
+        let pace = Pace::new(1.0, Instant::now());
+        Ok(Self { trial, gpu, camera, sink, events, timeline, scenery, sight, running: false, pace, ended: None })
+    }
+
+    pub(super) fn view(&self) -> View {
+        View {
+            moment: self.trial.moment(),
+            world_hash: self.trial.state().world_hash(),
+            running: self.running,
+            speed_target: self.pace.factor(),
+            speed_achieved: if self.running { self.pace.achieved() } else { 0.0 },
+            rewind_ticks: self.timeline.range().unwrap_or_default(),
+            scenery: self.scenery.clone(),
+            sight: self.sight.clone(),
+            recording: self.sink.status(),
+            ended: self.ended.clone(),
+        }
+    }
+
+    /// Runs until every sender of commands is gone. A panic or a lost camera ends this session with a
+    /// message, and no other.
+    pub(super) fn run(mut self, inbox: &Receiver<Request>, publish: &watch::Sender<Arc<View>>) {
+        let outcome = catch_unwind(AssertUnwindSafe(|| self.serve(inbox, publish)));
+        let reason = match outcome {
+            Ok(Ok(())) => return,
+            Ok(Err(error)) => error.to_string(),
+            Err(panic) => {
+                let text = panic.downcast_ref::<String>().map(String::as_str);
+                text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("it panicked").to_owned()
+            }
+        };
+        tracing::error!(reason, "session ended");
+        let mut last = View::clone(&publish.borrow());
+        last.running = false;
+        last.ended = Some(reason);
+        publish.send_replace(Arc::new(last));
+    }
+
+    fn serve(&mut self, inbox: &Receiver<Request>, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
+        let mut published = Instant::now();
+        loop {
+            let now = Instant::now();
+            let wait = if self.running { self.pace.wait(now) } else { Duration::from_secs(3600) };
+            if wait > Duration::ZERO {
+                match inbox.recv_timeout(wait) {
+                    Ok(request) => self.answer(request, publish)?,
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => return Ok(()),
+                }
+                continue;
+            }
+            let burst = Instant::now();
+            while self.running && burst.elapsed() < DRAIN_EVERY && self.pace.wait(Instant::now()).is_zero() {
+                self.tick()?;
+                self.pace.ticked(Instant::now());
+            }
+            loop {
+                match inbox.try_recv() {
+                    Ok(request) => self.answer(request, publish)?,
+                    Err(std::sync::mpsc::TryRecvError::Empty) => break,
+                    Err(std::sync::mpsc::TryRecvError::Disconnected) => return Ok(()),
+                }
+            }
+            if published.elapsed() >= PUBLISH_EVERY {
+                publish.send_replace(Arc::new(self.view()));
+                published = Instant::now();
+            }
+        }
+    }
+
+    fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
+        let result = self.obey(request.command);
+        self.announce();
+        publish.send_replace(Arc::new(self.view()));
+        // Whoever asked may have left.
+        let _ = request.answer.send(result);
+        Ok(())
+    }
+
+    fn obey(&mut self, command: Command) -> Result<(), CommandError> {
+        match command {
+            Command::Input(input) => self.input(input)?,
+            Command::Run => {
+                self.running = true;
+                self.pace.restart(Instant::now());
+            }
+            Command::Pause => self.running = false,
+            Command::Step(ticks) => {
+                if !(1..=STEP_MAX).contains(&ticks) {
+                    let allowed = format!("1 to {STEP_MAX}");
+                    return Err(CommandError::Range { field: "ticks", value: f64::from(ticks), allowed });
+                }
+                self.running = false;
+                for _ in 0..ticks {
+                    self.tick()?;
+                }
+            }
+            Command::SetSpeed(factor) => {
+                if !(SPEED_MIN..=SPEED_MAX).contains(&factor) {
+                    let allowed = format!("{SPEED_MIN} to {SPEED_MAX}");
+                    return Err(CommandError::Range { field: "factor", value: factor, allowed });
+                }
+                self.pace.set_factor(factor, Instant::now());
+            }
+            Command::Reset(seed) => {
+                let old = self.trial.scenario();
+                let scenario = Scenario {
+                    seed: seed.unwrap_or(old.seed),
+                    controller: self.trial.state().controller,
+                    parameters: self.trial.state().world.parameters.clone(),
+                    ..old.clone()
+                };
+                self.set_up(scenario, self.trial.arena().clone())?;
+            }
+            Command::Load { map, controller, seed, start_m, goal_m, parameters } => {
+                // A name only: no client path touches the file system.
+                let arena = Arena::of(crate::map::Map::shipped(&map)?);
+                let present = self.trial.state();
+                let scenario = Scenario {
+                    map,
+                    controller: controller.unwrap_or(present.controller),
+                    seed: seed.unwrap_or(self.trial.scenario().seed),
+                    parameters: parameters.map_or_else(|| present.world.parameters.clone(), |p| *p),
+                    start_m,
+                    goal_m,
+                    disturbances: 0,
+                };
+                let camera = camera_for(&self.gpu, &arena.map).map_err(TrialError::from)?;
+                let before = std::mem::replace(&mut self.camera, camera);
+                if let Err(error) = self.set_up(scenario, arena) {
+                    self.camera = before;
+                    return Err(error);
+                }
+            }
+            Command::Rewind(tick) => {
+                let (first, last) = self.timeline.range().unwrap_or_default();
+                let Some(state) = self.timeline.at(tick).cloned() else {
+                    let allowed = format!("{first} to {last}");
+                    return Err(CommandError::Range { field: "tick", value: tick as f64, allowed });
+                };
+                self.running = false;
+                self.trial.restore(state);
+                self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
+                self.sink.begin(&self.scenery);
+                self.look()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// While time stands a release puts the bead where the pointer is, since nothing else could.
+    fn input(&mut self, input: Input) -> Result<(), CommandError> {
+        let held = self.trial.state().world.plant.hand;
+        let configures = matches!(input, Input::Configure(_));
+        match (&input, held) {
+            (Input::Release, Some(hand)) if !self.running => {
+                let Point2 { coords } = hand.target_m;
+                self.trial.apply(Input::Place { x_m: coords.x, y_m: coords.y })?;
+            }
+            _ => self.trial.apply(input)?,
+        }
+        self.timeline.forget_after(self.trial.state().world.tick);
+        if configures {
+            self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
+        }
+        if !self.running {
+            self.look()?;
+        }
+        Ok(())
+    }
+
+    fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {
+        let trial = Trial::new(scenario, arena)?;
+        let sight = trial.look(&mut self.camera).map_err(TrialError::from)?;
+        self.trial = trial;
+        self.running = false;
+        self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
+        self.sink.begin(&self.scenery);
+        self.sight = Arc::new((0, sight));
+        self.timeline = Timeline::default();
+        self.timeline.keep(self.trial.snapshot());
+        let scenario = self.trial.scenario();
+        let text = format!("set up: map {}, seed {}", scenario.map, scenario.seed);
+        let event = Event::new(0, EventKind::Session, text);
+        self.sink.note(&event);
+        let _ = self.events.send(event);
+        Ok(())
+    }
+
+    /// Shows what the camera sees now, without a control step.
+    fn look(&mut self) -> Result<(), CommandError> {
+        let sight = self.trial.look(&mut self.camera).map_err(TrialError::from)?;
+        self.sight = Arc::new((self.trial.state().world.tick, sight));
+        Ok(())
+    }
+
+    fn tick(&mut self) -> Result<(), TrialError> {
+        if step_is_due(self.trial.state().world.tick) {
+            self.timeline.keep(self.trial.snapshot());
+        }
+        let mut record = self.trial.tick(Source::Eye(&mut self.camera))?;
+        self.sink.record(&record);
+        for event in record.events.drain(..) {
+            // Nobody may be listening.
+            let _ = self.events.send(event);
+        }
+        if let Some(sight) = record.sight {
+            self.sight = Arc::new((record.tick, sight));
+        }
+        Ok(())
+    }
+
+    /// Sends events of inputs at once when no tick will carry them.
+    fn announce(&mut self) {
+        if self.running {
+            return;
+        }
+        for event in self.trial.take_events() {
+            self.sink.note(&event);
+            let _ = self.events.send(event);
+        }
+    }
+}
+
+fn scenery_of(trial: &Trial, version: u64) -> Scenery {
+    Scenery {
+        version,
+        arena: trial.arena().clone(),
+        scenario: trial.scenario().clone(),
+        parameters: trial.state().world.parameters.clone(),
+    }
+}
