@@ -7,10 +7,9 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::camera::{Camera, CameraError, CameraParameters, Eye, Gpu, Stage, Subject};
+use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
 use crate::control::switching::Mode;
 use crate::image::CameraFrame;
-use crate::map::{Map, WALL_HEIGHT_M};
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Phase, Source, Trial, TrialError};
 
@@ -114,12 +113,6 @@ impl From<crate::map::MapError> for EvaluateError {
     }
 }
 
-/// A camera for a map, at the defaults of specification §3.
-pub fn camera_for(gpu: &Arc<Gpu>, map: &Map) -> Result<Camera, CameraError> {
-    let stage = Stage { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
-    Camera::new(gpu.clone(), &stage, &CameraParameters::default())
-}
-
 /// An eye that notes how long each look took.
 struct Timed<'a> {
     eye: &'a mut dyn Eye,
@@ -192,7 +185,7 @@ pub fn run(
             let kept = cameras.lock().expect("no holder panics").pop();
             let mut camera = match kept {
                 Some(camera) => camera,
-                None => camera_for(gpu, &arena.map)?,
+                None => arena.camera(gpu)?,
             };
             let scenario = Scenario::random(
                 &arena.map,
@@ -219,7 +212,8 @@ pub fn summarize(experiment: &Experiment, map: &str, episodes: &[Episode]) -> Ro
     let total = |flag: &dyn Fn(&Episode) -> bool| episodes.iter().filter(|e| flag(e)).count() as u32;
     let mut decisions: Vec<f64> = episodes.iter().flat_map(|e| e.decision_s.iter().copied()).collect();
     decisions.sort_by(f64::total_cmp);
-    let quantile_ms = |q: f64| decisions.get(((decisions.len() - 1) as f64 * q).round() as usize).map_or(0.0, |s| s * 1e3);
+    let quantile_ms =
+        |q: f64| decisions.get(((decisions.len() - 1) as f64 * q).round() as usize).map_or(0.0, |s| s * 1e3);
     let delivered = total(&|e| e.delivered);
     Row {
         controller: experiment.controller.as_str().to_owned(),

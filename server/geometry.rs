@@ -3,7 +3,7 @@
 //! Everything is given in the UR5's `base` frame unless a name says otherwise: x right, y away from
 //! the user is negative, z up, origin on the table under joint 1. Metres and radians.
 
-pub use nalgebra::{Isometry3, UnitQuaternion, Matrix3, Matrix6, Point2, Point3, Vector2, Vector3, Vector6};
+pub use nalgebra::{Isometry3, Matrix3, Matrix6, Point2, Point3, UnitQuaternion, Vector2, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 /// A filled polygon with holes, in metres.
@@ -40,8 +40,7 @@ pub struct Rect {
 impl Rect {
     /// Whether `point` lies inside or on the border.
     pub fn contains(&self, point: Point2<f64>) -> bool {
-        (self.x_min_m..=self.x_max_m).contains(&point.x)
-            && (self.y_min_m..=self.y_max_m).contains(&point.y)
+        (self.x_min_m..=self.x_max_m).contains(&point.x) && (self.y_min_m..=self.y_max_m).contains(&point.y)
     }
 
     /// Width and height.
@@ -51,9 +50,6 @@ impl Rect {
 
     /// The middle.
     pub fn center_m(&self) -> Point2<f64> {
-        Point2::new(
-            0.5 * (self.x_min_m + self.x_max_m),
-            0.5 * (self.y_min_m + self.y_max_m),
-        )
+        Point2::new(0.5 * (self.x_min_m + self.x_max_m), 0.5 * (self.y_min_m + self.y_max_m))
     }
 }

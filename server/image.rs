@@ -53,11 +53,7 @@ impl CameraFrame {
                 ((luma + 32768) >> 16) as u8
             })
             .collect();
-        GrayImage {
-            width_px: self.width_px as usize,
-            height_px: self.height_px as usize,
-            pixels,
-        }
+        GrayImage { width_px: self.width_px as usize, height_px: self.height_px as usize, pixels }
     }
 
     /// The frame as a PNG file.
@@ -81,12 +77,7 @@ impl CameraFrame {
 impl GrayImage {
     /// The image as a gray PNG file.
     pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
-        encode_png(
-            self.width_px as u32,
-            self.height_px as u32,
-            png::ColorType::Grayscale,
-            &self.pixels,
-        )
+        encode_png(self.width_px as u32, self.height_px as u32, png::ColorType::Grayscale, &self.pixels)
     }
 }
 

@@ -3,16 +3,16 @@
 //! The map of the house, ground floor first. A module imports only from floors below it; the test
 //! `tests/house.rs` walks the imports. `ARCHITECTURE.md` says what each must never know.
 //!
-//! 1. [`geometry`], [`image`]: frames, poses, shapes; camera frames and gray images.
-//! 2. [`robot`], [`magnetics`], [`map`]: one subject each.
-//! 3. [`plant`]: arm, bead, contact, disturbance.
-//! 4. [`scenario`], [`camera`], [`tracking`], [`perception`]: what is set up, seen and measured.
-//! 5. [`control`]: switching law, sub-controllers 1 and 2, limits.
-//! 6. [`trial`]: one episode as a pure, deterministic loop.
-//! 7. [`evaluate`], [`session`]: trials in bulk; a trial on a real clock.
-//! 8. [`recording`], [`protocol`]: Rerun; every wire type.
-//! 9. [`http`]: axum routes and the WebSocket.
-//! 10. [`cli`]: assembling.
+//! - floor 1: [`geometry`], [`image`]: frames, poses, shapes; camera frames and gray images.
+//! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
+//! - floor 3: [`plant`]: arm, bead, contact, disturbance.
+//! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: what is set up, seen and measured.
+//! - floor 5: [`control`]: switching law, sub-controllers 1 and 2, limits.
+//! - floor 6: [`trial`]: one episode as a pure, deterministic loop.
+//! - floor 7: [`evaluate`], [`session`]: trials in bulk; a trial on a real clock.
+//! - floor 8: [`recording`], [`protocol`]: Rerun; every wire type.
+//! - floor 9: [`http`]: axum routes and the WebSocket.
+//! - floor 10: [`cli`]: assembling.
 
 #![warn(missing_docs)]
 

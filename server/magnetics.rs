@@ -43,19 +43,9 @@ mod tests {
     fn plain_field_t(jz_t: f64, p: &Vector3<f64>) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
         for corner in 0..8 {
-            let [x, y, z] = std::array::from_fn(|k| {
-                p[k] + if corner >> k & 1 == 1 {
-                    HALF_M[k]
-                } else {
-                    -HALF_M[k]
-                }
-            });
+            let [x, y, z] = std::array::from_fn(|k| p[k] + if corner >> k & 1 == 1 { HALF_M[k] } else { -HALF_M[k] });
             let r = (x * x + y * y + z * z).sqrt();
-            let sign = if i32::count_ones(corner) % 2 == 1 {
-                -1.0
-            } else {
-                1.0
-            };
+            let sign = if i32::count_ones(corner) % 2 == 1 { -1.0 } else { 1.0 };
             sum += Vector3::new((r - y).ln(), (r - x).ln(), (x * y).atan2(z * r)) * sign;
         }
         sum * (jz_t / (4.0 * std::f64::consts::PI))
@@ -144,14 +134,10 @@ mod tests {
                     // Outwards, because a face belongs to the outside.
                     let half = Vector3::from(HALF_M);
                     let ratio = point.abs().component_div(&half);
-                    let is_on_edge =
-                        ratio.max() == 1.0 && ratio.iter().filter(|r| **r == 1.0).count() > 1;
+                    let is_on_edge = ratio.max() == 1.0 && ratio.iter().filter(|r| **r == 1.0).count() > 1;
                     if !is_on_edge {
                         let beside = magnet.field_t(&(point * (1.0 + 1e-9)));
-                        assert!(
-                            (field - beside).norm() < 1e-6,
-                            "{point:?} {field:?} {beside:?}"
-                        );
+                        assert!((field - beside).norm() < 1e-6, "{point:?} {field:?} {beside:?}");
                     }
                 }
             }
@@ -190,18 +176,12 @@ mod tests {
     #[test]
     fn impossible_magnets_are_refused_by_name() {
         let sides = Vector3::new(0.01, 0.0, 0.01);
-        let expected = CuboidError::HalfSize {
-            field: "half_size_m.y",
-            value: 0.0,
-        };
+        let expected = CuboidError::HalfSize { field: "half_size_m.y", value: 0.0 };
         assert_eq!(Cuboid::new(sides, Vector3::z()), Err(expected));
         for value in [-1.0, f64::INFINITY, f64::NAN] {
             assert!(Cuboid::new(Vector3::new(value, 1.0, 1.0), Vector3::z()).is_err());
         }
         let error = Cuboid::new(HALF_M.into(), Vector3::new(0.0, 0.0, f64::INFINITY)).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "polarization_t.z must be finite, not inf"
-        );
+        assert_eq!(error.to_string(), "polarization_t.z must be finite, not inf");
     }
 }

@@ -1,13 +1,13 @@
 //! What is seen in a camera frame: gray image, obstacle test, observation, obstacles near the tool.
 
-mod obstacles;
 mod observation;
+mod obstacles;
 
 use crate::geometry::{Point2, Vector2};
 use crate::image::{CameraFrame, GrayImage};
 
-pub use obstacles::{ObstacleMask, Patch};
 pub use observation::{OBSERVATION_SIZE_PX, Observation};
+pub use obstacles::{ObstacleMask, Patch};
 
 /// Side of the square of pixels whose mean decides the obstacle test (paper, §IV-A).
 pub const TEST_PATCH_PX: i64 = 15;
@@ -125,7 +125,14 @@ mod tests {
                 [level, level, level, 255]
             })
             .collect();
-        CameraFrame { width_px: 480, height_px: 480, rgba, tick: 0, camera_m: [center.x, center.y, 0.3], table_span_m: 0.2 }
+        CameraFrame {
+            width_px: 480,
+            height_px: 480,
+            rgba,
+            tick: 0,
+            camera_m: [center.x, center.y, 0.3],
+            table_span_m: 0.2,
+        }
     }
 
     #[test]

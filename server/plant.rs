@@ -108,8 +108,7 @@ impl Plant {
     /// Magnetic load on a bead at `bead_m` on the table.
     pub fn load(&self, tool_m: Point3<f64>, bead_m: Point2<f64>) -> Load {
         let block_center_z_m = tool_m.z + self.block_half_height_m;
-        let bead_from_block =
-            Vector3::new(bead_m.x - tool_m.x, bead_m.y - tool_m.y, BEAD_RADIUS_M - block_center_z_m);
+        let bead_from_block = Vector3::new(bead_m.x - tool_m.x, bead_m.y - tool_m.y, BEAD_RADIUS_M - block_center_z_m);
         let force_n = force::force_n(&self.block, &bead_from_block, dipole::moment_a_m2());
         Load { lateral_n: force_n.xy(), vertical_n: force_n.z }
     }

@@ -34,7 +34,7 @@ pub enum RecordingError {
 
 /// What the recording's thread is told.
 enum Message {
-    Begin(Scenery),
+    Begin(Box<Scenery>),
     Sample(Box<Sample>),
     Note(Event),
 }
@@ -101,7 +101,7 @@ impl Recorder {
 
 impl Sink for Recorder {
     fn begin(&mut self, scenery: &Scenery) {
-        self.push(Message::Begin(scenery.clone()));
+        self.push(Message::Begin(Box::new(scenery.clone())));
     }
 
     fn record(&mut self, record: &TickRecord) {

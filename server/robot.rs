@@ -46,10 +46,7 @@ pub fn reach(flange_z_m: f64) -> Option<(f64, f64)> {
         return None;
     }
     let least_m = (ur5::D5_M - span_m).max(0.0);
-    Some((
-        least_m.hypot(ur5::D4_M),
-        (span_m + ur5::D5_M).hypot(ur5::D4_M),
-    ))
+    Some((least_m.hypot(ur5::D4_M), (span_m + ur5::D5_M).hypot(ur5::D4_M)))
 }
 
 #[cfg(test)]
@@ -71,8 +68,7 @@ mod tests {
     fn miss(joints: &Joints, flange: &Isometry3<f64>) -> f64 {
         let found = forward::flange(joints);
         let shift = found.translation.vector - flange.translation.vector;
-        let turn = found.rotation.to_rotation_matrix().into_inner()
-            - flange.rotation.to_rotation_matrix().into_inner();
+        let turn = found.rotation.to_rotation_matrix().into_inner() - flange.rotation.to_rotation_matrix().into_inner();
         shift.amax().max(turn.amax())
     }
 
@@ -202,13 +198,7 @@ mod tests {
         ));
         let seed = [0.0, 0.0, f64::INFINITY, 0.0, 0.0, 0.0];
         let error = inverse::nearest(&down_over(0.3, 0.3, 0.3), &seed).unwrap_err();
-        assert_eq!(
-            error,
-            InverseError::NonFinite {
-                input: "seed",
-                value: f64::INFINITY
-            }
-        );
+        assert_eq!(error, InverseError::NonFinite { input: "seed", value: f64::INFINITY });
     }
 
     #[test]
@@ -224,10 +214,7 @@ mod tests {
         assert!(found.iter().all(|q| q.abs() <= PI));
         limits_rad[1] = [2.5, 2.6];
         let error = inverse::nearest_within(&flange, &joints, &limits_rad).unwrap_err();
-        assert!(
-            matches!(error, InverseError::JointLimit { joint: 1, .. }),
-            "{error}"
-        );
+        assert!(matches!(error, InverseError::JointLimit { joint: 1, .. }), "{error}");
     }
 
     #[test]
@@ -261,10 +248,7 @@ mod tests {
             let part = f64::from(k) / 1000.0;
             let flange = down_over(-0.24 + 0.45 * part, -0.27 - 0.13 * part, 0.28);
             let next = inverse::nearest(&flange, &joints).unwrap();
-            assert!(
-                apart(&next, &joints) < 0.01,
-                "step {k}: {joints:?} to {next:?}"
-            );
+            assert!(apart(&next, &joints) < 0.01, "step {k}: {joints:?} to {next:?}");
             joints = next;
         }
     }

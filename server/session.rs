@@ -14,7 +14,6 @@ use std::thread::JoinHandle;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
-use crate::evaluate::camera_for;
 use crate::geometry::Point2;
 use crate::map::MapError;
 use crate::scenario::{ControllerName, Parameters, Scenario};
@@ -161,7 +160,7 @@ impl Session {
     /// Starts a session, paused.
     pub fn start(name: &str, scenario: Scenario, gpu: Arc<Gpu>, sink: Box<dyn Sink>) -> Result<Self, TrialError> {
         let arena = Arena::open(&scenario.map)?;
-        let camera = camera_for(&gpu, &arena.map)?;
+        let camera = arena.camera(&gpu)?;
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
         let worker = worker::Worker::new(scenario, arena, gpu, camera, sink, events.clone())?;

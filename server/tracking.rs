@@ -68,7 +68,8 @@ impl Tracker {
             self.estimate.age_ticks = last.age_ticks + 1;
             return;
         };
-        let elapsed_s = f64::from((last.age_ticks + 1).saturating_sub(parameters.latency_ticks).max(1)) * SERVO_PERIOD_S;
+        let elapsed_s =
+            f64::from((last.age_ticks + 1).saturating_sub(parameters.latency_ticks).max(1)) * SERVO_PERIOD_S;
         let share = 1.0 - (-elapsed_s / VELOCITY_FILTER_S).exp();
         let measured = (position_m - last.position_m) / elapsed_s;
         self.estimate = Estimate {

@@ -14,15 +14,16 @@ mod state;
 
 use std::sync::Arc;
 
-use crate::camera::{CameraError, Eye, Subject};
+use crate::camera::{Camera, CameraError, CameraParameters, Eye, Gpu, Stage, Subject};
 use crate::control::{approach, limits::Limits, step_is_due};
 use crate::geometry::{Point2, Point3, Rect, Vector2};
 use crate::image::CameraFrame;
-use crate::map::{FreeSpace, Map, MapError};
+use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::perception::Percept;
 use crate::plant::Plant;
 use crate::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
 use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, Scenario, start_point};
+use crate::tracking::TrackerParameters;
 
 pub use input::{Input, InputError};
 pub use log::{InputLog, LogError, LoggedTick};
@@ -91,6 +92,13 @@ impl Arena {
         let space = FreeSpace::new(&map, CLEARANCE_M);
         Arc::new(Self { map, space })
     }
+
+    /// A camera that looks at this map, at the defaults of specification §3.
+    pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
+        let map = &self.map;
+        let stage = Stage { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
+        Camera::new(gpu.clone(), &stage, &CameraParameters::default())
+    }
 }
 
 /// Where a control step's decision comes from.
@@ -124,9 +132,8 @@ impl Trial {
         input::check_place("start_m", start, &arena.map)?;
         let limits = limits_for(&scenario.parameters, arena.map.workspace());
         let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
-        let joints = limits
-            .position(tool_m, &HOME_RAD)
-            .map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
+        let joints =
+            limits.position(tool_m, &HOME_RAD).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
         let plant = Plant::new(scenario.parameters.plant());
         let state = TrialState::at_start(&scenario, tool_m, joints);
         let mut trial = Self { arena, plant, state, inputs: Vec::new(), events: Vec::new(), scenario };
@@ -254,7 +261,11 @@ impl Trial {
 
     fn sense(&mut self) {
         let world = &mut self.state.world;
-        let parameters = world.parameters.tracker();
+        let parameters = TrackerParameters {
+            noise_m: world.parameters.tracker_noise_m,
+            latency_ticks: world.parameters.tracker_latency_ticks,
+            dropout: world.parameters.tracker_dropout,
+        };
         world.tracker.sample(world.plant.bead.position_m, &parameters, &mut world.rng);
     }
 }

@@ -68,7 +68,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// Each failure with what it takes to look at it again.
 fn report_failures(episodes: &[Episode]) {
     for episode in episodes.iter().filter(|e| !e.delivered) {
-        let place = |p: Option<crate::geometry::Point2<f64>>| p.map_or("?".into(), |p| format!("{:.3},{:.3}", p.x, p.y));
+        let place =
+            |p: Option<crate::geometry::Point2<f64>>| p.map_or("?".into(), |p| format!("{:.3},{:.3}", p.x, p.y));
         eprintln!(
             "trial {}: {} (from {} to {}, seed {}, {} steps, {} disturbances)",
             episode.index,

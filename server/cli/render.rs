@@ -7,7 +7,6 @@ use anyhow::Context;
 
 use crate::camera::Subject;
 use crate::control::limits::Limits;
-use crate::evaluate::camera_for;
 use crate::geometry::{Point2, Point3};
 use crate::plant::{BEAD_RADIUS_M, Plant, contact::nearest_fit};
 use crate::robot::forward;
@@ -46,7 +45,8 @@ fn parse_point(text: &str) -> Result<Point2<f64>, String> {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&arguments.map)?;
     let tool_m = Point3::new(arguments.at.x, arguments.at.y, Parameters::default().tool_height_m);
-    let joints = Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0 }.position(tool_m, &HOME_RAD).context("--at")?;
+    let joints =
+        Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0 }.position(tool_m, &HOME_RAD).context("--at")?;
     // The tool may hang over a wall; the bead then lies beside it.
     let bead = nearest_fit(&arena.map, arguments.at).context("--at: there is no room for the bead within 5 cm")?;
     let subject = Subject {
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         link_frames: forward::link_frames(&joints),
         block_size_m: Plant::new(Parameters::default().plant()).block_size_m(),
     };
-    let mut camera = camera_for(&super::open_gpu()?, &arena.map)?;
+    let mut camera = arena.camera(&super::open_gpu()?)?;
     let frame = match arguments.view {
         View::Camera => camera.capture(&subject)?,
         View::Scene => camera.scene(&subject, 1280, 720)?,

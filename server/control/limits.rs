@@ -42,7 +42,13 @@ impl Limits {
     }
 
     /// Checks a transport step: the position, the speed, and the camera's view of the whole step.
-    pub fn step(&self, tool_m: Point3<f64>, step: &TargetStep, percept: &Percept, seed: &Joints) -> Result<(), Refusal> {
+    pub fn step(
+        &self,
+        tool_m: Point3<f64>,
+        step: &TargetStep,
+        percept: &Percept,
+        seed: &Joints,
+    ) -> Result<(), Refusal> {
         let from = tool_m.xy();
         self.position(Point3::new(step.target_m.x, step.target_m.y, tool_m.z), seed)?;
         let speed_m_s = step.speed_m_s.max((step.target_m - from).norm() / CONTROL_PERIOD_S * 0.999);

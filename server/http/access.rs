@@ -8,7 +8,8 @@ use axum::response::{IntoResponse, Response};
 
 use super::problem::Problem;
 
-const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+const POLICY: &str =
+    "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
 /// Refuses foreign hosts and origins, and sets the headers that keep the page to itself.
 pub async fn guard(request: Request, next: Next) -> Response {

@@ -104,7 +104,10 @@ pub async fn create_session(State(server): State<Arc<Server>>, body: Bytes) -> R
     Ok((StatusCode::CREATED, [(header::LOCATION, format!("/api/sessions/{id}"))], Json(summary)).into_response())
 }
 
-pub async fn session(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Json<SessionSummary>, Problem> {
+pub async fn session(
+    State(server): State<Arc<Server>>,
+    Path(id): Path<String>,
+) -> Result<Json<SessionSummary>, Problem> {
     let view = view(&server, &id)?;
     Ok(Json(SessionSummary::of(&id, &view)))
 }

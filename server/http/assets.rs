@@ -15,14 +15,18 @@ pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
         return Problem::not_found("route", path).into_response();
     }
     if method != Method::GET && method != Method::HEAD {
-        return Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", format!("{path} is read only")).into_response();
+        return Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", format!("{path} is read only"))
+            .into_response();
     }
     let name = match path {
         "/" => "index.html",
         path => path.trim_start_matches('/'),
     };
     let Some(file) = Page::get(name) else { return Problem::not_found("page", path).into_response() };
-    let tag = format!("\"{}\"", file.metadata.sha256_hash().iter().take(8).map(|byte| format!("{byte:02x}")).collect::<String>());
+    let tag = format!(
+        "\"{}\"",
+        file.metadata.sha256_hash().iter().take(8).map(|byte| format!("{byte:02x}")).collect::<String>()
+    );
     if headers.get(header::IF_NONE_MATCH).is_some_and(|known| known.as_bytes() == tag.as_bytes()) {
         return StatusCode::NOT_MODIFIED.into_response();
     }

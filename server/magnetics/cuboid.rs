@@ -64,10 +64,7 @@ impl Cuboid {
     ///
     /// # Errors
     /// [`CuboidError`], naming the field and its value.
-    pub fn new(
-        half_size_m: Vector3<f64>,
-        polarization_t: Vector3<f64>,
-    ) -> Result<Self, CuboidError> {
+    pub fn new(half_size_m: Vector3<f64>, polarization_t: Vector3<f64>) -> Result<Self, CuboidError> {
         let names = ["half_size_m.x", "half_size_m.y", "half_size_m.z"];
         for (field, &value) in names.into_iter().zip(&half_size_m) {
             if !(value.is_finite() && value > 0.0) {
@@ -80,10 +77,7 @@ impl Cuboid {
                 return Err(CuboidError::Polarization { field, value });
             }
         }
-        Ok(Self {
-            half_size_m,
-            polarization_t,
-        })
+        Ok(Self { half_size_m, polarization_t })
     }
 
     /// Magnetic moment, A·m²: polarisation times volume over μ0.
@@ -178,11 +172,7 @@ impl Corner {
                 beside.max(EDGE_RADIUS * EDGE_RADIUS) / (distance - x)
             }
         });
-        Self {
-            offset,
-            distance,
-            sum,
-        }
+        Self { offset, distance, sum }
     }
 }
 
@@ -204,30 +194,13 @@ impl View {
     fn field(&self) -> Vector3<f64> {
         let [jx, jy, jz] = self.polarization_t.into();
         // T_yz, T_xz, T_xy, each only where the polarisation has a use for it.
-        let used = [
-            jy != 0.0 || jz != 0.0,
-            jx != 0.0 || jz != 0.0,
-            jx != 0.0 || jy != 0.0,
-        ];
-        let [yz, xz, xy] = std::array::from_fn(|axis| {
-            if used[axis] {
-                self.minus_logarithms(axis)
-            } else {
-                0.0
-            }
-        });
-        let [xx, yy, zz] = std::array::from_fn(|axis| {
-            if self.polarization_t[axis] == 0.0 {
-                0.0
-            } else {
-                self.arctangents(axis)
-            }
-        });
-        let mut field = Vector3::new(
-            xx * jx + xy * jy + xz * jz,
-            xy * jx + yy * jy + yz * jz,
-            xz * jx + yz * jy + zz * jz,
-        ) / (4.0 * PI);
+        let used = [jy != 0.0 || jz != 0.0, jx != 0.0 || jz != 0.0, jx != 0.0 || jy != 0.0];
+        let [yz, xz, xy] = std::array::from_fn(|axis| if used[axis] { self.minus_logarithms(axis) } else { 0.0 });
+        let [xx, yy, zz] =
+            std::array::from_fn(|axis| if self.polarization_t[axis] == 0.0 { 0.0 } else { self.arctangents(axis) });
+        let mut field =
+            Vector3::new(xx * jx + xy * jy + xz * jz, xy * jx + yy * jy + yz * jz, xz * jx + yz * jy + zz * jz)
+                / (4.0 * PI);
         if self.is_inside {
             field += self.polarization_t;
         }
@@ -264,8 +237,7 @@ impl View {
     /// ∂B_i/∂x_j in T/m.
     #[inline]
     fn gradient(&self) -> Matrix3<f64> {
-        let (mut xyz, mut xxy, mut xyy, mut xxz, mut xzz, mut yyz, mut yzz) =
-            (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let (mut xyz, mut xxy, mut xyy, mut xxz, mut xzz, mut yyz, mut yzz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         // −∂ ln(R + Z)/∂x = −X/(R(R + Z)) and its permutations.
         for (corner, sign) in self.corners.iter().zip(SIGNS) {
             let [x, y, z] = corner.offset;
@@ -282,15 +254,9 @@ impl View {
         // The rest follows because the potential is harmonic.
         let (xxx, yyy, zzz) = (-xyy - xzz, -xxy - yzz, -xxz - yyz);
         let [jx, jy, jz] = self.polarization_t.into();
-        let [bxx, bxy, bxz] = [
-            xxx * jx + xxy * jy + xxz * jz,
-            xxy * jx + xyy * jy + xyz * jz,
-            xxz * jx + xyz * jy + xzz * jz,
-        ];
-        let [byy, byz] = [
-            xyy * jx + yyy * jy + yyz * jz,
-            xyz * jx + yyz * jy + yzz * jz,
-        ];
+        let [bxx, bxy, bxz] =
+            [xxx * jx + xxy * jy + xxz * jz, xxy * jx + xyy * jy + xyz * jz, xxz * jx + xyz * jy + xzz * jz];
+        let [byy, byz] = [xyy * jx + yyy * jy + yyz * jz, xyz * jx + yyz * jy + yzz * jz];
         let bzz = xzz * jx + yzz * jy + zzz * jz;
         let gradient = Matrix3::new(bxx, bxy, bxz, bxy, byy, byz, bxz, byz, bzz);
         let mirrors = self.mirror * self.mirror.transpose();

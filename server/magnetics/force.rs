@@ -37,10 +37,7 @@ pub fn block(orientation: Orientation, remanence_t: f64) -> Cuboid {
         Orientation::B => (Vector3::new(0.010, 0.050, 0.025), Vector3::x()),
         Orientation::C => (Vector3::new(0.050, 0.025, 0.010), Vector3::x()),
     };
-    Cuboid {
-        half_size_m: size_m * 0.5,
-        polarization_t: direction * remanence_t,
-    }
+    Cuboid { half_size_m: size_m * 0.5, polarization_t: direction * remanence_t }
 }
 
 /// Half of the block's height, m: from its centre down to its lower face.
@@ -68,9 +65,7 @@ pub fn lift_off_height_m(orientation: Orientation) -> f64 {
     let block = block(orientation, BLOCK_REMANENCE_T);
     let weight_n = dipole::weight_n();
     let touching_m = half_height_m(orientation) + SPHERE_DIAMETER_M;
-    bisect(touching_m, FARTHEST_M, |height_m| {
-        pull_n(&block, 0.0, height_m).1 >= weight_n
-    })
+    bisect(touching_m, FARTHEST_M, |height_m| pull_n(&block, 0.0, height_m).1 >= weight_n)
 }
 
 /// Horizontal distances `(inner_m, outer_m)`, m, between which a bead that lies on the table beside
@@ -81,11 +76,7 @@ pub fn lift_off_height_m(orientation: Orientation) -> f64 {
 /// pull is nearly vertical, or lifts off. `None` where no bead is dragged, the bead does not fit below
 /// the block, or an argument is not a number. Without friction the outer distance is only the end of the
 /// search, 0.5 m.
-pub fn capture_interval_m(
-    orientation: Orientation,
-    lower_face_height_m: f64,
-    friction: f64,
-) -> Option<(f64, f64)> {
+pub fn capture_interval_m(orientation: Orientation, lower_face_height_m: f64, friction: f64) -> Option<(f64, f64)> {
     // NaN fails the comparison too, and so is refused.
     if !(lower_face_height_m >= SPHERE_DIAMETER_M && friction >= 0.0) {
         return None;
@@ -101,26 +92,16 @@ pub fn capture_interval_m(
     let steps = (FARTHEST_M / SCAN_STEP_M).round() as u32;
     let mut offsets_m = (0..=steps).rev().map(|k| SCAN_STEP_M * f64::from(k));
     let found_m = offsets_m.find(|&offset_m| is_dragged(offset_m))?;
-    let outer_m = if found_m < FARTHEST_M {
-        bisect(found_m, found_m + SCAN_STEP_M, is_dragged)
-    } else {
-        FARTHEST_M
-    };
+    let outer_m = if found_m < FARTHEST_M { bisect(found_m, found_m + SCAN_STEP_M, is_dragged) } else { FARTHEST_M };
     let inner_m = match offsets_m.find(|&offset_m| !is_dragged(offset_m)) {
-        Some(lost_m) => bisect(lost_m, lost_m + SCAN_STEP_M, |offset_m| {
-            !is_dragged(offset_m)
-        }),
+        Some(lost_m) => bisect(lost_m, lost_m + SCAN_STEP_M, |offset_m| !is_dragged(offset_m)),
         None => 0.0,
     };
     Some((inner_m, outer_m))
 }
 
 /// The outer end of [`capture_interval_m`], m: how far the block drags a bead.
-pub fn capture_radius_m(
-    orientation: Orientation,
-    lower_face_height_m: f64,
-    friction: f64,
-) -> Option<f64> {
+pub fn capture_radius_m(orientation: Orientation, lower_face_height_m: f64, friction: f64) -> Option<f64> {
     capture_interval_m(orientation, lower_face_height_m, friction).map(|(_, outer_m)| outer_m)
 }
 
@@ -164,64 +145,13 @@ mod tests {
     fn pull_is_that_of_the_reference_table() {
         // offset in cm, then Fz and lateral pull for A, B along, B across, C along, in weights.
         let table = [
-            (
-                0.0,
-                [[0.976, 0.0], [0.549, 0.0], [0.549, 0.0], [0.469, 0.0]],
-            ),
-            (
-                2.0,
-                [
-                    [0.879, 0.202],
-                    [0.538, 0.022],
-                    [0.501, 0.095],
-                    [0.471, 0.003],
-                ],
-            ),
-            (
-                4.0,
-                [
-                    [0.651, 0.309],
-                    [0.478, 0.079],
-                    [0.386, 0.147],
-                    [0.445, 0.048],
-                ],
-            ),
-            (
-                6.0,
-                [
-                    [0.410, 0.307],
-                    [0.369, 0.124],
-                    [0.261, 0.151],
-                    [0.367, 0.099],
-                ],
-            ),
-            (
-                8.0,
-                [
-                    [0.231, 0.246],
-                    [0.256, 0.133],
-                    [0.163, 0.127],
-                    [0.267, 0.121],
-                ],
-            ),
-            (
-                10.0,
-                [
-                    [0.123, 0.177],
-                    [0.168, 0.118],
-                    [0.098, 0.097],
-                    [0.180, 0.115],
-                ],
-            ),
-            (
-                15.0,
-                [
-                    [0.025, 0.067],
-                    [0.056, 0.064],
-                    [0.028, 0.042],
-                    [0.060, 0.065],
-                ],
-            ),
+            (0.0, [[0.976, 0.0], [0.549, 0.0], [0.549, 0.0], [0.469, 0.0]]),
+            (2.0, [[0.879, 0.202], [0.538, 0.022], [0.501, 0.095], [0.471, 0.003]]),
+            (4.0, [[0.651, 0.309], [0.478, 0.079], [0.386, 0.147], [0.445, 0.048]]),
+            (6.0, [[0.410, 0.307], [0.369, 0.124], [0.261, 0.151], [0.367, 0.099]]),
+            (8.0, [[0.231, 0.246], [0.256, 0.133], [0.163, 0.127], [0.267, 0.121]]),
+            (10.0, [[0.123, 0.177], [0.168, 0.118], [0.098, 0.097], [0.180, 0.115]]),
+            (15.0, [[0.025, 0.067], [0.056, 0.064], [0.028, 0.042], [0.060, 0.065]]),
         ];
         let mut wrong = Vec::new();
         for (offset_cm, row) in table {
@@ -245,17 +175,10 @@ mod tests {
 
     #[test]
     fn bead_lifts_off_where_it_should() {
-        let expected = [
-            (Orientation::A, 0.0994),
-            (Orientation::B, 0.0863),
-            (Orientation::C, 0.0815),
-        ];
+        let expected = [(Orientation::A, 0.0994), (Orientation::B, 0.0863), (Orientation::C, 0.0815)];
         for (orientation, height_m) in expected {
             let found_m = lift_off_height_m(orientation);
-            assert!(
-                (found_m - height_m).abs() < 0.5e-4,
-                "{orientation:?} {found_m}"
-            );
+            assert!((found_m - height_m).abs() < 0.5e-4, "{orientation:?} {found_m}");
         }
     }
 

@@ -25,13 +25,10 @@ impl FreeSpace {
         let w = map.workspace();
         let columns = ((w.x_max_m - w.x_min_m) / CELL_M).round().max(1.0) as usize;
         let rows = ((w.y_max_m - w.y_min_m) / CELL_M).round().max(1.0) as usize;
-        let mut space = Self {
-            columns,
-            origin_m: [w.x_min_m, w.y_min_m],
-            clearance_m,
-            component: vec![None; columns * rows],
-        };
-        let free: Vec<bool> = (0..columns * rows).map(|cell| map.clearance_m(space.center(cell)) >= clearance_m).collect();
+        let mut space =
+            Self { columns, origin_m: [w.x_min_m, w.y_min_m], clearance_m, component: vec![None; columns * rows] };
+        let free: Vec<bool> =
+            (0..columns * rows).map(|cell| map.clearance_m(space.center(cell)) >= clearance_m).collect();
         let mut next = 0;
         for seed in 0..free.len() {
             if !free[seed] || space.component[seed].is_some() {
@@ -54,10 +51,7 @@ impl FreeSpace {
 
     fn center(&self, cell: usize) -> Point2<f64> {
         let (column, row) = (cell % self.columns, cell / self.columns);
-        Point2::new(
-            self.origin_m[0] + (column as f64 + 0.5) * CELL_M,
-            self.origin_m[1] + (row as f64 + 0.5) * CELL_M,
-        )
+        Point2::new(self.origin_m[0] + (column as f64 + 0.5) * CELL_M, self.origin_m[1] + (row as f64 + 0.5) * CELL_M)
     }
 
     fn cell(&self, point: Point2<f64>) -> Option<usize> {
@@ -112,10 +106,7 @@ impl FreeSpace {
     pub fn sample(&self, map: &Map, component: Option<u32>, rng: &mut impl Rng) -> Option<Point2<f64>> {
         let w = map.workspace();
         (0..10_000).find_map(|_| {
-            let point = Point2::new(
-                rng.random_range(w.x_min_m..w.x_max_m),
-                rng.random_range(w.y_min_m..w.y_max_m),
-            );
+            let point = Point2::new(rng.random_range(w.x_min_m..w.x_max_m), rng.random_range(w.y_min_m..w.y_max_m));
             let found = self.cell(point).and_then(|cell| self.component[cell]);
             let wanted = found.is_some() && (component.is_none() || found == component);
             (wanted && map.clearance_m(point) >= self.clearance_m).then_some(point)

@@ -141,12 +141,7 @@ impl ViewBox {
 
     fn ring_m(&self) -> Ring {
         let r = self.rect_m();
-        vec![
-            [r.x_min_m, r.y_min_m],
-            [r.x_max_m, r.y_min_m],
-            [r.x_max_m, r.y_max_m],
-            [r.x_min_m, r.y_max_m],
-        ]
+        vec![[r.x_min_m, r.y_min_m], [r.x_max_m, r.y_min_m], [r.x_max_m, r.y_max_m], [r.x_min_m, r.y_max_m]]
     }
 }
 
@@ -242,10 +237,7 @@ mod tests {
                 r#"<rect x="-20" y="290" width="20" height="20"/><rect x="-10" y="290" width="20" height="20"/>"#,
                 0.03 * 0.02,
             ),
-            (
-                r#"<path fill-rule="evenodd" d="M-50 250H50V350H-50ZM-20 280H20V320H-20Z"/>"#,
-                0.1 * 0.1 - 0.04 * 0.04,
-            ),
+            (r#"<path fill-rule="evenodd" d="M-50 250H50V350H-50ZM-20 280H20V320H-20Z"/>"#, 0.1 * 0.1 - 0.04 * 0.04),
         ];
         for (body, expected) in cases {
             let area = area_m2(&Map::from_svg("case", &wrap(body)).unwrap());

@@ -25,7 +25,8 @@ impl Observation {
         bytes.resize(2 * SIZE * SIZE, 0);
         let size = workspace.size_m();
         let scaled = |p: Point2<f64>| {
-            let level = |value: f64, min: f64, extent: f64| (((value - min) / extent).clamp(0.0, 1.0) * 255.0).round() as u8;
+            let level =
+                |value: f64, min: f64, extent: f64| (((value - min) / extent).clamp(0.0, 1.0) * 255.0).round() as u8;
             [level(p.x, workspace.x_min_m, size.x), level(p.y, workspace.y_min_m, size.y)]
         };
         let blocks = [goal.map(scaled).unwrap_or_default(), scaled(tool)];

@@ -1,8 +1,6 @@
 //! To and from `session`'s types.
 
-use super::{
-    ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SensedObstacle, StateMessage,
-};
+use super::{ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SensedObstacle, StateMessage};
 use crate::camera::CameraParameters;
 use crate::geometry::Point2;
 use crate::magnetics::force;

@@ -7,7 +7,8 @@ use super::{ClientMessage, ErrorMessage};
 impl ClientMessage {
     /// Parses a text frame.
     pub fn parse(text: &str) -> Result<Self, ErrorMessage> {
-        let malformed = |message: String, field: Option<String>| ErrorMessage { code: "malformed".into(), message, field };
+        let malformed =
+            |message: String, field: Option<String>| ErrorMessage { code: "malformed".into(), message, field };
         let value: Value = serde_json::from_str(text).map_err(|error| malformed(format!("not JSON: {error}"), None))?;
         let Value::Object(mut fields) = value else {
             return Err(malformed("a message is a JSON object".into(), None));

@@ -16,7 +16,8 @@ fn declaration<T: TS>(config: &Config) -> String {
 fn generated() -> String {
     let c = &Config::new().with_large_int("number");
     let parts = [
-        "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n".to_owned(),
+        "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n"
+            .to_owned(),
         format!("export const PROTOCOL_VERSION = {PROTOCOL_VERSION};"),
         format!("export const BINARY_CAMERA_JPEG = {BINARY_CAMERA_JPEG};"),
         format!("export const BINARY_OBSERVATION = {BINARY_OBSERVATION};\n"),

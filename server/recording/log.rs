@@ -53,7 +53,8 @@ impl Writer {
         });
         self.stream.log("world/walls", &LineStrips3D::new(strips).with_colors([Color::from_rgb(190, 90, 80)]))?;
         let scenario = &scenery.scenario;
-        let text = format!("trial: map {}, controller {}, seed {}", scenario.map, scenario.controller.as_str(), scenario.seed);
+        let text =
+            format!("trial: map {}, controller {}, seed {}", scenario.map, scenario.controller.as_str(), scenario.seed);
         self.stream.log("log", &TextLog::new(text).with_level("INFO"))
     }
 
@@ -74,7 +75,10 @@ impl Writer {
         let joints = forward::link_frames(&moment.joints_rad).map(|frame| frame.translation.vector);
         let arm = std::iter::once(nalgebra::Vector3::zeros()).chain(joints).chain([moment.tool_m.coords]);
         let arm: Vec<[f32; 3]> = arm.map(|p| p.cast::<f32>().into()).collect();
-        stream.log("world/arm", &LineStrips3D::new([arm]).with_radii([0.02]).with_colors([Color::from_rgb(120, 160, 210)]))?;
+        stream.log(
+            "world/arm",
+            &LineStrips3D::new([arm]).with_radii([0.02]).with_colors([Color::from_rgb(120, 160, 210)]),
+        )?;
         stream.log("world/tool", &point(moment.tool_m.coords, 0.006, [60, 60, 70]))?;
         stream.log("world/bead", &point(moment.bead_m.coords, BEAD_RADIUS_M, [250, 200, 60]))?;
         match moment.goal_m {

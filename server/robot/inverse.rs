@@ -114,10 +114,7 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
     let toward = wrist.x.atan2(-wrist.y);
     let swing = root_h.atan2(D4_M);
 
-    let mut found = Solutions {
-        joints: [[0.0; 6]; 8],
-        count: 0,
-    };
+    let mut found = Solutions { joints: [[0.0; 6]; 8], count: 0 };
     let mut least_missing_m = f64::INFINITY;
     for shoulder in signs(root_h) {
         let theta1 = toward + shoulder * swing;
@@ -125,9 +122,7 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
         least_missing_m = least_missing_m.min(missing_m);
     }
     if found.is_empty() {
-        return Err(InverseError::OutOfReach {
-            missing_m: least_missing_m,
-        });
+        return Err(InverseError::OutOfReach { missing_m: least_missing_m });
     }
     Ok(found)
 }
@@ -194,11 +189,7 @@ fn branches_of_shoulder(
     let wrist_is_singular = wrist_bend < ROUNDING;
     for sigma in signs(if wrist_is_singular { 0.0 } else { wrist_bend }) {
         let theta5 = (sigma * wrist_bend).atan2(across[2]);
-        let theta6 = if wrist_is_singular {
-            seed6
-        } else {
-            (-sigma * across[1]).atan2(sigma * across[0])
-        };
+        let theta6 = if wrist_is_singular { seed6 } else { (-sigma * across[1]).atan2(sigma * across[0]) };
         let (s5, c5) = theta5.sin_cos();
         let (s6, c6) = theta6.sin_cos();
         // (along_k, up_k) is `flat_k` turned by θ234, for each axis k of the flange; fit the turn.
@@ -235,27 +226,17 @@ fn branches_of_shoulder(
 
 /// The signs of a square root, one of them if the root is zero.
 fn signs(root: f64) -> impl Iterator<Item = f64> {
-    [1.0, -1.0]
-        .into_iter()
-        .take(if root == 0.0 { 1 } else { 2 })
+    [1.0, -1.0].into_iter().take(if root == 0.0 { 1 } else { 2 })
 }
 
 /// `angle_rad` turned into (−π, π].
 fn wrapped(angle_rad: f64) -> f64 {
     let angle_rad = angle_rad - TAU * (angle_rad / TAU).round();
-    if angle_rad <= -PI {
-        PI
-    } else {
-        angle_rad.min(PI)
-    }
+    if angle_rad <= -PI { PI } else { angle_rad.min(PI) }
 }
 
 /// The copy of `branch` nearest to `seed` and inside the limits, each joint by itself.
-fn nearest_copy(
-    branch: &Joints,
-    seed: &Joints,
-    limits_rad: &[[f64; 2]; 6],
-) -> Result<Joints, InverseError> {
+fn nearest_copy(branch: &Joints, seed: &Joints, limits_rad: &[[f64; 2]; 6]) -> Result<Joints, InverseError> {
     let mut copy = *branch;
     for joint in 0..6 {
         let angle_rad = branch[joint];
@@ -271,9 +252,7 @@ fn nearest_copy(
 }
 
 fn distance2(joints: &Joints, seed: &Joints) -> f64 {
-    (0..6)
-        .map(|i| WEIGHTS[i] * (joints[i] - seed[i]).powi(2))
-        .sum()
+    (0..6).map(|i| WEIGHTS[i] * (joints[i] - seed[i]).powi(2)).sum()
 }
 
 fn check_finite(flange: &Isometry3<f64>, seed: &Joints) -> Result<(), InverseError> {

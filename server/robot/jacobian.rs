@@ -33,9 +33,7 @@ pub fn geometric(joints: &Joints) -> Matrix6<f64> {
 /// measure of manipulability for an arm of six joints (1985).
 pub fn manipulability(joints: &Joints) -> f64 {
     let [_, theta2, theta3, theta4, theta5, _] = *joints;
-    let shoulder = A2_M * theta2.cos()
-        + A3_M * (theta2 + theta3).cos()
-        + D5_M * (theta2 + theta3 + theta4).sin();
+    let shoulder = A2_M * theta2.cos() + A3_M * (theta2 + theta3).cos() + D5_M * (theta2 + theta3 + theta4).sin();
     (A2_M * A3_M * theta3.sin() * theta5.sin() * shoulder).abs()
 }
 

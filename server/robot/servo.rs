@@ -14,22 +14,12 @@ use super::{
 ///
 /// If any joint would exceed [`JOINT_SPEED_LIMIT_RAD_S`], all are slowed by the same factor, so that
 /// the arm keeps its direction. Inputs that are not numbers give joints that are not.
-pub fn step(
-    joints: &Joints,
-    reference: &Joints,
-    next_reference: &Joints,
-    gain_per_s: f64,
-) -> Joints {
+pub fn step(joints: &Joints, reference: &Joints, next_reference: &Joints, gain_per_s: f64) -> Joints {
     let speed_rad_s: Joints = std::array::from_fn(|i| {
-        (next_reference[i] - reference[i]) / SERVO_PERIOD_S
-            + gain_per_s * (reference[i] - joints[i])
+        (next_reference[i] - reference[i]) / SERVO_PERIOD_S + gain_per_s * (reference[i] - joints[i])
     });
     let fastest_rad_s = speed_rad_s.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let factor = if fastest_rad_s > JOINT_SPEED_LIMIT_RAD_S {
-        JOINT_SPEED_LIMIT_RAD_S / fastest_rad_s
-    } else {
-        1.0
-    };
+    let factor = if fastest_rad_s > JOINT_SPEED_LIMIT_RAD_S { JOINT_SPEED_LIMIT_RAD_S / fastest_rad_s } else { 1.0 };
     std::array::from_fn(|i| joints[i] + factor * speed_rad_s[i] * SERVO_PERIOD_S)
 }
 
@@ -45,12 +35,7 @@ mod tests {
         let reference = |k: f64| -> Joints { std::array::from_fn(|i| 0.01 * k * (i as f64 - 2.5)) };
         let mut joints = reference(0.0);
         for k in 0..200 {
-            joints = step(
-                &joints,
-                &reference(k.into()),
-                &reference(f64::from(k) + 1.0),
-                GAIN_PER_S,
-            );
+            joints = step(&joints, &reference(k.into()), &reference(f64::from(k) + 1.0), GAIN_PER_S);
         }
         for (joint, target) in joints.iter().zip(reference(200.0)) {
             assert!((joint - target).abs() < 1e-12);

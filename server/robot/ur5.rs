@@ -48,9 +48,5 @@ pub const JOINT_SPEED_LIMIT_RAD_S: f64 = PI;
 pub const SERVO_PERIOD_S: f64 = 0.008;
 
 const fn row(d_m: f64, a_m: f64, alpha_rad: f64) -> DhRow {
-    DhRow {
-        d_m,
-        a_m,
-        alpha_rad,
-    }
+    DhRow { d_m, a_m, alpha_rad }
 }

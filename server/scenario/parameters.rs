@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::plant::{BlockOrientation, PlantParameters};
-use crate::tracking::TrackerParameters;
 
 /// Which switching law runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
@@ -137,15 +136,6 @@ impl Parameters {
             block_orientation: self.block_orientation,
             friction: self.friction,
             drag_n_s_m: self.drag_n_s_m,
-        }
-    }
-
-    /// The part that the tracker is told.
-    pub fn tracker(&self) -> TrackerParameters {
-        TrackerParameters {
-            noise_m: self.tracker_noise_m,
-            latency_ticks: self.tracker_latency_ticks,
-            dropout: self.tracker_dropout,
         }
     }
 }

@@ -12,7 +12,6 @@ use super::timeline::Timeline;
 use super::{Command, CommandError, Request, STEP_MAX, Scenery, Sink, View};
 use crate::camera::{Camera, Gpu};
 use crate::control::step_is_due;
-use crate::evaluate::camera_for;
 use crate::geometry::Point2;
 use crate::scenario::Scenario;
 use crate::trial::{Arena, Event, EventKind, Input, Sight, Source, Trial, TrialError};
@@ -178,7 +177,7 @@ impl Worker {
                     goal_m,
                     disturbances: 0,
                 };
-                let camera = camera_for(&self.gpu, &arena.map).map_err(TrialError::from)?;
+                let camera = arena.camera(&self.gpu).map_err(TrialError::from)?;
                 let before = std::mem::replace(&mut self.camera, camera);
                 if let Err(error) = self.set_up(scenario, arena) {
                     self.camera = before;

@@ -40,8 +40,7 @@ impl Trial {
         let proposed = if (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
             Ok(settle_step(tool.xy(), goal, world.parameters.transport_speed_m_s))
         } else {
-            let input =
-                TransportInput { percept, tool_m: tool.xy(), goal_m: goal, parameters: &world.parameters };
+            let input = TransportInput { percept, tool_m: tool.xy(), goal_m: goal, parameters: &world.parameters };
             self.state.mind.carrier.transport().next_step(&input)
         };
         let limits = limits_for(&world.parameters, self.arena.map.workspace());

@@ -205,7 +205,8 @@ impl Trial {
         let w = self.arena.map.workspace();
         let wanted = Point2::new(pointer.x.clamp(w.x_min_m, w.x_max_m), pointer.y.clamp(w.y_min_m, w.y_max_m));
         let (x_m, y_m) = (wanted.x, wanted.y);
-        let fit = contact::nearest_fit(&self.arena.map, wanted).ok_or(InputError::InWall { field: "drag", x_m, y_m })?;
+        let fit =
+            contact::nearest_fit(&self.arena.map, wanted).ok_or(InputError::InWall { field: "drag", x_m, y_m })?;
         let world = &mut self.state.world;
         let from = world.plant.bead.position_m;
         world.plant.bead = Bead::at(fit);
@@ -230,10 +231,10 @@ impl Trial {
         let map = &self.arena.map;
         let bead = &mut self.state.world.plant.bead;
         let here = bead.position_m;
-        if map.clearance_m(here) < BEAD_RADIUS_M {
-            if let Some(fit) = contact::nearest_fit(map, here) {
-                *bead = Bead::at(fit);
-            }
+        if map.clearance_m(here) < BEAD_RADIUS_M
+            && let Some(fit) = contact::nearest_fit(map, here)
+        {
+            *bead = Bead::at(fit);
         }
     }
 

@@ -125,6 +125,9 @@ impl Trial {
     pub(super) fn progress(&mut self, mode: Mode, at_goal: bool) {
         let world = &mut self.state.world;
         let tick = world.tick;
+        if world.phase == Phase::LiftedOff {
+            return;
+        }
         match (mode, world.goal_m) {
             (Mode::Approach, _) => world.phase = Phase::Approaching,
             (Mode::Transport, None) => world.phase = Phase::Holding,
@@ -134,7 +137,11 @@ impl Trial {
                 }
                 if world.reached_tick.is_none() {
                     world.reached_tick = Some(tick);
-                    self.events.push(Event::new(tick, EventKind::Reached, "reached: the tool is within 2 cm of the goal"));
+                    self.events.push(Event::new(
+                        tick,
+                        EventKind::Reached,
+                        "reached: the tool is within 2 cm of the goal",
+                    ));
                 }
             }
             (Mode::Transport, Some(_)) => {

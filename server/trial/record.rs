@@ -17,8 +17,6 @@ use crate::scenario::ControllerName;
 
 use super::state::Counters;
 
-
-
 /// Kinds of event, for the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
 #[serde(rename_all = "snake_case")]

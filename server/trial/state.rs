@@ -134,12 +134,7 @@ impl TrialState {
                 reference_m: tool_m,
                 reference_joints_rad: joints_rad,
                 motion: Motion::Hold,
-                switching: switching::Decision {
-                    mode: Mode::Transport,
-                    switched: false,
-                    error_m: 0.0,
-                    threshold_m,
-                },
+                switching: switching::Decision { mode: Mode::Transport, switched: false, error_m: 0.0, threshold_m },
                 refusal: None,
                 phase: Phase::Holding,
                 reached_tick: None,

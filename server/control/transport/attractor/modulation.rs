@@ -148,7 +148,7 @@ mod tests {
             }
             let top = Point2::new(0.0, 1.0);
             let along = modulate(&[unit()], top, Vector2::x(), 1.0, basis);
-            assert!((along - 2.0 * Vector2::x()).norm() < 1e-12);
+            assert!((along - Vector2::x() * 2.0).norm() < 1e-12);
         }
     }
 

@@ -1,0 +1,51 @@
+# `make run` serves the laboratory, `make test` runs every check. Both first install what is missing.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := run
+.PHONY: run test system-run system-test rust web browser
+
+# Rerun's own tools, at the version of the crate, to check recordings with.
+RERUN_VERSION := 0.36.3
+VENV := target/venv
+SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
+CARGO_TEST := cargo test --release --quiet
+
+run: system-run
+	cargo run --release -- serve --open
+
+test: system-test $(VENV)/rerun-$(RERUN_VERSION)
+	cargo fmt --check
+	cargo clippy --release --all-targets --quiet -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --document-private-items --quiet
+	cargo build --release --quiet
+	cd web && npm run --silent check && npm run --silent test
+	mkdir -p test-output
+	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
+	$(CARGO_TEST)
+
+# A graphics driver that needs no graphics card, and Node.js for the page.
+system-run:
+	@packages=; \
+	ls /usr/share/vulkan/icd.d/*.json >/dev/null 2>&1 || packages+=" mesa-vulkan-drivers"; \
+	command -v npm >/dev/null || packages+=" nodejs npm"; \
+	command -v cc >/dev/null || packages+=" build-essential"; \
+	$(call install,$$packages)
+
+system-test: system-run
+	@packages=; \
+	command -v chromium >/dev/null || packages+=" chromium"; \
+	python3 -c 'import ensurepip, venv' 2>/dev/null || packages+=" python3-venv"; \
+	$(call install,$$packages)
+
+define install
+if [ -n "$(1)" ]; then \
+	command -v apt-get >/dev/null || { echo "Ferry needs$(1): install them with your system's package manager"; exit 1; }; \
+	$(SUDO) apt-get update -q && $(SUDO) apt-get install -qy --no-install-recommends $(1); \
+fi
+endef
+
+$(VENV)/rerun-$(RERUN_VERSION):
+	python3 -m venv $(VENV)
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check rerun-sdk==$(RERUN_VERSION)
+	touch $@

@@ -1,0 +1,182 @@
+//! The same scenario, seed and inputs give the same trial, tick by tick.
+
+use std::sync::{Arc, OnceLock};
+
+use ferry::camera::{AdapterChoice, Camera, CameraError, Eye, Gpu, Subject};
+use ferry::geometry::Point2;
+use ferry::image::CameraFrame;
+use ferry::scenario::{ControllerName, Scenario};
+use ferry::trial::{Arena, Input, InputLog, LoggedTick, Source, Trial};
+use proptest::prelude::*;
+
+pub fn gpu() -> Arc<Gpu> {
+    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| Gpu::open(AdapterChoice::Auto).expect("tests render: a graphics adapter is needed")).clone()
+}
+
+fn posts() -> Arc<Arena> {
+    static POSTS: OnceLock<Arc<Arena>> = OnceLock::new();
+    POSTS.get_or_init(|| Arena::open("posts").unwrap()).clone()
+}
+
+fn camera() -> Camera {
+    posts().camera(&gpu()).unwrap()
+}
+
+fn scenario(seed: u64) -> Scenario {
+    let arena = posts();
+    Scenario::random(&arena.map, "posts", &arena.space, ControllerName::Attractor, 2, seed, 0).unwrap()
+}
+
+/// What an operator does, and when.
+#[derive(Clone, Debug)]
+struct Script(Vec<(u64, Input)>);
+
+impl Script {
+    /// Applies what is due; refusals are part of the run.
+    fn act(&self, trial: &mut Trial) {
+        let tick = trial.state().world.tick;
+        for (_, input) in self.0.iter().filter(|(at, _)| *at == tick) {
+            let _ = trial.apply(input.clone());
+        }
+    }
+}
+
+fn place() -> impl Strategy<Value = (f64, f64)> {
+    (-0.32..0.30f64, -0.56..-0.19f64)
+}
+
+fn input() -> impl Strategy<Value = Input> {
+    prop_oneof![
+        place().prop_map(|(x_m, y_m)| Input::SetGoal { x_m, y_m }),
+        (place(), any::<bool>()).prop_map(|((x_m, y_m), lift)| Input::Drag { x_m, y_m, lift }),
+        Just(Input::Release),
+        Just(Input::ClearGoal),
+        place().prop_map(|(x_m, y_m)| Input::Place { x_m, y_m }),
+    ]
+}
+
+fn script(ticks: u64) -> impl Strategy<Value = Script> {
+    proptest::collection::vec((0..ticks, input()), 0..8).prop_map(Script)
+}
+
+fn run(trial: &mut Trial, script: &Script, ticks: u64, eye: &mut dyn Eye) -> Vec<LoggedTick> {
+    (0..ticks)
+        .map(|_| {
+            script.act(trial);
+            LoggedTick::from(&trial.tick(Source::Eye(eye)).unwrap())
+        })
+        .collect()
+}
+
+/// Keeps the frames that a camera takes.
+struct Tape {
+    camera: Camera,
+    frames: Vec<CameraFrame>,
+}
+
+impl Eye for Tape {
+    fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
+        let frame = self.camera.capture(subject)?;
+        self.frames.push(frame.clone());
+        Ok(frame)
+    }
+}
+
+/// Shows kept frames again, in order.
+struct Playback(std::vec::IntoIter<CameraFrame>);
+
+impl Eye for Playback {
+    fn capture(&mut self, _: &Subject) -> Result<CameraFrame, CameraError> {
+        Ok(self.0.next().expect("as many frames as control steps"))
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Snapshot, restore, continue: as if nothing had happened.
+    #[test]
+    fn a_restored_trial_continues_as_the_uninterrupted_one(seed in 0..1000u64, cut in 0..400u64, script in script(400)) {
+        let mut camera = camera();
+        let mut whole = Trial::new(scenario(seed), posts()).unwrap();
+        run(&mut whole, &script, cut, &mut camera);
+        let bytes = postcard::to_stdvec(&whole.snapshot()).unwrap();
+        let expected = run(&mut whole, &script, 400 - cut, &mut camera);
+
+        let mut resumed = Trial::new(scenario(seed), posts()).unwrap();
+        resumed.restore(postcard::from_bytes(&bytes).unwrap());
+        let found = run(&mut resumed, &script, 400 - cut, &mut camera);
+        prop_assert_eq!(expected, found);
+    }
+
+    /// A log replays without a camera to the same world, and from the frames to the same mind too.
+    #[test]
+    fn a_log_and_its_frames_reproduce_the_run(seed in 0..1000u64, script in script(400)) {
+        let mut tape = Tape { camera: camera(), frames: Vec::new() };
+        let mut trial = Trial::new(scenario(seed), posts()).unwrap();
+        let recorded = run(&mut trial, &script, 400, &mut tape);
+        let mut file = Vec::new();
+        InputLog::begin(trial.scenario(), &mut file).unwrap();
+        for tick in &recorded {
+            InputLog::append(tick, &mut file).unwrap();
+        }
+
+        let log = InputLog::read(file.as_slice()).unwrap();
+        prop_assert_eq!(&log.ticks, &recorded);
+        let mut blind = Trial::new(log.scenario.clone(), posts()).unwrap();
+        let mut seeing = Trial::new(log.scenario, posts()).unwrap();
+        let mut playback = Playback(tape.frames.into_iter());
+        for tick in &log.ticks {
+            for input in &tick.inputs {
+                blind.apply(input.clone()).unwrap();
+                seeing.apply(input.clone()).unwrap();
+            }
+            let replayed = blind.tick(Source::Logged(tick.decision.clone())).unwrap();
+            prop_assert_eq!(replayed.world_hash, tick.world_hash, "tick {}", replayed.tick);
+            let decided = LoggedTick::from(&seeing.tick(Source::Eye(&mut playback)).unwrap());
+            prop_assert_eq!(&decided, tick);
+        }
+    }
+}
+
+/// Set for the child process of the test below.
+const CHILD: &str = "FERRY_TEST_PRINTS_HASHES";
+
+fn hashes() -> String {
+    let drag = |at, x_m, y_m| (at, Input::Drag { x_m, y_m, lift: false });
+    let script = Script(vec![drag(200, 0.0, -0.4), drag(220, 0.1, -0.4), (300, Input::Release)]);
+    let mut trial = Trial::new(scenario(5), posts()).unwrap();
+    let ticks = run(&mut trial, &script, 1000, &mut camera());
+    ticks.iter().map(|tick| format!("{:016x}{:016x}\n", tick.world_hash, tick.mind_hash)).collect()
+}
+
+#[test]
+fn two_processes_agree_at_every_tick() {
+    if std::env::var_os(CHILD).is_some() {
+        println!("HASHES\n{}END", hashes());
+        return;
+    }
+    let child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "determinism::two_processes_agree_at_every_tick", "--nocapture"])
+        .env(CHILD, "1")
+        .output()
+        .unwrap();
+    let printed = String::from_utf8_lossy(&child.stdout);
+    let theirs = printed.split_once("HASHES\n").and_then(|(_, rest)| rest.split_once("END")).map(|(hashes, _)| hashes);
+    let ours = hashes();
+    assert_eq!(ours.lines().count(), 1000);
+    assert_eq!(theirs, Some(ours.as_str()));
+}
+
+#[test]
+fn an_edited_input_changes_the_hash() {
+    let eye = &mut camera();
+    let mut honest = Trial::new(scenario(1), posts()).unwrap();
+    let mut edited = Trial::new(scenario(1), posts()).unwrap();
+    let goal = Point2::new(0.0, -0.4);
+    honest.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y }).unwrap();
+    edited.apply(Input::SetGoal { x_m: goal.x + 1e-9, y_m: goal.y }).unwrap();
+    let nothing = Script(Vec::new());
+    assert_ne!(run(&mut honest, &nothing, 1, eye)[0].world_hash, run(&mut edited, &nothing, 1, eye)[0].world_hash);
+}

@@ -1,0 +1,112 @@
+//! The house of `ARCHITECTURE.md`: who may import whom.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+const FLOORS: [&[&str]; 10] = [
+    &["geometry", "image"],
+    &["robot", "magnetics", "map"],
+    &["plant"],
+    &["scenario", "camera", "tracking", "perception"],
+    &["policy", "control"],
+    &["trial"],
+    &["learn", "evaluate", "session"],
+    &["recording", "protocol"],
+    &["http"],
+    &["cli", "main", "lib"],
+];
+
+/// Crates that only some modules may name.
+const CONFINED: [(&str, &[&str]); 4] = [
+    ("wgpu", &["camera"]),
+    ("candle_core", &["policy", "learn"]),
+    ("tokio", &["session", "http", "cli", "main"]),
+    ("rerun", &["recording"]),
+];
+
+/// What would make a trial depend on anything but its scenario, seed and inputs.
+const IMPURE: [&str; 6] = ["Instant::now", "SystemTime", "thread_rng", "rand::rng()", "env::var", "static mut"];
+
+fn sources() -> Vec<(PathBuf, String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("server");
+    let mut folders = vec![root.clone()];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let inside = path.strip_prefix(&root).unwrap();
+                let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
+                let module = first.trim_end_matches(".rs").to_owned();
+                let text = std::fs::read_to_string(&path).unwrap();
+                found.push((path, module, text));
+            }
+        }
+    }
+    found
+}
+
+fn floor_of() -> BTreeMap<&'static str, usize> {
+    FLOORS.iter().enumerate().flat_map(|(floor, modules)| modules.iter().map(move |&module| (module, floor))).collect()
+}
+
+/// Names that follow `needle` in code, comments left out.
+fn names_after(text: &str, needle: &str) -> Vec<String> {
+    let code = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    code.match_indices(needle)
+        .filter(|&(at, _)| !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '$'))
+        .map(|(at, _)| {
+            let rest = &code[at + needle.len()..];
+            rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+        })
+        .collect()
+}
+
+#[test]
+fn a_module_imports_only_from_floors_below() {
+    let floors = floor_of();
+    let mut seen = 0;
+    for (path, module, text) in sources() {
+        let own = floors.get(module.as_str()).unwrap_or_else(|| panic!("{module} has no floor"));
+        if module == "lib" || module == "main" {
+            continue;
+        }
+        for imported in names_after(&text, "crate::") {
+            if imported == module || imported.is_empty() {
+                continue;
+            }
+            seen += 1;
+            let other = floors.get(imported.as_str()).unwrap_or_else(|| panic!("{path:?} imports {imported:?}"));
+            assert!(other < own, "{path:?}: {module} (floor {own}) imports {imported} (floor {other})");
+        }
+    }
+    assert!(seen > 100, "the walk found only {seen} imports");
+}
+
+#[test]
+fn confined_crates_stay_where_they_belong() {
+    for (path, module, text) in sources() {
+        for (name, homes) in CONFINED {
+            let used = !names_after(&text, &format!("{name}::")).is_empty();
+            assert!(!used || homes.contains(&module.as_str()), "{path:?} uses {name}");
+        }
+    }
+}
+
+#[test]
+fn nothing_below_session_reads_a_clock_a_global_or_an_unseeded_generator() {
+    let floors = floor_of();
+    for (path, module, text) in sources() {
+        if floors[module.as_str()] > 5 {
+            continue;
+        }
+        // Tests may measure.
+        let code = text.split("#[cfg(test)]").next().unwrap();
+        let is_test = path.file_name().unwrap().to_str().unwrap().contains("test");
+        for impure in IMPURE {
+            assert!(is_test || !code.contains(impure), "{path:?} uses {impure}");
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! The server as a browser meets it: routes, the WebSocket, refusals.
+
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use ferry::http;
+use futures_util::{SinkExt, StreamExt};
+use serde_json::{Value, json};
+use tokio::net::TcpStream;
+use tokio::sync::watch;
+use tokio::task::JoinHandle;
+use tokio_tungstenite::tungstenite::Message;
+use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
+
+use crate::determinism::gpu;
+
+/// A server in this process, and the folder it writes to.
+pub struct Laboratory {
+    pub address: SocketAddr,
+    pub data: tempfile::TempDir,
+    stop: watch::Sender<bool>,
+    served: JoinHandle<()>,
+}
+
+impl Laboratory {
+    pub async fn open() -> Self {
+        let data = tempfile::tempdir().unwrap();
+        let (stop, stopping) = watch::channel(false);
+        let listener = http::listen("127.0.0.1:0".parse().unwrap()).await.unwrap();
+        let address = listener.local_addr().unwrap();
+        let server = http::Server::new(gpu(), data.path().to_owned(), stopping).unwrap();
+        let served = tokio::spawn(async move { http::serve(listener, server).await.unwrap() });
+        Self { address, data, stop, served }
+    }
+
+    pub async fn browser(&self) -> Browser {
+        let (socket, _) = connect_async(format!("ws://{}/api/sessions/main/live", self.address)).await.unwrap();
+        Browser { socket }
+    }
+
+    /// Status and body of a request.
+    pub async fn ask(&self, method: &str, path: &str, body: &str) -> (u16, Value) {
+        let (status, text) = self.ask_text(method, path, body, &[]).await;
+        (status, serde_json::from_str(&text).unwrap_or(Value::String(text)))
+    }
+
+    async fn ask_text(&self, method: &str, path: &str, body: &str, headers: &[(&str, &str)]) -> (u16, String) {
+        let mut request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", self.address));
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        let request = request.body(body.to_owned()).unwrap();
+        tokio::task::spawn_blocking(move || {
+            let agent = ureq::Agent::config_builder().http_status_as_error(false).build().new_agent();
+            let mut response = agent.run(request).unwrap();
+            (response.status().as_u16(), response.body_mut().read_to_string().unwrap_or_default())
+        })
+        .await
+        .unwrap()
+    }
+
+    /// Stops the server as SIGTERM does, and waits.
+    pub async fn close(self) -> tempfile::TempDir {
+        self.stop.send(true).unwrap();
+        tokio::time::timeout(Duration::from_secs(5), self.served).await.expect("closes in time").unwrap();
+        self.data
+    }
+}
+
+/// One WebSocket.
+pub struct Browser {
+    socket: WebSocketStream<MaybeTlsStream<TcpStream>>,
+}
+
+impl Browser {
+    pub async fn send(&mut self, message: Value) {
+        self.send_text(&message.to_string()).await;
+    }
+
+    async fn send_text(&mut self, text: &str) {
+        self.socket.send(Message::text(text)).await.unwrap();
+    }
+
+    /// The next text message that fits, within 30 s.
+    pub async fn until(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+        let found = async {
+            while let Some(message) = self.socket.next().await {
+                if let Message::Text(text) = message.unwrap() {
+                    let value: Value = serde_json::from_str(&text).unwrap();
+                    if fits(&value) {
+                        return value;
+                    }
+                }
+            }
+            panic!("the server closed before: {what}");
+        };
+        tokio::time::timeout(Duration::from_secs(30), found).await.unwrap_or_else(|_| panic!("waited in vain: {what}"))
+    }
+
+    async fn state(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+        self.until(what, |m| m["type"] == "state" && fits(m)).await
+    }
+
+    async fn error(&mut self) -> Value {
+        self.until("an error", |m| m["type"] == "error").await
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_goal_is_delivered_a_disturbance_fetched_and_a_refusal_changes_nothing() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let hello = browser.until("hello", |m| m["type"] == "hello").await;
+    assert_eq!((&hello["role"], &hello["session"]), (&json!("operator"), &json!("main")));
+    let scene = browser.until("scene", |m| m["type"] == "scene").await;
+    assert_eq!(scene["map"], "posts");
+    let idle = browser.state("the first state", |_| true).await;
+    assert_eq!((&idle["running"], &idle["goal_m"]), (&json!(false), &Value::Null));
+
+    for (goal, field, code) in [
+        (json!({"type": "set_goal", "x_m": -0.2, "y_m": -0.305}), "goal", "in_wall"),
+        (json!({"type": "set_goal", "x_m": 3.0, "y_m": -0.3}), "goal", "outside_workspace"),
+        (json!({"type": "set_goal", "x_m": null, "y_m": -0.3}), "x_m", "malformed"),
+        (json!({"type": "select_controller", "controller": "magic"}), "controller", "malformed"),
+        (json!({"type": "load_scenario", "map": "nowhere"}), "map", "map_refused"),
+        (json!({"type": "set_speed", "factor": 1e9}), "factor", "out_of_range"),
+        (json!({"type": "rewind", "tick": 5, "to": 1}), "to", "malformed"),
+        (json!({"type": "fly"}), "type", "malformed"),
+    ] {
+        browser.send(goal.clone()).await;
+        let error = browser.error().await;
+        assert_eq!((&error["field"], &error["code"]), (&json!(field), &json!(code)), "{goal} {error}");
+    }
+    browser.send_text("{\"type\":\"set_goal\",\"x_m\":1e999,\"y_m\":0}").await;
+    assert_eq!(browser.error().await["code"], "malformed");
+    let (_, after) = lab.ask("GET", "/api/sessions/main/state", "").await;
+    assert_eq!(after["world_hash"], idle["world_hash"]);
+
+    browser.send(json!({"type": "load_scenario", "map": "posts", "seed": 3, "start_m": [-0.25, -0.38]})).await;
+    browser.state("the start", |m| m["tool_m"][0].as_f64().unwrap() < -0.2499).await;
+    browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
+    browser.send(json!({"type": "set_speed", "factor": 16})).await;
+    browser.send(json!({"type": "run"})).await;
+    browser.state("the bead on its way", |m| m["leg_steps"].as_u64() > Some(8)).await;
+    for _ in 0..40 {
+        browser.send(json!({"type": "drag", "x_m": -0.24, "y_m": -0.5})).await;
+        tokio::time::sleep(Duration::from_millis(10)).await;
+    }
+    browser.send(json!({"type": "release"})).await;
+    browser.state("sub-controller 1", |m| m["mode"] == 1).await;
+    browser.state("sub-controller 2", |m| m["mode"] == 2).await;
+    let done = browser.state("delivery", |m| m["deliveries"] == 1).await;
+    let off = |i: usize| done["bead_m"][i].as_f64().unwrap() - done["goal_m"][i].as_f64().unwrap();
+    assert!(off(0).hypot(off(1)) <= 0.02, "{done}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn one_operates_others_watch_and_a_hand_that_is_gone_lets_go() {
+    let lab = Laboratory::open().await;
+    let mut first = lab.browser().await;
+    first.until("hello", |m| m["role"] == "operator").await;
+    let mut second = lab.browser().await;
+    second.until("hello", |m| m["type"] == "hello" && m["role"] == "viewer").await;
+    second.send(json!({"type": "run"})).await;
+    assert_eq!(second.error().await["code"], "not_operator");
+    second.send(json!({"type": "take_control"})).await;
+    first
+        .until("the request", |m| m["type"] == "event" && m["text"].as_str().unwrap().contains("asks for control"))
+        .await;
+
+    first.send(json!({"type": "run"})).await;
+    first.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.5})).await;
+    second.state("the hand", |m| !m["hand_m"].is_null()).await;
+    drop(first);
+    second.state("the hand gone", |m| m["hand_m"].is_null()).await;
+    second.until("its turn", |m| m["type"] == "hello" && m["role"] == "operator").await;
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn time_can_be_stepped_and_gone_back_on() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    browser.send(json!({"type": "set_goal", "x_m": 0.1, "y_m": -0.5})).await;
+    browser.send(json!({"type": "step", "ticks": 500})).await;
+    let then = browser.state("500 ticks", |m| m["tick"] == 500).await;
+    browser.send(json!({"type": "step", "ticks": 125})).await;
+    browser.state("625 ticks", |m| m["tick"] == 625).await;
+    browser.send(json!({"type": "rewind", "tick": 500})).await;
+    let again = browser.state("500 ticks again", |m| m["tick"] == 500).await;
+    assert_eq!(then["world_hash"], again["world_hash"]);
+    assert_eq!(again["newest_tick"], 594, "the future is kept until something changes");
+    browser.send(json!({"type": "reset"})).await;
+    browser.state("the start", |m| m["tick"] == 0 && m["newest_tick"] == 0).await;
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn routes_answer_and_foreign_pages_are_kept_out() {
+    let lab = Laboratory::open().await;
+    assert_eq!(lab.ask("GET", "/healthz", "").await, (200, json!("ok\n")));
+    let (status, page) = lab.ask_text("GET", "/", "", &[]).await;
+    assert!(status == 200 && page.contains("<title>Ferry</title>"));
+    assert!(lab.ask_text("GET", "/metrics", "", &[]).await.1.contains("ferry_sessions 1"));
+    let (_, maps) = lab.ask("GET", "/api/maps", "").await;
+    assert!(maps["maps"].as_array().unwrap().contains(&json!("colon")));
+    for path in ["/api/sessions/main/camera.png", "/api/sessions/main/observation.png", "/api/maps/posts"] {
+        assert_eq!(lab.ask("GET", path, "").await.0, 200, "{path}");
+    }
+    for path in [
+        "/nowhere",
+        "/api/nowhere",
+        "/api/sessions/nobody",
+        "/api/maps/..%2fCargo.toml",
+        "/api/recordings/..%2f..%2fx.rrd",
+    ] {
+        let (status, problem) = lab.ask("GET", path, "").await;
+        assert_eq!((status, &problem["status"]), (404, &json!(404)), "{path}: {problem}");
+    }
+    let (status, made) = lab.ask("POST", "/api/sessions", "{\"map\":\"open\"}").await;
+    assert_eq!((status, &made["map"]), (201, &json!("open")));
+    let own = format!("/api/sessions/{}", made["id"].as_str().unwrap());
+    assert_eq!(lab.ask("DELETE", &own, "").await.0, 204);
+    assert_eq!(lab.ask("GET", &own, "").await.0, 404);
+    let (status, problem) = lab.ask("POST", "/api/sessions", "{\"seed\":-1}").await;
+    assert_eq!((status, &problem["field"]), (400, &json!("seed")));
+    assert_eq!(lab.ask_text("GET", "/healthz", "", &[("host", "example.org")]).await.0, 421);
+    assert_eq!(lab.ask_text("GET", "/healthz", "", &[("origin", "http://example.org")]).await.0, 403);
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn stopping_closes_browsers_with_1001() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    browser.until("hello", |m| m["type"] == "hello").await;
+    lab.close().await;
+    let closed = async {
+        while let Some(message) = browser.socket.next().await {
+            if let Ok(Message::Close(frame)) = message {
+                return frame.map(|frame| u16::from(frame.code));
+            }
+        }
+        None
+    };
+    assert_eq!(tokio::time::timeout(Duration::from_secs(5), closed).await.unwrap(), Some(1001));
+}

@@ -1,0 +1,7 @@
+//! Tests of the whole, in one binary so that a small machine links once.
+
+mod commands;
+mod determinism;
+mod house;
+mod laboratory;
+mod recordings;

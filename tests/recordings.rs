@@ -1,0 +1,43 @@
+//! A closed session's recording is whole, and shows the arm moving: asked of Rerun's own tools.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use serde_json::json;
+
+use crate::laboratory::Laboratory;
+
+/// `rerun-sdk` from PyPI at the crate's version; `make test` installs it.
+fn tool(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/venv/bin").join(name);
+    assert!(path.exists(), "{} is missing; `make test` installs it", path.display());
+    path
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    browser
+        .send(json!({"type": "load_scenario", "map": "posts", "start_m": [-0.25, -0.38], "goal_m": [0.12, -0.33]}))
+        .await;
+    browser.send(json!({"type": "step", "ticks": 600})).await;
+    browser.until("600 ticks", |m| m["type"] == "state" && m["tick"] == 600).await;
+    let (_, listed) = lab.ask("GET", "/api/recordings", "").await;
+    assert_eq!(listed["recordings"].as_array().unwrap().len(), 1, "{listed}");
+    let data = lab.close().await;
+
+    let folder = data.path().join("recordings");
+    let file = std::fs::read_dir(folder).unwrap().next().unwrap().unwrap().path();
+    let verified = Command::new(tool("rerun")).args(["rrd", "verify"]).arg(&file).output().unwrap();
+    assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stderr));
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/read_recording.py");
+    let read = Command::new(tool("python")).arg(script).arg(&file).output().unwrap();
+    assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&read.stdout).unwrap();
+    assert!(found["tool_path_m"].as_f64() > Some(0.1), "{found}");
+    assert!(found["camera_frames"].as_u64() >= Some(19), "{found}");
+    for entity in ["/world/arm", "/world/bead", "/world/goal", "/tracking_error/norm_m", "/mode", "/log", "/camera"] {
+        assert!(found["entities"].as_array().unwrap().contains(&json!(entity)), "{entity}: {found}");
+    }
+}

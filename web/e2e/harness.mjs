@@ -1,0 +1,117 @@
+// A server and a browser for the tests, and the list that their results go to.
+
+import { spawn } from 'node:child_process';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { chromium } from 'playwright-core';
+
+const START_MS = 60_000;
+
+const delay = (ms) =>
+  new Promise((resolve) => {
+    setTimeout(resolve, ms);
+  });
+
+/** Waits until `probe` gives something truthy and returns it. */
+export async function until(what, probe, timeoutMs = 10_000) {
+  const end = Date.now() + timeoutMs;
+  for (;;) {
+    const value = await probe();
+    if (value) return value;
+    if (Date.now() > end) throw new Error(`waited ${timeoutMs / 1000} s for: ${what}`);
+    await delay(40);
+  }
+}
+
+export function check(condition, message) {
+  if (!condition) throw new Error(message);
+}
+
+/**
+ * The server at FERRY_URL, or one of our own started from FERRY_BIN with a fresh data directory.
+ * `kill` is there only for our own.
+ */
+export async function startServer() {
+  const given = process.env.FERRY_URL;
+  if (given) return { url: given, stop: async () => {} };
+  const binary = process.env.FERRY_BIN;
+  if (!binary) throw new Error('set FERRY_URL (a running server) or FERRY_BIN (the binary)');
+  const data = await mkdtemp(join(tmpdir(), 'ferry-e2e-'));
+  const child = spawn(binary, ['serve', '--bind', '127.0.0.1:0', '--data', data], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+  const exited = new Promise((resolve) => {
+    child.once('exit', resolve);
+  });
+  const listening = new Promise((resolve, reject) => {
+    createInterface({ input: child.stdout }).on('line', (line) => {
+      const match = /listening on (http:\/\/\S+)/.exec(line);
+      if (match) resolve(match[1]);
+    });
+    child.once('error', reject);
+    child.once('exit', (code) => {
+      reject(new Error(`the server ended with ${code} before it listened`));
+    });
+    setTimeout(() => {
+      reject(new Error('the server does not listen'));
+    }, START_MS).unref();
+  });
+  const stop = async () => {
+    child.kill('SIGTERM');
+    await exited;
+    await rm(data, { recursive: true, force: true });
+  };
+  try {
+    const url = await listening;
+    return {
+      url,
+      stop,
+      kill: async () => {
+        child.kill('SIGKILL');
+        await exited;
+      },
+    };
+  } catch (error) {
+    await stop();
+    throw error;
+  }
+}
+
+/** Chromium with a fresh profile, which the launcher makes and removes. */
+export function startBrowser() {
+  return chromium.launch({
+    executablePath: '/usr/bin/chromium',
+    headless: true,
+    args: [
+      '--headless',
+      '--no-sandbox',
+      '--disable-gpu',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+    ],
+  });
+}
+
+/** Runs the tests in order, all of them, and returns how many failed. */
+export async function runAll(tests, context) {
+  let failed = 0;
+  for (const [name, test] of tests) {
+    const start = Date.now();
+    try {
+      await test(context);
+      console.log(`ok    ${name} (${((Date.now() - start) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      failed += 1;
+      console.log(`FAIL  ${name}\n      ${error.message}`);
+      await context.lab
+        .screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`)
+        .catch((reason) => console.log(`      no screenshot: ${reason.message}`));
+    }
+  }
+  return failed;
+}

@@ -1,0 +1,222 @@
+// What a person does with the dashboard, on a real server.
+
+import { check, until } from './harness.mjs';
+import { Lab, distance, distanceToSegment } from './lab.mjs';
+
+const GOAL_RADIUS_M = 0.02;
+const DELIVERY_MS = 90_000;
+/** Comfortably more than the default threshold of the switching law. */
+const LOST_M = 0.14;
+
+async function delivered(lab, count) {
+  await until(
+    `delivery ${count}`,
+    async () => (await lab.number('deliveries')) === count,
+    DELIVERY_MS,
+  );
+  const left = distance(await lab.point('bead'), await lab.point('goal'));
+  check(left <= GOAL_RADIUS_M, `the bead is ${left} m from the goal`);
+}
+
+/** Starts to note every text that the mode badge shows. */
+function watchMode(lab) {
+  return lab.page.evaluateHandle(() => {
+    const badge = document.querySelector('[data-testid=mode]');
+    const seen = [badge.textContent];
+    new MutationObserver(() => seen.push(badge.textContent)).observe(badge, {
+      characterData: true,
+      childList: true,
+      subtree: true,
+    });
+    return seen;
+  });
+}
+
+async function opens({ lab }) {
+  check((await lab.text('role')) === 'operator', 'the first browser is not the operator');
+  check(await lab.button('Run').isVisible(), 'the session is not paused');
+  const safety = lab.page.getByText('simulation, not safety-rated');
+  check(await safety.isVisible(), 'no word about safety');
+  const unnamed = await lab.page.locator('button, input, select, canvas').evaluateAll((all) =>
+    all
+      .filter(
+        (one) =>
+          !one.getAttribute('aria-label') &&
+          !one.labels?.[0]?.textContent.trim() &&
+          !one.textContent.trim() &&
+          // A plot is one picture; what it is made of has no name.
+          !one.closest('[role=img]'),
+      )
+      .map((one) => one.outerHTML),
+  );
+  check(unnamed.length === 0, `without an accessible name: ${unnamed.join(' ')}`);
+}
+
+async function deliversToAClick({ lab }) {
+  await lab.reset({ speed: '4' });
+  const bead = await lab.point('bead');
+  const [goal] = lab.freePoints(bead, 0.2, 0.3);
+  await lab.click(goal);
+  await until('a goal', () => lab.point('goal'));
+  check(distance(await lab.point('goal'), goal) < 0.002, 'the goal is not where the click was');
+  await lab.run();
+  await delivered(lab, 1);
+  await lab.screenshot('delivered');
+}
+
+async function recoversFromADisturbance({ lab }) {
+  const before = { disturbances: await lab.number('disturbances') };
+  const [goal] = lab.freePoints(await lab.point('bead'), 0.3, 0.5);
+  await lab.page.getByLabel('Speed', { exact: true }).selectOption('1');
+  await lab.click(goal);
+  await until('transport', async () => (await lab.text('phase')) === 'transporting');
+  const modes = await watchMode(lab);
+
+  const bead = await lab.point('bead');
+  // Off the way to the goal: a bead dragged along it on a slow machine would never be lost.
+  const away = lab
+    .freePoints(bead, 0.15, 0.3)
+    .find((point) => distanceToSegment(point, bead, goal) > LOST_M);
+  check(away, 'no free point off the way');
+  const { mouse } = lab.page;
+  await mouse.move(...(await lab.px(bead)));
+  await mouse.down();
+  await mouse.move(...(await lab.px(away)), { steps: 12 });
+  await until('the bead at the hand', async () => distance(await lab.point('bead'), away) < 0.01);
+  await lab.screenshot('dragging');
+  await mouse.up();
+
+  await lab.page.getByLabel('Speed', { exact: true }).selectOption('4');
+  await delivered(lab, 2);
+  const seen = (await modes.jsonValue()).join('');
+  check(seen.includes('212'), `the mode went ${seen}`);
+  check(
+    (await lab.number('disturbances')) > before.disturbances,
+    'the disturbance was not counted',
+  );
+}
+
+async function refusesAGoalInAWall({ lab }) {
+  const goal = await lab.point('goal');
+  await lab.click(lab.wallPoint());
+  await lab.notice('workspace').waitFor({ timeout: 5000 });
+  check(distance(await lab.point('goal'), goal) === 0, 'the goal changed');
+  await lab.screenshot('goal-in-wall');
+}
+
+async function obeysTheKeyboard({ lab }) {
+  await lab.reset();
+  await lab.canvas.focus();
+  const { keyboard } = lab.page;
+  const bead = await lab.point('bead');
+  const aim = lab.freePoints(bead, 0.04, 0.12)[0];
+  for (const [delta, back, forth] of [
+    [aim[0] - bead[0], 'ArrowLeft', 'ArrowRight'],
+    [aim[1] - bead[1], 'ArrowDown', 'ArrowUp'],
+  ]) {
+    const presses = Math.max(1, Math.round(Math.abs(delta) / 0.005));
+    for (let i = 0; i < presses; i++) await keyboard.press(delta < 0 ? back : forth);
+  }
+  await keyboard.press('Enter');
+  const goal = await until('a goal', () => lab.point('goal'));
+  check(distance(goal, aim) < 0.01, `the goal is at ${goal}, not at ${aim}`);
+
+  await keyboard.press(' ');
+  await until('running', () => lab.state.running);
+  await keyboard.press('d');
+  await until('the hand', () => lab.state.hand_m);
+  await keyboard.press('Escape');
+  await until('no hand', () => !lab.state.hand_m);
+  await keyboard.press(' ');
+  await until('paused', () => !lab.state.running);
+}
+
+async function bindsParametersBothWays({ lab }) {
+  const threshold = lab.page.getByRole('spinbutton', { name: 'Threshold T' });
+  await threshold.fill('8');
+  await threshold.press('Enter');
+  await until('T = 8 cm', () => lab.scene.parameters.threshold_m === 0.08);
+  await lab.button('Restore defaults').click();
+  await until(
+    'defaults',
+    () => lab.scene.parameters.threshold_m === lab.scene.defaults.threshold_m,
+  );
+  await until('the form', async () => (await threshold.inputValue()) === '10.0');
+}
+
+async function goesBackInTime({ lab }) {
+  await lab.reset({ speed: '8' });
+  await lab.run();
+  await until('three seconds', () => lab.state.sim_time_s > 3);
+  await lab.button('Pause').click();
+  await until('paused', () => !lab.state.running);
+  const end = lab.state.tick;
+  const box = await lab.page.getByLabel('Timeline').boundingBox();
+  await lab.page.mouse.click(box.x + 0.4 * box.width, box.y + box.height / 2);
+  await until('an earlier tick', () => lab.state.tick < 0.6 * end);
+  const earlier = lab.state.tick;
+  await lab.button('Step').click();
+  await until('one tick', () => lab.state.tick === earlier + 1);
+}
+
+async function looksRight({ lab, browser, server }) {
+  await lab.reset({ speed: '4' });
+  await lab.click(lab.freePoints(await lab.point('bead'), 0.2, 0.4)[0]);
+  await lab.run();
+  await until('some history', () => lab.state.sim_time_s > 6);
+  await lab.button('Pause').click();
+  await lab.screenshot('dark');
+  await lab.button('Use light colours').click();
+  await lab.screenshot('light');
+  await lab.button('Use dark colours').click();
+  for (const colorScheme of ['dark', 'light']) {
+    const tablet = await Lab.open(browser, server.url, {
+      viewport: { width: 820, height: 1180 },
+      colorScheme,
+    });
+    await tablet.screenshot(`tablet-${colorScheme}`);
+    await tablet.page.close();
+  }
+}
+
+async function hasOneOperator({ lab, browser, server }) {
+  const second = await Lab.open(browser, server.url);
+  check((await second.text('role')) === 'viewer', 'a second browser became the operator');
+  check(await second.button('Run').isDisabled(), 'a viewer may run');
+  await lab.button('Release control').click();
+  await until('a viewer', async () => (await lab.text('role')) === 'viewer');
+  await second.button('Take control').click();
+  await until('the operator', async () => (await second.text('role')) === 'operator');
+  await second.page.close();
+  await lab.button('Take control').click();
+  await until('the operator again', async () => (await lab.text('role')) === 'operator');
+}
+
+async function isQuiet({ lab }) {
+  check(lab.complaints.length === 0, `the console says: ${lab.complaints.join(' | ')}`);
+  check(lab.strangers.length === 0, `requests left the server: ${lab.strangers.join(' ')}`);
+}
+
+/** Last, because it ends the server. */
+async function saysThatTheServerIsGone({ lab, server }) {
+  if (!server.kill) return;
+  await server.kill();
+  await until('reconnecting', async () =>
+    (await lab.text('connection')).startsWith('reconnecting'),
+  );
+  check(await lab.button('Run').isDisabled(), 'Run is still offered');
+}
+
+export const TESTS = [
+  ['opens as the operator, paused', opens],
+  ['delivers the bead to a clicked goal', deliversToAClick],
+  ['recovers when the mouse drags the bead away', recoversFromADisturbance],
+  ['refuses a goal in a wall, beside it', refusesAGoalInAWall],
+  ['obeys the keyboard', obeysTheKeyboard],
+  ['binds parameters both ways', bindsParametersBothWays],
+  ['goes back in time', goesBackInTime],
+  ['looks right', looksRight],
+  ['has one operator', hasOneOperator],
+  ['is quiet and keeps to its server', isQuiet],
+  ['says that the server is gone', saysThatTheServerIsGone],
+];

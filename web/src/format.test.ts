@@ -1,0 +1,26 @@
+import { describe, expect, it } from 'vitest';
+import { centimetres, clock, fixed, newtons, speed } from './format';
+
+describe('readouts', () => {
+  it('have a true minus sign, and none on zero', () => {
+    expect(fixed(-1.25, 2)).toBe('\u22121.25');
+    expect(fixed(-0.001, 2)).toBe('0.00');
+    expect(centimetres(0.1234)).toBe('12.3 cm');
+  });
+
+  it('choose the unit of a force', () => {
+    expect(newtons(0.0048)).toBe('4.8 mN');
+    expect(newtons(1.2345)).toBe('1.23 N');
+  });
+
+  it('show minutes only when there are some', () => {
+    expect(clock(0)).toBe('0.0 s');
+    expect(clock(59.94)).toBe('59.9 s');
+    expect(clock(59.96)).toBe('1:00.0');
+    expect(clock(62.44)).toBe('1:02.4');
+  });
+
+  it('name speeds as fractions and multiples', () => {
+    expect([0.125, 0.5, 1, 8].map(speed)).toEqual(['1/8×', '1/2×', '1×', '8×']);
+  });
+});

@@ -1,0 +1,32 @@
+// Numbers as people read them: a true minus sign, a fixed number of digits, a unit.
+
+/** Fixed digits, so that a readout does not jump while it changes. */
+export function fixed(value: number, digits: number): string {
+  const text = value.toFixed(digits);
+  // toFixed keeps the sign of what it rounds to zero.
+  return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212');
+}
+
+export function centimetres(value_m: number, digits = 1): string {
+  return `${fixed(value_m * 100, digits)} cm`;
+}
+
+/** Newtons, or millinewtons below a tenth. */
+export function newtons(value_n: number): string {
+  return Math.abs(value_n) < 0.1 ? `${fixed(value_n * 1000, 1)} mN` : `${fixed(value_n, 2)} N`;
+}
+
+/** `1:02.4`: minutes only when there are some. */
+export function clock(time_s: number): string {
+  const tenths = Math.round(time_s * 10);
+  const minutes = Math.floor(tenths / 600);
+  const seconds = (tenths % 600) / 10;
+  return minutes === 0
+    ? `${seconds.toFixed(1)} s`
+    : `${minutes}:${seconds.toFixed(1).padStart(4, '0')}`;
+}
+
+/** Speed factors as fractions, the way a camera names its shutter. */
+export function speed(factor: number): string {
+  return factor < 1 ? `1/${Math.round(1 / factor)}×` : `${factor}×`;
+}

@@ -1,0 +1,159 @@
+// Connection → model → one animation frame → panels. Everything a panel may see or do is in `Lab`.
+
+import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
+import { connect, liveAddress, type Picture } from './connection';
+import { History } from './history';
+import { EMPTY, reduce, type Input, type Model, type Place } from './model';
+import { BINARY_CAMERA_JPEG, BINARY_OBSERVATION, type ClientMessage } from './protocol.gen';
+
+export interface Lab {
+  readonly link: Accessor<Model['link']>;
+  readonly hello: Accessor<Model['hello']>;
+  readonly scene: Accessor<Model['scene']>;
+  readonly state: Accessor<Model['state']>;
+  readonly overlay: Accessor<Model['overlay']>;
+  readonly log: Accessor<Model['log']>;
+  readonly marks: Accessor<Model['marks']>;
+  readonly notices: Accessor<Model['notices']>;
+  readonly refusals: Accessor<number>;
+  readonly camera: Accessor<Picture | undefined>;
+  readonly observation: Accessor<Picture | undefined>;
+  /** Why the session ended, if it has. */
+  readonly ended: Accessor<string | undefined>;
+  /** Connected to a session that goes on, and its operator. */
+  readonly canOperate: Accessor<boolean>;
+  readonly history: History;
+  send(message: ClientMessage): void;
+  notify(place: Place, text: string): void;
+  dismiss(place: Place, id: number): void;
+}
+
+const HIDDEN_FLUSH_MS = 250;
+
+/** Calls `work` before the next frame, or soon when the page is hidden and draws none. */
+function frameScheduler(work: () => void): () => void {
+  let cancel: (() => void) | undefined;
+  const run = (): void => {
+    cancel = undefined;
+    work();
+  };
+  document.addEventListener('visibilitychange', () => {
+    if (!cancel) return;
+    cancel();
+    run();
+  });
+  return () => {
+    if (cancel) return;
+    if (document.hidden) {
+      const id = setTimeout(run, HIDDEN_FLUSH_MS);
+      cancel = () => {
+        clearTimeout(id);
+      };
+    } else {
+      const id = requestAnimationFrame(run);
+      cancel = () => {
+        cancelAnimationFrame(id);
+      };
+    }
+  };
+}
+
+/** Drops what `input` supersedes: of states and overlays only the newest is worth drawing. */
+export function enqueue(queue: Input[], input: Input): void {
+  if (input.type === 'message') {
+    const kind = input.message.type;
+    if (kind === 'state' || kind === 'overlay') {
+      const old = queue.findIndex((item) => item.type === 'message' && item.message.type === kind);
+      if (old >= 0) queue.splice(old, 1);
+    }
+  }
+  queue.push(input);
+}
+
+export function createLab(page: Location): Lab {
+  const [model, setModel] = createSignal<Model>(EMPTY);
+  const [camera, setCamera] = createSignal<Picture>();
+  const [observation, setObservation] = createSignal<Picture>();
+  const history = new History();
+  let queue: Input[] = [];
+  const pictures = new Map<number, Picture>();
+
+  const remember = (before: Model, after: Model): void => {
+    if (before.scene && before.scene.map !== after.scene?.map) history.clear();
+    if (!after.state || after.state === before.state) return;
+    if (before.state && after.state.newest_tick < before.state.newest_tick) {
+      // Down to the moment itself, which a reset may have changed.
+      history.cutAfter(after.state.newest_tick - 1);
+    }
+    history.push(after.state);
+  };
+
+  const flush = (): void => {
+    const inputs = queue;
+    queue = [];
+    const before = model();
+    const after = inputs.reduce(reduce, before);
+    remember(before, after);
+    batch(() => {
+      setModel(after);
+      const newCamera = pictures.get(BINARY_CAMERA_JPEG);
+      if (newCamera) setCamera(newCamera);
+      const newObservation = pictures.get(BINARY_OBSERVATION);
+      if (newObservation) setObservation(newObservation);
+      pictures.clear();
+    });
+  };
+  const schedule = frameScheduler(flush);
+  const take = (input: Input): void => {
+    enqueue(queue, input);
+    schedule();
+  };
+
+  const connection = connect(liveAddress(page, 'main'), {
+    opened: () => {
+      take({ type: 'link', link: { kind: 'live' } });
+    },
+    lost: (attempt) => {
+      take({ type: 'link', link: { kind: 'lost', attempt } });
+    },
+    message: (message) => {
+      take({ type: 'message', message });
+    },
+    picture: (picture) => {
+      pictures.set(picture.kind, picture);
+      schedule();
+    },
+  });
+
+  const link = createMemo(() => model().link);
+  const hello = createMemo(() => model().hello);
+  const ended = createMemo(() => model().state?.ended ?? undefined);
+  return {
+    link,
+    hello,
+    scene: createMemo(() => model().scene),
+    state: createMemo(() => model().state),
+    overlay: createMemo(() => model().overlay),
+    log: createMemo(() => model().log),
+    marks: createMemo(() => model().marks),
+    notices: createMemo(() => model().notices),
+    refusals: createMemo(() => model().refusals),
+    camera,
+    observation,
+    ended,
+    canOperate: createMemo(
+      () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
+    ),
+    history,
+    send: (message) => {
+      // `release` is sent blindly when a hold ends; a lost socket has released it already.
+      if (connection.send(message)) take({ type: 'sent', command: message.type });
+    },
+    notify: (place, text) => {
+      take({ type: 'notice', place, text });
+    },
+    dismiss: (place, id) => {
+      take({ type: 'dismiss', place, id });
+    },
+  };
+}

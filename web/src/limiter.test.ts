@@ -1,0 +1,60 @@
+import { describe, expect, it } from 'vitest';
+import { Limiter, type Clock } from './limiter';
+
+function manualClock(): Clock & { advance: (ms: number) => void } {
+  let now = 0;
+  let waiting: { at: number; action: () => void }[] = [];
+  return {
+    nowMs: () => now,
+    later: (action, ms) => {
+      waiting.push({ at: now + ms, action });
+    },
+    advance: (ms) => {
+      now += ms;
+      const due = waiting.filter(({ at }) => at <= now);
+      waiting = waiting.filter(({ at }) => at > now);
+      for (const { action } of due) action();
+    },
+  };
+}
+
+describe('Limiter', () => {
+  it('sends the first at once and then the newest of each interval', () => {
+    const clock = manualClock();
+    const sent: number[] = [];
+    const limiter = new Limiter<number>(10, (value) => sent.push(value), clock);
+    limiter.offer(1);
+    limiter.offer(2);
+    limiter.offer(3);
+    expect(sent).toEqual([1]);
+    clock.advance(10);
+    expect(sent).toEqual([1, 3]);
+    clock.advance(50);
+    expect(sent).toEqual([1, 3]);
+  });
+
+  it('never exceeds its rate, and never loses the last', () => {
+    const clock = manualClock();
+    const sent: number[] = [];
+    const limiter = new Limiter<number>(1000 / 60, (value) => sent.push(value), clock);
+    for (let i = 0; i < 1000; i++) {
+      limiter.offer(i);
+      clock.advance(1);
+    }
+    clock.advance(100);
+    expect(sent.length).toBeLessThanOrEqual(61);
+    expect(sent.length).toBeGreaterThan(50);
+    expect(sent.at(-1)).toBe(999);
+  });
+
+  it('sends what waits when it is flushed, once', () => {
+    const clock = manualClock();
+    const sent: number[] = [];
+    const limiter = new Limiter<number>(10, (value) => sent.push(value), clock);
+    limiter.offer(1);
+    limiter.offer(2);
+    limiter.flush();
+    clock.advance(20);
+    expect(sent).toEqual([1, 2]);
+  });
+});

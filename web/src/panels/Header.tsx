@@ -1,0 +1,122 @@
+// Who, what, and how it stands: connection, role, mode, counters.
+
+import { Show, type JSX } from 'solid-js';
+import type { Lab } from '../lab';
+import type { Link } from '../model';
+import type { Theme } from '../theme';
+import { NoticeBar } from './NoticeBar';
+
+function linkText(link: Link): string {
+  switch (link.kind) {
+    case 'connecting':
+      return 'connecting';
+    case 'live':
+      return 'live';
+    case 'lost':
+      return `reconnecting, attempt ${link.attempt}`;
+    case 'outdated':
+      return 'server has another version: reload the page';
+  }
+}
+
+function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
+  return (
+    <div class="counter">
+      <dt>{props.label}</dt>
+      <dd class="number" data-testid={props.testid}>
+        {props.value ?? '–'}
+      </dd>
+    </div>
+  );
+}
+
+function RoleBox(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const operator = (): boolean => lab.hello()?.role === 'operator';
+  return (
+    <Show when={lab.link().kind === 'live' && lab.hello()}>
+      <span class="role" data-testid="role">
+        {operator() ? 'operator' : 'viewer'}
+      </span>
+      <Show
+        when={operator()}
+        fallback={
+          <button
+            type="button"
+            class="small primary"
+            onClick={() => {
+              lab.send({ type: 'take_control' });
+              if (lab.hello()?.operator_present) {
+                lab.notify('session', 'Asked: the operator has to release control.');
+              }
+            }}
+          >
+            Take control
+          </button>
+        }
+      >
+        <button
+          type="button"
+          class="small"
+          onClick={() => {
+            lab.send({ type: 'release_control' });
+          }}
+        >
+          Release control
+        </button>
+      </Show>
+    </Show>
+  );
+}
+
+export function Header(props: { lab: Lab; theme: () => Theme; onTheme: () => void }): JSX.Element {
+  const { lab } = props;
+  return (
+    <header class="bar top">
+      <h1>Ferry</h1>
+      <div class="session">
+        <span
+          class="link"
+          data-link={lab.ended() === undefined ? lab.link().kind : 'ended'}
+          role="status"
+          data-testid="connection"
+        >
+          {lab.ended() === undefined ? linkText(lab.link()) : 'session ended'}
+        </span>
+        <RoleBox lab={lab} />
+        <NoticeBar lab={lab} place="session" />
+      </div>
+      <div class="mode" data-mode={lab.state()?.mode ?? 0}>
+        <span class="mode-label">mode</span>
+        <span class="mode-badge number" data-testid="mode">
+          {lab.state()?.mode ?? '–'}
+        </span>
+        <span
+          class="phase"
+          data-testid="phase"
+          data-phase={lab.state()?.phase}
+          title={lab.state()?.phase}
+        >
+          {lab.state()?.phase ?? '–'}
+        </span>
+      </div>
+      <dl class="counters">
+        <Counter label="delivered" testid="deliveries" value={lab.state()?.deliveries} />
+        <Counter label="switches" testid="switches" value={lab.state()?.switches} />
+        <Counter label="disturbed" testid="disturbances" value={lab.state()?.disturbances} />
+        <Counter label="steps" testid="steps" value={lab.state()?.steps} />
+      </dl>
+      <span class="safety">Simulation, not safety-rated</span>
+      <button
+        type="button"
+        class="small"
+        aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
+        onClick={() => {
+          props.onTheme();
+        }}
+      >
+        {props.theme() === 'dark' ? 'Light' : 'Dark'}
+      </button>
+    </header>
+  );
+}

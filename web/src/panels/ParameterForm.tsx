@@ -1,0 +1,207 @@
+// The parameters, bound both ways: edits go out whole, and what the server says is shown.
+
+import { For, Index, Show, createEffect, createMemo, createSignal, on, onCleanup } from 'solid-js';
+import type { JSX } from 'solid-js';
+import type { Lab } from '../lab';
+import {
+  GROUPS,
+  digits,
+  shownValue,
+  storedValue,
+  type ChoiceField,
+  type Field,
+  type Group,
+  type NumberField,
+} from '../parameters';
+import type { Parameters, SceneMessage } from '../protocol.gen';
+
+/** An edit that the server has not confirmed by then is shown as not made. */
+const CONFIRM_MS = 2000;
+
+interface Form {
+  /** In force, with edits that are on their way on top. */
+  readonly values: () => Parameters;
+  readonly defaults: () => Parameters;
+  readonly disabled: () => boolean;
+  readonly edit: (change: Partial<Parameters>) => void;
+}
+
+function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
+  const { form, field } = props;
+  // While a slider moves, its number follows; it goes out when the slider is let go.
+  const [moving, setMoving] = createSignal<number>();
+  const shown = (): number => moving() ?? shownValue(field, form.values()[field.name]);
+  const max = (): number =>
+    field.atMost ? Math.min(field.max, shownValue(field, form.values()[field.atMost])) : field.max;
+  const text = (): string => shown().toFixed(digits(field.step));
+  const commit = (value: number): void => {
+    setMoving(undefined);
+    if (Number.isFinite(value)) {
+      form.edit({ [field.name]: storedValue(field, value, form.values()) });
+    }
+  };
+  const id = `parameter-${field.name}`;
+  return (
+    <div
+      class="row"
+      classList={{ changed: form.values()[field.name] !== form.defaults()[field.name] }}
+    >
+      <label for={id} title={field.help}>
+        {field.label}
+      </label>
+      <span class="with-unit">
+        <input
+          id={id}
+          type="number"
+          class="number"
+          min={field.min}
+          max={max()}
+          step={field.step}
+          value={text()}
+          disabled={form.disabled()}
+          onChange={(event) => {
+            commit(event.currentTarget.valueAsNumber);
+            // What was out of range or no number at all must not stay on display.
+            event.currentTarget.value = text();
+          }}
+        />
+        <span class="unit">{field.unit}</span>
+      </span>
+      <input
+        type="range"
+        aria-label={`${field.label} slider`}
+        min={field.min}
+        max={max()}
+        step={field.step}
+        value={shown()}
+        disabled={form.disabled()}
+        onInput={(event) => setMoving(event.currentTarget.valueAsNumber)}
+        onPointerCancel={() => setMoving(undefined)}
+        onChange={(event) => {
+          commit(event.currentTarget.valueAsNumber);
+        }}
+      />
+    </div>
+  );
+}
+
+function ChoiceRow(props: { form: Form; field: ChoiceField }): JSX.Element {
+  const { form, field } = props;
+  const value = (): string => form.values()[field.name];
+  const id = `parameter-${field.name}`;
+  return (
+    <div class="row" classList={{ changed: value() !== form.defaults()[field.name] }}>
+      <label for={id} title={field.help}>
+        {field.label}
+      </label>
+      <select
+        id={id}
+        disabled={form.disabled()}
+        onChange={(event) => {
+          form.edit({ [field.name]: event.currentTarget.value });
+        }}
+      >
+        <For each={field.options}>
+          {([option, label]) => (
+            <option value={option} selected={value() === option}>
+              {label}
+            </option>
+          )}
+        </For>
+      </select>
+    </div>
+  );
+}
+
+function FieldRow(props: { form: Form; field: Field }): JSX.Element {
+  const { form, field } = props;
+  return field.kind === 'number' ? (
+    <NumberRow form={form} field={field} />
+  ) : (
+    <ChoiceRow form={form} field={field} />
+  );
+}
+
+function GroupBox(props: { form: Form; group: Group; open: boolean }): JSX.Element {
+  const { form, group } = props;
+  const changed = (): number =>
+    group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
+  return (
+    <details class="group" open={props.open}>
+      <summary>
+        {group.title}
+        <Show when={changed() > 0}>
+          <span class="changed-count">{changed()} changed</span>
+        </Show>
+      </summary>
+      <Index each={group.fields}>{(field) => <FieldRow form={form} field={field()} />}</Index>
+    </details>
+  );
+}
+
+/** Edits that are out, by name; they go when the server's parameters agree or it refuses. */
+function createForm(lab: Lab, scene: () => SceneMessage): Form {
+  const [edits, setEdits] = createSignal<Partial<Parameters>>({});
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const drop = (): void => {
+    setEdits({});
+  };
+  createEffect(
+    on(
+      () => scene().parameters,
+      (truth) => {
+        const open = Object.entries(edits()).filter(
+          ([name, value]) => truth[name as keyof Parameters] !== value,
+        );
+        setEdits(Object.fromEntries(open));
+      },
+    ),
+  );
+  createEffect(on(lab.refusals, drop, { defer: true }));
+  onCleanup(() => {
+    clearTimeout(timer);
+  });
+  const values = createMemo(() => ({ ...scene().parameters, ...edits() }));
+  return {
+    values,
+    defaults: () => scene().defaults,
+    disabled: () => !lab.canOperate(),
+    edit: (change) => {
+      let parameters: Parameters = { ...values(), ...change };
+      // Lowering T below the fetch radius takes the radius along.
+      if (parameters.fetch_radius_m > parameters.threshold_m) {
+        change = { ...change, fetch_radius_m: parameters.threshold_m };
+        parameters = { ...parameters, ...change };
+      }
+      setEdits({ ...edits(), ...change });
+      lab.send({ type: 'configure', parameters });
+      clearTimeout(timer);
+      timer = setTimeout(drop, CONFIRM_MS);
+    },
+  };
+}
+
+export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
+  const { lab } = props;
+  const form = createForm(lab, () => props.scene);
+  return (
+    <div class="parameters">
+      <div class="parameters-head">
+        <h3>Parameters</h3>
+        <button
+          type="button"
+          class="small"
+          disabled={form.disabled()}
+          onClick={() => {
+            form.edit(props.scene.defaults);
+          }}
+        >
+          Restore defaults
+        </button>
+      </div>
+      <For each={GROUPS}>
+        {(group, index) => <GroupBox form={form} group={group} open={index() === 0} />}
+      </For>
+    </div>
+  );
+}

@@ -1,0 +1,93 @@
+// The ticks that can be gone back to, with what happened on the way.
+
+import { For, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
+import { clock } from '../format';
+import type { Lab } from '../lab';
+import { Limiter } from '../limiter';
+import type { EventKind } from '../protocol.gen';
+
+const MAX_REWINDS_PER_S = 15;
+/** How long the slider stays where it was let go, until the server's answer is here. */
+const SETTLE_MS = 300;
+const MARKED: ReadonlySet<EventKind> = new Set<EventKind>([
+  'switch',
+  'disturbance',
+  'goal',
+  'reached',
+  'delivered',
+  'lift_off',
+  'stopped',
+]);
+
+export function Timeline(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const [scrubbed, setScrubbed] = createSignal<number>();
+  const oldest = createMemo(() => lab.state()?.oldest_tick ?? 0);
+  // The newest moment kept may be some ticks behind the present.
+  const newest = createMemo(() => {
+    const state = lab.state();
+    return state ? Math.max(state.newest_tick, state.tick) : 0;
+  });
+  const tick = (): number => scrubbed() ?? lab.state()?.tick ?? 0;
+  const seconds = (ticks: number): string => clock(ticks * (lab.scene()?.tick_s ?? 0));
+  const rewinds = new Limiter<number>(1000 / MAX_REWINDS_PER_S, (to) => {
+    lab.send({ type: 'rewind', tick: to });
+  });
+  const marks = createMemo(() =>
+    lab.marks().filter((mark) => MARKED.has(mark.kind) && mark.tick >= oldest()),
+  );
+  const position = (at: number): string => {
+    const span = Math.max(1, newest() - oldest());
+    return `${(100 * Math.min(span, at - oldest())) / span}%`;
+  };
+  let slider!: HTMLInputElement;
+  createEffect(() => {
+    // In this order: a value outside the old ends would be clamped to them.
+    slider.min = String(oldest());
+    slider.max = String(newest());
+    slider.value = String(tick());
+  });
+  let settle: ReturnType<typeof setTimeout> | undefined;
+
+  return (
+    <div class="timeline">
+      <span class="end number">{seconds(oldest())}</span>
+      <div class="track">
+        <svg class="marks" aria-hidden="true">
+          <For each={marks()}>
+            {(mark) => (
+              <line
+                data-kind={mark.kind}
+                x1={position(mark.tick)}
+                x2={position(mark.tick)}
+                y1="0"
+                y2="100%"
+              />
+            )}
+          </For>
+        </svg>
+        <input
+          ref={slider}
+          type="range"
+          aria-label="Timeline"
+          aria-valuetext={seconds(tick())}
+          title="Go back: time pauses there"
+          step="1"
+          disabled={!lab.canOperate() || newest() === oldest()}
+          onInput={(event) => {
+            const to = event.currentTarget.valueAsNumber;
+            clearTimeout(settle);
+            setScrubbed(to);
+            rewinds.offer(to);
+          }}
+          onChange={() => {
+            rewinds.flush();
+            clearTimeout(settle);
+            settle = setTimeout(() => setScrubbed(undefined), SETTLE_MS);
+          }}
+        />
+      </div>
+      <span class="end number">{seconds(newest())}</span>
+    </div>
+  );
+}

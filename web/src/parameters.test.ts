@@ -1,0 +1,40 @@
+import { describe, expect, it } from 'vitest';
+import { GROUPS, digits, shownValue, storedValue, type NumberField } from './parameters';
+import { sceneOf } from './testing';
+
+const { defaults } = sceneOf('posts');
+const fields = GROUPS.flatMap((group) => group.fields);
+const numbers = fields.filter((field): field is NumberField => field.kind === 'number');
+
+function field(name: string): NumberField {
+  const found = numbers.find((one) => one.name === name);
+  if (!found) throw new Error(name);
+  return found;
+}
+
+describe('the form', () => {
+  it('has every parameter exactly once', () => {
+    expect(fields.map(({ name }) => name).sort()).toEqual(Object.keys(defaults).sort());
+  });
+
+  it('has the defaults in range and shows them without rounding', () => {
+    for (const one of numbers) {
+      const shown = shownValue(one, defaults[one.name]);
+      expect(shown).toBeGreaterThanOrEqual(one.min);
+      expect(shown).toBeLessThanOrEqual(one.max);
+      expect(Number(shown.toFixed(digits(one.step)))).toBe(shown);
+    }
+  });
+
+  it('stores what it shows, to the bit', () => {
+    for (const one of numbers) {
+      const stored = defaults[one.name];
+      expect(storedValue(one, shownValue(one, stored), defaults)).toBe(stored);
+    }
+  });
+
+  it('keeps to the range, and the fetch radius below T', () => {
+    expect(storedValue(field('tool_height_m'), 5, defaults)).toBe(0.09);
+    expect(storedValue(field('fetch_radius_m'), 15, defaults)).toBe(defaults.threshold_m);
+  });
+});

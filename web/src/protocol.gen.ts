@@ -1,0 +1,454 @@
+// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
+
+export const PROTOCOL_VERSION = 1;
+export const BINARY_CAMERA_JPEG = 1;
+export const BINARY_OBSERVATION = 2;
+
+/**
+ * A filled polygon with holes, in metres.
+ *
+ * `exterior` runs counter-clockwise and each hole clockwise; no ring repeats its first point.
+ */
+export type Polygon = { 
+/**
+ * Outer ring, `[x_m, y_m]` a vertex.
+ */
+exterior: Array<[number, number]>, 
+/**
+ * Inner rings.
+ */
+holes: Array<Array<[number, number]>>, };
+
+/**
+ * An axis-aligned rectangle, in metres.
+ */
+export type Rect = { 
+/**
+ * Least x.
+ */
+x_min_m: number, 
+/**
+ * Greatest x.
+ */
+x_max_m: number, 
+/**
+ * Least y.
+ */
+y_min_m: number, 
+/**
+ * Greatest y.
+ */
+y_max_m: number, };
+
+/**
+ * Sub-controller 2, by name.
+ */
+export type ControllerName = "attractor";
+
+/**
+ * How the block, 50 × 25 × 10 mm and magnetised across a face, hangs on the tool.
+ */
+export type Orientation = "A" | "B" | "C";
+
+/**
+ * Which switching law runs.
+ */
+export type SwitchingLaw = "hysteresis" | "literal";
+
+/**
+ * Which attractor law runs.
+ */
+export type AttractorLaw = "literal" | "improved";
+
+/**
+ * Everything an operator can tune. Ranges are in [`Parameters::check`].
+ */
+export type Parameters = { 
+/**
+ * How the block is turned.
+ */
+block_orientation: Orientation, 
+/**
+ * Height of the block's lower face above the table, .09 to .2 m.
+ */
+tool_height_m: number, 
+/**
+ * Coulomb friction of the bead on the table, 0 to 1.
+ */
+friction: number, 
+/**
+ * Viscous drag on the bead, 0 to .1 N·s/m.
+ */
+drag_n_s_m: number, 
+/**
+ * Threshold T of the switching law, .02 to .2 m.
+ */
+threshold_m: number, 
+/**
+ * Distance at which sub-controller 1 has fetched the bead, .002 m to `threshold_m`.
+ */
+fetch_radius_m: number, 
+/**
+ * Which switching law runs.
+ */
+switching_law: SwitchingLaw, 
+/**
+ * Tool speed while approaching, .02 to .25 m/s.
+ */
+approach_speed_m_s: number, 
+/**
+ * Tool speed while transporting, .01 to .079 m/s.
+ */
+transport_speed_m_s: number, 
+/**
+ * Standard deviation of the tracker's noise, 0 to .01 m.
+ */
+tracker_noise_m: number, 
+/**
+ * Latency of the tracker, 0 to 50 ticks of 8 ms.
+ */
+tracker_latency_ticks: number, 
+/**
+ * Share of the tracker's samples that are lost, 0 to .9.
+ */
+tracker_dropout: number, 
+/**
+ * Which attractor law runs.
+ */
+attractor_law: AttractorLaw, 
+/**
+ * Feedback gain K, 1.05 to 10 (K = kI; stable above 1).
+ */
+attractor_gain: number, 
+/**
+ * Safety factor sf on the superellipse's half sides, 1 to 2.
+ */
+attractor_safety_factor: number, 
+/**
+ * Reactivity ρ of the modulation, .2 to 5.
+ */
+attractor_reactivity: number, 
+/**
+ * Distance kept from walls by the improved law, 0 to .03 m.
+ */
+attractor_clearance_m: number, };
+
+/**
+ * What a browser may send. Fields are named and measured as everywhere: metres in `base`.
+ */
+export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, } | { "type": "rewind", tick: number, } | { "type": "take_control", } | { "type": "release_control", };
+
+/**
+ * Who this browser is.
+ */
+export type Role = "operator" | "viewer";
+
+/**
+ * What the server sends as text.
+ */
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "error" } & ErrorMessage;
+
+/**
+ * See [`ServerMessage::Hello`].
+ */
+export type Hello = { 
+/**
+ * [`PROTOCOL_VERSION`].
+ */
+protocol: number, 
+/**
+ * Name of the session.
+ */
+session: string, 
+/**
+ * Ferry's version.
+ */
+version: string, 
+/**
+ * This browser's role.
+ */
+role: Role, 
+/**
+ * Whether anybody is the operator.
+ */
+operator_present: boolean, 
+/**
+ * Graphics adapter that renders the camera.
+ */
+adapter: string, };
+
+/**
+ * See [`ServerMessage::Scene`].
+ */
+export type SceneMessage = { 
+/**
+ * Name of the map.
+ */
+map: string, 
+/**
+ * Maps that `load_scenario` knows.
+ */
+maps: Array<string>, 
+/**
+ * Controllers that `select_controller` knows.
+ */
+controllers: Array<ControllerName>, 
+/**
+ * The workspace.
+ */
+workspace: Rect, 
+/**
+ * Walls inside the workspace, 5 mm high.
+ */
+walls: Array<Polygon>, 
+/**
+ * Seed in force.
+ */
+seed: number, 
+/**
+ * Parameters in force.
+ */
+parameters: Parameters, 
+/**
+ * Their defaults.
+ */
+defaults: Parameters, 
+/**
+ * Radius of the bead.
+ */
+bead_radius_m: number, 
+/**
+ * Side of the square of table that the camera sees.
+ */
+camera_span_m: number, 
+/**
+ * Distances at which the magnet's pull beats friction, nearest and farthest, for the parameters
+ * in force; none if it never does.
+ */
+capture_m: [number, number] | null, 
+/**
+ * Seconds a tick.
+ */
+tick_s: number, };
+
+/**
+ * See [`ServerMessage::State`].
+ */
+export type StateMessage = { 
+/**
+ * Ticks since the start of the trial.
+ */
+tick: number, 
+/**
+ * `tick` in seconds.
+ */
+sim_time_s: number, 
+/**
+ * Earliest tick that `rewind` reaches.
+ */
+oldest_tick: number, 
+/**
+ * Latest tick that `rewind` reaches.
+ */
+newest_tick: number, 
+/**
+ * Whether time runs.
+ */
+running: boolean, 
+/**
+ * Asked simulated seconds a second.
+ */
+speed_target: number, 
+/**
+ * Achieved simulated seconds a second.
+ */
+speed_achieved: number, 
+/**
+ * Tool point: the middle of the block's lower face.
+ */
+tool_m: [number, number, number], 
+/**
+ * Centre of the bead, the truth.
+ */
+bead_m: [number, number, number], 
+/**
+ * The bead as the optical tracker gives it.
+ */
+bead_tracked_m: [number, number], 
+/**
+ * Goal, if one is set.
+ */
+goal_m: [number, number, number] | null, 
+/**
+ * Where the hand wants the bead, while it holds it.
+ */
+hand_m: [number, number] | null, 
+/**
+ * Force of the hand's spring on the bead (0 when not held).
+ */
+hand_force_n: number, 
+/**
+ * Joint angles.
+ */
+joints_rad: [number, number, number, number, number, number], 
+/**
+ * Active sub-controller, 1 or 2.
+ */
+mode: number, 
+/**
+ * Why it is active, one plain sentence.
+ */
+reason: string, 
+/**
+ * Why the arm holds, if a step was refused.
+ */
+refusal: string | null, 
+/**
+ * Sub-controller 2 in use.
+ */
+controller: ControllerName, 
+/**
+ * What the arm does in words: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
+ */
+phase: string, 
+/**
+ * Tool minus bead, x.
+ */
+tracking_error_x_m: number, 
+/**
+ * Tool minus bead, y.
+ */
+tracking_error_y_m: number, 
+/**
+ * Its norm: the `e` of the switching law.
+ */
+tracking_error_m: number, 
+/**
+ * Distance from the tool to the goal.
+ */
+goal_distance_m: number | null, 
+/**
+ * Horizontal pull of the magnet on the bead.
+ */
+pull_n: number, 
+/**
+ * Vertical pull in units of the bead's weight; 1 is lift-off.
+ */
+lift_ratio: number, 
+/**
+ * Control steps of the current transport leg.
+ */
+leg_steps: number, 
+/**
+ * Control steps of the trial.
+ */
+steps: number, 
+/**
+ * Switches of the trial.
+ */
+switches: number, 
+/**
+ * Goals delivered since the reset.
+ */
+deliveries: number, 
+/**
+ * Disturbances by hand or script since the reset.
+ */
+disturbances: number, 
+/**
+ * Hash of the plant's state, in hex.
+ */
+world_hash: string, 
+/**
+ * `recording`, or why this session is not recorded.
+ */
+recording: string, 
+/**
+ * Why the session ended, if it has.
+ */
+ended: string | null, };
+
+/**
+ * Kinds of event, for the timeline.
+ */
+export type EventKind = "switch" | "disturbance" | "goal" | "reached" | "delivered" | "lift_off" | "refused" | "stopped" | "session";
+
+/**
+ * See [`ServerMessage::Event`].
+ */
+export type EventMessage = { 
+/**
+ * When.
+ */
+tick: number, 
+/**
+ * When, in seconds.
+ */
+sim_time_s: number, 
+/**
+ * What.
+ */
+kind: EventKind, 
+/**
+ * One plain sentence.
+ */
+text: string, };
+
+/**
+ * An obstacle as the attractor sees it: a superellipse of exponent 4.
+ */
+export type SensedObstacle = { 
+/**
+ * Centre.
+ */
+center_m: [number, number], 
+/**
+ * Half sides of the fitted rectangle.
+ */
+half_size_m: [number, number], 
+/**
+ * Half sides of the superellipse with its safety margin.
+ */
+boundary_m: [number, number], };
+
+/**
+ * See [`ServerMessage::Overlay`].
+ */
+export type OverlayMessage = { 
+/**
+ * When the camera frame was taken.
+ */
+tick: number, 
+/**
+ * Obstacles sensed in it.
+ */
+obstacles: Array<SensedObstacle>, 
+/**
+ * Mean of the central 15×15 pixels, 0 to 255.
+ */
+center_mean: number, 
+/**
+ * Obstacle test: `center_mean` < 150.
+ */
+obstacle: boolean, 
+/**
+ * Next tool target.
+ */
+target_m: [number, number] | null, };
+
+/**
+ * See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
+ */
+export type ErrorMessage = { 
+/**
+ * For programs, such as `goal_in_wall`.
+ */
+code: string, 
+/**
+ * For people: names the field and the value.
+ */
+message: string, 
+/**
+ * The field at fault.
+ */
+field?: string, };

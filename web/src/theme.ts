@@ -1,0 +1,42 @@
+// Dark or light: what the person chose here, else what the system prefers.
+
+import { createSignal, type Accessor } from 'solid-js';
+
+export type Theme = 'dark' | 'light';
+const KEY = 'ferry.theme';
+
+function stored(): Theme | undefined {
+  try {
+    const value = localStorage.getItem(KEY);
+    return value === 'dark' || value === 'light' ? value : undefined;
+  } catch {
+    // Storage may be forbidden; the choice then lasts as long as the page.
+    return undefined;
+  }
+}
+
+export function createTheme(): { theme: Accessor<Theme>; toggle: () => void } {
+  const prefersDark = matchMedia('(prefers-color-scheme: dark)');
+  let chosen = stored();
+  const resolve = (): Theme => chosen ?? (prefersDark.matches ? 'dark' : 'light');
+  const [theme, setTheme] = createSignal(resolve());
+  // Written before the signal changes, because canvases read their colours from the style sheet.
+  const apply = (): void => {
+    document.documentElement.dataset.theme = resolve();
+    setTheme(resolve());
+  };
+  apply();
+  prefersDark.addEventListener('change', apply);
+  return {
+    theme,
+    toggle: () => {
+      chosen = theme() === 'dark' ? 'light' : 'dark';
+      try {
+        localStorage.setItem(KEY, chosen);
+      } catch {
+        // See `stored`.
+      }
+      apply();
+    },
+  };
+}

@@ -1,0 +1,85 @@
+import { describe, expect, it } from 'vitest';
+import {
+  clampToRect,
+  fitView,
+  insidePolygon,
+  insideRect,
+  pxFromWorld,
+  worldFromPx,
+} from './transform';
+
+const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
+const INSETS = { left: 40, right: 10, top: 10, bottom: 20 };
+
+describe('fitView', () => {
+  it('shows the whole world inside the insets, y up', () => {
+    for (const [width, height] of [
+      [700, 400],
+      [300, 900],
+      [1600, 200],
+    ] as const) {
+      const view = fitView(WORKSPACE, width, height, INSETS);
+      const [left, top] = pxFromWorld(view, [WORKSPACE.x_min_m, WORKSPACE.y_max_m]);
+      const [right, bottom] = pxFromWorld(view, [WORKSPACE.x_max_m, WORKSPACE.y_min_m]);
+      expect(left).toBeGreaterThanOrEqual(INSETS.left - 1e-9);
+      expect(top).toBeGreaterThanOrEqual(INSETS.top - 1e-9);
+      expect(right).toBeLessThanOrEqual(width - INSETS.right + 1e-9);
+      expect(bottom).toBeLessThanOrEqual(height - INSETS.bottom + 1e-9);
+      expect((right - left) / (bottom - top)).toBeCloseTo(0.58 / 0.33, 9);
+    }
+  });
+
+  it('is undone by worldFromPx', () => {
+    const view = fitView(WORKSPACE, 700, 400, INSETS);
+    const [x, y] = worldFromPx(view, pxFromWorld(view, [0.123, -0.345]));
+    expect(x).toBeCloseTo(0.123, 12);
+    expect(y).toBeCloseTo(-0.345, 12);
+  });
+
+  it('survives a canvas without room', () => {
+    expect(fitView(WORKSPACE, 0, 0, INSETS).pxPerM).toBeGreaterThan(0);
+  });
+});
+
+describe('rectangles', () => {
+  it('clamp what is outside and keep what is inside', () => {
+    expect(clampToRect(WORKSPACE, [1, -1])).toEqual([0.28, -0.54]);
+    expect(clampToRect(WORKSPACE, [0.1, -0.3])).toEqual([0.1, -0.3]);
+    expect(insideRect(WORKSPACE, [0.1, -0.3])).toBe(true);
+    expect(insideRect(WORKSPACE, [0.1, 0])).toBe(false);
+  });
+});
+
+describe('insidePolygon', () => {
+  const ring: [number, number][] = [
+    [0, 0],
+    [4, 0],
+    [4, 4],
+    [0, 4],
+  ];
+  const hole: [number, number][] = [
+    [1, 1],
+    [1, 3],
+    [3, 3],
+    [3, 1],
+  ];
+
+  it('knows inside, outside and hole', () => {
+    const polygon = { exterior: ring, holes: [hole] };
+    expect(insidePolygon(polygon, [0.5, 0.5])).toBe(true);
+    expect(insidePolygon(polygon, [2, 2])).toBe(false);
+    expect(insidePolygon(polygon, [5, 2])).toBe(false);
+  });
+
+  it('follows a concave outline', () => {
+    const bay: [number, number][] = [
+      [0, 0],
+      [4, 0],
+      [4, 4],
+      [2, 1],
+      [0, 4],
+    ];
+    expect(insidePolygon({ exterior: bay, holes: [] }, [2, 2])).toBe(false);
+    expect(insidePolygon({ exterior: bay, holes: [] }, [0.3, 2])).toBe(true);
+  });
+});

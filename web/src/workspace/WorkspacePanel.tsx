@@ -1,0 +1,207 @@
+// The plan view: click places the goal, dragging the bead is the disturbance.
+
+import { For, Show, createEffect, createMemo, createSignal, onCleanup, onMount } from 'solid-js';
+import type { JSX } from 'solid-js';
+import { fixed } from '../format';
+import type { Lab } from '../lab';
+import { NoticeBar } from '../panels/NoticeBar';
+import type { Theme } from '../theme';
+import { fitView, insidePolygon, worldFromPx, type Vec2, type View } from '../transform';
+import { wallPath } from './drawMap';
+import { createHand } from './hand';
+import { attachKeyboard } from './keyboard';
+import { LAYERS, paint, type Layer } from './paint';
+import { readPalette } from '../palette';
+import { GRAB_MOUSE_PX, attachPointer, type Pointing } from './pointer';
+
+/** Room for the numbers of the axes. */
+const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
+
+interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
+  const { lab } = props;
+  let canvas!: HTMLCanvasElement;
+  const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
+  const [pointing, setPointing] = createSignal<Pointing>({ at: undefined, nearBead: false });
+  const [cursor, setCursor] = createSignal<Vec2>();
+  const [focused, setFocused] = createSignal(false);
+  const [layers, setLayers] = createSignal<ReadonlySet<Layer>>(new Set(LAYERS.map(([id]) => id)));
+
+  const view = createMemo<View | undefined>(() => {
+    const scene = lab.scene();
+    const { width, height } = size();
+    return scene && width > 0 ? fitView(scene.workspace, width, height, INSETS) : undefined;
+  });
+  const walls = createMemo(() => {
+    const now = view();
+    const scene = lab.scene();
+    return now && scene ? wallPath(scene.walls, now) : undefined;
+  });
+  const palette = createMemo(() => {
+    props.theme();
+    return readPalette();
+  });
+  const hand = createHand(lab, view);
+
+  const readout = createMemo(() => {
+    const now = view();
+    const scene = lab.scene();
+    const px = pointing().at;
+    const at = px && now ? worldFromPx(now, px) : focused() ? cursor() : undefined;
+    if (!at || !scene) return undefined;
+    return { at, wall: scene.walls.some((wall) => insidePolygon(wall, at)) };
+  });
+  const spoken = createMemo(() => {
+    const at = cursor();
+    return focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
+  });
+
+  onMount(() => {
+    const observer = new ResizeObserver(() => {
+      setSize({ width: canvas.clientWidth, height: canvas.clientHeight });
+    });
+    observer.observe(canvas);
+    onCleanup(() => {
+      observer.disconnect();
+    });
+    attachPointer(canvas, lab, hand, view, setPointing);
+    attachKeyboard(canvas, lab, hand, view, cursor, setCursor);
+  });
+
+  createEffect(() => {
+    // A lost socket has let go of the bead on the server; a lost role may not hold it.
+    if (!lab.canOperate()) hand.dispatch({ type: 'cancel' });
+  });
+
+  createEffect(() => {
+    const scene = lab.scene();
+    const now = view();
+    const wallsNow = walls();
+    if (!scene || !now || !wallsNow) return;
+    paint(canvas, size(), {
+      view: now,
+      palette: palette(),
+      scene,
+      walls: wallsNow,
+      state: lab.state(),
+      overlay: lab.overlay(),
+      history: lab.history,
+      layers: layers(),
+      drag: hand.drag(),
+      grabRadiusPx: pointing().nearBead ? GRAB_MOUSE_PX : undefined,
+      cursor: focused() ? cursor() : undefined,
+    });
+  });
+
+  // The geometry on the screen, for tests and for other tools that read the page.
+  createEffect(() => {
+    const now = view();
+    if (!now) return;
+    canvas.dataset.pxPerM = String(now.pxPerM);
+    canvas.dataset.originX = String(now.originX);
+    canvas.dataset.originY = String(now.originY);
+  });
+  createEffect(() => {
+    const state = lab.state();
+    if (!state) return;
+    canvas.dataset.bead = state.bead_m.slice(0, 2).join(',');
+    canvas.dataset.tool = state.tool_m.slice(0, 2).join(',');
+    canvas.dataset.goal = state.goal_m?.slice(0, 2).join(',') ?? '';
+  });
+
+  const toggle = (layer: Layer, on: boolean): void => {
+    const next = new Set(layers());
+    if (on) next.add(layer);
+    else next.delete(layer);
+    setLayers(next);
+  };
+  const stale = (): string | undefined => {
+    const ended = lab.ended();
+    if (ended !== undefined) return `The session has ended: ${ended}`;
+    return lab.link().kind === 'live'
+      ? undefined
+      : 'No connection: this is the last state received.';
+  };
+  const cursorName = (): string => {
+    if (hand.drag().kind === 'held') return 'holding';
+    return pointing().nearBead ? 'near-bead' : 'free';
+  };
+
+  return (
+    <section class="panel workspace">
+      <header class="panel-head">
+        <h2>Workspace</h2>
+        <fieldset class="layers">
+          <legend class="visually-hidden">Layers</legend>
+          <For each={LAYERS}>
+            {([id, label]) => (
+              <label>
+                <input
+                  type="checkbox"
+                  checked={layers().has(id)}
+                  onChange={(event) => {
+                    toggle(id, event.currentTarget.checked);
+                  }}
+                />
+                {label}
+              </label>
+            )}
+          </For>
+        </fieldset>
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate() || !lab.state()?.goal_m}
+          onClick={() => {
+            lab.send({ type: 'clear_goal' });
+          }}
+        >
+          Clear goal
+        </button>
+      </header>
+      <div class="stage">
+        <canvas
+          ref={canvas}
+          class="workspace-canvas"
+          tabindex="0"
+          role="application"
+          aria-label="Workspace"
+          aria-describedby="workspace-help"
+          data-cursor={cursorName()}
+          onFocus={() => {
+            setFocused(true);
+          }}
+          onBlur={() => {
+            setFocused(false);
+          }}
+        />
+        <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
+        <NoticeBar lab={lab} place="workspace" />
+      </div>
+      <footer class="panel-foot">
+        <p id="workspace-help" class="hint">
+          Click: goal · drag the bead: disturb, Shift lifts it over walls · keys: arrows, Enter, D
+        </p>
+        <output class="readout" aria-live="off">
+          <Show when={readout()} fallback="x –   y –">
+            {(here) => (
+              <>
+                <Show when={here().wall}>
+                  <span class="wall-hint">wall </span>
+                </Show>
+                x {fixed(here().at[0], 3)} y {fixed(here().at[1], 3)} m
+              </>
+            )}
+          </Show>
+        </output>
+        <span class="visually-hidden" aria-live="polite">
+          {spoken()}
+        </span>
+      </footer>
+    </section>
+  );
+}

@@ -1,0 +1,122 @@
+// One picture of the workspace, from everything that is on it.
+
+import type { DragState } from '../drag';
+import type { History } from '../history';
+import type { OverlayMessage, SceneMessage, StateMessage } from '../protocol.gen';
+import { clampToRect, pxFromWorld, worldFromPx, type Vec2, type View } from '../transform';
+import { drawCursor, drawSpring } from './drawHand';
+import { drawMap } from './drawMap';
+import {
+  drawBead,
+  drawCapture,
+  drawFootprint,
+  drawGoal,
+  drawSensed,
+  drawTool,
+  drawTrail,
+} from './drawMoving';
+import type { Palette } from '../palette';
+
+export const LAYERS = [
+  ['sensed', 'Sensed'],
+  ['trail', 'Trails'],
+  ['camera', 'Camera field'],
+  ['capture', 'Capture'],
+] as const;
+export type Layer = (typeof LAYERS)[number][0];
+
+const TRAIL_S = 60;
+
+export interface Picture {
+  readonly view: View;
+  readonly palette: Palette;
+  readonly scene: SceneMessage;
+  readonly walls: Path2D;
+  readonly state: StateMessage | undefined;
+  readonly overlay: OverlayMessage | undefined;
+  readonly history: History;
+  readonly layers: ReadonlySet<Layer>;
+  readonly drag: DragState;
+  /** Radius of the ring that says that the bead can be taken; none when it cannot. */
+  readonly grabRadiusPx: number | undefined;
+  readonly cursor: Vec2 | undefined;
+}
+
+type Ctx = CanvasRenderingContext2D;
+
+function paintTrails(ctx: Ctx, picture: Picture, state: StateMessage): void {
+  const [toolX, toolY, beadX, beadY] = picture.history.window(
+    state.sim_time_s - TRAIL_S,
+    state.sim_time_s,
+    ['tool_x_m', 'tool_y_m', 'bead_x_m', 'bead_y_m'],
+  );
+  if (!toolX || !toolY || !beadX || !beadY) return;
+  drawTrail(ctx, picture.view, picture.palette.tool, toolX, toolY);
+  drawTrail(ctx, picture.view, picture.palette.bead, beadX, beadY);
+}
+
+function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
+  const { drag, view, scene } = picture;
+  // One's own pointer is newer than the server's echo of it; a viewer sees the echo.
+  const hand_m =
+    drag.kind === 'held' ? clampToRect(scene.workspace, worldFromPx(view, drag.at)) : state.hand_m;
+  if (!hand_m) return;
+  const remarks: string[] = [];
+  if (drag.kind === 'held' && drag.lift) remarks.push('lifted');
+  if (!state.running) remarks.push('put there on release');
+  drawSpring(ctx, view, picture.palette, widthPx, {
+    bead_m: [state.bead_m[0], state.bead_m[1]],
+    hand_m,
+    force_n: state.hand_force_n,
+    remark: remarks.join(', '),
+  });
+}
+
+/** Fields reach beyond the table; their pictures would cover the numbers of the axes. */
+function clipToWorkspace(ctx: Ctx, { view, scene }: Picture): void {
+  const rect = scene.workspace;
+  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  ctx.beginPath();
+  ctx.rect(left, top, right - left, bottom - top);
+  ctx.clip();
+}
+
+function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
+  const { view, palette, scene, layers } = picture;
+  const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
+  ctx.save();
+  clipToWorkspace(ctx, picture);
+  if (layers.has('sensed') && picture.overlay) drawSensed(ctx, view, palette, picture.overlay);
+  if (layers.has('trail')) paintTrails(ctx, picture, state);
+  if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_span_m);
+  if (layers.has('capture') && scene.capture_m) {
+    drawCapture(ctx, view, palette, tool, scene.capture_m);
+  }
+  ctx.restore();
+  if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
+  drawTool(ctx, view, palette, tool);
+  drawBead(ctx, view, palette, scene, state, picture.grabRadiusPx);
+  paintSpring(ctx, picture, state, widthPx);
+}
+
+export function paint(
+  canvas: HTMLCanvasElement,
+  size: { readonly width: number; readonly height: number },
+  picture: Picture,
+): void {
+  const ratio = window.devicePixelRatio;
+  const width = Math.round(size.width * ratio);
+  const height = Math.round(size.height * ratio);
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+  const ctx = canvas.getContext('2d');
+  if (!ctx) return;
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.clearRect(0, 0, size.width, size.height);
+  drawMap(ctx, picture.scene, picture.walls, picture.view, picture.palette);
+  if (picture.state) paintState(ctx, picture, picture.state, size.width);
+  if (picture.cursor) drawCursor(ctx, picture.view, picture.palette, picture.cursor);
+}

@@ -1,0 +1,19 @@
+import solid from 'vite-plugin-solid';
+import { defineConfig } from 'vitest/config';
+
+export default defineConfig({
+  plugins: [solid()],
+  build: {
+    outDir: process.env.FERRY_WEB_OUT ?? 'dist',
+    emptyOutDir: true,
+    target: 'es2022',
+    // The page's policy is `default-src 'self'`: a `data:` address would be refused.
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+  },
+  test: {
+    // Only pure modules are unit-tested; the page itself is tested in a browser (e2e).
+    environment: 'node',
+    include: ['src/**/*.test.ts'],
+  },
+});
