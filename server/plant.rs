@@ -127,3 +127,6 @@ impl Plant {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -25,7 +25,7 @@ const FIELD_OF_VIEW_RAD: f64 = 0.5;
 /// From the middle of the table toward the light: over the user's left shoulder.
 const TOWARD_LIGHT: [f64; 3] = [-0.38, -0.42, 1.0];
 /// The arm mostly stays below this, and its elbow within this of the robot's foot.
-const ARM_TOP_M: f64 = 0.58;
+const ARM_TOP_M: f64 = 0.63;
 const ARM_ASIDE_M: f64 = 0.15;
 /// What is in the picture below the floor: the table's front, and a little air.
 const MARGIN_BELOW_M: f64 = 0.05;

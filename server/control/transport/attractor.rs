@@ -133,8 +133,8 @@ impl Transport for Attractor {
             AttractorLaw::Improved => parameters.attractor_clearance_m,
         };
         let mask = ObstacleMask::of(input.percept);
-        self.sensed = mask
-            .patches(input.tool_m, SENSED_M)
+        let patches = mask.patches(input.tool_m, SENSED_M);
+        self.sensed = patches
             .iter()
             .map(|patch| Superellipse::around(patch, parameters.attractor_safety_factor, clearance_m))
             .collect();
@@ -142,8 +142,10 @@ impl Transport for Attractor {
         if parameters.attractor_law == AttractorLaw::Improved {
             let reach_m = parameters.transport_speed_m_s * CONTROL_PERIOD_S;
             let blocked = input.percept.obstacle_on_step(input.tool_m, target_m).is_some();
-            if let (true, Some(way)) = (input.percept.obstacle(), mask.way_off(input.tool_m)) {
-                // After a fetch the tool may stand over a wall that the bead leans on: off it first.
+            let beside = patches.first().is_some_and(|p| (p.nearest_m - input.tool_m).norm() < 0.5 * clearance_m);
+            if let (true, Some(way)) = (beside || input.percept.obstacle(), mask.way_off(input.tool_m)) {
+                // After a fetch the tool may stand over or close beside a wall that the bead leans on,
+                // where a superellipse's normal means nothing: off it first.
                 target_m = input.tool_m + way * reach_m;
             } else if let (true, Some(side)) = (blocked, self.contour) {
                 self.contour = Some(side.opposite());

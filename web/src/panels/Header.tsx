@@ -84,6 +84,18 @@ export function Header(props: { lab: Lab; theme: () => Theme; onTheme: () => voi
           {lab.ended() === undefined ? linkText(lab.link()) : 'session ended'}
         </span>
         <RoleBox lab={lab} />
+        <Show when={lab.state()}>
+          {(state) => (
+            <span
+              class="recording"
+              data-recording={state().recording === 'recording' ? 'on' : 'off'}
+              data-testid="recording"
+              title={`${state().recording}; rendered by ${lab.hello()?.adapter ?? 'an unknown adapter'}`}
+            >
+              {state().recording === 'recording' ? 'rec' : state().recording}
+            </span>
+          )}
+        </Show>
         <NoticeBar lab={lab} place="session" />
       </div>
       <div class="mode" data-mode={lab.state()?.mode ?? 0}>
