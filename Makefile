@@ -12,12 +12,12 @@ SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 CARGO_TEST := cargo test --release --quiet
 
 run: system-run
-	cargo run --release -- serve --open
+	cargo run --release -- serve
 
 test: system-test $(VENV)/rerun-$(RERUN_VERSION)
 	cargo fmt --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --document-private-items --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
 	cargo build --release --quiet
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output

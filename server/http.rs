@@ -11,6 +11,7 @@ mod problem;
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, RwLock};
 
 use axum::Router;
@@ -70,6 +71,8 @@ pub struct Server {
     recordings: PathBuf,
     /// Sessions by id. Written by `POST` and `DELETE`, read by all.
     sessions: RwLock<BTreeMap<String, Arc<Hub>>>,
+    /// Sessions made so far, for their ids.
+    made: AtomicU64,
     /// Turns true when the server is to stop; every WebSocket watches it.
     stopping: watch::Receiver<bool>,
 }
@@ -77,7 +80,13 @@ pub struct Server {
 impl Server {
     /// A server with the session `main`.
     pub fn new(gpu: Arc<Gpu>, data: PathBuf, stopping: watch::Receiver<bool>) -> Result<Arc<Self>, ServeError> {
-        let server = Arc::new(Self { gpu, recordings: data.join("recordings"), sessions: RwLock::default(), stopping });
+        let server = Arc::new(Self {
+            gpu,
+            recordings: data.join("recordings"),
+            sessions: RwLock::default(),
+            made: AtomicU64::new(0),
+            stopping,
+        });
         server.open(MAIN_SESSION, Scenario::idle("posts", 1))?;
         Ok(server)
     }

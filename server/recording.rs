@@ -34,7 +34,7 @@ pub enum RecordingError {
 
 /// What the recording's thread is told.
 enum Message {
-    Begin(Box<Scenery>),
+    Begin { scenery: Box<Scenery>, tick: u64 },
     Sample(Box<Sample>),
     Note(Event),
 }
@@ -100,8 +100,8 @@ impl Recorder {
 }
 
 impl Sink for Recorder {
-    fn begin(&mut self, scenery: &Scenery) {
-        self.push(Message::Begin(Box::new(scenery.clone())));
+    fn begin(&mut self, scenery: &Scenery, tick: u64) {
+        self.push(Message::Begin { scenery: Box::new(scenery.clone()), tick });
     }
 
     fn record(&mut self, record: &TickRecord) {

@@ -133,7 +133,7 @@ pub struct View {
 /// Takes every tick, in order; called in the session's thread, so it must not wait.
 pub trait Sink: Send {
     /// A trial begins, at its start or at a moment gone back to.
-    fn begin(&mut self, scenery: &Scenery);
+    fn begin(&mut self, scenery: &Scenery, tick: u64);
     /// A tick, with its events.
     fn record(&mut self, record: &TickRecord);
     /// An event while time stands.

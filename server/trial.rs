@@ -27,7 +27,7 @@ use crate::tracking::TrackerParameters;
 
 pub use input::{Input, InputError};
 pub use log::{InputLog, LogError, LoggedTick};
-pub use outcome::{GOAL_RADIUS_M, Phase, StopReason};
+pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Event, EventKind, Moment, Sight, TickRecord};
 pub use state::{Counters, Decision, Mind, Motion, TrialState, World};
 

@@ -1,6 +1,7 @@
 //! Sessions, maps and recordings over plain HTTP.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use axum::Json;
 use axum::body::{Body, Bytes};
@@ -91,14 +92,11 @@ pub async fn create_session(State(server): State<Arc<Server>>, body: Bytes) -> R
         Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "map_refused", error.to_string()).field("map")
     })?;
     let scenario = Scenario { controller: asked.controller, ..Scenario::idle(&asked.map, asked.seed) };
-    let id = {
-        let hubs = server.sessions.read().expect("no holder panics");
-        if hubs.len() >= SESSION_CAP {
-            let detail = format!("there are {SESSION_CAP} sessions already; delete one first");
-            return Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail));
-        }
-        (1..).map(|n| format!("session-{n}")).find(|id| !hubs.contains_key(id)).expect("numbers do not end")
-    };
+    if server.sessions.read().expect("no holder panics").len() >= SESSION_CAP {
+        let detail = format!("there are {SESSION_CAP} sessions already; delete one first");
+        return Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail));
+    }
+    let id = format!("session-{}", server.made.fetch_add(1, Ordering::Relaxed) + 1);
     let hub = server.open(&id, scenario).map_err(Problem::internal)?;
     let summary = SessionSummary::of(&hub.id, &hub.session.watch().borrow());
     Ok((StatusCode::CREATED, [(header::LOCATION, format!("/api/sessions/{id}"))], Json(summary)).into_response())

@@ -9,7 +9,7 @@ use super::{Message, Sample, level};
 use crate::geometry::Polygon;
 use crate::map::WALL_HEIGHT_M;
 use crate::plant::BEAD_RADIUS_M;
-use crate::robot::forward;
+use crate::robot::{forward, ur5::SERVO_PERIOD_S};
 use crate::session::Scenery;
 use crate::trial::{Event, GOAL_RADIUS_M};
 
@@ -18,7 +18,7 @@ const JPEG_QUALITY: u8 = 85;
 /// Writes to a stream.
 pub(super) struct Writer {
     stream: RecordingStream,
-    /// Tick on the recording's timeline at which the present trial began.
+    /// What the recording's timeline is ahead of the present trial's ticks.
     offset: i64,
     last: i64,
 }
@@ -30,7 +30,7 @@ impl Writer {
 
     pub(super) fn write(&mut self, message: Message) -> Result<(), RecordingStreamError> {
         match message {
-            Message::Begin(scenery) => self.begin(&scenery),
+            Message::Begin { scenery, tick } => self.begin(&scenery, tick),
             Message::Sample(sample) => self.sample(&sample),
             Message::Note(event) => self.event(&event),
         }
@@ -42,10 +42,10 @@ impl Writer {
         Ok(())
     }
 
-    fn begin(&mut self, scenery: &Scenery) -> Result<(), RecordingStreamError> {
-        self.offset = self.last;
-        self.stream.set_time_sequence("tick", self.offset);
-        self.stream.set_duration_secs("sim_time", 0.0);
+    fn begin(&mut self, scenery: &Scenery, tick: u64) -> Result<(), RecordingStreamError> {
+        // A trial that begins at a later tick, after going back, follows on without a gap.
+        self.offset = self.last - tick as i64;
+        self.at(tick, tick as f64 * SERVO_PERIOD_S);
         let walls = scenery.arena.map.walls().iter().chain(scenery.arena.map.free()).flat_map(Polygon::rings);
         let strips = walls.map(|ring| {
             let closed = ring.iter().chain(ring.first());

@@ -46,7 +46,7 @@ impl Worker {
     ) -> Result<Self, TrialError> {
         let trial = Trial::new(scenario, arena)?;
         let scenery = Arc::new(scenery_of(&trial, 0));
-        sink.begin(&scenery);
+        sink.begin(&scenery, 0);
         let sight = Arc::new((0, trial.look(&mut camera)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
@@ -193,7 +193,7 @@ impl Worker {
                 self.running = false;
                 self.trial.restore(state);
                 self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
-                self.sink.begin(&self.scenery);
+                self.sink.begin(&self.scenery, self.trial.state().world.tick);
                 self.look()?;
             }
         }
@@ -227,7 +227,7 @@ impl Worker {
         self.trial = trial;
         self.running = false;
         self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
-        self.sink.begin(&self.scenery);
+        self.sink.begin(&self.scenery, 0);
         self.sight = Arc::new((0, sight));
         self.timeline = Timeline::default();
         self.timeline.keep(self.trial.snapshot());

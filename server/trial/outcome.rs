@@ -8,6 +8,8 @@ use crate::robot::ur5::SERVO_PERIOD_S;
 
 /// The paper's test: the goal is reached when the tool is this near, and delivered when the bead is.
 pub const GOAL_RADIUS_M: f64 = 0.02;
+/// A delivered bead is no longer there when it is this far away; a little more, so as not to flicker.
+const LEFT_RADIUS_M: f64 = 0.025;
 /// The bead may take this long to follow after the tool has reached the goal.
 pub const SETTLE_S: f64 = 5.0;
 /// Control steps a transport leg, anew after each fetch.
@@ -87,15 +89,21 @@ impl Trial {
         if world.phase == Phase::LiftedOff {
             world.phase = Phase::Holding;
         }
-        let (Phase::Settling { since_tick }, Some(goal)) = (world.phase, world.goal_m) else { return };
+        let Some(goal) = world.goal_m else { return };
         let left_m = (world.plant.bead.position_m - goal).norm();
-        if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() {
-            world.phase = Phase::Delivered;
-            world.counters.deliveries += 1;
-            let text = format!("delivered: the bead is {:.0} mm from the goal", left_m * 1e3);
-            self.events.push(Event::new(tick, EventKind::Delivered, text));
-        } else if (tick - since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S {
-            self.stop(StopReason::Settle);
+        match world.phase {
+            // Pulled off the goal, but not so far that it must be fetched: the magnet gets it back.
+            Phase::Delivered if left_m > LEFT_RADIUS_M => world.phase = Phase::Settling { since_tick: tick },
+            Phase::Settling { .. } if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() => {
+                world.phase = Phase::Delivered;
+                world.counters.deliveries += 1;
+                let text = format!("delivered: the bead is {:.0} mm from the goal", left_m * 1e3);
+                self.events.push(Event::new(tick, EventKind::Delivered, text));
+            }
+            Phase::Settling { since_tick } if (tick - since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S => {
+                self.stop(StopReason::Settle);
+            }
+            _ => {}
         }
     }
 
