@@ -8,7 +8,7 @@ Two references, neither of which shares code or formulas with the laboratory bey
   turn of the flange) and its signs are those of the laboratory; its angles lie in [-pi, pi]. It takes
   sines under 1e-12 for zero and 1 - c3^2 under 1e-12 too, so it is exact to about 1e-6 rad only next
   to a singularity, and it leaves out what it gets wrong by 1e-9 or more.
-- `newton`: Levenberg-Marquardt from 600 random starts, then Newton steps with the residual in
+- `newton`: Levenberg-Marquardt from 500 random starts, then Newton steps with the residual in
   extended precision (x86's 80 bits), for the poses near a singularity. It lists every solution, nearly
   coinciding ones (1e-7 rad) once. A pose with a free wrist has a continuum of solutions and no such
   list.
@@ -30,7 +30,7 @@ DH = [  # d, a (m), cosine and sine of the twist
     (0.09465, 0.0, 0, -1),
     (0.0823, 0.0, 1, 0),
 ]
-STARTS = 600
+STARTS = 500
 SAME_RAD = 1e-7
 random = np.random.default_rng(20240607)
 
@@ -75,22 +75,23 @@ def newton(target):
     damping = np.full(STARTS, 1e-2)
     residual, jacobian = residual_and_jacobian(joints, coarse)
     error = np.abs(coarse - frames(joints)[6]).sum((1, 2))
-    for _ in range(150):
-        transposed = jacobian.transpose(0, 2, 1)
-        normal = transposed @ jacobian + damping[:, None, None] * np.eye(6)
-        step = np.linalg.solve(normal, (transposed @ residual[:, :, None]))[:, :, 0]
+    for _ in range(120):
+        # By singular values: next to a singularity JᵀJ would lose the digits that tell solutions apart.
+        left, sizes, right = np.linalg.svd(jacobian)
+        along = np.einsum("nji,nj->ni", left, residual) * sizes / (sizes**2 + damping[:, None])
+        step = np.einsum("nij,ni->nj", right, along)
         tried = joints + step
         error_tried = np.abs(coarse - frames(tried)[6]).sum((1, 2))
         better = error_tried < error
         joints[better], error[better] = tried[better], error_tried[better]
-        damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-13, 1e2)
+        damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-30, 1e2)
         residual, jacobian = residual_and_jacobian(joints, coarse)
     joints = joints[error < 1e-12].astype(np.longdouble)
     for _ in range(20):
         residual, jacobian = residual_and_jacobian(joints, target)
         # Where the Jacobian has no inverse, the least step does no harm.
         step = np.linalg.pinv(jacobian, rcond=1e-13) @ residual.astype(float)[:, :, None]
-        joints = joints + np.clip(step[:, :, 0], -1e-7, 1e-7)
+        joints = joints + np.clip(step[:, :, 0], -1e-5, 1e-5)
     error = np.abs(target - frames(joints)[6]).max((1, 2))
     found = []
     for candidate in wrapped(joints[error < 1e-13]):
