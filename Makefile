@@ -9,7 +9,8 @@ SHELL := /bin/bash
 RERUN_VERSION := 0.36.3
 VENV := target/venv
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
-CARGO_TEST := cargo test --release --quiet
+# Graphics drivers complain of its absence, at length.
+export XDG_RUNTIME_DIR ?= /tmp
 
 run: system-run
 	cargo run --release -- serve
@@ -18,11 +19,11 @@ test: system-test $(VENV)/rerun-$(RERUN_VERSION)
 	cargo fmt --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
-	cargo build --release --quiet
+	cargo test --release --no-run --quiet
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
-	$(CARGO_TEST)
+	cargo test --release --quiet
 
 # A graphics driver that needs no graphics card, and Node.js for the page.
 system-run:

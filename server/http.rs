@@ -3,6 +3,7 @@
 mod access;
 mod api;
 mod assets;
+mod calculator;
 mod hub;
 mod live;
 mod metrics;
@@ -16,15 +17,15 @@ use std::sync::{Arc, RwLock};
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
-use axum::routing::get;
+use axum::routing::{get, post};
 use axum::serve::ListenerExt;
 use tokio::net::TcpListener;
-use tokio::sync::watch;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::camera::Gpu;
-use crate::recording::{Recorder, RecordingError};
+use crate::recording::{Recorder, Unrecorded};
 use crate::scenario::Scenario;
-use crate::session::Session;
+use crate::session::{Session, Sink};
 use crate::trial::TrialError;
 
 use hub::Hub;
@@ -40,12 +41,12 @@ pub const MAIN_SESSION: &str = "main";
 #[derive(Debug, thiserror::Error)]
 pub enum ServeError {
     /// The address is taken or not ours.
-    #[error("cannot listen on {address}: {source}; choose another with --bind, as in --bind 127.0.0.1:0")]
+    #[error("cannot listen on {address}: {error}; choose another with --bind, as in --bind 127.0.0.1:0")]
     Bind {
         /// The address asked for.
         address: SocketAddr,
         /// What the system said.
-        source: std::io::Error,
+        error: std::io::Error,
     },
     /// Others could reach it.
     #[error("--bind {address} lets other machines in, which Ferry does not allow yet; use 127.0.0.1 or [::1]")]
@@ -56,9 +57,6 @@ pub enum ServeError {
     /// A session could not start.
     #[error(transparent)]
     Trial(#[from] TrialError),
-    /// Its recording could not.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
     /// The server itself.
     #[error("server: {0}")]
     Io(#[from] std::io::Error),
@@ -71,6 +69,8 @@ pub struct Server {
     recordings: PathBuf,
     /// Sessions by id. Written by `POST` and `DELETE`, read by all.
     sessions: RwLock<BTreeMap<String, Arc<Hub>>>,
+    /// A place a session, [`SESSION_CAP`] in all.
+    places: Arc<Semaphore>,
     /// Sessions made so far, for their ids.
     made: AtomicU64,
     /// Turns true when the server is to stop; every WebSocket watches it.
@@ -84,19 +84,28 @@ impl Server {
             gpu,
             recordings: data.join("recordings"),
             sessions: RwLock::default(),
+            places: Arc::new(Semaphore::new(SESSION_CAP)),
             made: AtomicU64::new(0),
             stopping,
         });
-        server.open(MAIN_SESSION, Scenario::idle("posts", 1))?;
+        let place = server.places.clone().try_acquire_owned().expect("the first session finds a place");
+        server.open(MAIN_SESSION, Scenario::idle("posts", 1), place)?;
         Ok(server)
     }
 
-    /// Starts a session under an id that is free.
-    fn open(&self, id: &str, scenario: Scenario) -> Result<Arc<Hub>, ServeError> {
+    /// Starts a session under an id that is free. Blocks: it makes a file, a camera and a thread.
+    fn open(&self, id: &str, scenario: Scenario, place: OwnedSemaphorePermit) -> Result<Arc<Hub>, ServeError> {
         let started = jiff::Zoned::now().strftime("%Y%m%d-%H%M%S%.3f").to_string().replace('.', "-");
-        let recorder = Recorder::create(&self.recordings, &format!("{started}-{id}"))?;
-        let session = Session::start(id, scenario, self.gpu.clone(), Box::new(recorder))?;
-        let hub = Hub::start(id, session, self.gpu.adapter_name());
+        // A recording that cannot begin is shown, and the session runs without.
+        let sink: Box<dyn Sink> = match Recorder::create(&self.recordings, &format!("{started}-{id}")) {
+            Ok(recorder) => Box::new(recorder),
+            Err(error) => {
+                tracing::warn!(%error, "session not recorded");
+                Box::new(Unrecorded { reason: error.to_string() })
+            }
+        };
+        let session = Session::start(id, scenario, self.gpu.clone(), sink)?;
+        let hub = Hub::start(id, session, self.gpu.adapter_name(), place);
         self.sessions.write().expect("no holder panics").insert(id.to_owned(), hub.clone());
         Ok(hub)
     }
@@ -121,6 +130,9 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/live", get(live::live))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))
+        .route("/api/kinematics/forward", post(calculator::forward))
+        .route("/api/kinematics/inverse", post(calculator::inverse))
+        .route("/api/magnetics/field", post(calculator::field))
         .fallback(assets::page)
         .layer(DefaultBodyLimit::max(BODY_LIMIT))
         .layer(axum::middleware::from_fn(access::guard))
@@ -132,7 +144,7 @@ pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
     if !address.ip().is_loopback() {
         return Err(ServeError::NotLoopback { address });
     }
-    TcpListener::bind(address).await.map_err(|source| ServeError::Bind { address, source })
+    TcpListener::bind(address).await.map_err(|error| ServeError::Bind { address, error })
 }
 
 /// Serves until `stopping` turns true, then closes every session and recording.

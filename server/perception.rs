@@ -112,11 +112,14 @@ impl Percept {
 }
 
 #[cfg(test)]
+pub(crate) use tests::frame as test_frame;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
     /// A frame whose pixels are given by a rule on table coordinates.
-    pub(super) fn frame(center: Point2<f64>, wall: impl Fn(Point2<f64>) -> bool) -> CameraFrame {
+    pub(crate) fn frame(center: Point2<f64>, wall: impl Fn(Point2<f64>) -> bool) -> CameraFrame {
         let calibration = Calibration { center_m: center, m_per_px: 0.2 / 480.0, size_px: 480 };
         let rgba = (0..480 * 480)
             .flat_map(|i| {

@@ -160,9 +160,13 @@ pub struct SceneMessage {
     pub bead_radius_m: f64,
     /// Side of the square of table that the camera sees.
     pub camera_span_m: f64,
-    /// Distances at which the magnet's pull beats friction, nearest and farthest, for the parameters
-    /// in force; none if it never does.
-    pub capture_m: Option<[f64; 2]>,
+    /// Number of the trial: another one when a trial was set up anew.
+    #[ts(type = "number")]
+    pub trial: u64,
+    /// Distances from the tool at which the magnet's pull beats friction, nearest and farthest, for the
+    /// parameters in force, in 72 directions from +x counter-clockwise; none where it never does, and no
+    /// farthest where it always does.
+    pub capture_m: Vec<Option<(f64, Option<f64>)>>,
     /// Seconds a tick.
     pub tick_s: f64,
 }
@@ -285,7 +289,7 @@ pub struct OverlayMessage {
 /// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct ErrorMessage {
-    /// For programs, such as `goal_in_wall`.
+    /// For programs, such as `in_wall`.
     pub code: String,
     /// For people: names the field and the value.
     pub message: String,

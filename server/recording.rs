@@ -3,16 +3,21 @@
 mod log;
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
+
+use rerun::RecordingStream;
 
 use crate::session::{Scenery, Sink};
 use crate::trial::{Event, EventKind, Moment, TickRecord};
 
-/// Samples that may wait for the disk; about ten seconds of them.
+/// Samples that may wait for the disk: seventeen simulated seconds of them.
 const QUEUE: usize = 512;
+/// Recording stops when the disk has less room than this.
+const ROOM_BYTES: u64 = 64 << 20;
+/// Messages between two looks at the room left: some seconds, and far less than the room.
+const ROOM_EVERY: usize = 64;
 /// Moments are logged at 25 Hz of simulated time; events and camera frames always.
 const TICKS_A_SAMPLE: u64 = 5;
 
@@ -20,12 +25,12 @@ const TICKS_A_SAMPLE: u64 = 5;
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
     /// The folder cannot be made or read.
-    #[error("recording: {path}: {source}", path = path.display())]
+    #[error("recording: {path}: {error}", path = path.display())]
     Io {
         /// The path.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        error: std::io::Error,
     },
     /// Rerun refused.
     #[error("recording: {0}")]
@@ -51,78 +56,114 @@ struct Sample {
 pub struct Recorder {
     queue: Option<SyncSender<Message>>,
     thread: Option<JoinHandle<()>>,
-    lost: AtomicU64,
-    failed: Arc<AtomicBool>,
+    /// A beginning that found the queue full; samples wait for it, since they would be misread without.
+    owed: Option<Message>,
+    lost: u64,
+    /// Why the thread writes no more; set by it, shown to viewers.
+    stopped: Arc<OnceLock<String>>,
 }
 
 impl Recorder {
     /// Starts a file in `folder`; `id` becomes its name.
     pub fn create(folder: &Path, id: &str) -> Result<Self, RecordingError> {
-        std::fs::create_dir_all(folder).map_err(|source| RecordingError::Io { path: folder.into(), source })?;
+        std::fs::create_dir_all(folder).map_err(|error| RecordingError::Io { path: folder.into(), error })?;
         let path = folder.join(format!("{id}.rrd"));
         let stream = rerun::RecordingStreamBuilder::new("ferry")
             .recording_id(id)
             .save(&path)
             .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
         let (queue, inbox) = sync_channel(QUEUE);
-        let failed = Arc::new(AtomicBool::new(false));
-        let failure = failed.clone();
+        let stopped = Arc::new(OnceLock::new());
+        let (reason, folder) = (stopped.clone(), folder.to_owned());
         let thread = std::thread::Builder::new()
             .name(format!("recording {id}"))
-            .spawn(move || {
-                let mut writer = log::Writer::new(stream);
-                for message in inbox {
-                    if let Err(error) = writer.write(message)
-                        && !failure.swap(true, Ordering::Relaxed)
-                    {
-                        tracing::error!(%error, "recording stopped");
-                    }
-                }
-                if let Err(error) = writer.close() {
-                    tracing::error!(%error, "recording could not be closed");
-                }
-            })
+            .spawn(move || write_all(stream, &inbox, &folder, &reason))
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;
-        Ok(Self { queue: Some(queue), thread: Some(thread), lost: AtomicU64::new(0), failed })
+        Ok(Self { queue: Some(queue), thread: Some(thread), owed: None, lost: 0, stopped })
     }
 
-    fn push(&self, message: Message) {
-        let Some(queue) = &self.queue else { return };
+    /// Whether the message went; the simulation never waits for the disk, what is lost is counted and shown.
+    fn push(&mut self, message: Message) -> Result<(), Message> {
+        let Some(queue) = &self.queue else { return Ok(()) };
         match queue.try_send(message) {
-            Ok(()) => {}
-            // The simulation never waits for the disk; what is lost is counted and shown.
-            Err(TrySendError::Full(_)) => {
-                self.lost.fetch_add(1, Ordering::Relaxed);
+            Ok(()) | Err(TrySendError::Disconnected(_)) => Ok(()),
+            Err(TrySendError::Full(message)) => {
+                self.lost += 1;
+                Err(message)
             }
-            Err(TrySendError::Disconnected(_)) => self.failed.store(true, Ordering::Relaxed),
+        }
+    }
+
+    fn push_after_beginning(&mut self, message: Message) {
+        if let Some(owed) = self.owed.take() {
+            self.owed = self.push(owed).err();
+        }
+        if self.owed.is_none() {
+            // Counted in `push`; a sample that is lost is not sent later.
+            let _ = self.push(message);
         }
     }
 }
 
+/// Writes until the queue's other end is gone, or the disk is nearly full: Rerun only logs what it could
+/// not write, so room is looked after before it is gone.
+fn write_all(stream: RecordingStream, inbox: &Receiver<Message>, folder: &Path, stopped: &OnceLock<String>) {
+    let mut writer = log::Writer::new(stream);
+    for (count, message) in inbox.iter().enumerate() {
+        if stopped.get().is_some() {
+            continue;
+        }
+        let written = match count % ROOM_EVERY {
+            0 => room(folder).and_then(|()| writer.write(message).map_err(|error| error.to_string())),
+            _ => writer.write(message).map_err(|error| error.to_string()),
+        };
+        if let Err(reason) = written {
+            tracing::error!(reason, "recording stopped");
+            // Set once: nothing is written after it.
+            let _ = stopped.set(format!("stopped: {reason}"));
+        }
+    }
+    if let Err(error) = writer.close() {
+        tracing::error!(%error, "recording could not be closed");
+    }
+}
+
+/// Whether the disk has room for more; where the system cannot tell, yes.
+fn room(folder: &Path) -> Result<(), String> {
+    #[cfg(unix)]
+    if let Ok(disk) = rustix::fs::statvfs(folder) {
+        let left_bytes = disk.f_bavail.saturating_mul(disk.f_frsize);
+        if left_bytes < ROOM_BYTES {
+            return Err(format!("the disk has {} MB left, less than {}", left_bytes >> 20, ROOM_BYTES >> 20));
+        }
+    }
+    let _ = folder;
+    Ok(())
+}
+
 impl Sink for Recorder {
     fn begin(&mut self, scenery: &Scenery, tick: u64) {
-        self.push(Message::Begin { scenery: Box::new(scenery.clone()), tick });
+        let beginning = Message::Begin { scenery: Box::new(scenery.clone()), tick };
+        self.owed = self.push(beginning).err();
     }
 
     fn record(&mut self, record: &TickRecord) {
         let frame = record.sight.as_ref().map(|sight| sight.frame.clone());
         if record.tick.is_multiple_of(TICKS_A_SAMPLE) || frame.is_some() || !record.events.is_empty() {
             let sample = Sample { moment: record.moment.clone(), events: record.events.clone(), frame };
-            self.push(Message::Sample(Box::new(sample)));
+            self.push_after_beginning(Message::Sample(Box::new(sample)));
         }
     }
 
     fn note(&mut self, event: &Event) {
-        self.push(Message::Note(event.clone()));
+        self.push_after_beginning(Message::Note(event.clone()));
     }
 
     fn status(&self) -> String {
-        if self.failed.load(Ordering::Relaxed) {
-            return "stopped: the file cannot be written".to_owned();
-        }
-        match self.lost.load(Ordering::Relaxed) {
-            0 => "recording".to_owned(),
-            lost => format!("recording, {lost} samples lost: the disk is slow"),
+        match (self.stopped.get(), self.lost) {
+            (Some(reason), _) => reason.clone(),
+            (None, 0) => "recording".to_owned(),
+            (None, lost) => format!("recording, {lost} samples lost: the disk is slow"),
         }
     }
 }
@@ -133,6 +174,22 @@ impl Drop for Recorder {
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
+    }
+}
+
+/// Takes a session's ticks and keeps nothing: the recording could not begin.
+pub struct Unrecorded {
+    /// Why, shown to viewers.
+    pub reason: String,
+}
+
+impl Sink for Unrecorded {
+    fn begin(&mut self, _: &Scenery, _: u64) {}
+    fn record(&mut self, _: &TickRecord) {}
+    fn note(&mut self, _: &Event) {}
+
+    fn status(&self) -> String {
+        format!("not recording: {}", self.reason)
     }
 }
 
@@ -147,7 +204,7 @@ pub struct Listed {
 
 /// The recordings in a folder, newest name first; an absent folder holds none.
 pub fn list(folder: &Path) -> Result<Vec<Listed>, RecordingError> {
-    let failed = |source| RecordingError::Io { path: folder.into(), source };
+    let failed = |error| RecordingError::Io { path: folder.into(), error };
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),

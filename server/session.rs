@@ -97,6 +97,8 @@ pub enum CommandError {
 pub struct Scenery {
     /// Raised at each change.
     pub version: u64,
+    /// Raised when a trial is set up anew.
+    pub trial: u64,
     /// Map and free space.
     pub arena: Arc<Arena>,
     /// How the trial was set up.

@@ -227,9 +227,14 @@ async fn routes_answer_and_foreign_pages_are_kept_out() {
     }
     let (status, made) = lab.ask("POST", "/api/sessions", "{\"map\":\"open\"}").await;
     assert_eq!((status, &made["map"]), (201, &json!("open")));
+    assert_eq!(lab.ask("POST", "/api/sessions", "{} and more").await.0, 400);
+    assert_eq!(lab.ask("DELETE", "/api/sessions/main", "").await.0, 409);
     let own = format!("/api/sessions/{}", made["id"].as_str().unwrap());
+    let (mut guest, _) = connect_async(format!("ws://{}{own}/live", lab.address)).await.unwrap();
     assert_eq!(lab.ask("DELETE", &own, "").await.0, 204);
     assert_eq!(lab.ask("GET", &own, "").await.0, 404);
+    let sent_away = async { while let Some(Ok(_)) = guest.next().await {} };
+    tokio::time::timeout(Duration::from_secs(5), sent_away).await.expect("a deleted session closes its sockets");
     let (status, problem) = lab.ask("POST", "/api/sessions", "{\"seed\":-1}").await;
     assert_eq!((status, &problem["field"]), (400, &json!("seed")));
     assert_eq!(lab.ask_text("GET", "/healthz", "", &[("host", "example.org")]).await.0, 421);
@@ -252,4 +257,112 @@ async fn stopping_closes_browsers_with_1001() {
         None
     };
     assert_eq!(tokio::time::timeout(Duration::from_secs(5), closed).await.unwrap(), Some(1001));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn arm_and_magnet_can_be_asked_for_numbers() {
+    let lab = Laboratory::open().await;
+    let body = json!({"joints_rad": [[0, 0, 0, 0, 0, 0], [0.1, -1.2, 1.5, -1.8, -1.4, 0.6]]}).to_string();
+    let (status, forward) = lab.ask("POST", "/api/kinematics/forward", &body).await;
+    assert_eq!(status, 200, "{forward}");
+    let at_zero = &forward["flange"][0]["position_m"];
+    for (i, expected) in [-0.81725, -0.19145, -0.005491].into_iter().enumerate() {
+        assert!((at_zero[i].as_f64().unwrap() - expected).abs() < 1e-9, "{at_zero}");
+    }
+    let far = json!({"position_m": [2, 0, 0], "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]});
+    let body = json!({"poses": [forward["flange"][1], far]}).to_string();
+    let (status, inverse) = lab.ask("POST", "/api/kinematics/inverse", &body).await;
+    assert_eq!(status, 200, "{inverse}");
+    let near =
+        |joints: &Value| (joints[0].as_f64().unwrap() - 0.1).abs() + (joints[5].as_f64().unwrap() - 0.6).abs() < 1e-9;
+    assert!(inverse["solutions"][0].as_array().unwrap().iter().any(near), "{inverse}");
+    assert_eq!(inverse["solutions"][1], json!([]));
+
+    let magnet = json!({"size_m": [0.05, 0.025, 0.01], "polarization_t": [0, 0, 1.19], "position_m": [0, 0, 0.1]});
+    let body = json!({"magnet": magnet, "points_m": [[0, 0, 0.0025], [0, 0, 0.1]], "moment_a_m2": 0.0677}).to_string();
+    let (status, field) = lab.ask("POST", "/api/magnetics/field", &body).await;
+    assert_eq!(status, 200, "{field}");
+    // Specification §2: .976 of the bead's weight, 4.815 mN.
+    let lift_n = field["force_n"][0][2].as_f64().unwrap();
+    assert!((lift_n / 4.815e-3 - 0.976).abs() < 1e-3, "{field}");
+    assert!(field["b_t"][1][2].as_f64() > Some(0.3), "B is defined inside: {field}");
+
+    for (path, body, field) in [
+        (
+            "kinematics/inverse",
+            json!({"poses": [{"position_m": [0, 0, 0], "rotation": [[1, 0, 0], [0, 2, 0], [0, 0, 1]]}]}),
+            "poses[0].rotation",
+        ),
+        ("kinematics/forward", json!({"joints_rad": [[0, 0, 0, 0, 0, null]]}), "joints_rad[0][5]"),
+        (
+            "magnetics/field",
+            json!({"magnet": {"size_m": [0, 1, 1], "polarization_t": [0, 0, 1], "position_m": [0, 0, 0]}, "points_m": [], "moment_a_m2": 1}),
+            "magnet",
+        ),
+    ] {
+        let (status, problem) = lab.ask("POST", &format!("/api/{path}"), &body.to_string()).await;
+        assert!((400..500).contains(&status) && problem["field"] == field, "{path}: {problem}");
+    }
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_hand_leaves_nothing_behind() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let drag = |x_m: f64, y_m: f64, lift: bool| json!({"type": "drag", "x_m": x_m, "y_m": y_m, "lift": lift});
+    browser.send(json!({"type": "load_scenario", "map": "colon", "start_m": [0.0, -0.475]})).await;
+    browser.state("the colon", |m| m["tool_m"][0].as_f64().unwrap().abs() < 1e-6).await;
+    // Deep in a wall, while time stands: put down at the nearest place with room.
+    browser.send(drag(0.0, -0.3, false)).await;
+    browser.state("the hand", |m| !m["hand_m"].is_null()).await;
+    browser.send(json!({"type": "release"})).await;
+    let put = browser.state("no hand", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64() > Some(-0.474)).await;
+    assert!(put["bead_m"][1].as_f64() < Some(-0.4), "{put}");
+
+    // Lifted over a wall while time runs, and let go there.
+    browser.send(json!({"type": "run"})).await;
+    browser.send(drag(0.0, -0.3, true)).await;
+    browser.state("over the wall", |m| m["bead_m"][1].as_f64() > Some(-0.31)).await;
+    browser.send(json!({"type": "release"})).await;
+    browser.state("back in the channel", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64() < Some(-0.4)).await;
+
+    // Gone back to a moment when it was held, it is held no more once time goes on.
+    browser.send(drag(0.1, -0.48, false)).await;
+    let held = browser.state("held for a while", |m| !m["hand_m"].is_null()).await;
+    let tick = held["tick"].as_u64().unwrap() + 63;
+    browser.state("later", |m| m["tick"].as_u64() > Some(tick)).await;
+    browser.send(json!({"type": "release"})).await;
+    browser.send(json!({"type": "rewind", "tick": tick})).await;
+    let then = browser.state("that moment", |m| m["running"] == false && m["tick"].as_u64() <= Some(tick)).await;
+    assert!(!then["hand_m"].is_null(), "{then}");
+    browser.send(json!({"type": "step", "ticks": 1})).await;
+    browser.state("a tick on", |m| m["tick"].as_u64() > then["tick"].as_u64() && m["hand_m"].is_null()).await;
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_goal_given_up_does_not_stop_the_fetch() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    // So slow that the leg's 150 steps end before the goal.
+    let mut parameters = browser_parameters(&lab).await;
+    parameters["transport_speed_m_s"] = json!(0.01);
+    let load = json!({"type": "load_scenario", "map": "open", "start_m": [-0.25, -0.4], "goal_m": [0.25, -0.4], "parameters": parameters});
+    browser.send(load).await;
+    browser.send(json!({"type": "step", "ticks": 5000})).await;
+    browser.state("given up", |m| m["phase"].as_str().unwrap().starts_with("stopped")).await;
+    // Paused: the release puts the bead there at once.
+    browser.send(json!({"type": "drag", "x_m": 0.1, "y_m": -0.3})).await;
+    browser.send(json!({"type": "release"})).await;
+    browser.send(json!({"type": "step", "ticks": 600})).await;
+    let fetched = browser.state("fetched", |m| m["mode"] == 2 && m["switches"] == 2).await;
+    assert!(fetched["phase"] == "transporting" && fetched["leg_steps"].as_u64() < Some(20), "{fetched}");
+    lab.close().await;
+}
+
+/// The parameters' defaults, from a second browser's scene.
+async fn browser_parameters(lab: &Laboratory) -> Value {
+    let mut other = lab.browser().await;
+    other.until("scene", |m| m["type"] == "scene").await["defaults"].clone()
 }

@@ -5,3 +5,4 @@ mod determinism;
 mod house;
 mod laboratory;
 mod recordings;
+mod reference;

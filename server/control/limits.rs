@@ -67,3 +67,48 @@ impl Limits {
         Point2::new(wanted.x.clamp(w.x_min_m, w.x_max_m), wanted.y.clamp(w.y_min_m, w.y_max_m))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::perception::Percept;
+
+    const HOME: Joints = [-1.6, -1.6, -1.6, -1.6, 1.6, 0.0];
+
+    fn limits() -> Limits {
+        Limits { workspace: Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -1.2, y_max_m: -0.05 }, speed_m_s: 0.04 }
+    }
+
+    fn position(x_m: f64, y_m: f64) -> Result<Joints, Refusal> {
+        limits().position(Point3::new(x_m, y_m, 0.1), &HOME)
+    }
+
+    #[test]
+    fn a_position_is_refused_for_the_right_reason() {
+        assert!(position(0.1, -0.4).is_ok());
+        assert!(matches!(position(f64::NAN, -0.4), Err(Refusal::NotFinite { .. })));
+        assert!(matches!(position(0.5, -0.4), Err(Refusal::OutsideWorkspace { .. })));
+        assert!(matches!(position(0.0, -1.1), Err(Refusal::OutOfReach { .. })));
+        assert!(matches!(position(0.0, -0.06), Err(Refusal::OutOfReach { .. })));
+        let (_, most_m) = robot::reach(0.1 + TOOL_LENGTH_M).unwrap();
+        assert!(matches!(position(0.0, 1e-6 - most_m), Err(Refusal::Singular { .. })));
+    }
+
+    #[test]
+    fn a_step_is_refused_when_too_fast_or_into_a_wall() {
+        let tool = Point3::new(0.0, -0.3, 0.1);
+        let wall = crate::perception::test_frame(tool.xy(), |p| p.x > 0.015);
+        let percept = Percept::of(&wall);
+        let step = |x_m: f64, speed_m_s: f64| {
+            let step = TargetStep { target_m: Point2::new(x_m, -0.3), speed_m_s };
+            limits().step(tool, &step, &percept, &HOME)
+        };
+        assert_eq!(step(-0.01, 0.04), Ok(()));
+        assert!(matches!(step(-0.01, 0.05), Err(Refusal::TooFast { .. })));
+        assert!(matches!(step(-0.02, 0.04), Err(Refusal::TooFast { .. })), "too long for one control period");
+        assert_eq!(step(0.004, 0.04), Ok(()));
+        let wide = Limits { speed_m_s: 0.079, ..limits() };
+        let into = TargetStep { target_m: Point2::new(0.0195, -0.3), speed_m_s: 0.079 };
+        assert!(matches!(wide.step(tool, &into, &percept, &HOME), Err(Refusal::Obstacle { .. })));
+    }
+}

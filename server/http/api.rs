@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use tokio_util::io::ReaderStream;
 
 use super::problem::Problem;
-use super::{SESSION_CAP, Server};
+use super::{MAIN_SESSION, SESSION_CAP, Server};
 use crate::map::{Map, MapError};
 use crate::protocol::StateMessage;
 use crate::recording;
@@ -92,14 +92,16 @@ pub async fn create_session(State(server): State<Arc<Server>>, body: Bytes) -> R
         Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "map_refused", error.to_string()).field("map")
     })?;
     let scenario = Scenario { controller: asked.controller, ..Scenario::idle(&asked.map, asked.seed) };
-    if server.sessions.read().expect("no holder panics").len() >= SESSION_CAP {
+    let place = server.places.clone().try_acquire_owned().map_err(|_| {
         let detail = format!("there are {SESSION_CAP} sessions already; delete one first");
-        return Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail));
-    }
+        Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail)
+    })?;
     let id = format!("session-{}", server.made.fetch_add(1, Ordering::Relaxed) + 1);
-    let hub = server.open(&id, scenario).map_err(Problem::internal)?;
+    let location = format!("/api/sessions/{id}");
+    let opening = tokio::task::spawn_blocking(move || server.open(&id, scenario, place));
+    let hub = opening.await.map_err(Problem::internal)?.map_err(Problem::internal)?;
     let summary = SessionSummary::of(&hub.id, &hub.session.watch().borrow());
-    Ok((StatusCode::CREATED, [(header::LOCATION, format!("/api/sessions/{id}"))], Json(summary)).into_response())
+    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(summary)).into_response())
 }
 
 pub async fn session(
@@ -111,8 +113,12 @@ pub async fn session(
 }
 
 pub async fn delete_session(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<StatusCode, Problem> {
+    if id == MAIN_SESSION {
+        return Err(Problem::new(StatusCode::CONFLICT, "main_session", "the session main stays as long as the server"));
+    }
     let removed = server.sessions.write().expect("no holder panics").remove(&id);
     let hub = removed.ok_or_else(|| Problem::not_found("session", &id))?;
+    hub.close();
     // Joining the session's thread and closing its file blocks.
     tokio::task::spawn_blocking(move || drop(hub)).await.map_err(Problem::internal)?;
     Ok(StatusCode::NO_CONTENT)
@@ -158,12 +164,13 @@ fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
     Ok(hub.session.watch().borrow().clone())
 }
 
-fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {
+pub fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {
     let mut reader = serde_json::Deserializer::from_slice(body);
-    serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-        let path = error.path().to_string();
-        Problem::new(StatusCode::BAD_REQUEST, "malformed", error.to_string()).field(&path)
-    })
+    let malformed = |detail: String| Problem::new(StatusCode::BAD_REQUEST, "malformed", detail);
+    let value = serde_path_to_error::deserialize(&mut reader)
+        .map_err(|error| malformed(error.to_string()).field(&error.path().to_string()))?;
+    reader.end().map_err(|error| malformed(error.to_string()))?;
+    Ok(value)
 }
 
 fn attachment(kind: &'static str, name: &str, body: impl Into<Body>) -> Response {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use serde::Serialize;
-use tokio::sync::watch;
+use tokio::sync::{OwnedSemaphorePermit, watch};
 use tokio::time::Instant;
 
 use crate::protocol::{
@@ -51,11 +51,15 @@ pub struct Hub {
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
     encoder: Mutex<Option<tokio::task::JoinHandle<()>>>,
+    /// Turns true when the session is deleted; its browsers watch it.
+    closing: watch::Sender<bool>,
+    /// Its place among the sessions.
+    _place: OwnedSemaphorePermit,
 }
 
 impl Hub {
     /// Starts encoding a session's views.
-    pub fn start(id: &str, session: Session, adapter: &str) -> Arc<Self> {
+    pub fn start(id: &str, session: Session, adapter: &str, place: OwnedSemaphorePermit) -> Arc<Self> {
         let views = session.watch();
         let first = Encoder::default().encode(&views.borrow(), true);
         let (publish, encoded) = watch::channel(first);
@@ -67,7 +71,18 @@ impl Hub {
             encoded,
             seats: watch::Sender::new(Seats::default()),
             encoder: Mutex::new(Some(encoder)),
+            closing: watch::Sender::new(false),
+            _place: place,
         })
+    }
+
+    /// Sends every browser away.
+    pub fn close(&self) {
+        self.closing.send_replace(true);
+    }
+
+    pub fn closing(&self) -> watch::Receiver<bool> {
+        self.closing.subscribe()
     }
 
     pub fn encoded(&self) -> watch::Receiver<Encoded> {

@@ -58,6 +58,7 @@ impl Connection {
         let mut encoded = self.hub.encoded();
         let mut seats = self.hub.seats();
         let mut events = self.hub.session.events();
+        let mut closing = self.hub.closing();
         let mut sent = Sent::default();
         let now = *seats.borrow_and_update();
         self.say(&ServerMessage::Hello(self.hub.hello(self.own, &now))).await?;
@@ -98,6 +99,7 @@ impl Connection {
                     Some(Ok(Message::Close(_)) | Err(_)) | None => return Ok(()),
                 },
                 () = async { drop(stopping.wait_for(|&stop| stop).await) } => return self.close("the server stops").await,
+                () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.close("the session was deleted").await,
             }
         }
     }
@@ -124,7 +126,10 @@ impl Connection {
         };
         match message {
             ClientMessage::TakeControl {} => self.hub.take(self.own),
-            ClientMessage::ReleaseControl {} => self.hub.release(self.own),
+            ClientMessage::ReleaseControl {} => {
+                self.let_go().await;
+                self.hub.release(self.own);
+            }
             message => {
                 if self.hub.seats().borrow().operator != Some(self.own) {
                     let error = ErrorMessage {
@@ -168,11 +173,17 @@ impl Connection {
     }
 
     /// A hand that is gone lets go.
-    async fn leave(self) {
-        if self.dragging {
+    async fn let_go(&mut self) {
+        if std::mem::take(&mut self.dragging) {
             // The session may have ended, and with it the hand.
             let _ = self.hub.session.send(Command::Input(Input::Release)).await;
         }
+    }
+
+    async fn leave(mut self) {
+        self.let_go().await;
         self.hub.release(self.own);
+        // The last browser of a deleted session joins its thread, which blocks.
+        tokio::task::spawn_blocking(move || drop(self.hub));
     }
 }

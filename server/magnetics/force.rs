@@ -12,7 +12,7 @@ use crate::geometry::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Offset at which the search for the capture interval begins, m: no pull of this block lasts so far.
-const FARTHEST_M: f64 = 0.5;
+pub const FARTHEST_M: f64 = 0.5;
 /// Step of that search, m.
 const SCAN_STEP_M: f64 = 1e-3;
 
@@ -65,18 +65,23 @@ pub fn lift_off_height_m(orientation: Orientation) -> f64 {
     let block = block(orientation, BLOCK_REMANENCE_T);
     let weight_n = dipole::weight_n();
     let touching_m = half_height_m(orientation) + SPHERE_DIAMETER_M;
-    bisect(touching_m, FARTHEST_M, |height_m| pull_n(&block, 0.0, height_m).1 >= weight_n)
+    bisect(touching_m, FARTHEST_M, |height_m| pull_n(&block, [0.0; 2], height_m).1 >= weight_n)
 }
 
 /// Horizontal distances `(inner_m, outer_m)`, m, between which a bead that lies on the table beside
 /// the block is dragged towards it, with the block's lower face `lower_face_height_m` (m) above the table.
 ///
 /// It is dragged where the lateral pull is at least `friction`·(W − Fz), friction being Coulomb's
-/// coefficient. The offset is along the block's x. Within `inner_m` the bead either rests, because the
+/// coefficient. The offset is along the block's x turned by `direction_rad` toward its y. Within `inner_m` the bead either rests, because the
 /// pull is nearly vertical, or lifts off. `None` where no bead is dragged, the bead does not fit below
 /// the block, or an argument is not a number. Without friction the outer distance is only the end of the
 /// search, 0.5 m.
-pub fn capture_interval_m(orientation: Orientation, lower_face_height_m: f64, friction: f64) -> Option<(f64, f64)> {
+pub fn capture_interval_m(
+    orientation: Orientation,
+    lower_face_height_m: f64,
+    friction: f64,
+    direction_rad: f64,
+) -> Option<(f64, f64)> {
     // NaN fails the comparison too, and so is refused.
     if !(lower_face_height_m >= SPHERE_DIAMETER_M && friction >= 0.0) {
         return None;
@@ -84,8 +89,9 @@ pub fn capture_interval_m(orientation: Orientation, lower_face_height_m: f64, fr
     let block = block(orientation, BLOCK_REMANENCE_T);
     let height_m = lower_face_height_m + block.half_size_m.z;
     let weight_n = dipole::weight_n();
+    let (sin, cos) = direction_rad.sin_cos();
     let is_dragged = |offset_m: f64| {
-        let (lateral_n, up_n) = pull_n(&block, offset_m, height_m);
+        let (lateral_n, up_n) = pull_n(&block, [offset_m * cos, offset_m * sin], height_m);
         up_n < weight_n && lateral_n >= friction * (weight_n - up_n)
     };
     // From far away inwards: the first offset that drags, then the first that no longer does.
@@ -100,17 +106,17 @@ pub fn capture_interval_m(orientation: Orientation, lower_face_height_m: f64, fr
     Some((inner_m, outer_m))
 }
 
-/// The outer end of [`capture_interval_m`], m: how far the block drags a bead.
+/// The outer end of [`capture_interval_m`] along x, m: how far the block drags a bead.
 pub fn capture_radius_m(orientation: Orientation, lower_face_height_m: f64, friction: f64) -> Option<f64> {
-    capture_interval_m(orientation, lower_face_height_m, friction).map(|(_, outer_m)| outer_m)
+    capture_interval_m(orientation, lower_face_height_m, friction, 0.0).map(|(_, outer_m)| outer_m)
 }
 
-/// Pull towards the block along x and upwards, N, on a bead on the table at `offset_m` along x, with
-/// the block's centre `height_m` above the table.
-fn pull_n(block: &Cuboid, offset_m: f64, height_m: f64) -> (f64, f64) {
-    let point_m = Vector3::new(offset_m, 0.0, 0.5 * SPHERE_DIAMETER_M - height_m);
+/// Pull in the table's plane and upwards, N, on a bead on the table at `offset_m` from the block's middle,
+/// with the block's centre `height_m` above the table.
+fn pull_n(block: &Cuboid, offset_m: [f64; 2], height_m: f64) -> (f64, f64) {
+    let point_m = Vector3::new(offset_m[0], offset_m[1], 0.5 * SPHERE_DIAMETER_M - height_m);
     let force = force_n(block, &point_m, dipole::moment_a_m2());
-    (-force.x, force.z)
+    (force.xy().norm(), force.z)
 }
 
 /// Where `holds` turns false between `low`, where it is true, and `high`, where it is not.
@@ -194,12 +200,12 @@ mod tests {
 
     #[test]
     fn capture_interval_has_a_hole_and_may_be_empty() {
-        let (inner_m, outer_m) = capture_interval_m(Orientation::A, 0.100, 0.2).unwrap();
+        let (inner_m, outer_m) = capture_interval_m(Orientation::A, 0.100, 0.2, 0.0).unwrap();
         assert!(0.0 < inner_m && inner_m < outer_m, "{inner_m} {outer_m}");
-        assert_eq!(capture_interval_m(Orientation::A, 0.300, 0.2), None);
-        assert_eq!(capture_interval_m(Orientation::A, 0.004, 0.2), None);
-        assert_eq!(capture_interval_m(Orientation::A, f64::NAN, 0.2), None);
-        assert_eq!(capture_interval_m(Orientation::A, 0.1, f64::NAN), None);
+        assert_eq!(capture_interval_m(Orientation::A, 0.300, 0.2, 0.0), None);
+        assert_eq!(capture_interval_m(Orientation::A, 0.004, 0.2, 0.0), None);
+        assert_eq!(capture_interval_m(Orientation::A, f64::NAN, 0.2, 0.0), None);
+        assert_eq!(capture_interval_m(Orientation::A, 0.1, f64::NAN, 0.0), None);
         assert_eq!(capture_radius_m(Orientation::A, 0.1, 0.0), Some(FARTHEST_M));
     }
 

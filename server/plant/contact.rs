@@ -53,19 +53,20 @@ fn hop(bead: &mut Bead, map: &Map, dt_s: f64) {
     bead.velocity_m_s = Vector2::zeros();
 }
 
-/// The nearest point to `wanted` at which the bead fits, searched outward on circles; `None` if there
-/// is none within 5 cm.
+/// The nearest point to `wanted` at which the bead fits, to a millimetre, searched outward on circles;
+/// `None` only if it fits nowhere.
 pub fn nearest_fit(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
     let fits = |p: &Point2<f64>| map.clearance_m(*p) >= BEAD_RADIUS_M;
     if fits(&wanted) {
         return Some(wanted);
     }
-    (1..=100).find_map(|ring| {
-        let radius_m = 5e-4 * f64::from(ring);
-        (0..64)
+    let farthest_mm = (map.workspace().size_m().norm() * 1e3).ceil() as u32;
+    (1..=farthest_mm).find_map(|radius_mm| {
+        let count = 16 + 4 * radius_mm.min(60);
+        (0..count)
             .map(|k| {
-                let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 64.0).sin_cos();
-                wanted + Vector2::new(cos, sin) * radius_m
+                let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(count)).sin_cos();
+                wanted + Vector2::new(cos, sin) * (f64::from(radius_mm) * 1e-3)
             })
             .find(fits)
     })

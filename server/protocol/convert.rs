@@ -9,7 +9,12 @@ use crate::plant::BEAD_RADIUS_M;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters};
 use crate::session::{Command, CommandError, Scenery, View};
-use crate::trial::{Event, Input, InputError, Motion, TrialError};
+use crate::trial::{Event, Input, InputError, Motion, Phase, TrialError};
+
+/// Instead of the switching law's reason, which no longer matters.
+const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
+/// Directions in which the scene gives the capture distances.
+const CAPTURE_DIRECTIONS: u32 = 72;
 
 impl ClientMessage {
     /// The command for the session; `None` for what concerns the connection alone.
@@ -88,11 +93,21 @@ impl From<&Scenery> for SceneMessage {
             defaults: Parameters::default(),
             bead_radius_m: BEAD_RADIUS_M,
             camera_span_m: CameraParameters::default().table_span_m,
-            capture_m: force::capture_interval_m(p.block_orientation, p.tool_height_m, p.friction)
-                .map(|(near, far)| [near, far]),
+            trial: scenery.trial,
+            capture_m: capture_m(p),
             tick_s: SERVO_PERIOD_S,
         }
     }
+}
+
+fn capture_m(p: &Parameters) -> Vec<Option<(f64, Option<f64>)>> {
+    (0..CAPTURE_DIRECTIONS)
+        .map(|k| {
+            let direction_rad = f64::from(k) * std::f64::consts::TAU / f64::from(CAPTURE_DIRECTIONS);
+            force::capture_interval_m(p.block_orientation, p.tool_height_m, p.friction, direction_rad)
+                .map(|(near_m, far_m)| (near_m, (far_m < force::FARTHEST_M).then_some(far_m)))
+        })
+        .collect()
 }
 
 impl From<&View> for StateMessage {
@@ -115,7 +130,7 @@ impl From<&View> for StateMessage {
             hand_force_n: m.hand_force_n,
             joints_rad: m.joints_rad,
             mode: m.switching.mode.index(),
-            reason: m.switching.reason(),
+            reason: if m.phase == Phase::LiftedOff { LIFTED_OFF.to_owned() } else { m.switching.reason() },
             refusal: m.refusal.clone(),
             controller: m.controller,
             phase: m.phase.to_string(),

@@ -14,7 +14,7 @@ use crate::camera::{Camera, Gpu};
 use crate::control::step_is_due;
 use crate::geometry::Point2;
 use crate::scenario::Scenario;
-use crate::trial::{Arena, Event, EventKind, Input, Sight, Source, Trial, TrialError};
+use crate::trial::{Arena, Event, EventKind, Input, InputError, Sight, Source, Trial, TrialError};
 
 /// Watchers get at most sixty views a second.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -31,6 +31,8 @@ pub(super) struct Worker {
     scenery: Arc<Scenery>,
     sight: Arc<(u64, Sight)>,
     running: bool,
+    /// Whether the trial's hand is that of a moment gone back to, which holds nothing any more.
+    hand_is_past: bool,
     pace: Pace,
     ended: Option<String>,
 }
@@ -45,13 +47,26 @@ impl Worker {
         events: broadcast::Sender<Event>,
     ) -> Result<Self, TrialError> {
         let trial = Trial::new(scenario, arena)?;
-        let scenery = Arc::new(scenery_of(&trial, 0));
+        let scenery = Arc::new(scenery_of(&trial, 0, 0));
         sink.begin(&scenery, 0);
         let sight = Arc::new((0, trial.look(&mut camera)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
         let pace = Pace::new(1.0, Instant::now());
-        Ok(Self { trial, gpu, camera, sink, events, timeline, scenery, sight, running: false, pace, ended: None })
+        Ok(Self {
+            trial,
+            gpu,
+            camera,
+            sink,
+            events,
+            timeline,
+            scenery,
+            sight,
+            running: false,
+            hand_is_past: false,
+            pace,
+            ended: None,
+        })
     }
 
     pub(super) fn view(&self) -> View {
@@ -191,8 +206,9 @@ impl Worker {
                     return Err(CommandError::Range { field: "tick", value: tick as f64, allowed });
                 };
                 self.running = false;
+                self.hand_is_past = state.world.plant.hand.is_some();
                 self.trial.restore(state);
-                self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
+                self.scenery = Arc::new(self.next_scenery(0));
                 self.sink.begin(&self.scenery, self.trial.state().world.tick);
                 self.look()?;
             }
@@ -202,18 +218,25 @@ impl Worker {
 
     /// While time stands a release puts the bead where the pointer is, since nothing else could.
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
+        if !matches!(input, Input::Release) {
+            self.drop_past_hand()?;
+        }
         let held = self.trial.state().world.plant.hand;
         let configures = matches!(input, Input::Configure(_));
+        let before = self.hashes();
         match (&input, held) {
+            (Input::Release, Some(_)) if self.hand_is_past => {}
             (Input::Release, Some(hand)) if !self.running => {
                 let Point2 { coords } = hand.target_m;
                 self.trial.apply(Input::Place { x_m: coords.x, y_m: coords.y })?;
             }
             _ => self.trial.apply(input)?,
         }
-        self.timeline.forget_after(self.trial.state().world.tick);
+        if self.hashes() != before {
+            self.timeline.forget_after(self.trial.state().world.tick);
+        }
         if configures {
-            self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
+            self.scenery = Arc::new(self.next_scenery(0));
         }
         if !self.running {
             self.look()?;
@@ -226,7 +249,8 @@ impl Worker {
         let sight = trial.look(&mut self.camera).map_err(TrialError::from)?;
         self.trial = trial;
         self.running = false;
-        self.scenery = Arc::new(scenery_of(&self.trial, self.scenery.version + 1));
+        self.hand_is_past = false;
+        self.scenery = Arc::new(self.next_scenery(1));
         self.sink.begin(&self.scenery, 0);
         self.sight = Arc::new((0, sight));
         self.timeline = Timeline::default();
@@ -239,6 +263,10 @@ impl Worker {
         Ok(())
     }
 
+    fn next_scenery(&self, new_trials: u64) -> Scenery {
+        scenery_of(&self.trial, self.scenery.version + 1, self.scenery.trial + new_trials)
+    }
+
     /// Shows what the camera sees now, without a control step.
     fn look(&mut self) -> Result<(), CommandError> {
         let sight = self.trial.look(&mut self.camera).map_err(TrialError::from)?;
@@ -246,7 +274,20 @@ impl Worker {
         Ok(())
     }
 
+    fn hashes(&self) -> (u64, u64) {
+        (self.trial.state().world_hash(), self.trial.state().mind_hash())
+    }
+
+    /// The hand of a moment gone back to lets go as soon as something new happens.
+    fn drop_past_hand(&mut self) -> Result<(), InputError> {
+        if std::mem::take(&mut self.hand_is_past) {
+            self.trial.apply(Input::Release)?;
+        }
+        Ok(())
+    }
+
     fn tick(&mut self) -> Result<(), TrialError> {
+        self.drop_past_hand()?;
         if step_is_due(self.trial.state().world.tick) {
             self.timeline.keep(self.trial.snapshot());
         }
@@ -274,9 +315,10 @@ impl Worker {
     }
 }
 
-fn scenery_of(trial: &Trial, version: u64) -> Scenery {
+fn scenery_of(trial: &Trial, version: u64, number: u64) -> Scenery {
     Scenery {
         version,
+        trial: number,
         arena: trial.arena().clone(),
         scenario: trial.scenario().clone(),
         parameters: trial.state().world.parameters.clone(),

@@ -3,7 +3,7 @@
 use rand::Rng;
 
 use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
-use super::{Decision, Event, EventKind, Motion, Trial, limits_for};
+use super::{Decision, Event, EventKind, Motion, Trial, World, limits_for};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::TransportInput;
 use crate::control::{CONTROL_PERIOD_S, TargetStep};
@@ -23,7 +23,7 @@ impl Trial {
         let bead = world.tracker.estimate().position_m;
         let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters);
         let hold = Decision { switching, motion: Motion::Hold, refusal: None };
-        if world.plant.bead.lifted_off {
+        if world.plant.bead.lifted_off || world.phase == Phase::Stopped(StopReason::GoalSteps) {
             return hold;
         }
         if switching.mode == Mode::Approach {
@@ -71,6 +71,8 @@ impl Trial {
         let fetched = switching.switched && switching.mode == Mode::Transport;
         if fetched {
             self.start_leg();
+        }
+        if fetched && self.state.world.phase == Phase::Approaching {
             self.state.world.phase = Phase::Transporting;
         }
         let tool = self.tool_m().xy();
@@ -97,8 +99,8 @@ impl Trial {
                 self.strike();
             }
         }
-        let counters = self.state.world.counters;
-        if counters.leg_steps > LEG_STEP_LIMIT {
+        let World { counters, phase, .. } = &self.state.world;
+        if *phase == Phase::Transporting && counters.leg_steps > LEG_STEP_LIMIT {
             self.stop(StopReason::LegSteps);
         } else if counters.goal_steps > GOAL_STEP_LIMIT {
             self.stop(StopReason::GoalSteps);

@@ -94,9 +94,15 @@ impl Trial {
         match world.phase {
             // Pulled off the goal, but not so far that it must be fetched: the magnet gets it back.
             Phase::Delivered if left_m > LEFT_RADIUS_M => world.phase = Phase::Settling { since_tick: tick },
-            Phase::Settling { .. } if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() => {
+            // Time that a hand takes is not the bead's.
+            Phase::Settling { .. } if world.plant.hand.is_some() => world.phase = Phase::Settling { since_tick: tick },
+            Phase::Settling { .. } | Phase::Stopped(StopReason::Settle)
+                if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() =>
+            {
                 world.phase = Phase::Delivered;
                 world.counters.deliveries += 1;
+                world.counters.goal_steps = 0;
+                world.counters.leg_steps = 0;
                 let text = format!("delivered: the bead is {:.0} mm from the goal", left_m * 1e3);
                 self.events.push(Event::new(tick, EventKind::Delivered, text));
             }
@@ -133,7 +139,8 @@ impl Trial {
     pub(super) fn progress(&mut self, mode: Mode, at_goal: bool) {
         let world = &mut self.state.world;
         let tick = world.tick;
-        if world.phase == Phase::LiftedOff {
+        // Nothing but a new goal, a reset or a hand ends these.
+        if matches!(world.phase, Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps)) {
             return;
         }
         match (mode, world.goal_m) {

@@ -3,15 +3,17 @@
     pip install numpy ur-analytic-ik==0.1.0.post3
     python make_inverse.py
 
-Two references, neither of which shares code or formulas with the laboratory beyond the DH table:
-- `package`: ur-analytic-ik, module `ur5`, the CB3 arm. Its DH table, its frames (base to flange, no
-  turn of the flange) and its signs are those of the laboratory; its angles lie in [-pi, pi]. It takes
-  sines under 1e-12 for zero and 1 - c3^2 under 1e-12 too, so it is exact to about 1e-6 rad only next
-  to a singularity, and it leaves out what it gets wrong by 1e-9 or more.
-- `newton`: Levenberg-Marquardt from 500 random starts, then Newton steps with the residual in
-  extended precision (x86's 80 bits), for the poses near a singularity. It lists every solution, nearly
-  coinciding ones (1e-7 rad) once. A pose with a free wrist has a continuum of solutions and no such
-  list.
+Two references:
+- `package`: ur-analytic-ik, module `ur5`, the CB3 arm; other code for the same published equations
+  (Hawkins 2013). Its DH table, its frames (base to flange, no turn of the flange) and its signs are
+  those of the laboratory; its angles lie in [-pi, pi]. It takes sines under 1e-12 for zero and
+  1 - c3^2 under 1e-12 too, so it is exact to about 1e-6 rad only next to a singularity, and it leaves
+  out, with a warning, what misses the pose by 1e-9 or more.
+- `newton`: no closed form, only the DH table. Levenberg-Marquardt from 500 random starts, then Newton
+  steps with the residual in extended precision (x86's 80 bits), for the poses near a singularity. It
+  lists every solution, nearly coinciding ones (1e-6 rad) once. Next to a free wrist random starts end
+  in a long curved valley, so the package's solutions are starts too. A pose with a free wrist has a
+  continuum and no such list.
 
 A pose is [x, y, z, qw, qx, qy, qz]: metres and a unit quaternion, base_from_flange. Angles in rad.
 """
@@ -31,7 +33,7 @@ DH = [  # d, a (m), cosine and sine of the twist
     (0.0823, 0.0, 1, 0),
 ]
 STARTS = 500
-SAME_RAD = 1e-7
+SAME_RAD = 1e-6
 random = np.random.default_rng(20240607)
 
 
@@ -68,11 +70,11 @@ def wrapped(joints):
     return joints - 2 * np.pi * np.round(joints / (2 * np.pi))
 
 
-def newton(target):
-    """Every solution of `target`, an extended-precision matrix, from random starts."""
+def newton(target, known):
+    """Every solution of `target`, an extended-precision matrix, from random starts and the `known` solutions."""
     coarse = target.astype(float)
-    joints = random.uniform(-np.pi, np.pi, (STARTS, 6))
-    damping = np.full(STARTS, 1e-2)
+    joints = np.concatenate([random.uniform(-np.pi, np.pi, (STARTS, 6)), np.reshape(known, (-1, 6))])
+    damping = np.full(len(joints), 1e-2)
     residual, jacobian = residual_and_jacobian(joints, coarse)
     error = np.abs(coarse - frames(joints)[6]).sum((1, 2))
     for _ in range(120):
@@ -87,14 +89,14 @@ def newton(target):
         damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-30, 1e2)
         residual, jacobian = residual_and_jacobian(joints, coarse)
     joints = joints[error < 1e-12].astype(np.longdouble)
-    for _ in range(20):
+    for _ in range(40):
         residual, jacobian = residual_and_jacobian(joints, target)
         # Where the Jacobian has no inverse, the least step does no harm.
         step = np.linalg.pinv(jacobian, rcond=1e-13) @ residual.astype(float)[:, :, None]
         joints = joints + np.clip(step[:, :, 0], -1e-5, 1e-5)
     error = np.abs(target - frames(joints)[6]).max((1, 2))
     found = []
-    for candidate in wrapped(joints[error < 1e-13]):
+    for candidate in wrapped(joints[error < 1e-15]):
         if all(np.abs(wrapped(candidate - other)).max() > SAME_RAD for other in found):
             found.append(candidate)
     return np.array(found, dtype=float)
@@ -196,7 +198,7 @@ for kind, pose in poses():
     solutions = ur5.inverse_kinematics(target.astype(float))
     case = {"kind": kind, "pose": pose, "package": [row.tolist() for row in solutions]}
     if kind not in ("random", "paper", "free wrist"):
-        case["newton"] = newton(target).tolist()
+        case["newton"] = newton(target, solutions).tolist()
     cases.append(case)
 lines = ",\n".join(json.dumps(case, separators=(",", ":")) for case in cases)
 Path(__file__).with_name("inverse.json").write_text(f"[\n{lines}\n]\n")

@@ -79,7 +79,7 @@ export function createLab(page: Location): Lab {
   const pictures = new Map<number, Picture>();
 
   const remember = (before: Model, after: Model): void => {
-    if (before.scene && before.scene.map !== after.scene?.map) history.clear();
+    if (before.scene && before.scene.trial !== after.scene?.trial) history.clear();
     if (!after.state || after.state === before.state) return;
     if (before.state && after.state.newest_tick < before.state.newest_tick) {
       // Down to the moment itself, which a reset may have changed.

@@ -45,9 +45,4 @@ export class Limiter<T> {
     this.lastMs = this.clock.nowMs();
     this.send(pending.value);
   }
-
-  /** Forgets what waits. */
-  drop(): void {
-    this.pending = undefined;
-  }
 }

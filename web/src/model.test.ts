@@ -4,7 +4,8 @@ import type { EventMessage, ServerMessage } from './protocol.gen';
 import { sceneOf, stateAt } from './testing';
 
 const message = (one: ServerMessage): Input => ({ type: 'message', message: one });
-const scene = (map = 'posts'): Input => message({ type: 'scene', ...sceneOf(map) });
+const scene = (map = 'posts', trial = 0): Input =>
+  message({ type: 'scene', ...sceneOf(map, trial) });
 const state = (tick: number): Input => message({ type: 'state', ...stateAt(tick) });
 const event = (tick: number, kind: EventMessage['kind'] = 'switch'): Input =>
   message({ type: 'event', tick, sim_time_s: tick * 0.008, kind, text: `at ${tick}` });
@@ -49,15 +50,15 @@ describe('the timeline', () => {
     expect(play(event(5, 'goal'), event(9, 'session')).marks).toHaveLength(2);
   });
 
-  it('is empty on another map, not on the same one', () => {
+  it('is empty in another trial, not in the same one', () => {
     expect(play(scene(), event(5), scene()).marks).toHaveLength(1);
-    expect(play(scene(), event(5), scene('colon')).marks).toHaveLength(0);
+    expect(play(scene(), event(5), scene('posts', 1)).marks).toHaveLength(0);
   });
 });
 
 describe('the log', () => {
   it('counts what repeats', () => {
-    const refusal = message({ type: 'error', code: 'goal_in_wall', message: 'In a wall.' });
+    const refusal = message({ type: 'error', code: 'in_wall', message: 'In a wall.' });
     const { log, refusals } = play(refusal, refusal, refusal);
     expect(log.map(({ text, count }) => [text, count])).toEqual([['In a wall.', 3]]);
     expect(refusals).toBe(3);
@@ -104,7 +105,7 @@ describe('a refusal', () => {
   it('goes with the next attempt or when it is dismissed, but a newer one stays', () => {
     const refused = play(
       { type: 'sent', command: 'set_goal' },
-      message({ type: 'error', code: 'goal_in_wall', message: 'In a wall.', field: 'x_m' }),
+      message({ type: 'error', code: 'in_wall', message: 'In a wall.', field: 'x_m' }),
     );
     const id = refused.notices.workspace?.id ?? 0;
     expect(refused.notices.workspace?.text).toBe('In a wall.');

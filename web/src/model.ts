@@ -184,9 +184,10 @@ function withMessage(model: Model, message: ServerMessage): Model {
         link: message.protocol === PROTOCOL_VERSION ? model.link : { kind: 'outdated' },
       };
     case 'scene': {
-      const otherMap = model.scene !== undefined && model.scene.map !== message.map;
-      return otherMap
-        ? { ...model, scene: message, overlay: undefined, marks: [] }
+      // Another trial: what was seen, marked and complained about is over.
+      const otherTrial = model.scene !== undefined && model.scene.trial !== message.trial;
+      return otherTrial
+        ? { ...model, scene: message, overlay: undefined, marks: [], notices: {} }
         : { ...model, scene: message };
     }
     case 'state':

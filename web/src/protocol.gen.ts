@@ -222,10 +222,15 @@ bead_radius_m: number,
  */
 camera_span_m: number, 
 /**
- * Distances at which the magnet's pull beats friction, nearest and farthest, for the parameters
- * in force; none if it never does.
+ * Number of the trial: another one when a trial was set up anew.
  */
-capture_m: [number, number] | null, 
+trial: number, 
+/**
+ * Distances from the tool at which the magnet's pull beats friction, nearest and farthest, for the
+ * parameters in force, in 72 directions from +x counter-clockwise; none where it never does, and no
+ * farthest where it always does.
+ */
+capture_m: Array<[number, number | null] | null>, 
 /**
  * Seconds a tick.
  */
@@ -441,7 +446,7 @@ target_m: [number, number] | null, };
  */
 export type ErrorMessage = { 
 /**
- * For programs, such as `goal_in_wall`.
+ * For programs, such as `in_wall`.
  */
 code: string, 
 /**

@@ -41,7 +41,7 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
   };
 }
 
-export function sceneOf(map: string): SceneMessage {
+export function sceneOf(map: string, trial = 0): SceneMessage {
   const parameters: SceneMessage['parameters'] = {
     block_orientation: 'A',
     tool_height_m: 0.1,
@@ -72,7 +72,8 @@ export function sceneOf(map: string): SceneMessage {
     defaults: parameters,
     bead_radius_m: 0.0025,
     camera_span_m: 0.2,
-    capture_m: [0.004, 0.0947],
+    trial,
+    capture_m: [[0.004, 0.0947], [0.004, null], null],
     tick_s: 0.008,
   };
 }

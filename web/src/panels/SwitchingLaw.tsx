@@ -155,11 +155,15 @@ function Margin(props: { name: string; value: string; alarm?: boolean }): JSX.El
   );
 }
 
-/** Distances at which the pull beats friction. */
+/** Distances at which the pull beats friction somewhere around the tool. */
 function captureText(capture_m: SceneMessage['capture_m']): string {
-  if (!capture_m) return 'never';
-  const [near_m, far_m] = capture_m;
-  return `${fixed(near_m * 100, 1)} to ${centimetres(far_m)}`;
+  const reaches = capture_m.filter((reach) => reach !== null);
+  if (reaches.length === 0) return 'nowhere';
+  const near_m = Math.min(...reaches.map(([near]) => near));
+  const bounded = reaches.map(([, far]) => far).filter((far) => far !== null);
+  if (bounded.length < reaches.length) return `${centimetres(near_m)} and on`;
+  const text = `${fixed(near_m * 100, 1)} to ${centimetres(Math.max(...bounded))}`;
+  return reaches.length < capture_m.length ? `${text}, in part` : text;
 }
 
 export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }): JSX.Element {
@@ -179,7 +183,7 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
         <Margin
           name="captures at"
           value={captureText(props.scene.capture_m)}
-          alarm={!props.scene.capture_m}
+          alarm={props.scene.capture_m.every((reach) => reach === null)}
         />
       </dl>
       <p class="reason" data-testid="reason">

@@ -10,6 +10,8 @@ export const GOAL_RADIUS_M = 0.02;
 const MIN_BEAD_PX = 4.5;
 const TRACKED_PX = 4;
 const TOOL_PX = 8;
+/** Stands for a reach without an end: beyond every workspace. */
+const BEYOND_M = 3;
 /** Exponent of the superellipse that stands for an obstacle. */
 const SUPERELLIPSE = 4;
 const OUTLINE_POINTS = 40;
@@ -48,29 +50,45 @@ export function drawFootprint(
   ctx.globalAlpha = 1;
 }
 
+/** Where the pull beats friction: a ring of sectors, since a turned block does not pull alike all round. */
 export function drawCapture(
   ctx: Ctx,
   view: View,
   palette: Palette,
   tool: Vec2,
-  [near_m, far_m]: Vec2,
+  capture_m: SceneMessage['capture_m'],
 ): void {
-  const [x, y] = pxFromWorld(view, tool);
-  // Two circles: right under the magnet it pulls up, not sideways.
-  ctx.beginPath();
-  ctx.arc(x, y, far_m * view.pxPerM, 0, 2 * Math.PI);
-  ctx.closePath();
-  ctx.moveTo(x + near_m * view.pxPerM, y);
-  ctx.arc(x, y, near_m * view.pxPerM, 0, 2 * Math.PI);
+  const sector = (2 * Math.PI) / capture_m.length;
+  const at = (k: number, distance_m: number): Vec2 =>
+    pxFromWorld(view, [
+      tool[0] + distance_m * Math.cos(k * sector),
+      tool[1] + distance_m * Math.sin(k * sector),
+    ]);
+  const fill = new Path2D();
+  const edge = new Path2D();
+  capture_m.forEach((reach, k) => {
+    const next = capture_m[(k + 1) % capture_m.length];
+    if (!reach || !next) return;
+    const far = (span: NonNullable<typeof reach>): number => span[1] ?? BEYOND_M;
+    const [innerA, innerB] = [at(k, reach[0]), at(k + 1, next[0])];
+    const [outerA, outerB] = [at(k, far(reach)), at(k + 1, far(next))];
+    fill.moveTo(...innerA);
+    fill.lineTo(...outerA);
+    fill.lineTo(...outerB);
+    fill.lineTo(...innerB);
+    fill.closePath();
+    edge.moveTo(...outerA);
+    edge.lineTo(...outerB);
+    edge.moveTo(...innerA);
+    edge.lineTo(...innerB);
+  });
   ctx.fillStyle = palette.tool;
   ctx.globalAlpha = 0.07;
-  ctx.fill('evenodd');
+  ctx.fill(fill);
   ctx.globalAlpha = 0.8;
   ctx.strokeStyle = palette.tool;
   ctx.lineWidth = 1.25;
-  ctx.setLineDash([6, 4]);
-  ctx.stroke();
-  ctx.setLineDash([]);
+  ctx.stroke(edge);
   ctx.globalAlpha = 1;
 }
 

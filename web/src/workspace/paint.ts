@@ -90,7 +90,7 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
   if (layers.has('sensed') && picture.overlay) drawSensed(ctx, view, palette, picture.overlay);
   if (layers.has('trail')) paintTrails(ctx, picture, state);
   if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_span_m);
-  if (layers.has('capture') && scene.capture_m) {
+  if (layers.has('capture')) {
     drawCapture(ctx, view, palette, tool, scene.capture_m);
   }
   ctx.restore();

@@ -1,0 +1,146 @@
+//! `POST /api/kinematics/…` and `POST /api/magnetics/field`: the arm and the magnet as a calculator.
+
+use axum::Json;
+use axum::body::Bytes;
+use axum::http::StatusCode;
+use nalgebra::{Rotation3, UnitQuaternion};
+use serde::{Deserialize, Serialize};
+
+use super::api::parse;
+use super::problem::Problem;
+use crate::geometry::{Isometry3, Matrix3, Vector3};
+use crate::magnetics::{cuboid::Cuboid, force};
+use crate::robot::{Joints, forward, inverse};
+
+/// Most items of one request.
+const BATCH_LIMIT: usize = 10_000;
+/// A rotation's rows may miss orthonormality by this much: what single precision loses.
+const ORTHONORMAL_SLACK: f64 = 1e-6;
+
+/// Body of `POST /api/kinematics/forward`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ForwardRequest {
+    joints_rad: Vec<Joints>,
+}
+
+/// A flange pose; the rotation is given by rows.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pose {
+    position_m: [f64; 3],
+    rotation: [[f64; 3]; 3],
+}
+
+/// Answer of `POST /api/kinematics/forward`.
+#[derive(Serialize)]
+pub struct ForwardAnswer {
+    flange: Vec<Pose>,
+}
+
+pub async fn forward(body: Bytes) -> Result<Json<ForwardAnswer>, Problem> {
+    let request: ForwardRequest = parse(&body)?;
+    limit("joints_rad", request.joints_rad.len())?;
+    let poses = request.joints_rad.iter().map(|joints| {
+        let flange = forward::flange(joints);
+        let rotation = flange.rotation.to_rotation_matrix();
+        let row = |i: usize| [rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)]];
+        Pose { position_m: flange.translation.vector.into(), rotation: [row(0), row(1), row(2)] }
+    });
+    Ok(Json(ForwardAnswer { flange: poses.collect() }))
+}
+
+/// Body of `POST /api/kinematics/inverse`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InverseRequest {
+    poses: Vec<Pose>,
+}
+
+/// Answer of `POST /api/kinematics/inverse`: up to eight solutions a pose, none where there is none.
+#[derive(Serialize)]
+pub struct InverseAnswer {
+    solutions: Vec<Vec<Joints>>,
+}
+
+pub async fn inverse(body: Bytes) -> Result<Json<InverseAnswer>, Problem> {
+    let request: InverseRequest = parse(&body)?;
+    limit("poses", request.poses.len())?;
+    let mut solutions = Vec::with_capacity(request.poses.len());
+    for (index, pose) in request.poses.iter().enumerate() {
+        let flange = flange_of(pose).map_err(|detail| {
+            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "not_a_rotation", detail)
+                .field(&format!("poses[{index}].rotation"))
+        })?;
+        // Where θ6 is free, any will do: zero.
+        let found = inverse::solutions(&flange, &[0.0; 6]);
+        solutions.push(found.map_or_else(|_| Vec::new(), |found| found.to_vec()));
+    }
+    Ok(Json(InverseAnswer { solutions }))
+}
+
+fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
+    let rows = Matrix3::from_fn(|i, j| pose.rotation[i][j]);
+    let off = (rows * rows.transpose() - Matrix3::identity()).amax();
+    let handed = rows.determinant();
+    if off > ORTHONORMAL_SLACK || handed < 0.0 {
+        return Err(format!(
+            "the rotation {:?} is not orthonormal and right-handed: its rows miss by {off:.1e}, its determinant is {handed:.3}",
+            pose.rotation
+        ));
+    }
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rows));
+    Ok(Isometry3::from_parts(Vector3::from(pose.position_m).into(), rotation))
+}
+
+/// A block magnet; its axes are those of `base`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Magnet {
+    size_m: [f64; 3],
+    polarization_t: [f64; 3],
+    position_m: [f64; 3],
+}
+
+/// Body of `POST /api/magnetics/field`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FieldRequest {
+    magnet: Magnet,
+    points_m: Vec<[f64; 3]>,
+    moment_a_m2: f64,
+}
+
+/// Answer of `POST /api/magnetics/field`: flux density, inside the magnet too, and the force on a
+/// sphere of that moment, aligned with the field.
+#[derive(Serialize)]
+pub struct FieldAnswer {
+    b_t: Vec<[f64; 3]>,
+    force_n: Vec<[f64; 3]>,
+}
+
+pub async fn field(body: Bytes) -> Result<Json<FieldAnswer>, Problem> {
+    let request: FieldRequest = parse(&body)?;
+    limit("points_m", request.points_m.len())?;
+    let magnet = &request.magnet;
+    let block =
+        Cuboid::new(Vector3::from(magnet.size_m) / 2.0, Vector3::from(magnet.polarization_t)).map_err(|error| {
+            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "bad_magnet", error.to_string()).field("magnet")
+        })?;
+    let relative = |point: &[f64; 3]| Vector3::from(*point) - Vector3::from(magnet.position_m);
+    let b_t = request.points_m.iter().map(|point| block.field_t(&relative(point)).into()).collect();
+    let force_n = request
+        .points_m
+        .iter()
+        .map(|point| force::force_n(&block, &relative(point), request.moment_a_m2).into())
+        .collect();
+    Ok(Json(FieldAnswer { b_t, force_n }))
+}
+
+fn limit(field: &str, count: usize) -> Result<(), Problem> {
+    if count <= BATCH_LIMIT {
+        return Ok(());
+    }
+    let detail = format!("{field} has {count} items, the limit is {BATCH_LIMIT}");
+    Err(Problem::new(StatusCode::PAYLOAD_TOO_LARGE, "too_many", detail).field(field))
+}
