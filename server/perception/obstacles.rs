@@ -7,6 +7,9 @@ use crate::geometry::{Point2, Vector2};
 /// Pixels a cell of the mask: 0.83 mm of table at the default camera.
 const CELL_PX: usize = 2;
 
+/// How much farther than the nearest free cell the way off an obstacle looks.
+const WAY_OFF_M: f64 = 0.006;
+
 /// The dark cells of a frame, and which of them hang together.
 #[derive(Clone, Debug)]
 pub struct ObstacleMask {
@@ -104,18 +107,16 @@ impl ObstacleMask {
         order.into_iter().map(|(_, cell)| self.fit(cell, window_m)).collect()
     }
 
-    /// From a place over or beside an obstacle, the unit direction of the shortest way off it; `None`
-    /// where nothing is dark, or everything.
+    /// From a place over or beside an obstacle, the unit direction off it: toward the middle of the free
+    /// cells around, as far as the nearest of them and a little more; `None` where none is free. A mean,
+    /// because on an edge the nearest cell alone can lie anywhere.
     pub fn way_off(&self, from: Point2<f64>) -> Option<Vector2<f64>> {
-        let nearest = |dark: bool| {
-            (0..self.label.len())
-                .filter(|&cell| (self.label[cell] != 0) == dark)
-                .map(|cell| self.point(cell) - from)
-                .min_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
-        };
-        let (to_free, to_dark) = (nearest(false)?, nearest(true)?);
-        let over = to_free.norm_squared() > to_dark.norm_squared();
-        (if over { to_free } else { -to_dark }).try_normalize(0.0)
+        let free = |cell: &usize| self.label[*cell] == 0;
+        let offsets = || (0..self.label.len()).filter(free).map(|cell| self.point(cell) - from);
+        let nearest_m = offsets().map(|offset| offset.norm()).min_by(f64::total_cmp)?;
+        let reach_m = nearest_m + WAY_OFF_M;
+        let sum: Vector2<f64> = offsets().filter(|offset| offset.norm() <= reach_m).sum();
+        sum.try_normalize(0.0)
     }
 
     /// Bounding rectangle of the cells of one obstacle inside the window around its nearest cell.
@@ -175,11 +176,11 @@ mod tests {
     #[test]
     fn the_way_off_leaves_by_the_nearest_edge_from_within_and_without() {
         let center = Point2::new(0.0, -0.3);
-        for x in [0.003, -0.003] {
-            // The wall's edge is 3 mm to the right, or to the left, of the tool.
+        for x in [0.003, -0.003, 0.0, 1e-4, -1e-4] {
+            // The wall's edge is this far to the right of the tool.
             let mask = ObstacleMask::of(&Percept::of(&frame(center, |p| p.x < x)));
             let way = mask.way_off(center).unwrap();
-            assert!((way - Vector2::x()).norm() < 0.2, "{x}: {way}");
+            assert!((way - Vector2::x()).norm() < 0.05, "{x}: {way}");
         }
     }
 
