@@ -23,7 +23,7 @@ test: system-test $(VENV)/rerun-$(RERUN_VERSION)
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
-	cargo test --release --quiet
+	cargo test --release --quiet --lib --test main
 
 # A graphics driver that needs no graphics card, and Node.js for the page.
 system-run:
