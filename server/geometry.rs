@@ -3,7 +3,9 @@
 //! Everything is given in the UR5's `base` frame unless a name says otherwise: x right, y away from
 //! the user is negative, z up, origin on the table under joint 1. Metres and radians.
 
-pub use nalgebra::{Isometry3, Matrix3, Matrix6, Point2, Point3, UnitQuaternion, Vector2, Vector3, Vector6};
+pub use nalgebra::{
+    Isometry3, Matrix3, Matrix6, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3, Vector6,
+};
 use serde::{Deserialize, Serialize};
 
 /// A filled polygon with holes, in metres.

@@ -2,14 +2,19 @@
 //!
 //! - [`cuboid`]: field and field gradient of a uniformly magnetised block, in closed form.
 //! - [`dipole`]: the bead, which acts and is acted upon as a point dipole at its centre.
+//! - [`posed`]: a block that lies anywhere and anyhow, seen from `base`.
 //! - [`force`]: the pull on the bead, and where it lifts or drags it.
+//! - [`curves`]: that pull over offset and height, to be plotted.
 //!
 //! SI units throughout: tesla, newtons, metres, A·m². Points are given from the source's centre, in
-//! axes parallel to its sides. Nothing here knows of arms, walls or time.
+//! axes parallel to its sides, unless they are given in `base`. Nothing here knows of arms, walls or time.
 
 pub mod cuboid;
+pub mod curves;
 pub mod dipole;
+mod edges;
 pub mod force;
+pub mod posed;
 
 /// Magnetic constant μ0, T·m/A (CODATA 2022).
 pub const VACUUM_PERMEABILITY_T_M_A: f64 = 1.256_637_061_27e-6;
@@ -39,11 +44,11 @@ mod tests {
         gradient
     }
 
-    /// The printed formula for J along z: no mirror, no cancelling, T.
-    fn plain_field_t(jz_t: f64, p: &Vector3<f64>) -> Vector3<f64> {
+    /// The printed formula for J along z, of B inside too: no mirror, no cancelling, T.
+    fn plain_field_t(half_m: [f64; 3], jz_t: f64, p: &Vector3<f64>) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
         for corner in 0..8 {
-            let [x, y, z] = std::array::from_fn(|k| p[k] + if corner >> k & 1 == 1 { HALF_M[k] } else { -HALF_M[k] });
+            let [x, y, z] = std::array::from_fn(|k| p[k] + if corner >> k & 1 == 1 { half_m[k] } else { -half_m[k] });
             let r = (x * x + y * y + z * z).sqrt();
             let sign = if i32::count_ones(corner) % 2 == 1 { -1.0 } else { 1.0 };
             sum += Vector3::new((r - y).ln(), (r - x).ln(), (x * y).atan2(z * r)) * sign;
@@ -62,8 +67,46 @@ mod tests {
             let from_face: [f64; 3] = std::array::from_fn(|k| point[k].abs() - HALF_M[k]);
             prop_assume!((0..3).all(|k| from_face[k].hypot(from_face[(k + 1) % 3]) > 1e-3));
             let point = Vector3::from(point);
-            let error = magnet([0.0, 0.0, 1.19]).field_t(&point) - plain_field_t(1.19, &point);
+            let error = magnet([0.0, 0.0, 1.19]).field_t(&point) - plain_field_t(HALF_M, 1.19, &point);
             prop_assert!(error.norm() < 1e-11);
+        }
+
+        #[test]
+        fn rods_and_wafers_follow_it_too_inside_and_beside(
+            size in prop::array::uniform3(-3.0_f64..0.0),
+            place in prop::array::uniform3(-1.5_f64..1.5),
+        ) {
+            let half_m = size.map(|exponent| 0.05 * 10_f64.powf(exponent));
+            prop_assume!((0..3).all(|k| (place[k].abs() - 1.0).abs() > 1e-3));
+            let point = Vector3::from(place).component_mul(&Vector3::from(half_m));
+            let magnet = Cuboid::new(half_m.into(), Vector3::z()).unwrap();
+            let error = magnet.field_t(&point) - plain_field_t(half_m, 1.0, &point);
+            // In line with an edge it is the printed formula that loses its digits.
+            prop_assert!(error.norm() < 1e-7, "{}", error.norm());
+        }
+
+        #[test]
+        fn many_points_are_each_of_them(
+            j in prop::array::uniform3(-1.5..1.5),
+            used in 0..8,
+            places in prop::collection::vec((prop::array::uniform3(-3.0..3.0), 0..6), 0..8),
+        ) {
+            let magnet = magnet(std::array::from_fn(|k| if used >> k & 1 == 1 { j[k] } else { 0.0 }));
+            // Around the magnet, on its planes, and where it is a dipole.
+            let points: Vec<_> = places
+                .into_iter()
+                .map(|(place, kind): ([f64; 3], _)| {
+                    let place = Vector3::from(place).component_mul(&Vector3::from(HALF_M));
+                    match kind {
+                        0 => Vector3::new(-HALF_M[0], place.y, place.z),
+                        1 => Vector3::new(place.x, HALF_M[1], -HALF_M[2]),
+                        2 => place * 1e4,
+                        _ => place,
+                    }
+                })
+                .collect();
+            let expected: Vec<_> = points.iter().map(|point| magnet.field_t(point)).collect();
+            prop_assert_eq!(magnet.fields_t(&points), expected);
         }
 
         #[test]
@@ -140,6 +183,22 @@ mod tests {
                         assert!((field - beside).norm() < 1e-6, "{point:?} {field:?} {beside:?}");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_point_has_no_field_and_spoils_no_other() {
+        let magnet = magnet([0.0, 0.0, 1.19]);
+        let point = Vector3::new(0.01, 0.02, 0.03);
+        for value in [f64::NAN, f64::INFINITY] {
+            for axis in 0..3 {
+                let mut none = point;
+                none[axis] = value;
+                let fields = magnet.fields_t(&[none, point, point, none, none]);
+                assert_eq!(fields[1..3], [magnet.field_t(&point); 2]);
+                assert!([0, 3, 4].iter().all(|&k| fields[k].iter().all(|b| b.is_nan())), "{fields:?}");
+                assert!(magnet.gradient_t_m(&none).iter().all(|slope| slope.is_nan()));
             }
         }
     }

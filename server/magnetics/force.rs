@@ -72,10 +72,10 @@ pub fn lift_off_height_m(orientation: Orientation) -> f64 {
 /// the block is dragged towards it, with the block's lower face `lower_face_height_m` (m) above the table.
 ///
 /// It is dragged where the lateral pull is at least `friction`·(W − Fz), friction being Coulomb's
-/// coefficient. The offset is along the block's x turned by `direction_rad` toward its y. Within `inner_m` the bead either rests, because the
-/// pull is nearly vertical, or lifts off. `None` where no bead is dragged, the bead does not fit below
-/// the block, or an argument is not a number. Without friction the outer distance is only the end of the
-/// search, 0.5 m.
+/// coefficient. The offset is along the block's x turned by `direction_rad` toward its y. Within
+/// `inner_m` the bead either rests, because the pull is nearly vertical, or lifts off. `None` where no
+/// bead is dragged, the bead does not fit below the block, or an argument is not a number. Without
+/// friction the outer distance is only the end of the search, 0.5 m.
 pub fn capture_interval_m(
     orientation: Orientation,
     lower_face_height_m: f64,
@@ -113,7 +113,7 @@ pub fn capture_radius_m(orientation: Orientation, lower_face_height_m: f64, fric
 
 /// Pull in the table's plane and upwards, N, on a bead on the table at `offset_m` from the block's middle,
 /// with the block's centre `height_m` above the table.
-fn pull_n(block: &Cuboid, offset_m: [f64; 2], height_m: f64) -> (f64, f64) {
+pub(super) fn pull_n(block: &Cuboid, offset_m: [f64; 2], height_m: f64) -> (f64, f64) {
     let point_m = Vector3::new(offset_m[0], offset_m[1], 0.5 * SPHERE_DIAMETER_M - height_m);
     let force = force_n(block, &point_m, dipole::moment_a_m2());
     (force.xy().norm(), force.z)

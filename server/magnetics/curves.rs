@@ -1,0 +1,260 @@
+//! The pull on the bead as curves that a page can plot: over the offset from the block, and over its height.
+//!
+//! The block hangs in one of its three ways above a bead on the table. Pulls are in units of the bead's
+//! weight W.
+
+use super::{
+    cuboid::Cuboid,
+    dipole::{self, BLOCK_REMANENCE_T, SPHERE_DIAMETER_M},
+    force::{self, FARTHEST_M, Orientation},
+};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Most points of a curve.
+pub const POINTS_LIMIT: u32 = 2000;
+
+/// Friction coefficients that a curve is drawn for.
+const FRICTION: (f64, f64) = (0.0, 1e3);
+/// Drags that a curve is drawn for, N·s/m.
+const DRAG_N_S_M: (f64, f64) = (1e-6, 1e3);
+/// Step of the search for the greatest value over the offset, m: a small part of the block.
+const SCAN_STEP_M: f64 = 2e-3;
+
+/// Why there is no curve.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CurveError {
+    /// A number is not in its range, or not a number.
+    #[error("{field} must be from {least} to {most}, not {value}")]
+    Range {
+        /// Name of the query's field.
+        field: &'static str,
+        /// The offending value, in the unit of its name.
+        value: f64,
+        /// Least value allowed.
+        least: f64,
+        /// Greatest value allowed.
+        most: f64,
+    },
+    /// Too few points for a curve or too many.
+    #[error("count must be from 2 to {POINTS_LIMIT}, not {value}")]
+    Count {
+        /// The offending value.
+        value: u32,
+    },
+}
+
+/// What [`pull`] is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS)]
+#[serde(deny_unknown_fields)]
+pub struct PullQuery {
+    /// How the block hangs.
+    pub orientation: Orientation,
+    /// Its lower face above the table, m: at least the bead's diameter.
+    pub lower_face_height_m: f64,
+    /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+    pub direction_rad: f64,
+    /// Coulomb's coefficient.
+    pub friction: f64,
+    /// The greatest offset, m.
+    pub farthest_m: f64,
+    /// Number of offsets, from zero on, evenly spaced.
+    pub count: u32,
+}
+
+/// The pull on a bead over its horizontal offset: an entry an offset in every array.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS)]
+pub struct PullCurve {
+    /// Offset from below the block's middle, m.
+    pub offset_m: Vec<f64>,
+    /// Fz/W: 1 lifts the bead.
+    pub lift_ratio: Vec<f64>,
+    /// Pull in the table's plane over W.
+    pub lateral_ratio: Vec<f64>,
+    /// (W − Fz)/W: what remains of the weight.
+    pub weight_ratio: Vec<f64>,
+    /// Whether the bead lifts off: nothing remains of its weight.
+    pub is_lifted: Vec<bool>,
+    /// Pull in the table's plane over what friction can hold, friction·(W − Fz): from 1 on the bead
+    /// follows. `None` where friction holds nothing, because it is zero or the bead lifts off.
+    pub drag_ratio: Vec<Option<f64>>,
+    /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
+    pub capture_m: Option<(f64, f64)>,
+}
+
+/// The pull over the offset.
+///
+/// # Errors
+/// [`CurveError`], naming the field and its value.
+pub fn pull(query: &PullQuery) -> Result<PullCurve, CurveError> {
+    let PullQuery { orientation, lower_face_height_m, direction_rad, friction, farthest_m, count } = *query;
+    in_range("lower_face_height_m", lower_face_height_m, (SPHERE_DIAMETER_M, FARTHEST_M))?;
+    in_range("direction_rad", direction_rad, (-TAU, TAU))?;
+    in_range("friction", friction, FRICTION)?;
+    in_range("farthest_m", farthest_m, (0.0, FARTHEST_M))?;
+    let offset_m = evenly(0.0, farthest_m, count)?;
+    let view = View::new(orientation, lower_face_height_m, direction_rad);
+    let pulls: Vec<Pull> = offset_m.iter().map(|&offset_m| view.pull(offset_m)).collect();
+    Ok(PullCurve {
+        lift_ratio: pulls.iter().map(|pull| pull.lift_ratio).collect(),
+        lateral_ratio: pulls.iter().map(|pull| pull.lateral_ratio).collect(),
+        weight_ratio: pulls.iter().map(|pull| 1.0 - pull.lift_ratio).collect(),
+        is_lifted: pulls.iter().map(Pull::is_lifted).collect(),
+        drag_ratio: pulls.iter().map(|pull| pull.drag_ratio(friction)).collect(),
+        capture_m: force::capture_interval_m(orientation, lower_face_height_m, friction, direction_rad),
+        offset_m,
+    })
+}
+
+/// What [`reach`] is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS)]
+#[serde(deny_unknown_fields)]
+pub struct ReachQuery {
+    /// How the block hangs.
+    pub orientation: Orientation,
+    /// Least height of its lower face above the table, m: at least the bead's diameter.
+    pub lowest_m: f64,
+    /// Greatest such height, m.
+    pub highest_m: f64,
+    /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+    pub direction_rad: f64,
+    /// Coulomb's coefficient.
+    pub friction: f64,
+    /// Viscous drag on the bead, N·s/m: not zero, else no speed is too large.
+    pub drag_n_s_m: f64,
+    /// Number of heights, evenly spaced.
+    pub count: u32,
+}
+
+/// How far and how fast the block drags a bead, over its height: an entry a height in every array.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS)]
+pub struct ReachCurve {
+    /// Lower face above the table, m.
+    pub lower_face_height_m: Vec<f64>,
+    /// Offsets `(inner_m, outer_m)` between which a bead is dragged, of [`force::capture_interval_m`].
+    pub capture_m: Vec<Option<(f64, f64)>>,
+    /// Fz/W right below the block's middle.
+    pub lift_ratio: Vec<f64>,
+    /// The greatest Fz/W of any offset in the direction; 1 lifts the bead.
+    pub greatest_lift_ratio: Vec<f64>,
+    /// The greatest speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
+    /// the pull less friction equals the drag. `None` where no pull exceeds friction.
+    pub largest_speed_m_s: Vec<Option<f64>>,
+    /// Height of the lower face, m, below which a bead right below the block's middle lifts off. In C the
+    /// lift is greatest beside the middle, and a bead there lifts off from some tenths of a millimetre higher.
+    pub lift_off_m: f64,
+}
+
+/// Reach, speed and lift over the height.
+///
+/// # Errors
+/// [`CurveError`], naming the field and its value.
+pub fn reach(query: &ReachQuery) -> Result<ReachCurve, CurveError> {
+    let ReachQuery { orientation, lowest_m, highest_m, direction_rad, friction, drag_n_s_m, count } = *query;
+    in_range("lowest_m", lowest_m, (SPHERE_DIAMETER_M, FARTHEST_M))?;
+    in_range("highest_m", highest_m, (lowest_m, FARTHEST_M))?;
+    in_range("direction_rad", direction_rad, (-TAU, TAU))?;
+    in_range("friction", friction, FRICTION)?;
+    in_range("drag_n_s_m", drag_n_s_m, DRAG_N_S_M)?;
+    let lower_face_height_m = evenly(lowest_m, highest_m, count)?;
+    let views = || lower_face_height_m.iter().map(|&height_m| View::new(orientation, height_m, direction_rad));
+    Ok(ReachCurve {
+        capture_m: lower_face_height_m
+            .iter()
+            .map(|&height_m| force::capture_interval_m(orientation, height_m, friction, direction_rad))
+            .collect(),
+        lift_ratio: views().map(|view| view.pull(0.0).lift_ratio).collect(),
+        greatest_lift_ratio: views().map(|view| view.greatest(|pull| pull.lift_ratio)).collect(),
+        largest_speed_m_s: views().map(|view| view.largest_speed_m_s(friction, drag_n_s_m)).collect(),
+        lift_off_m: force::lift_off_height_m(orientation) - force::half_height_m(orientation),
+        lower_face_height_m,
+    })
+}
+
+/// The pull on the bead in units of its weight.
+struct Pull {
+    lift_ratio: f64,
+    lateral_ratio: f64,
+}
+
+impl Pull {
+    fn is_lifted(&self) -> bool {
+        self.lift_ratio >= 1.0
+    }
+
+    /// What friction can hold, in weights; not above zero where the bead lifts off.
+    fn held_ratio(&self, friction: f64) -> f64 {
+        friction * (1.0 - self.lift_ratio)
+    }
+
+    fn drag_ratio(&self, friction: f64) -> Option<f64> {
+        let held_ratio = self.held_ratio(friction);
+        (held_ratio > 0.0).then(|| self.lateral_ratio / held_ratio)
+    }
+}
+
+/// A block at a height, and beads in one direction from it.
+struct View {
+    block: Cuboid,
+    center_height_m: f64,
+    direction: [f64; 2],
+}
+
+impl View {
+    fn new(orientation: Orientation, lower_face_height_m: f64, direction_rad: f64) -> Self {
+        let block = force::block(orientation, BLOCK_REMANENCE_T);
+        let (sin, cos) = direction_rad.sin_cos();
+        Self { block, center_height_m: lower_face_height_m + block.half_size_m.z, direction: [cos, sin] }
+    }
+
+    fn pull(&self, offset_m: f64) -> Pull {
+        let offset_m = self.direction.map(|part| part * offset_m);
+        let (lateral_n, up_n) = force::pull_n(&self.block, offset_m, self.center_height_m);
+        Pull { lift_ratio: up_n / dipole::weight_n(), lateral_ratio: lateral_n / dipole::weight_n() }
+    }
+
+    /// The greatest `value` over the offset.
+    fn greatest(&self, value: impl Fn(&Pull) -> f64) -> f64 {
+        let value = |offset_m: f64| value(&self.pull(offset_m));
+        let steps = (FARTHEST_M / SCAN_STEP_M).round() as u32;
+        let scanned = (0..=steps).map(|k| SCAN_STEP_M * f64::from(k)).map(|offset_m| (value(offset_m), offset_m));
+        let (found, at_m) =
+            scanned.fold((f64::NEG_INFINITY, 0.0), |best, next| if next.0 > best.0 { next } else { best });
+        // Between its neighbours there is one maximum: each time the third that cannot hold it is left out.
+        let (mut low_m, mut high_m) = ((at_m - SCAN_STEP_M).max(0.0), at_m + SCAN_STEP_M);
+        for _ in 0..40 {
+            let third_m = (high_m - low_m) / 3.0;
+            if value(low_m + third_m) < value(high_m - third_m) {
+                low_m += third_m;
+            } else {
+                high_m -= third_m;
+            }
+        }
+        found.max(value(0.5 * (low_m + high_m)))
+    }
+
+    fn largest_speed_m_s(&self, friction: f64, drag_n_s_m: f64) -> Option<f64> {
+        let spare = |pull: &Pull| {
+            if pull.is_lifted() { f64::NEG_INFINITY } else { pull.lateral_ratio - pull.held_ratio(friction) }
+        };
+        let spare_n = self.greatest(spare) * dipole::weight_n();
+        (spare_n > 0.0).then_some(spare_n / drag_n_s_m)
+    }
+}
+
+/// NaN is in no range.
+fn in_range(field: &'static str, value: f64, (least, most): (f64, f64)) -> Result<(), CurveError> {
+    if (least..=most).contains(&value) { Ok(()) } else { Err(CurveError::Range { field, value, least, most }) }
+}
+
+/// `count` numbers from `first` to `last`.
+fn evenly(first: f64, last: f64, count: u32) -> Result<Vec<f64>, CurveError> {
+    if !(2..=POINTS_LIMIT).contains(&count) {
+        return Err(CurveError::Count { value: count });
+    }
+    let step = (last - first) / f64::from(count - 1);
+    Ok((0..count).map(|k| first + step * f64::from(k)).collect())
+}
+
+#[cfg(test)]
+mod tests;
