@@ -5,6 +5,7 @@
 //! - [`inverse`]: flange pose → all closed-form joint solutions, or a typed refusal.
 //! - [`jacobian`]: joint speeds → flange twist; distance from a singularity.
 //! - [`servo`]: the joints as speed-limited integrators at the controller's 125 Hz.
+//! - [`workspace`]: the manipulability over a horizontal plane, as a map.
 //!
 //! Poses are `base_from_flange`: metres, in the UR5's `base` frame (z up, origin on the table under
 //! joint 1). Angles are radians. Nothing here knows of magnets, tools or maps, and nothing has state.
@@ -14,6 +15,7 @@ pub mod inverse;
 pub mod jacobian;
 pub mod servo;
 pub mod ur5;
+pub mod workspace;
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use std::f64::consts::FRAC_1_SQRT_2;

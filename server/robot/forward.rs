@@ -4,8 +4,8 @@ use super::{
     Joints,
     ur5::{DH, DhRow},
 };
-use crate::geometry::{Isometry3, Vector3};
-use nalgebra::{Translation3, UnitQuaternion};
+use crate::geometry::Isometry3;
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 
 /// The pose `base_from_flange` at `joints` (rad), metres.
 ///
@@ -28,16 +28,19 @@ pub fn link_frames(joints: &Joints) -> [Isometry3<f64>; 6] {
 
 /// Rz(θ)·Tz(d)·Tx(a)·Rx(α): the next frame seen from this one.
 fn link(row: &DhRow, theta_rad: f64) -> Isometry3<f64> {
-    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), theta_rad);
-    let twist = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), row.alpha_rad);
     let (sin, cos) = theta_rad.sin_cos();
+    let (half_sin, half_cos) = (0.5 * theta_rad).sin_cos();
+    let (twist_sin, twist_cos) = row.half_twist;
     let shift = Translation3::new(row.a_m * cos, row.a_m * sin, row.d_m);
-    Isometry3::from_parts(shift, turn * twist)
+    // The product of the quaternions of Rz(θ) and Rx(α).
+    let turn = Quaternion::new(half_cos * twist_cos, half_cos * twist_sin, half_sin * twist_sin, half_sin * twist_cos);
+    Isometry3::from_parts(shift, UnitQuaternion::new_unchecked(turn))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Vector3;
     use crate::robot::ur5;
     use proptest::prelude::*;
     use std::f64::consts::{FRAC_PI_2, PI};

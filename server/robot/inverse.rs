@@ -7,17 +7,26 @@
 //! - θ2+θ3+θ4 is fitted to all three axes of the flange instead of its x axis alone, which says nothing
 //!   when cos θ5 = sin θ6 = 0: the tool straight down and θ1 = 0 is such a pose;
 //! - where there is no answer a typed error says by how much, and no value is ever NaN.
+//!
+//! θ1 and the sign of s5 have two values each: the four combinations are computed at once, in the lanes
+//! of a vector. Angles are carried as sine and cosine, and `atan2` comes last.
 
 use super::{
     Joints,
     ur5::{A2_M, A3_M, D1_M, D4_M, D5_M, D6_M, JOINT_LIMIT_RAD},
 };
-use crate::geometry::{Isometry3, Matrix3, Vector3};
+use crate::geometry::Isometry3;
 use std::f64::consts::{PI, TAU};
+use wide::f64x4;
 
 /// Excess that rounding explains: a pose computed by [`super::forward::flange`] at a singularity may
 /// miss it by some 1e-16, while clamping 1e-13 moves the flange by less than 1e-12 m.
 const ROUNDING: f64 = 1e-13;
+
+/// The four lanes: the sign of the wrist's distance along the arm's plane, which tells the two values of
+/// θ1 apart, and the sign of s5.
+const SHOULDER: f64x4 = f64x4::new([1.0, 1.0, -1.0, -1.0]);
+const WRIST: f64x4 = f64x4::new([1.0, -1.0, 1.0, -1.0]);
 
 /// What a radian of each joint counts in [`nearest`]: the three joints that carry the whole arm count
 /// twice as much as those of the wrist.
@@ -68,7 +77,7 @@ pub struct Solutions {
 
 impl Solutions {
     fn push(&mut self, joints: Joints) {
-        self.joints[self.count] = joints.map(wrapped);
+        self.joints[self.count] = joints;
         self.count += 1;
     }
 }
@@ -102,24 +111,87 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
     let rotation = flange.rotation.to_rotation_matrix().into_inner();
     // Origin of frame 5: it does not move with wrist 3.
     let wrist = flange.translation.vector - rotation.column(2) * D6_M;
-
-    // In frame 1 the wrist lies d4 off the arm's plane: s1·wx − c1·wy = d4.
     let radius_m = wrist.x.hypot(wrist.y);
     if radius_m < D4_M - ROUNDING {
-        let missing_m = D4_M - radius_m;
-        return Err(InverseError::ShoulderCylinder { missing_m });
+        return Err(InverseError::ShoulderCylinder { missing_m: D4_M - radius_m });
     }
-    // H as a product: a difference of squares would lose the digits that matter at the cylinder.
-    let root_h = ((radius_m - D4_M).max(0.0) * (radius_m + D4_M)).sqrt();
-    let toward = wrist.x.atan2(-wrist.y);
-    let swing = root_h.atan2(D4_M);
 
+    // θ1: the wrist lies d4 off the arm's plane, s1·wx − c1·wy = d4, and √H along it. H by its factors:
+    // a difference of squares would lose the digits that matter at the cylinder.
+    let root_h = (radius_m - D4_M).max(0.0).sqrt() * (radius_m + D4_M).sqrt();
+    let off = D4_M / radius_m.max(D4_M);
+    let on = SHOULDER * (root_h / radius_m.max(D4_M));
+    let (x, y) = (wrist.x / radius_m, wrist.y / radius_m);
+    let s1 = x * off - on * y;
+    let c1 = -y * off - on * x;
+
+    // The flange's axes in the arm's plane: `along` is horizontal, `across` is the plane's normal.
+    let axes = [0, 1, 2].map(|k| rotation.column(k));
+    let along = axes.map(|axis| c1 * axis.x + s1 * axis.y);
+    let across = axes.map(|axis| s1 * axis.x - c1 * axis.y);
+    let up = axes.map(|axis| axis.z);
+
+    // How far wrist 3 is bent from wrist 1's axis: |s5|.
+    let bend = (across[0] * across[0] + across[1] * across[1]).sqrt();
+    let (s5, c5) = (WRIST * bend, across[2]);
+    let (mut s6, mut c6) = (-across[1] / s5, across[0] / s5);
+    let mut theta6 = s6.atan2(c6);
+    let is_free = bend.simd_lt(f64x4::splat(ROUNDING));
+    if is_free.any() {
+        let seed6 = (seed[5] - TAU * (seed[5] / TAU).round()).clamp(-PI, PI);
+        theta6 = is_free.select(f64x4::splat(seed6), theta6);
+        s6 = is_free.select(f64x4::splat(seed6.sin()), s6);
+        c6 = is_free.select(f64x4::splat(seed6.cos()), c6);
+    }
+
+    // (along_k, up_k) is `flat_k` turned by θ234, for each axis k of the flange; fit the turn. Half the
+    // sum, because the squares of three axes of unit length add up to two in any plane.
+    let flat = [[c5 * c6, s6], [-c5 * s6, c6], [-s5, f64x4::ZERO]];
+    let (mut s234, mut c234) = (f64x4::ZERO, f64x4::ZERO);
+    for (k, [a, b]) in flat.into_iter().enumerate() {
+        s234 += 0.5 * (a * up[k] - b * along[k]);
+        c234 += 0.5 * (a * along[k] + b * up[k]);
+    }
+    let theta234 = s234.atan2(c234);
+
+    // Wrist 1 seen from the shoulder, in the arm's plane.
+    let kc = c1 * wrist.x + s1 * wrist.y - s234 * D5_M;
+    let ks = wrist.z - D1_M + c234 * D5_M;
+    let c3 = (ks * ks + kc * kc - A2_M * A2_M - A3_M * A3_M) / (2.0 * A2_M * A3_M);
+    let s3 = ((1.0 - c3) * (1.0 + c3)).max(f64x4::ZERO).sqrt();
+    let theta3 = s3.atan2(c3);
+
+    // θ2 = atan2(ks, kc) − atan2(a3·s3, a2 + a3·c3), for either elbow.
+    let (x, y) = (A3_M * c3 + A2_M, A3_M * s3);
+    let theta2 = [(ks * x - kc * y).atan2(kc * x + ks * y), (ks * x + kc * y).atan2(kc * x - ks * y)];
+    let theta4 = [wrapped(theta234 - theta2[0]) - theta3, wrapped(theta234 - theta2[1]) + theta3];
+
+    // False for what is not a number too, as where squares overflow.
+    let is_reached = c3.abs().simd_le(f64x4::splat(1.0 + ROUNDING)).to_bitmask();
+    let is_free = is_free.to_bitmask();
+    let is_straight = s3.simd_eq(f64x4::ZERO).to_bitmask();
+    let theta1 = wrapped(s1.atan2(c1)).to_array();
+    let theta2 = theta2.map(|theta2| wrapped(theta2).to_array());
+    let theta3 = theta3.to_array();
+    let theta4 = theta4.map(|theta4| wrapped(theta4).to_array());
+    let theta5 = s5.atan2(c5).to_array();
+    let theta6 = wrapped(theta6).to_array();
     let mut found = Solutions { joints: [[0.0; 6]; 8], count: 0 };
     let mut least_missing_m = f64::INFINITY;
-    for shoulder in signs(root_h) {
-        let theta1 = toward + shoulder * swing;
-        let missing_m = branches_of_shoulder(theta1, &rotation, &wrist, seed[5], &mut found);
-        least_missing_m = least_missing_m.min(missing_m);
+    for lane in 0..4 {
+        let is_in = |mask: u32| mask >> lane & 1 != 0;
+        // Both signs of a zero are one branch.
+        if (lane >= 2 && root_h == 0.0) || (lane % 2 == 1 && is_in(is_free)) {
+            continue;
+        }
+        if !is_in(is_reached) {
+            least_missing_m = least_missing_m.min(missing_m(kc.to_array()[lane], ks.to_array()[lane]));
+            continue;
+        }
+        found.push([theta1[lane], theta2[0][lane], theta3[lane], theta4[0][lane], theta5[lane], theta6[lane]]);
+        if !is_in(is_straight) {
+            found.push([theta1[lane], theta2[1][lane], -theta3[lane], theta4[1][lane], theta5[lane], theta6[lane]]);
+        }
     }
     if found.is_empty() {
         return Err(InverseError::OutOfReach { missing_m: least_missing_m });
@@ -151,104 +223,65 @@ pub fn nearest_within(
     seed: &Joints,
     limits_rad: &[[f64; 2]; 6],
 ) -> Result<Joints, InverseError> {
-    let mut best = (f64::INFINITY, *seed);
+    let mut best: Option<(f64, Joints)> = None;
     let mut refusal = None;
     for branch in &solutions(flange, seed)? {
         match nearest_copy(branch, seed, limits_rad) {
             Ok(joints) => {
                 let distance = distance2(&joints, seed);
-                if distance < best.0 {
-                    best = (distance, joints);
+                if best.is_none_or(|(least, _)| distance < least) {
+                    best = Some((distance, joints));
                 }
             }
             Err(error) => refusal = refusal.or(Some(error)),
         }
     }
-    match refusal {
-        Some(error) if best.0 == f64::INFINITY => Err(error),
-        _ => Ok(best.1),
-    }
+    best.map(|(_, joints)| joints).ok_or_else(|| refusal.expect("one of the solutions is refused"))
 }
 
-/// Adds the branches of one θ1 to `found`; returns by how much, m, its nearest branch misses.
-fn branches_of_shoulder(
-    theta1: f64,
-    rotation: &Matrix3<f64>,
-    wrist: &Vector3<f64>,
-    seed6: f64,
-    found: &mut Solutions,
-) -> f64 {
-    let (s1, c1) = theta1.sin_cos();
-    // The flange's axes in the arm's plane: `along` is horizontal, `across` is the plane's normal.
-    let along = rotation.row(0) * c1 + rotation.row(1) * s1;
-    let across = rotation.row(0) * s1 - rotation.row(1) * c1;
-    let up = rotation.row(2);
-
-    let mut least_missing_m = f64::INFINITY;
-    let wrist_bend = across[0].hypot(across[1]);
-    let wrist_is_singular = wrist_bend < ROUNDING;
-    for sigma in signs(if wrist_is_singular { 0.0 } else { wrist_bend }) {
-        let theta5 = (sigma * wrist_bend).atan2(across[2]);
-        let theta6 = if wrist_is_singular { seed6 } else { (-sigma * across[1]).atan2(sigma * across[0]) };
-        let (s5, c5) = theta5.sin_cos();
-        let (s6, c6) = theta6.sin_cos();
-        // (along_k, up_k) is `flat_k` turned by θ234, for each axis k of the flange; fit the turn.
-        let flat = [[c5 * c6, s6], [-c5 * s6, c6], [-s5, 0.0]];
-        let (mut sin, mut cos) = (0.0, 0.0);
-        for (k, [a, b]) in flat.into_iter().enumerate() {
-            sin += a * up[k] - b * along[k];
-            cos += a * along[k] + b * up[k];
-        }
-        let theta234 = sin.atan2(cos);
-
-        // Wrist 1 seen from the shoulder, in the arm's plane.
-        let (s234, c234) = theta234.sin_cos();
-        let kc = c1 * wrist.x + s1 * wrist.y - s234 * D5_M;
-        let ks = wrist.z - D1_M + c234 * D5_M;
-        let c3 = (ks * ks + kc * kc - A2_M * A2_M - A3_M * A3_M) / (2.0 * A2_M * A3_M);
-        if c3.abs() > 1.0 + ROUNDING {
-            let distance_m = kc.hypot(ks);
-            let nearest_m = distance_m.clamp((A2_M - A3_M).abs(), (A2_M + A3_M).abs());
-            least_missing_m = least_missing_m.min((distance_m - nearest_m).abs());
-            continue;
-        }
-        let root_s3 = ((1.0 - c3) * (1.0 + c3)).max(0.0).sqrt();
-        for elbow in signs(root_s3) {
-            let s3 = elbow * root_s3;
-            let theta3 = s3.atan2(c3);
-            let theta2 = ks.atan2(kc) - (A3_M * s3).atan2(A3_M * c3 + A2_M);
-            let theta4 = theta234 - theta2 - theta3;
-            found.push([theta1, theta2, theta3, theta4, theta5, theta6]);
-        }
-    }
-    least_missing_m
+/// How far wrist 1, at (`kc_m`, `ks_m`) from the shoulder, is from where the two links reach, m.
+fn missing_m(kc_m: f64, ks_m: f64) -> f64 {
+    let distance_m = kc_m.hypot(ks_m);
+    let nearest_m = distance_m.clamp((A2_M - A3_M).abs(), (A2_M + A3_M).abs());
+    (distance_m - nearest_m).abs()
 }
 
-/// The signs of a square root, one of them if the root is zero.
-fn signs(root: f64) -> impl Iterator<Item = f64> {
-    [1.0, -1.0].into_iter().take(if root == 0.0 { 1 } else { 2 })
-}
-
-/// `angle_rad` turned into (−π, π].
-fn wrapped(angle_rad: f64) -> f64 {
-    let angle_rad = angle_rad - TAU * (angle_rad / TAU).round();
-    if angle_rad <= -PI { PI } else { angle_rad.min(PI) }
+/// `angle_rad` in [−2π, 2π] turned into (−π, π].
+fn wrapped(angle_rad: f64x4) -> f64x4 {
+    let is_above = angle_rad.simd_gt(f64x4::PI);
+    let is_below = angle_rad.simd_le(-f64x4::PI);
+    angle_rad - (is_above & f64x4::TAU) + (is_below & f64x4::TAU)
 }
 
 /// The copy of `branch` nearest to `seed` and inside the limits, each joint by itself.
 fn nearest_copy(branch: &Joints, seed: &Joints, limits_rad: &[[f64; 2]; 6]) -> Result<Joints, InverseError> {
     let mut copy = *branch;
     for joint in 0..6 {
-        let angle_rad = branch[joint];
-        let turns_to = |target_rad: f64| (target_rad - angle_rad) / TAU;
-        let fewest = turns_to(limits_rad[joint][0]).ceil();
-        let most = turns_to(limits_rad[joint][1]).floor();
-        if fewest > most {
-            return Err(InverseError::JointLimit { joint, angle_rad });
+        let [least_rad, most_rad] = limits_rad[joint];
+        copy[joint] += TAU * whole((seed[joint] - branch[joint]) / TAU);
+        if copy[joint] < least_rad || copy[joint] > most_rad {
+            copy[joint] = copy_inside(joint, branch[joint], seed[joint], limits_rad[joint])?;
         }
-        copy[joint] += TAU * turns_to(seed[joint]).round().max(fewest).min(most);
     }
     Ok(copy)
+}
+
+/// The copy of `angle_rad` inside the limits that is nearest to a seed outside them.
+#[cold]
+fn copy_inside(joint: usize, angle_rad: f64, seed_rad: f64, limits_rad: [f64; 2]) -> Result<f64, InverseError> {
+    let turns_to = |target_rad: f64| (target_rad - angle_rad) / TAU;
+    let [fewest, most] = [turns_to(limits_rad[0]).ceil(), turns_to(limits_rad[1]).floor()];
+    if fewest > most {
+        return Err(InverseError::JointLimit { joint, angle_rad });
+    }
+    Ok(angle_rad + TAU * turns_to(seed_rad).round().max(fewest).min(most))
+}
+
+/// The whole number nearest to `number`; in place, where `f64::round` is a call.
+fn whole(number: f64) -> f64 {
+    // From here on the spacing of floating-point numbers is one.
+    const SHIFT: f64 = 1.5 * (1_u64 << 52) as f64;
+    (number + SHIFT) - SHIFT
 }
 
 fn distance2(joints: &Joints, seed: &Joints) -> f64 {
@@ -265,4 +298,28 @@ fn check_finite(flange: &Isometry3<f64>, seed: &Joints) -> Result<(), InverseErr
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::forward;
+
+    #[test]
+    fn wrapped_keeps_to_its_interval() {
+        for (angle_rad, expected_rad) in [(-PI, PI), (PI, PI), (-TAU, 0.0), (TAU, 0.0), (4.0, 4.0 - TAU), (0.5, 0.5)] {
+            assert_eq!(wrapped(f64x4::splat(angle_rad)), f64x4::splat(expected_rad));
+        }
+        assert!(wrapped(f64x4::splat(PI.next_up())).simd_gt(f64x4::splat(-PI)).all());
+        assert!(wrapped(f64x4::splat((-PI).next_down())).simd_le(f64x4::PI).all());
+    }
+
+    #[test]
+    fn the_farthest_seed_still_gives_joints_within_limits() {
+        let flange = forward::flange(&[0.4, -1.0, 1.2, 0.3, 0.0, 0.7]);
+        for seed_rad in [1e15, -1e200, f64::MAX] {
+            let found = nearest(&flange, &[seed_rad; 6]).unwrap();
+            assert!(found.iter().all(|q| q.abs() <= JOINT_LIMIT_RAD), "{found:?}");
+        }
+    }
 }

@@ -26,15 +26,22 @@ pub fn geometric(joints: &Joints) -> Matrix6<f64> {
     jacobian
 }
 
-/// |det J| in m³, by its factors: |a2·a3·s3·s5·(a2·c2 + a3·c23 + d5·s234)|.
+/// The factors of det J that change sign: the shoulder's a2·c2 + a3·c23 + d5·s234 (m), the wrist's s5 and
+/// the elbow's s3.
 ///
-/// It is zero where the arm is singular: s3 = 0 (elbow straight), s5 = 0 (wrist 3 along wrist 1) or
-/// the last factor zero (wrist over the base axis, at the shoulder's cylinder). It is Yoshikawa's
-/// measure of manipulability for an arm of six joints (1985).
-pub fn manipulability(joints: &Joints) -> f64 {
+/// Each is zero in a singularity of its own: wrist over the base axis, at the shoulder's cylinder;
+/// wrist 3 along wrist 1; elbow straight.
+pub fn factors(joints: &Joints) -> [f64; 3] {
     let [_, theta2, theta3, theta4, theta5, _] = *joints;
-    let shoulder = A2_M * theta2.cos() + A3_M * (theta2 + theta3).cos() + D5_M * (theta2 + theta3 + theta4).sin();
-    (A2_M * A3_M * theta3.sin() * theta5.sin() * shoulder).abs()
+    let shoulder_m = A2_M * theta2.cos() + A3_M * (theta2 + theta3).cos() + D5_M * (theta2 + theta3 + theta4).sin();
+    [shoulder_m, theta5.sin(), theta3.sin()]
+}
+
+/// |det J| in m³: |a2·a3| times its [`factors`].
+///
+/// It is Yoshikawa's measure of manipulability for an arm of six joints (1985).
+pub fn manipulability(joints: &Joints) -> f64 {
+    (A2_M * A3_M * factors(joints).iter().product::<f64>()).abs()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! Source: Universal Robots, "DH parameters for calculations of kinematics and dynamics", and the
 //! UR5 technical specification. The link twists α are (π/2, 0, 0, π/2, −π/2, 0).
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Height of the shoulder axis above the base, m.
 pub const D1_M: f64 = 0.089159;
@@ -26,19 +26,13 @@ pub struct DhRow {
     pub d_m: f64,
     /// Length of the link, m.
     pub a_m: f64,
-    /// Twist of the link, rad.
-    pub alpha_rad: f64,
+    /// Sine and cosine of half the link's twist α.
+    pub half_twist: (f64, f64),
 }
 
 /// The Denavit-Hartenberg table, from the base to the flange.
-pub const DH: [DhRow; 6] = [
-    row(D1_M, 0.0, FRAC_PI_2),
-    row(0.0, A2_M, 0.0),
-    row(0.0, A3_M, 0.0),
-    row(D4_M, 0.0, FRAC_PI_2),
-    row(D5_M, 0.0, -FRAC_PI_2),
-    row(D6_M, 0.0, 0.0),
-];
+pub const DH: [DhRow; 6] =
+    [row(D1_M, 0.0, 1), row(0.0, A2_M, 0), row(0.0, A3_M, 0), row(D4_M, 0.0, 1), row(D5_M, 0.0, -1), row(D6_M, 0.0, 0)];
 
 /// Every joint turns within ± this angle, rad.
 pub const JOINT_LIMIT_RAD: f64 = 2.0 * PI;
@@ -47,6 +41,9 @@ pub const JOINT_SPEED_LIMIT_RAD_S: f64 = PI;
 /// Period of the CB3 controller, s (125 Hz).
 pub const SERVO_PERIOD_S: f64 = 0.008;
 
-const fn row(d_m: f64, a_m: f64, alpha_rad: f64) -> DhRow {
-    DhRow { d_m, a_m, alpha_rad }
+/// A row whose twist is `quarter_turns`·π/2: −1, 0 or 1.
+const fn row(d_m: f64, a_m: f64, quarter_turns: i32) -> DhRow {
+    let half_twist =
+        if quarter_turns == 0 { (0.0, 1.0) } else { (quarter_turns as f64 * FRAC_1_SQRT_2, FRAC_1_SQRT_2) };
+    DhRow { d_m, a_m, half_twist }
 }
