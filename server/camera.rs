@@ -126,8 +126,9 @@ pub struct Subject {
     pub bead_m: [f64; 3],
     /// The goal on the table; only [`Camera::scene`] shows it.
     pub goal_m: Option<[f64; 2]>,
-    /// `base_from_link` for the Denavit–Hartenberg frames 1 to 6; the last is the flange.
-    pub link_frames: [Isometry3<f64>; 6],
+    /// `base_from_link` for the Denavit–Hartenberg frames 1 to 6, the last is the flange; none where
+    /// there is no arm.
+    pub link_frames: Option<[Isometry3<f64>; 6]>,
     /// Edges of the magnet along x, y and z of `base`.
     pub block_size_m: [f64; 3],
 }
@@ -137,7 +138,7 @@ impl Subject {
     /// picture that looks right.
     fn check(&self) -> Result<(), CameraError> {
         let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
-        let frames_finite = self.link_frames.iter().all(|base_from_link| {
+        let frames_finite = self.link_frames.iter().flatten().all(|base_from_link| {
             finite(base_from_link.translation.vector.as_slice()) && finite(base_from_link.rotation.coords.as_slice())
         });
         let fields = [

@@ -4,18 +4,20 @@
 
 mod bead;
 pub(crate) mod contact;
+mod positioner;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Isometry3, Point2, Point3, UnitQuaternion, Vector2, Vector3};
+use crate::geometry::{Isometry3, Point2, Point3, Translation3, Vector2};
 use crate::magnetics::cuboid::Cuboid;
+use crate::magnetics::posed::PosedBlock;
 use crate::magnetics::{dipole, force};
 use crate::map::Map;
-use crate::robot::inverse::{self, InverseError};
-use crate::robot::{Joints, forward, servo, ur5};
+use crate::robot::ur5;
 
-pub use bead::Bead;
+pub use bead::{Bead, BeadMotion};
 pub use force::Orientation as BlockOrientation;
+pub use positioner::{Positioner, PositionerKind, ToolOrientation, manipulability_map};
 
 /// Length of gripper and block, flange to tool point (specification §1).
 pub const TOOL_LENGTH_M: f64 = 0.180;
@@ -23,18 +25,35 @@ pub const TOOL_LENGTH_M: f64 = 0.180;
 pub const BEAD_RADIUS_M: f64 = dipole::SPHERE_DIAMETER_M / 2.0;
 /// Plant steps a servo period: 1 kHz.
 pub const SUBSTEPS: usize = 8;
-/// Gain K2 of the joints' integrators (paper, §IV-D).
-pub const SERVO_GAIN_PER_S: f64 = 4.0;
+
+/// Mass of the bead.
+pub fn bead_mass_kg() -> f64 {
+    dipole::mass_kg()
+}
 
 /// What the physics can be told.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlantParameters {
     /// How the block is turned.
     pub block_orientation: BlockOrientation,
+    /// How the bead moves over the table.
+    pub bead_motion: BeadMotion,
     /// Coulomb friction of the bead on the table.
     pub friction: f64,
+    /// Resistance to rolling, in units of the normal load; used by [`BeadMotion::Rolling`] alone.
+    pub rolling_resistance: f64,
     /// Viscous drag on the bead.
     pub drag_n_s_m: f64,
+}
+
+impl PlantParameters {
+    /// The pull, in units of the normal load, above which a resting bead begins to move.
+    pub fn breakaway(&self) -> f64 {
+        match self.bead_motion {
+            BeadMotion::Sliding => self.friction,
+            BeadMotion::Rolling => self.friction.min(self.rolling_resistance),
+        }
+    }
 }
 
 /// The hand that disturbs: a critically damped spring from the bead to the pointer.
@@ -49,12 +68,21 @@ pub struct Hand {
 /// All that the physics remember.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlantState {
-    /// Joint angles.
-    pub joints_rad: Joints,
+    /// What carries the magnet.
+    pub positioner: Positioner,
     /// The bead.
     pub bead: Bead,
     /// The hand, while it holds the bead.
     pub hand: Option<Hand>,
+    /// A force that pushes the bead along for a while: a disturbance.
+    pub drift_n: Vector2<f64>,
+}
+
+impl PlantState {
+    /// A bead at rest at `bead_m`, and nothing that disturbs it.
+    pub fn at_rest(positioner: Positioner, bead_m: Point2<f64>) -> Self {
+        Self { positioner, bead: Bead::at(bead_m), hand: None, drift_n: Vector2::zeros() }
+    }
 }
 
 /// Forces on the bead at one moment.
@@ -93,37 +121,28 @@ impl Plant {
         (self.block.half_size_m * 2.0).into()
     }
 
-    /// The tool point: the middle of the block's lower face.
-    pub fn tool_m(joints_rad: &Joints) -> Point3<f64> {
-        forward::flange(joints_rad) * Point3::new(0.0, 0.0, TOOL_LENGTH_M)
-    }
-
-    /// Joints that put the tool point at `tool_m`, straight down, on the branch nearest to `seed`.
-    pub fn joints_for(tool_m: Point3<f64>, seed: &Joints) -> Result<Joints, InverseError> {
-        let flange_m = tool_m.coords + Vector3::new(0.0, 0.0, TOOL_LENGTH_M);
-        let rotation: UnitQuaternion<f64> = crate::robot::tool_down();
-        inverse::nearest(&Isometry3::from_parts(flange_m.into(), rotation), seed)
-    }
-
-    /// Magnetic load on a bead at `bead_m` on the table.
-    pub fn load(&self, tool_m: Point3<f64>, bead_m: Point2<f64>) -> Load {
-        let block_center_z_m = tool_m.z + self.block_half_height_m;
-        let bead_from_block = Vector3::new(bead_m.x - tool_m.x, bead_m.y - tool_m.y, BEAD_RADIUS_M - block_center_z_m);
-        let force_n = force::force_n(&self.block, &bead_from_block, dipole::moment_a_m2());
+    /// Magnetic load on a bead at `bead_m` on the table; see [`Positioner::base_from_tool`] for the pose.
+    pub fn load(&self, base_from_tool: &Isometry3<f64>, bead_m: Point2<f64>) -> Load {
+        let bead_m = Point3::new(bead_m.x, bead_m.y, BEAD_RADIUS_M);
+        let tool_from_block = Translation3::new(0.0, 0.0, self.block_half_height_m);
+        let posed = PosedBlock { block: self.block, base_from_block: base_from_tool * tool_from_block };
+        let force_n = posed.force_n(&bead_m, dipole::moment_a_m2());
         Load { lateral_n: force_n.xy(), vertical_n: force_n.z }
     }
 
-    /// Advances one servo period: joints follow `reference` → `next_reference`, the bead follows the
-    /// magnet, the hand and the walls.
-    pub fn step(&self, state: &mut PlantState, map: &Map, reference: &Joints, next_reference: &Joints) {
-        let tool_before = Self::tool_m(&state.joints_rad);
-        state.joints_rad = servo::step(&state.joints_rad, reference, next_reference, SERVO_GAIN_PER_S);
-        let tool_after = Self::tool_m(&state.joints_rad);
+    /// Advances one servo period: the positioner follows `reference` → `next_reference`, the bead
+    /// follows the magnet, the hand and the walls.
+    pub fn step(&self, state: &mut PlantState, map: &Map, reference: &Positioner, next_reference: &Positioner) {
+        let before = state.positioner.base_from_tool();
+        state.positioner = state.positioner.step(reference, next_reference);
+        let mut base_from_tool = state.positioner.base_from_tool();
+        let travel_m = base_from_tool.translation.vector - before.translation.vector;
         let dt_s = ur5::SERVO_PERIOD_S / SUBSTEPS as f64;
         for substep in 1..=SUBSTEPS {
-            let fraction = substep as f64 / SUBSTEPS as f64;
-            let tool_m = tool_before + (tool_after - tool_before) * fraction;
-            self.step_bead(state, map, tool_m, dt_s);
+            // The tool moves evenly; its tilt hardly changes in a servo period.
+            let part = substep as f64 / SUBSTEPS as f64;
+            base_from_tool.translation.vector = before.translation.vector + travel_m * part;
+            self.step_bead(state, map, &base_from_tool, dt_s);
         }
     }
 }

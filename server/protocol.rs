@@ -1,4 +1,5 @@
-//! Every message of the WebSocket, once, and its translation to and from `session`'s types.
+//! Every message of the WebSocket, once, and its translation to and from `session`'s types; and what else
+//! the page asks for.
 //!
 //! Text frames are JSON objects tagged by `type`. Binary frames carry pictures: one byte
 //! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
@@ -8,7 +9,9 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::geometry::{Polygon, Rect};
-use crate::scenario::{ControllerName, Parameters};
+use crate::plant::{PositionerKind, ToolOrientation};
+use crate::robot::workspace::ManipulabilityMap;
+use crate::scenario::{ControllerName, Disturbance, Parameters, Scripted};
 use crate::trial::EventKind;
 
 mod convert;
@@ -68,6 +71,9 @@ pub enum ClientMessage {
         #[ts(optional)]
         controller: Option<ControllerName>,
         #[serde(default)]
+        #[ts(optional)]
+        positioner: Option<PositionerKind>,
+        #[serde(default)]
         #[ts(optional, type = "number")]
         seed: Option<u64>,
         #[serde(default)]
@@ -79,7 +85,12 @@ pub enum ClientMessage {
         #[serde(default)]
         #[ts(optional)]
         parameters: Option<Parameters>,
+        #[serde(default)]
+        #[ts(optional, as = "Option<Vec<Scripted>>")]
+        script: Vec<Scripted>,
     },
+    /// Disturbs the bead, or what is known of it, now.
+    Disturb { disturbance: Disturbance },
     /// Back to an earlier tick that is still held (see `state.oldest_tick`); pauses.
     Rewind {
         #[ts(type = "number")]
@@ -143,6 +154,8 @@ pub struct SceneMessage {
     pub map: String,
     /// Maps that `load_scenario` knows.
     pub maps: Vec<String>,
+    /// What carries the magnet in this trial.
+    pub positioner: PositionerKind,
     /// Controllers that `select_controller` knows.
     pub controllers: Vec<ControllerName>,
     /// The workspace.
@@ -203,8 +216,8 @@ pub struct StateMessage {
     pub hand_m: Option<[f64; 2]>,
     /// Force of the hand's spring on the bead (0 when not held).
     pub hand_force_n: f64,
-    /// Joint angles.
-    pub joints_rad: [f64; 6],
+    /// Joint angles; none on the planar stage, which has no arm.
+    pub joints_rad: Option<[f64; 6]>,
     /// Active sub-controller, 1 or 2.
     pub mode: u8,
     /// Why it is active, one plain sentence.
@@ -297,4 +310,28 @@ pub struct ErrorMessage {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub field: Option<String>,
+}
+
+/// Body of `POST /api/kinematics/workspace`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct WorkspaceQuery {
+    /// Where the tool point goes.
+    pub area: Rect,
+    /// Side of a cell.
+    pub cell_m: f64,
+    /// Lower face of the block above the table.
+    pub tool_height_m: f64,
+    /// How the arm holds its flange.
+    pub tool_orientation: ToolOrientation,
+}
+
+/// Answer of `POST /api/kinematics/workspace`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct WorkspaceMap {
+    /// Manipulability with the tool point over each cell.
+    #[serde(flatten)]
+    pub map: ManipulabilityMap,
+    /// Poses with less are refused as singular.
+    pub least_m3: f64,
 }

@@ -1,5 +1,6 @@
 //! What is set up before a trial: one serde type behind links, files, forks and lessons.
 
+mod disturbance;
 mod parameters;
 mod random;
 
@@ -7,7 +8,9 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::geometry::Point2;
+use crate::plant::PositionerKind;
 
+pub use disturbance::{Disturbance, DisturbanceError, Scripted, When};
 pub use parameters::{AttractorLaw, ParameterError, Parameters, SwitchingLaw};
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 
@@ -56,6 +59,9 @@ pub struct Scenario {
     pub map: String,
     /// Sub-controller 2.
     pub controller: ControllerName,
+    /// What carries the magnet; left out, what the map is made for.
+    #[serde(default)]
+    pub positioner: Option<PositionerKind>,
     /// Seed of everything random in the trial.
     pub seed: u64,
     /// Parameters at the start.
@@ -67,9 +73,12 @@ pub struct Scenario {
     /// Goal at the start; left out, none: the arm holds.
     #[serde(default)]
     pub goal_m: Option<Point2<f64>>,
-    /// How often the bead is lifted away during transport (specification §2, scripted).
+    /// How often the bead is lifted away at random during transport (specification §2).
     #[serde(default)]
     pub disturbances: u32,
+    /// Disturbances at set times.
+    #[serde(default)]
+    pub script: Vec<Scripted>,
 }
 
 impl Scenario {
@@ -78,11 +87,13 @@ impl Scenario {
         Self {
             map: map.to_owned(),
             controller: ControllerName::Attractor,
+            positioner: None,
             seed,
             parameters: Parameters::default(),
             start_m: None,
             goal_m: None,
             disturbances: 0,
+            script: Vec::new(),
         }
     }
 }

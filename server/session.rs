@@ -16,7 +16,8 @@ use tokio::sync::{broadcast, oneshot, watch};
 use crate::camera::Gpu;
 use crate::geometry::Point2;
 use crate::map::MapError;
-use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::plant::PositionerKind;
+use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
 use crate::trial::{Arena, Event, Input, InputError, Moment, Sight, TickRecord, TrialError};
 
 pub use pacing::{SPEED_MAX, SPEED_MIN};
@@ -49,6 +50,8 @@ pub enum Command {
         map: String,
         /// Sub-controller 2, or the present one.
         controller: Option<ControllerName>,
+        /// What carries the magnet, or what the map is made for.
+        positioner: Option<PositionerKind>,
         /// Seed, or the present one.
         seed: Option<u64>,
         /// Bead and tool at the start.
@@ -57,6 +60,8 @@ pub enum Command {
         goal_m: Option<Point2<f64>>,
         /// Parameters, or the present ones.
         parameters: Option<Box<Parameters>>,
+        /// Disturbances at set times.
+        script: Vec<Scripted>,
     },
     /// Back to the last control step at or before this tick; stops time.
     Rewind(u64),
@@ -103,6 +108,8 @@ pub struct Scenery {
     pub arena: Arc<Arena>,
     /// How the trial was set up.
     pub scenario: Scenario,
+    /// What carries the magnet.
+    pub positioner: PositionerKind,
     /// Parameters in force.
     pub parameters: Parameters,
 }

@@ -6,6 +6,7 @@
 //! [`Eye`], so that recorded frames, or recorded decisions, can stand in for it.
 
 mod decide;
+mod disturb;
 mod input;
 mod log;
 mod outcome;
@@ -20,26 +21,18 @@ use crate::geometry::{Point2, Point3, Rect, Vector2};
 use crate::image::CameraFrame;
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::perception::Percept;
-use crate::plant::Plant;
-use crate::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
+use crate::plant::{Plant, Positioner, PositionerKind};
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, Scenario, start_point};
 use crate::tracking::TrackerParameters;
 
+pub use disturb::Script;
 pub use input::{Input, InputError};
 pub use log::{InputLog, LogError, LoggedTick};
 pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Event, EventKind, Moment, Sight, TickRecord};
 pub use state::{Counters, Decision, Mind, Motion, TrialState, World};
 
-/// Arm at rest over the workspace; the inverse's branch nearest to it is the one used throughout.
-pub const HOME_RAD: Joints = [
-    -std::f64::consts::FRAC_PI_2,
-    -std::f64::consts::FRAC_PI_2,
-    -std::f64::consts::FRAC_PI_2,
-    -std::f64::consts::FRAC_PI_2,
-    std::f64::consts::FRAC_PI_2,
-    0.0,
-];
 /// The tool changes height no faster than this.
 const LIFT_SPEED_M_S: f64 = 0.05;
 
@@ -130,12 +123,17 @@ impl Trial {
             None => start_point(&arena.map, &arena.space, scenario.seed)?,
         };
         input::check_place("start_m", start, &arena.map)?;
+        for scripted in &scenario.script {
+            Self::check_disturbance(&scripted.disturbance, &arena.map)?;
+        }
         let limits = limits_for(&scenario.parameters, arena.map.workspace());
         let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
-        let joints =
-            limits.position(tool_m, &HOME_RAD).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
+        let kind = scenario.positioner.unwrap_or_else(|| PositionerKind::of(&arena.map));
+        let home = Positioner::home(kind, tool_m);
+        let positioner =
+            limits.position(tool_m, &home).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
         let plant = Plant::new(scenario.parameters.plant());
-        let state = TrialState::at_start(&scenario, tool_m, joints);
+        let state = TrialState::at_start(&scenario, tool_m, positioner);
         let mut trial = Self { arena, plant, state, inputs: Vec::new(), events: Vec::new(), scenario };
         if let Some(goal) = trial.scenario.goal_m {
             trial.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y })?;
@@ -175,7 +173,7 @@ impl Trial {
 
     /// The tool point.
     pub fn tool_m(&self) -> Point3<f64> {
-        Plant::tool_m(&self.state.world.plant.joints_rad)
+        self.state.world.plant.positioner.tool_m()
     }
 
     /// What a camera would look at now.
@@ -188,14 +186,15 @@ impl Trial {
             tool_m: tool.coords.into(),
             bead_m: [bead.position_m.x, bead.position_m.y, bead.height_m(tool)],
             goal_m: world.goal_m.map(|goal| [goal.x, goal.y]),
-            link_frames: forward::link_frames(&world.plant.joints_rad),
+            link_frames: world.plant.positioner.link_frames(),
             block_size_m: self.plant.block_size_m(),
         }
     }
 
     /// Magnet's pull on the bead now.
     pub fn load(&self) -> crate::plant::Load {
-        self.plant.load(self.tool_m(), self.state.world.plant.bead.position_m)
+        let plant = &self.state.world.plant;
+        self.plant.load(&plant.positioner.base_from_tool(), plant.bead.position_m)
     }
 
     /// Advances one servo period of 8 ms. When the camera fails, nothing has changed.
@@ -219,6 +218,7 @@ impl Trial {
             self.carry_out(&decided);
             decision = Some(decided);
         }
+        self.strike_as_scripted(None);
         self.advance_reference();
         self.sense();
         self.state.world.tick += 1;
@@ -246,17 +246,13 @@ impl Trial {
         let rise_m = world.parameters.tool_height_m - world.reference_m.z;
         let most_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
         let next_m = Point3::new(wanted.x, wanted.y, world.reference_m.z + rise_m.clamp(-most_m, most_m));
-        let joints = world.reference_joints_rad;
-        let next_joints = match limits.position(next_m, &joints) {
-            Ok(next) => {
-                world.reference_m = next_m;
-                next
-            }
-            // A flight over the edge of the reach waits at the edge.
-            Err(_) => joints,
-        };
-        self.plant.step(&mut world.plant, &self.arena.map, &joints, &next_joints);
-        world.reference_joints_rad = next_joints;
+        let reference = world.reference;
+        if let Ok(next) = limits.position(next_m, &reference) {
+            world.reference_m = next_m;
+            world.reference = next;
+        }
+        // A flight over the edge of the reach waits at the edge.
+        self.plant.step(&mut world.plant, &self.arena.map, &reference, &world.reference);
     }
 
     fn sense(&mut self) {
@@ -264,12 +260,16 @@ impl Trial {
         let parameters = TrackerParameters {
             noise_m: world.parameters.tracker_noise_m,
             latency_ticks: world.parameters.tracker_latency_ticks,
-            dropout: world.parameters.tracker_dropout,
+            dropout: if world.tick < world.script.dropout_until { 1.0 } else { world.parameters.tracker_dropout },
         };
         world.tracker.sample(world.plant.bead.position_m, &parameters, &mut world.rng);
     }
 }
 
 fn limits_for(parameters: &Parameters, workspace: &Rect) -> Limits {
-    Limits { workspace: *workspace, speed_m_s: parameters.transport_speed_m_s }
+    Limits {
+        workspace: *workspace,
+        speed_m_s: parameters.transport_speed_m_s,
+        tool_orientation: parameters.tool_orientation,
+    }
 }

@@ -5,7 +5,8 @@ use std::sync::{Arc, OnceLock};
 use ferry::camera::{AdapterChoice, Camera, CameraError, Eye, Gpu, Subject};
 use ferry::geometry::Point2;
 use ferry::image::CameraFrame;
-use ferry::scenario::{ControllerName, Scenario};
+use ferry::plant::{BeadMotion, ToolOrientation};
+use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry::trial::{Arena, Input, InputLog, LoggedTick, Source, Trial};
 use proptest::prelude::*;
 
@@ -53,6 +54,21 @@ fn input() -> impl Strategy<Value = Input> {
         Just(Input::Release),
         Just(Input::ClearGoal),
         place().prop_map(|(x_m, y_m)| Input::Place { x_m, y_m }),
+        disturbance().prop_map(Input::Disturb),
+        (any::<bool>(), any::<bool>()).prop_map(|(rolls, tilted)| Input::Configure(Box::new(Parameters {
+            bead_motion: if rolls { BeadMotion::Rolling } else { BeadMotion::Sliding },
+            tool_orientation: if tilted { ToolOrientation::Paper } else { ToolOrientation::Vertical },
+            ..Parameters::default()
+        }))),
+    ]
+}
+
+fn disturbance() -> impl Strategy<Value = Disturbance> {
+    prop_oneof![
+        place().prop_map(|(x_m, y_m)| Disturbance::Displace { x_m, y_m }),
+        (-2e-3..2e-3f64, -2e-3..2e-3f64).prop_map(|(x_n_s, y_n_s)| Disturbance::Impulse { x_n_s, y_n_s }),
+        (-0.01..0.01f64, -0.01..0.01f64).prop_map(|(x_n, y_n)| Disturbance::Drift { x_n, y_n, for_s: 0.5 }),
+        (0.1..2.0f64).prop_map(|for_s| Disturbance::Dropout { for_s }),
     ]
 }
 

@@ -2,6 +2,7 @@
 
 mod commands;
 mod determinism;
+mod disturbances;
 mod house;
 mod laboratory;
 mod recordings;

@@ -24,14 +24,23 @@ const FOREARM_ASIDE_M: f64 = 0.0165;
 /// Longest gripper that is drawn, for a stage whose tool is not on the arm.
 const MOST_GRIPPER_M: f64 = 0.30;
 
+/// Length of the planar stage's column that is drawn.
+const COLUMN_M: f64 = 0.3;
+
 /// Parts that [`parts`] can return at most.
 pub(super) const MOST_PARTS: u64 = 48;
 
 /// The solids of robot, gripper and block, in any order.
 pub(super) fn parts(subject: &Subject) -> Vec<Part> {
     let mut parts = Vec::with_capacity(MOST_PARTS as usize);
-    robot(&mut parts, &subject.link_frames);
-    gripper(&mut parts, subject);
+    match &subject.link_frames {
+        Some(frames) => {
+            robot(&mut parts, frames);
+            gripper(&mut parts, subject, &frames[5]);
+        }
+        None => column(&mut parts, subject),
+    }
+    parts.push(block(subject));
     parts
 }
 
@@ -67,15 +76,24 @@ fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
     tube(parts, origin(5), origin(6), 0.036, TUBE);
 }
 
-/// From the flange to the block, and the block itself. Its edges are along `base`, so the fingers
+fn block(subject: &Subject) -> Part {
+    let size = Vector3::from(subject.block_size_m);
+    cuboid(Point3::from(subject.tool_m) + Vector3::z() * (0.5 * size.z), size, MAGNET)
+}
+
+/// What holds the block where there is no arm: a column of the planar stage.
+fn column(parts: &mut Vec<Part>, subject: &Subject) {
+    let top = Point3::from(subject.tool_m) + Vector3::z() * subject.block_size_m[2];
+    tube(parts, top, top + Vector3::z() * 0.02, 0.022, GRIPPER);
+    tube(parts, top + Vector3::z() * 0.02, top + Vector3::z() * COLUMN_M, 0.014, TUBE);
+}
+
+/// From the flange to the block, whose edges are along `base`, so that the fingers
 /// are too: they hold it across its narrower side.
-fn gripper(parts: &mut Vec<Part>, subject: &Subject) {
+fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry3<f64>) {
     let tool = Point3::from(subject.tool_m);
     let size = Vector3::from(subject.block_size_m);
     let block_top = tool + Vector3::z() * size.z;
-    parts.push(cuboid(tool + Vector3::z() * (0.5 * size.z), size, MAGNET));
-
-    let base_from_flange = &subject.link_frames[5];
     let flange = Point3::from(base_from_flange.translation.vector);
     let along = base_from_flange.rotation * Vector3::z();
     let length = along.dot(&(block_top - flange)).clamp(0.0, MOST_GRIPPER_M);

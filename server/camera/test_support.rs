@@ -56,7 +56,7 @@ pub fn subject(tool_m: [f64; 3], bead_m: [f64; 3]) -> Subject {
         tool_m,
         bead_m,
         goal_m: Some([0.19, -0.28]),
-        link_frames: forward(tool_down(flange_m)),
+        link_frames: Some(forward(tool_down(flange_m))),
         block_size_m: [0.05, 0.025, 0.010],
     }
 }

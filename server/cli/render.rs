@@ -8,10 +8,9 @@ use anyhow::Context;
 use crate::camera::Subject;
 use crate::control::limits::Limits;
 use crate::geometry::{Point2, Point3};
-use crate::plant::{BEAD_RADIUS_M, Plant, contact::nearest_fit};
-use crate::robot::forward;
+use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::nearest_fit};
 use crate::scenario::Parameters;
-use crate::trial::{Arena, HOME_RAD};
+use crate::trial::Arena;
 
 /// Arguments of `ferry render`.
 #[derive(clap::Args)]
@@ -44,9 +43,12 @@ fn parse_point(text: &str) -> Result<Point2<f64>, String> {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&arguments.map)?;
-    let tool_m = Point3::new(arguments.at.x, arguments.at.y, Parameters::default().tool_height_m);
-    let joints =
-        Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0 }.position(tool_m, &HOME_RAD).context("--at")?;
+    let parameters = Parameters::default();
+    let tool_m = Point3::new(arguments.at.x, arguments.at.y, parameters.tool_height_m);
+    let home = Positioner::home(PositionerKind::of(&arena.map), tool_m);
+    let limits =
+        Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0, tool_orientation: parameters.tool_orientation };
+    let positioner = limits.position(tool_m, &home).context("--at")?;
     // The tool may hang over a wall; the bead then lies beside it.
     let bead = nearest_fit(&arena.map, arguments.at).context("--at: there is no room for the bead within 5 cm")?;
     let subject = Subject {
@@ -54,8 +56,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         tool_m: tool_m.coords.into(),
         bead_m: [bead.x, bead.y, BEAD_RADIUS_M],
         goal_m: None,
-        link_frames: forward::link_frames(&joints),
-        block_size_m: Plant::new(Parameters::default().plant()).block_size_m(),
+        link_frames: positioner.link_frames(),
+        block_size_m: Plant::new(parameters.plant()).block_size_m(),
     };
     let mut camera = arena.camera(&super::open_gpu()?)?;
     let frame = match arguments.view {

@@ -3,8 +3,8 @@
 use super::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Point3, Rect};
 use crate::perception::Percept;
-use crate::plant::{Plant, TOOL_LENGTH_M};
-use crate::robot::{self, Joints, jacobian};
+use crate::plant::{Positioner, TOOL_LENGTH_M, ToolOrientation};
+use crate::robot::{self, jacobian};
 
 /// Poses with less manipulability are kept away from.
 pub const LEAST_MANIPULABILITY_M3: f64 = 2e-3;
@@ -16,11 +16,14 @@ pub struct Limits {
     pub workspace: Rect,
     /// Fastest tool.
     pub speed_m_s: f64,
+    /// How the arm holds its flange.
+    pub tool_orientation: ToolOrientation,
 }
 
 impl Limits {
-    /// Checks a tool position: finite, in the workspace, in reach, not singular; returns the joints.
-    pub fn position(&self, tool_m: Point3<f64>, seed: &Joints) -> Result<Joints, Refusal> {
+    /// Checks a tool position: finite, in the workspace and, with an arm, in reach and not singular;
+    /// returns the positioner there, of the seed's kind and on the branch nearest to it.
+    pub fn position(&self, tool_m: Point3<f64>, seed: &Positioner) -> Result<Positioner, Refusal> {
         let (x_m, y_m) = (tool_m.x, tool_m.y);
         if !(x_m.is_finite() && y_m.is_finite()) {
             return Err(Refusal::NotFinite { x_m, y_m });
@@ -28,17 +31,22 @@ impl Limits {
         if !self.workspace.contains(tool_m.xy()) {
             return Err(Refusal::OutsideWorkspace { x_m, y_m });
         }
-        let (min_m, max_m) = robot::reach(tool_m.z + TOOL_LENGTH_M).unwrap_or((f64::INFINITY, 0.0));
-        let distance_m = tool_m.xy().coords.norm();
-        if !(min_m..=max_m).contains(&distance_m) {
-            return Err(Refusal::OutOfReach { distance_m, min_m, max_m });
-        }
-        let joints = Plant::joints_for(tool_m, seed).map_err(|error| Refusal::NoInverse(error.to_string()))?;
-        let manipulability_m3 = jacobian::manipulability(&joints);
+        let found = Positioner::at(tool_m, self.tool_orientation, seed).map_err(|error| {
+            let reach = robot::reach(tool_m.z + TOOL_LENGTH_M);
+            let distance_m = tool_m.xy().coords.norm();
+            match reach {
+                // The tilted tool's reach is another, by some millimetres.
+                Some((min_m, max_m)) if !(min_m..=max_m).contains(&distance_m) => {
+                    Refusal::OutOfReach { distance_m, min_m, max_m }
+                }
+                _ => Refusal::NoInverse(error.to_string()),
+            }
+        })?;
+        let manipulability_m3 = found.joints_rad().map_or(f64::INFINITY, |joints| jacobian::manipulability(&joints));
         if manipulability_m3 < LEAST_MANIPULABILITY_M3 {
             return Err(Refusal::Singular { manipulability_m3, least_m3: LEAST_MANIPULABILITY_M3 });
         }
-        Ok(joints)
+        Ok(found)
     }
 
     /// Checks a transport step: the position, the speed, and the camera's view of the whole step.
@@ -47,7 +55,7 @@ impl Limits {
         tool_m: Point3<f64>,
         step: &TargetStep,
         percept: &Percept,
-        seed: &Joints,
+        seed: &Positioner,
     ) -> Result<(), Refusal> {
         let from = tool_m.xy();
         self.position(Point3::new(step.target_m.x, step.target_m.y, tool_m.z), seed)?;
@@ -73,13 +81,14 @@ mod tests {
     use super::*;
     use crate::perception::Percept;
 
-    const HOME: Joints = [-1.6, -1.6, -1.6, -1.6, 1.6, 0.0];
+    const HOME: Positioner = Positioner::Arm([-1.6, -1.6, -1.6, -1.6, 1.6, 0.0]);
 
     fn limits() -> Limits {
-        Limits { workspace: Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -1.2, y_max_m: -0.05 }, speed_m_s: 0.04 }
+        let workspace = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -1.2, y_max_m: -0.05 };
+        Limits { workspace, speed_m_s: 0.04, tool_orientation: ToolOrientation::Vertical }
     }
 
-    fn position(x_m: f64, y_m: f64) -> Result<Joints, Refusal> {
+    fn position(x_m: f64, y_m: f64) -> Result<Positioner, Refusal> {
         limits().position(Point3::new(x_m, y_m, 0.1), &HOME)
     }
 
@@ -92,6 +101,14 @@ mod tests {
         assert!(matches!(position(0.0, -0.06), Err(Refusal::OutOfReach { .. })));
         let (_, most_m) = robot::reach(0.1 + TOOL_LENGTH_M).unwrap();
         assert!(matches!(position(0.0, 1e-6 - most_m), Err(Refusal::Singular { .. })));
+    }
+
+    #[test]
+    fn the_stage_goes_where_the_arm_does_not() {
+        let stage = Positioner::PlanarStage(Point3::new(0.0, -0.3, 0.1));
+        let at = |y_m: f64| limits().position(Point3::new(0.0, y_m, 0.1), &stage);
+        assert!(at(-1.1).is_ok() && at(-0.06).is_ok());
+        assert!(matches!(at(-1.3), Err(Refusal::OutsideWorkspace { .. })));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! `POST /api/kinematics/…` and `POST /api/magnetics/field`: the arm and the magnet as a calculator.
+//! `POST /api/kinematics/…` and `POST /api/magnetics/…`: the arm and the magnet as a calculator.
 
 use axum::Json;
 use axum::body::Bytes;
@@ -8,8 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use super::api::parse;
 use super::problem::Problem;
+use crate::control::limits::LEAST_MANIPULABILITY_M3;
 use crate::geometry::{Isometry3, Matrix3, Vector3};
+use crate::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
 use crate::magnetics::{cuboid::Cuboid, force};
+use crate::plant::manipulability_map;
+use crate::protocol::{WorkspaceMap, WorkspaceQuery};
+use crate::robot::workspace::WorkspaceError;
 use crate::robot::{Joints, forward, inverse};
 
 /// Most items of one request.
@@ -93,6 +98,44 @@ fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
     Ok(Isometry3::from_parts(Vector3::from(pose.position_m).into(), rotation))
 }
 
+/// The arm's manipulability over the table: the singularity-free workspace is where it is not small.
+pub async fn workspace(body: Bytes) -> Result<Json<WorkspaceMap>, Problem> {
+    let WorkspaceQuery { area, cell_m, tool_height_m, tool_orientation } = parse(&body)?;
+    // A tenth of a second for the largest.
+    let making = move || manipulability_map(&area, cell_m, tool_height_m, tool_orientation);
+    let made = tokio::task::spawn_blocking(making).await.map_err(Problem::internal)?;
+    let map = made.map_err(|error| {
+        let field = match error {
+            WorkspaceError::NonFinite { .. } | WorkspaceError::EmptyArea { .. } => "area",
+            WorkspaceError::EmptyCell { .. } | WorkspaceError::TooManyCells { .. } => "cell_m",
+        };
+        Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no_workspace", error.to_string()).field(field)
+    })?;
+    Ok(Json(WorkspaceMap { map, least_m3: LEAST_MANIPULABILITY_M3 }))
+}
+
+/// The pull on the bead over its offset from the block.
+pub async fn pull(body: Bytes) -> Result<Json<PullCurve>, Problem> {
+    let query: PullQuery = parse(&body)?;
+    curves::pull(&query).map(Json).map_err(|error| no_curve(&error))
+}
+
+/// How far and how fast the block drags the bead, over its height.
+pub async fn reach(body: Bytes) -> Result<Json<ReachCurve>, Problem> {
+    let query: ReachQuery = parse(&body)?;
+    // Some tenths of a millisecond a height.
+    let curve = tokio::task::spawn_blocking(move || curves::reach(&query)).await.map_err(Problem::internal)?;
+    curve.map(Json).map_err(|error| no_curve(&error))
+}
+
+fn no_curve(error: &CurveError) -> Problem {
+    let field = match error {
+        CurveError::Range { field, .. } => field,
+        CurveError::Count { .. } => "count",
+    };
+    Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", error.to_string()).field(field)
+}
+
 /// A block magnet; its axes are those of `base`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -128,12 +171,9 @@ pub async fn field(body: Bytes) -> Result<Json<FieldAnswer>, Problem> {
             Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "bad_magnet", error.to_string()).field("magnet")
         })?;
     let relative = |point: &[f64; 3]| Vector3::from(*point) - Vector3::from(magnet.position_m);
-    let b_t = request.points_m.iter().map(|point| block.field_t(&relative(point)).into()).collect();
-    let force_n = request
-        .points_m
-        .iter()
-        .map(|point| force::force_n(&block, &relative(point), request.moment_a_m2).into())
-        .collect();
+    let points_m: Vec<_> = request.points_m.iter().map(relative).collect();
+    let b_t = block.fields_t(&points_m).into_iter().map(Into::into).collect();
+    let force_n = points_m.iter().map(|point| force::force_n(&block, point, request.moment_a_m2).into()).collect();
     Ok(Json(FieldAnswer { b_t, force_n }))
 }
 

@@ -32,14 +32,19 @@ impl ClientMessage {
             Self::Step { ticks } => Command::Step(ticks),
             Self::SetSpeed { factor } => Command::SetSpeed(factor),
             Self::Reset { seed } => Command::Reset(seed),
-            Self::LoadScenario { map, controller, seed, start_m, goal_m, parameters } => Command::Load {
-                map,
-                controller,
-                seed,
-                start_m: start_m.map(point),
-                goal_m: goal_m.map(point),
-                parameters: parameters.map(Box::new),
-            },
+            Self::LoadScenario { map, controller, positioner, seed, start_m, goal_m, parameters, script } => {
+                Command::Load {
+                    map,
+                    controller,
+                    positioner,
+                    seed,
+                    start_m: start_m.map(point),
+                    goal_m: goal_m.map(point),
+                    parameters: parameters.map(Box::new),
+                    script,
+                }
+            }
+            Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
             Self::TakeControl {} | Self::ReleaseControl {} => return None,
         })
@@ -85,6 +90,7 @@ impl From<&Scenery> for SceneMessage {
         Self {
             map: map.name().to_owned(),
             maps: Map::shipped_names(),
+            positioner: scenery.positioner,
             controllers: ControllerName::ALL.to_vec(),
             workspace: *map.workspace(),
             walls: map.walls().to_vec(),
@@ -101,10 +107,11 @@ impl From<&Scenery> for SceneMessage {
 }
 
 fn capture_m(p: &Parameters) -> Vec<Option<(f64, Option<f64>)>> {
+    let breakaway = p.plant().breakaway();
     (0..CAPTURE_DIRECTIONS)
         .map(|k| {
             let direction_rad = f64::from(k) * std::f64::consts::TAU / f64::from(CAPTURE_DIRECTIONS);
-            force::capture_interval_m(p.block_orientation, p.tool_height_m, p.friction, direction_rad)
+            force::capture_interval_m(p.block_orientation, p.tool_height_m, breakaway, direction_rad)
                 .map(|(near_m, far_m)| (near_m, (far_m < force::FARTHEST_M).then_some(far_m)))
         })
         .collect()
@@ -128,7 +135,7 @@ impl From<&View> for StateMessage {
             goal_m: m.goal_m.map(|goal| [goal.x, goal.y, 0.0]),
             hand_m: m.hand.map(|hand| hand.target_m.coords.into()),
             hand_force_n: m.hand_force_n,
-            joints_rad: m.joints_rad,
+            joints_rad: m.positioner.joints_rad(),
             mode: m.switching.mode.index(),
             reason: if m.phase == Phase::LiftedOff { LIFTED_OFF.to_owned() } else { m.switching.reason() },
             refusal: m.refusal.clone(),

@@ -3,8 +3,9 @@
 use ts_rs::{Config, TS};
 
 use super::*;
-use crate::plant::BlockOrientation;
-use crate::scenario::{AttractorLaw, SwitchingLaw};
+use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
+use crate::plant::{BeadMotion, BlockOrientation};
+use crate::scenario::{AttractorLaw, SwitchingLaw, When};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/protocol.gen.ts");
 
@@ -24,10 +25,16 @@ fn generated() -> String {
         declaration::<Polygon>(c),
         declaration::<Rect>(c),
         declaration::<ControllerName>(c),
+        declaration::<PositionerKind>(c),
         declaration::<BlockOrientation>(c),
+        declaration::<ToolOrientation>(c),
+        declaration::<BeadMotion>(c),
         declaration::<SwitchingLaw>(c),
         declaration::<AttractorLaw>(c),
         declaration::<Parameters>(c),
+        declaration::<Disturbance>(c),
+        declaration::<When>(c),
+        declaration::<Scripted>(c),
         declaration::<ClientMessage>(c),
         declaration::<Role>(c),
         declaration::<ServerMessage>(c),
@@ -39,6 +46,12 @@ fn generated() -> String {
         declaration::<SensedObstacle>(c),
         declaration::<OverlayMessage>(c),
         declaration::<ErrorMessage>(c),
+        declaration::<PullQuery>(c),
+        declaration::<PullCurve>(c),
+        declaration::<ReachQuery>(c),
+        declaration::<ReachCurve>(c),
+        declaration::<WorkspaceQuery>(c),
+        declaration::<WorkspaceMap>(c),
     ];
     parts.join("\n")
 }

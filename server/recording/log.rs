@@ -9,7 +9,7 @@ use super::{Message, Sample, level};
 use crate::geometry::Polygon;
 use crate::map::WALL_HEIGHT_M;
 use crate::plant::BEAD_RADIUS_M;
-use crate::robot::{forward, ur5::SERVO_PERIOD_S};
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::session::Scenery;
 use crate::trial::{Event, GOAL_RADIUS_M};
 
@@ -72,13 +72,13 @@ impl Writer {
         let moment = &sample.moment;
         self.at(moment.tick, moment.sim_time_s());
         let stream = &self.stream;
-        let joints = forward::link_frames(&moment.joints_rad).map(|frame| frame.translation.vector);
-        let arm = std::iter::once(nalgebra::Vector3::zeros()).chain(joints).chain([moment.tool_m.coords]);
-        let arm: Vec<[f32; 3]> = arm.map(|p| p.cast::<f32>().into()).collect();
-        stream.log(
-            "world/arm",
-            &LineStrips3D::new([arm]).with_radii([0.02]).with_colors([Color::from_rgb(120, 160, 210)]),
-        )?;
+        if let Some(frames) = moment.positioner.link_frames() {
+            let joints = frames.map(|frame| frame.translation.vector);
+            let arm = std::iter::once(nalgebra::Vector3::zeros()).chain(joints).chain([moment.tool_m.coords]);
+            let arm: Vec<[f32; 3]> = arm.map(|p| p.cast::<f32>().into()).collect();
+            let strip = LineStrips3D::new([arm]);
+            stream.log("world/arm", &strip.with_radii([0.02]).with_colors([Color::from_rgb(120, 160, 210)]))?;
+        }
         stream.log("world/tool", &point(moment.tool_m.coords, 0.006, [60, 60, 70]))?;
         stream.log("world/bead", &point(moment.bead_m.coords, BEAD_RADIUS_M, [250, 200, 60]))?;
         match moment.goal_m {
@@ -99,7 +99,9 @@ impl Writer {
         ] {
             stream.log(entity, &Scalars::new([value]))?;
         }
-        stream.log("joints_rad", &Scalars::new(moment.joints_rad))?;
+        if let Some(joints_rad) = moment.positioner.joints_rad() {
+            stream.log("joints_rad", &Scalars::new(joints_rad))?;
+        }
         if let Some(jpeg) = sample.frame.as_ref().and_then(|frame| frame.to_jpeg(JPEG_QUALITY).ok()) {
             stream.log("camera", &EncodedImage::from_file_contents(jpeg))?;
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::plant::{BlockOrientation, PlantParameters};
+use crate::plant::{BeadMotion, BlockOrientation, PlantParameters, ToolOrientation};
 
 /// Which switching law runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
@@ -31,10 +31,16 @@ pub enum AttractorLaw {
 pub struct Parameters {
     /// How the block is turned.
     pub block_orientation: BlockOrientation,
+    /// How the arm holds its flange; the planar stage is always vertical.
+    pub tool_orientation: ToolOrientation,
     /// Height of the block's lower face above the table, .09 to .2 m.
     pub tool_height_m: f64,
+    /// How the bead moves over the table.
+    pub bead_motion: BeadMotion,
     /// Coulomb friction of the bead on the table, 0 to 1.
     pub friction: f64,
+    /// Resistance to rolling in units of the normal load, 0 to .2; at the friction or above, the bead slides.
+    pub rolling_resistance: f64,
     /// Viscous drag on the bead, 0 to .1 N·s/m.
     pub drag_n_s_m: f64,
     /// Threshold T of the switching law, .02 to .2 m.
@@ -69,8 +75,11 @@ impl Default for Parameters {
     fn default() -> Self {
         Self {
             block_orientation: BlockOrientation::A,
+            tool_orientation: ToolOrientation::Vertical,
             tool_height_m: 0.100,
+            bead_motion: BeadMotion::Sliding,
             friction: 0.2,
+            rolling_resistance: 0.01,
             drag_n_s_m: 0.01,
             threshold_m: 0.10,
             fetch_radius_m: 0.01,
@@ -109,6 +118,7 @@ impl Parameters {
         let ranges = [
             ("tool_height_m", self.tool_height_m, 0.09, 0.2),
             ("friction", self.friction, 0.0, 1.0),
+            ("rolling_resistance", self.rolling_resistance, 0.0, 0.2),
             ("drag_n_s_m", self.drag_n_s_m, 0.0, 0.1),
             ("threshold_m", self.threshold_m, 0.02, 0.2),
             ("fetch_radius_m", self.fetch_radius_m, 0.002, self.threshold_m),
@@ -134,7 +144,9 @@ impl Parameters {
     pub fn plant(&self) -> PlantParameters {
         PlantParameters {
             block_orientation: self.block_orientation,
+            bead_motion: self.bead_motion,
             friction: self.friction,
+            rolling_resistance: self.rolling_resistance,
             drag_n_s_m: self.drag_n_s_m,
         }
     }

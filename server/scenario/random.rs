@@ -63,11 +63,13 @@ impl Scenario {
         Ok(Self {
             map: map_name.to_owned(),
             controller,
+            positioner: None,
             seed: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(index),
             parameters: Parameters::default(),
             start_m: Some(start),
             goal_m: Some(goal),
             disturbances,
+            script: Vec::new(),
         })
     }
 }

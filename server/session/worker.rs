@@ -179,18 +179,20 @@ impl Worker {
                 };
                 self.set_up(scenario, self.trial.arena().clone())?;
             }
-            Command::Load { map, controller, seed, start_m, goal_m, parameters } => {
+            Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, script } => {
                 // A name only: no client path touches the file system.
                 let arena = Arena::of(crate::map::Map::shipped(&map)?);
                 let present = self.trial.state();
                 let scenario = Scenario {
                     map,
                     controller: controller.unwrap_or(present.controller),
+                    positioner,
                     seed: seed.unwrap_or(self.trial.scenario().seed),
                     parameters: parameters.map_or_else(|| present.world.parameters.clone(), |p| *p),
                     start_m,
                     goal_m,
                     disturbances: 0,
+                    script,
                 };
                 let camera = arena.camera(&self.gpu).map_err(TrialError::from)?;
                 let before = std::mem::replace(&mut self.camera, camera);
@@ -321,6 +323,7 @@ fn scenery_of(trial: &Trial, version: u64, number: u64) -> Scenery {
         trial: number,
         arena: trial.arena().clone(),
         scenario: trial.scenario().clone(),
+        positioner: trial.state().world.plant.positioner.kind(),
         parameters: trial.state().world.parameters.clone(),
     }
 }

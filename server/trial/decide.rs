@@ -1,7 +1,5 @@
 //! A control step: what the controllers decide, and what the trial makes of it.
 
-use rand::Rng;
-
 use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
 use super::{Decision, Event, EventKind, Motion, Trial, World, limits_for};
 use crate::control::switching::{self, Mode};
@@ -9,10 +7,6 @@ use crate::control::transport::TransportInput;
 use crate::control::{CONTROL_PERIOD_S, TargetStep};
 use crate::geometry::{Point2, Vector2};
 use crate::perception::Percept;
-use crate::plant::Bead;
-
-/// A scripted disturbance puts the bead down at least this far away (specification §2).
-const DISTURBANCE_M: f64 = 0.15;
 
 impl Trial {
     /// Decides from a frame. Changes the mind only; the world waits for [`Self::carry_out`].
@@ -44,7 +38,7 @@ impl Trial {
             self.state.mind.carrier.transport().next_step(&input)
         };
         let limits = limits_for(&world.parameters, self.arena.map.workspace());
-        let seed = &world.reference_joints_rad;
+        let seed = &world.reference;
         let admitted = proposed.and_then(|step| limits.step(tool, &step, percept, seed).map(|()| step));
         match admitted {
             Ok(step) => Decision { motion: Motion::Segment(step), ..hold },
@@ -96,9 +90,11 @@ impl Trial {
         if world.phase == Phase::Transporting {
             world.counters.leg_steps += 1;
             if world.script.at_leg_step == Some(world.counters.leg_steps) {
-                self.strike();
+                self.strike_at_random();
             }
         }
+        let step = self.state.world.counters.goal_steps;
+        self.strike_as_scripted(Some(step));
         let World { counters, phase, .. } = &self.state.world;
         if *phase == Phase::Transporting && counters.leg_steps > LEG_STEP_LIMIT {
             self.stop(StopReason::LegSteps);
@@ -106,33 +102,6 @@ impl Trial {
             self.stop(StopReason::GoalSteps);
         }
     }
-
-    /// The scripted disturbance: the bead is lifted to a free point far away and put down.
-    fn strike(&mut self) {
-        let world = &mut self.state.world;
-        world.script.at_leg_step = None;
-        world.script.remaining -= 1;
-        let from = world.plant.bead.position_m;
-        let (map, space) = (&self.arena.map, &self.arena.space);
-        let component = space.component_at(from);
-        let far = |rng: &mut rand_chacha::ChaCha8Rng| far_point(map, space, component, from, rng);
-        if let Some(to) = far(&mut world.rng) {
-            world.plant.bead = Bead::at(to);
-            world.counters.disturbances += 1;
-            let text = format!("disturbed: the bead was lifted {:.0} cm away", (to - from).norm() * 100.0);
-            self.events.push(Event::new(world.tick, EventKind::Disturbance, text));
-        }
-    }
-}
-
-fn far_point(
-    map: &crate::map::Map,
-    space: &crate::map::FreeSpace,
-    component: Option<u32>,
-    from: Point2<f64>,
-    rng: &mut impl Rng,
-) -> Option<Point2<f64>> {
-    (0..1000).find_map(|_| space.sample(map, component, rng).filter(|to| (to - from).norm() >= DISTURBANCE_M))
 }
 
 /// Within 2 cm of the goal the tool goes straight onto it, so that the bead follows.

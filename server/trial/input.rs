@@ -8,7 +8,7 @@ use crate::control::transport::Carrier;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
 use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
-use crate::scenario::{ControllerName, ParameterError, Parameters};
+use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters};
 
 /// One action; stands in the log at the tick that follows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,6 +44,8 @@ pub enum Input {
     SelectController(ControllerName),
     /// Other parameters.
     Configure(Box<Parameters>),
+    /// A disturbance, now.
+    Disturb(Disturbance),
 }
 
 /// Why an input was refused; the trial is as it was.
@@ -88,6 +90,9 @@ pub enum InputError {
     /// A parameter out of range.
     #[error("parameters: {0}")]
     Parameter(#[from] ParameterError),
+    /// A disturbance that cannot be.
+    #[error("disturbance: {0}")]
+    Disturbance(#[from] DisturbanceError),
 }
 
 impl InputError {
@@ -99,6 +104,7 @@ impl InputError {
             Self::InWall { .. } => "in_wall",
             Self::Reach { .. } => "out_of_reach",
             Self::Parameter(_) => "parameter_out_of_range",
+            Self::Disturbance(_) => "disturbance_out_of_range",
         }
     }
 
@@ -110,17 +116,24 @@ impl InputError {
             | Self::InWall { field, .. }
             | Self::Reach { field, .. } => field,
             Self::Parameter(error) => error.field,
+            Self::Disturbance(error) => error.field,
         }
     }
 }
 
+/// Finite and on the table.
+pub(super) fn check_on_table(field: &'static str, point: Point2<f64>, map: &Map) -> Result<(), InputError> {
+    check_finite(field, point)?;
+    if map.workspace().contains(point) {
+        return Ok(());
+    }
+    Err(InputError::OutsideWorkspace { field, x_m: point.x, y_m: point.y })
+}
+
 /// Finite, on the table, and room for the bead.
 pub(super) fn check_place(field: &'static str, point: Point2<f64>, map: &Map) -> Result<(), InputError> {
-    check_finite(field, point)?;
+    check_on_table(field, point, map)?;
     let (x_m, y_m) = (point.x, point.y);
-    if !map.workspace().contains(point) {
-        return Err(InputError::OutsideWorkspace { field, x_m, y_m });
-    }
     if map.clearance_m(point) < BEAD_RADIUS_M {
         return Err(InputError::InWall { field, x_m, y_m });
     }
@@ -146,6 +159,10 @@ impl Trial {
                 self.state.mind.carrier = Carrier::new(*name);
             }
             Input::Configure(parameters) => self.configure(parameters)?,
+            Input::Disturb(disturbance) => {
+                Self::check_disturbance(disturbance, &self.arena.map)?;
+                self.strike(disturbance);
+            }
         }
         self.inputs.push(input);
         Ok(())
@@ -157,7 +174,7 @@ impl Trial {
         let world = &self.state.world;
         let tool_m = Point3::new(goal.x, goal.y, world.parameters.tool_height_m);
         limits_for(&world.parameters, map.workspace())
-            .position(tool_m, &world.reference_joints_rad)
+            .position(tool_m, &world.reference)
             .map_err(|refusal| InputError::Reach { field, refusal })?;
         let world = &mut self.state.world;
         world.goal_m = Some(goal);

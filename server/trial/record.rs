@@ -11,8 +11,8 @@ use crate::control::transport::attractor::Superellipse;
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::perception::{Observation, Percept};
-use crate::plant::{Hand, Load, Plant};
-use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
+use crate::plant::{Hand, Load, Plant, Positioner};
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 
 use super::state::Counters;
@@ -112,8 +112,8 @@ pub struct Moment {
     pub hand: Option<Hand>,
     /// Force of the hand.
     pub hand_force_n: f64,
-    /// Joint angles.
-    pub joints_rad: Joints,
+    /// What carries the magnet.
+    pub positioner: Positioner,
     /// Mode, and why.
     pub switching: switching::Decision,
     /// Sub-controller 2 in use.
@@ -156,7 +156,7 @@ impl Trial {
             goal_m: world.goal_m,
             hand: world.plant.hand,
             hand_force_n: Plant::hand_force_n(&world.plant),
-            joints_rad: world.plant.joints_rad,
+            positioner: world.plant.positioner,
             switching: world.switching,
             controller: self.state.controller,
             motion: world.motion,

@@ -6,13 +6,13 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
+use super::disturb::Script;
 use super::outcome::Phase;
 use crate::control::switching::{self, Mode};
 use crate::control::transport::Carrier;
 use crate::control::{Refusal, TargetStep};
 use crate::geometry::{Point2, Point3};
-use crate::plant::{Bead, PlantState};
-use crate::robot::Joints;
+use crate::plant::{PlantState, Positioner};
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::tracking::Tracker;
 
@@ -55,15 +55,6 @@ pub struct Counters {
     pub disturbances: u32,
 }
 
-/// Scripted disturbances still to come.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Script {
-    /// How many.
-    pub remaining: u32,
-    /// At which step of the present leg the next one strikes; drawn when the leg begins.
-    pub at_leg_step: Option<u32>,
-}
-
 /// Robot, bead, tracker and task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct World {
@@ -73,7 +64,7 @@ pub struct World {
     pub parameters: Parameters,
     /// Goal, if any.
     pub goal_m: Option<Point2<f64>>,
-    /// Arm, bead, hand.
+    /// Positioner, bead, hand.
     pub plant: PlantState,
     /// Optical tracker.
     pub tracker: Tracker,
@@ -81,8 +72,8 @@ pub struct World {
     pub rng: ChaCha8Rng,
     /// Where the tool should be.
     pub reference_m: Point3<f64>,
-    /// The joints for it.
-    pub reference_joints_rad: Joints,
+    /// The positioner there.
+    pub reference: Positioner,
     /// What the reference does.
     pub motion: Motion,
     /// The last switching decision.
@@ -95,7 +86,7 @@ pub struct World {
     pub reached_tick: Option<u64>,
     /// Counters.
     pub counters: Counters,
-    /// Scripted disturbances.
+    /// Disturbances to come, and those that last.
     pub script: Script,
 }
 
@@ -120,7 +111,7 @@ pub struct TrialState {
 }
 
 impl TrialState {
-    pub(super) fn at_start(scenario: &Scenario, tool_m: Point3<f64>, joints_rad: Joints) -> Self {
+    pub(super) fn at_start(scenario: &Scenario, tool_m: Point3<f64>, positioner: Positioner) -> Self {
         let start = tool_m.xy();
         let threshold_m = scenario.parameters.threshold_m;
         Self {
@@ -128,18 +119,22 @@ impl TrialState {
                 tick: 0,
                 parameters: scenario.parameters.clone(),
                 goal_m: None,
-                plant: PlantState { joints_rad, bead: Bead::at(start), hand: None },
+                plant: PlantState::at_rest(positioner, start),
                 tracker: Tracker::at(start),
                 rng: ChaCha8Rng::seed_from_u64(scenario.seed),
                 reference_m: tool_m,
-                reference_joints_rad: joints_rad,
+                reference: positioner,
                 motion: Motion::Hold,
                 switching: switching::Decision { mode: Mode::Transport, switched: false, error_m: 0.0, threshold_m },
                 refusal: None,
                 phase: Phase::Holding,
                 reached_tick: None,
                 counters: Counters::default(),
-                script: Script { remaining: scenario.disturbances, at_leg_step: None },
+                script: Script {
+                    remaining: scenario.disturbances,
+                    pending: scenario.script.clone(),
+                    ..Script::default()
+                },
             },
             controller: scenario.controller,
             mind: Mind { carrier: Carrier::new(scenario.controller), seen: 0 },

@@ -86,6 +86,7 @@ const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   clear_goal: 'workspace',
   drag: 'workspace',
   release: 'workspace',
+  disturb: 'workspace',
   select_controller: 'controller',
   configure: 'controller',
   run: 'transport',

@@ -164,6 +164,16 @@ export const GROUPS: readonly Group[] = [
           ['C', 'C: flat, along 50 mm'],
         ],
       },
+      {
+        kind: 'choice',
+        name: 'tool_orientation',
+        label: 'Tool',
+        help: "How the arm holds the flange. The paper's rotation vector is 3.2° off the vertical.",
+        options: [
+          ['vertical', 'Straight down'],
+          ['paper', '3.2° off (paper)'],
+        ],
+      },
       number(
         'tool_height_m',
         'Tool height',
@@ -172,7 +182,25 @@ export const GROUPS: readonly Group[] = [
         1000,
         'Lower face of the block above the table.',
       ),
+      {
+        kind: 'choice',
+        name: 'bead_motion',
+        label: 'Bead',
+        help: 'The field holds the bead, so that it slides; or it is free to turn and rolls.',
+        options: [
+          ['sliding', 'Slides'],
+          ['rolling', 'Rolls'],
+        ],
+      },
       number('friction', 'Friction μ', [0, 1, 0.01], '', 1, 'Coulomb friction of the bead.'),
+      number(
+        'rolling_resistance',
+        'Rolling resistance',
+        [0, 0.2, 0.005],
+        '',
+        1,
+        'In units of the normal load; only for a bead that rolls. At μ or above, the bead slides.',
+      ),
       number('drag_n_s_m', 'Viscous drag', [0, 100, 1], 'mN·s/m', 1000, 'Drag on the bead.'),
     ],
   },

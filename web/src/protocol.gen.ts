@@ -46,9 +46,24 @@ y_max_m: number, };
 export type ControllerName = "attractor";
 
 /**
+ * Which of the two.
+ */
+export type PositionerKind = "arm" | "planar_stage";
+
+/**
  * How the block, 50 × 25 × 10 mm and magnetised across a face, hangs on the tool.
  */
 export type Orientation = "A" | "B" | "C";
+
+/**
+ * How the arm holds its flange.
+ */
+export type ToolOrientation = "vertical" | "paper";
+
+/**
+ * How the bead moves over the table.
+ */
+export type BeadMotion = "sliding" | "rolling";
 
 /**
  * Which switching law runs.
@@ -69,13 +84,25 @@ export type Parameters = {
  */
 block_orientation: Orientation, 
 /**
+ * How the arm holds its flange; the planar stage is always vertical.
+ */
+tool_orientation: ToolOrientation, 
+/**
  * Height of the block's lower face above the table, .09 to .2 m.
  */
 tool_height_m: number, 
 /**
+ * How the bead moves over the table.
+ */
+bead_motion: BeadMotion, 
+/**
  * Coulomb friction of the bead on the table, 0 to 1.
  */
 friction: number, 
+/**
+ * Resistance to rolling in units of the normal load, 0 to .2; at the friction or above, the bead slides.
+ */
+rolling_resistance: number, 
 /**
  * Viscous drag on the bead, 0 to .1 N·s/m.
  */
@@ -134,9 +161,64 @@ attractor_reactivity: number,
 attractor_clearance_m: number, };
 
 /**
+ * One disturbance.
+ */
+export type Disturbance = { "displace": { 
+/**
+ * x.
+ */
+x_m: number, 
+/**
+ * y.
+ */
+y_m: number, } } | { "impulse": { 
+/**
+ * Along x.
+ */
+x_n_s: number, 
+/**
+ * Along y.
+ */
+y_n_s: number, } } | { "drift": { 
+/**
+ * Along x.
+ */
+x_n: number, 
+/**
+ * Along y.
+ */
+y_n: number, 
+/**
+ * For so long.
+ */
+for_s: number, } } | { "dropout": { 
+/**
+ * For so long.
+ */
+for_s: number, } };
+
+/**
+ * When a scripted disturbance strikes.
+ */
+export type When = { "tick": number } | { "step": number };
+
+/**
+ * A disturbance and its time.
+ */
+export type Scripted = { 
+/**
+ * When.
+ */
+at: When, 
+/**
+ * What.
+ */
+disturbance: Disturbance, };
+
+/**
  * What a browser may send. Fields are named and measured as everywhere: metres in `base`.
  */
-export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, } | { "type": "rewind", tick: number, } | { "type": "take_control", } | { "type": "release_control", };
+export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Who this browser is.
@@ -189,6 +271,10 @@ map: string,
  * Maps that `load_scenario` knows.
  */
 maps: Array<string>, 
+/**
+ * What carries the magnet in this trial.
+ */
+positioner: PositionerKind, 
 /**
  * Controllers that `select_controller` knows.
  */
@@ -293,9 +379,9 @@ hand_m: [number, number] | null,
  */
 hand_force_n: number, 
 /**
- * Joint angles.
+ * Joint angles; none on the planar stage, which has no arm.
  */
-joints_rad: [number, number, number, number, number, number], 
+joints_rad: [number, number, number, number, number, number] | null, 
 /**
  * Active sub-controller, 1 or 2.
  */
@@ -457,3 +543,181 @@ message: string,
  * The field at fault.
  */
 field?: string, };
+
+/**
+ * What [`pull`] is drawn for.
+ */
+export type PullQuery = { 
+/**
+ * How the block hangs.
+ */
+orientation: Orientation, 
+/**
+ * Its lower face above the table, m: at least the bead's diameter.
+ */
+lower_face_height_m: number, 
+/**
+ * Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+ */
+direction_rad: number, 
+/**
+ * Coulomb's coefficient.
+ */
+friction: number, 
+/**
+ * The greatest offset, m.
+ */
+farthest_m: number, 
+/**
+ * Number of offsets, from zero on, evenly spaced.
+ */
+count: number, };
+
+/**
+ * The pull on a bead over its horizontal offset: an entry an offset in every array.
+ */
+export type PullCurve = { 
+/**
+ * Offset from below the block's middle, m.
+ */
+offset_m: Array<number>, 
+/**
+ * Fz/W: 1 lifts the bead.
+ */
+lift_ratio: Array<number>, 
+/**
+ * Pull in the table's plane over W.
+ */
+lateral_ratio: Array<number>, 
+/**
+ * (W − Fz)/W: what remains of the weight.
+ */
+weight_ratio: Array<number>, 
+/**
+ * Whether the bead lifts off: nothing remains of its weight.
+ */
+is_lifted: Array<boolean>, 
+/**
+ * Pull in the table's plane over what friction can hold, friction·(W − Fz): from 1 on the bead
+ * follows. `None` where friction holds nothing, because it is zero or the bead lifts off.
+ */
+drag_ratio: Array<number | null>, 
+/**
+ * Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
+ */
+capture_m: [number, number] | null, };
+
+/**
+ * What [`reach`] is drawn for.
+ */
+export type ReachQuery = { 
+/**
+ * How the block hangs.
+ */
+orientation: Orientation, 
+/**
+ * Least height of its lower face above the table, m: at least the bead's diameter.
+ */
+lowest_m: number, 
+/**
+ * Greatest such height, m.
+ */
+highest_m: number, 
+/**
+ * Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+ */
+direction_rad: number, 
+/**
+ * Coulomb's coefficient.
+ */
+friction: number, 
+/**
+ * Viscous drag on the bead, N·s/m: not zero, else no speed is too large.
+ */
+drag_n_s_m: number, 
+/**
+ * Number of heights, evenly spaced.
+ */
+count: number, };
+
+/**
+ * How far and how fast the block drags a bead, over its height: an entry a height in every array.
+ */
+export type ReachCurve = { 
+/**
+ * Lower face above the table, m.
+ */
+lower_face_height_m: Array<number>, 
+/**
+ * Offsets `(inner_m, outer_m)` between which a bead is dragged, of [`force::capture_interval_m`].
+ */
+capture_m: Array<[number, number] | null>, 
+/**
+ * Fz/W right below the block's middle.
+ */
+lift_ratio: Array<number>, 
+/**
+ * The greatest Fz/W of any offset in the direction; 1 lifts the bead.
+ */
+greatest_lift_ratio: Array<number>, 
+/**
+ * The greatest speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
+ * the pull less friction equals the drag. `None` where no pull exceeds friction.
+ */
+largest_speed_m_s: Array<number | null>, 
+/**
+ * Height of the lower face, m, below which a bead right below the block's middle lifts off. In C the
+ * lift is greatest beside the middle, and a bead there lifts off from some tenths of a millimetre higher.
+ */
+lift_off_m: number, };
+
+/**
+ * Body of `POST /api/kinematics/workspace`.
+ */
+export type WorkspaceQuery = { 
+/**
+ * Where the tool point goes.
+ */
+area: Rect, 
+/**
+ * Side of a cell.
+ */
+cell_m: number, 
+/**
+ * Lower face of the block above the table.
+ */
+tool_height_m: number, 
+/**
+ * How the arm holds its flange.
+ */
+tool_orientation: ToolOrientation, };
+
+/**
+ * Answer of `POST /api/kinematics/workspace`.
+ */
+export type WorkspaceMap = { 
+/**
+ * Poses with less are refused as singular.
+ */
+least_m3: number, 
+/**
+ * Cells along x.
+ */
+columns: number, 
+/**
+ * Cells along y.
+ */
+rows: number, 
+/**
+ * Lower left corner of the lower left cell, `[x_m, y_m]`.
+ */
+origin_m: [number, number], 
+/**
+ * Side of a cell.
+ */
+cell_m: number, 
+/**
+ * |det J| in m³ with the flange over each cell's centre, row by row from the lower left; `None`
+ * where the branch does not reach. `rows × columns` values.
+ */
+manipulability_m3: Array<number | null>, };

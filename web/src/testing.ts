@@ -44,8 +44,11 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
 export function sceneOf(map: string, trial = 0): SceneMessage {
   const parameters: SceneMessage['parameters'] = {
     block_orientation: 'A',
+    tool_orientation: 'vertical',
     tool_height_m: 0.1,
+    bead_motion: 'sliding',
     friction: 0.2,
+    rolling_resistance: 0.01,
     drag_n_s_m: 0.01,
     threshold_m: 0.1,
     fetch_radius_m: 0.01,
@@ -64,6 +67,7 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
   return {
     map,
     maps: [map],
+    positioner: 'arm',
     controllers: ['attractor'],
     workspace: { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 },
     walls: [],

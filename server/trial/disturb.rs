@@ -1,0 +1,108 @@
+//! Disturbances: those of the scenario's script, those that strike at random, and the operator's.
+
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::{Event, EventKind, InputError, Trial, input::check_on_table};
+use crate::geometry::{Point2, Vector2};
+use crate::map::{FreeSpace, Map};
+use crate::plant::{Bead, bead_mass_kg, contact};
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::{Disturbance, Scripted, When};
+
+/// A random disturbance puts the bead down at least this far away (specification §2).
+const LEAST_DISPLACEMENT_M: f64 = 0.15;
+
+/// Disturbances still to come, and those that last.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Script {
+    /// How many random displacements.
+    pub remaining: u32,
+    /// At which step of the present leg the next one strikes; drawn when the leg begins.
+    pub at_leg_step: Option<u32>,
+    /// The scenario's own that have not struck yet.
+    pub pending: Vec<Scripted>,
+    /// Tick at which a drift ends.
+    pub drift_until: u64,
+    /// Tick at which the tracker sees again.
+    pub dropout_until: u64,
+}
+
+impl Trial {
+    /// Strikes with what is due, and ends what has lasted long enough. `at_step` is the number of a
+    /// control step just counted.
+    pub(super) fn strike_as_scripted(&mut self, at_step: Option<u32>) {
+        let world = &mut self.state.world;
+        let tick = world.tick;
+        if world.script.drift_until == tick {
+            world.plant.drift_n = Vector2::zeros();
+        }
+        let is_due = |scripted: &mut Scripted| match scripted.at {
+            When::Tick(at) => at == tick,
+            When::Step(step) => at_step == Some(step),
+        };
+        let due: Vec<Scripted> = world.script.pending.extract_if(.., is_due).collect();
+        for scripted in due {
+            self.strike(&scripted.disturbance);
+        }
+    }
+
+    /// Checks a disturbance against its ranges and the map.
+    pub(super) fn check_disturbance(disturbance: &Disturbance, map: &Map) -> Result<(), InputError> {
+        disturbance.check()?;
+        match *disturbance {
+            Disturbance::Displace { x_m, y_m } => check_on_table("displace", Point2::new(x_m, y_m), map),
+            _ => Ok(()),
+        }
+    }
+
+    /// Carries out a disturbance that has been checked.
+    pub(super) fn strike(&mut self, disturbance: &Disturbance) {
+        let ticks = |for_s: f64| (for_s / SERVO_PERIOD_S).ceil() as u64;
+        let world = &mut self.state.world;
+        let tick = world.tick;
+        let text = match *disturbance {
+            Disturbance::Displace { x_m, y_m } => {
+                // A map without any room for the bead is no arena.
+                let Some(to) = contact::nearest_fit(&self.arena.map, Point2::new(x_m, y_m)) else { return };
+                let from = std::mem::replace(&mut world.plant.bead, Bead::at(to)).position_m;
+                format!("the bead was lifted {:.0} cm away", (to - from).norm() * 100.0)
+            }
+            Disturbance::Impulse { x_n_s, y_n_s } => {
+                world.plant.bead.velocity_m_s += Vector2::new(x_n_s, y_n_s) / bead_mass_kg();
+                format!("a kick of {:.2} mN·s", x_n_s.hypot(y_n_s) * 1e3)
+            }
+            Disturbance::Drift { x_n, y_n, for_s } => {
+                world.plant.drift_n = Vector2::new(x_n, y_n);
+                world.script.drift_until = tick + ticks(for_s);
+                format!("a push of {:.1} mN for {for_s} s", x_n.hypot(y_n) * 1e3)
+            }
+            Disturbance::Dropout { for_s } => {
+                world.script.dropout_until = tick + ticks(for_s);
+                format!("the tracker is blind for {for_s} s")
+            }
+        };
+        world.counters.disturbances += 1;
+        self.events.push(Event::new(tick, EventKind::Disturbance, format!("disturbed: {text}")));
+    }
+
+    /// A random displacement: the bead is lifted to a free point far away and put down.
+    pub(super) fn strike_at_random(&mut self) {
+        let world = &mut self.state.world;
+        world.script.at_leg_step = None;
+        world.script.remaining -= 1;
+        let (map, space) = (&self.arena.map, &self.arena.space);
+        if let Some(to) = far_point(map, space, world.plant.bead.position_m, &mut world.rng) {
+            self.strike(&Disturbance::Displace { x_m: to.x, y_m: to.y });
+        }
+    }
+}
+
+fn far_point(map: &Map, space: &FreeSpace, from: Point2<f64>, rng: &mut ChaCha8Rng) -> Option<Point2<f64>> {
+    let component = space.component_at(from);
+    let far = |rng: &mut dyn Rng| {
+        space.sample(map, component, &mut { rng }).filter(|to| (to - from).norm() >= LEAST_DISPLACEMENT_M)
+    };
+    (0..1000).find_map(|_| far(rng))
+}

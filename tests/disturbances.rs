@@ -1,0 +1,80 @@
+//! What befalls a trial by script: kicks, pushes, displacements, a blind tracker.
+
+use ferry::geometry::Point2;
+use ferry::scenario::{Disturbance, Scenario, Scripted, When};
+use ferry::trial::{Arena, EventKind, Moment, Source, TickRecord, Trial, TrialError};
+
+use crate::determinism::gpu;
+
+const START: Point2<f64> = Point2::new(0.0, -0.4);
+
+fn scripted(at: When, disturbance: Disturbance) -> Scenario {
+    let script = vec![Scripted { at, disturbance }];
+    Scenario { start_m: Some(START), script, ..Scenario::idle("open", 1) }
+}
+
+fn run(scenario: Scenario, ticks: usize) -> Vec<TickRecord> {
+    let arena = Arena::open(&scenario.map).unwrap();
+    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut trial = Trial::new(scenario, arena).unwrap();
+    (0..ticks).map(|_| trial.tick(Source::Eye(&mut camera)).unwrap()).collect()
+}
+
+fn disturbed_at(records: &[TickRecord]) -> Vec<usize> {
+    let is_one = |record: &&TickRecord| record.events.iter().any(|event| event.kind == EventKind::Disturbance);
+    records.iter().filter(is_one).map(|record| record.tick as usize).collect()
+}
+
+fn moved_m(moment: &Moment) -> f64 {
+    (moment.bead_m.xy() - START).norm()
+}
+
+#[test]
+fn a_kick_strikes_at_its_tick_and_not_before() {
+    let kick = Disturbance::Impulse { x_n_s: 3e-4, y_n_s: 0.0 };
+    let records = run(scripted(When::Tick(50), kick), 60);
+    assert_eq!(disturbed_at(&records), [51], "the tick that begins at 50 ends at 51");
+    assert!(moved_m(&records[49].moment) < 1e-3 && moved_m(&records[59].moment) > 0.01);
+}
+
+#[test]
+fn a_push_lasts_as_long_as_it_should() {
+    let push = Disturbance::Drift { x_n: 0.0, y_n: -1.5e-3, for_s: 0.4 };
+    let records = run(scripted(When::Tick(10), push), 200);
+    let y = |at: usize| records[at].moment.bead_m.y;
+    assert!(y(60) < y(20) - 1e-3, "pushed while it lasts");
+    assert!(y(199) > y(60), "the magnet gets it back");
+}
+
+#[test]
+fn a_blind_tracker_says_nothing_new_and_then_sees_again() {
+    let records = run(scripted(When::Tick(10), Disturbance::Dropout { for_s: 0.8 }), 150);
+    let tracked = |at: usize| records[at].moment.tracked_m;
+    assert!((13..110).all(|at| tracked(at) == tracked(12)), "blind for a hundred ticks");
+    assert!((114..149).all(|at| tracked(at) != tracked(12)));
+}
+
+#[test]
+fn a_displacement_comes_at_its_step() {
+    let away = Disturbance::Displace { x_m: 0.2, y_m: -0.3 };
+    let scenario = Scenario { goal_m: Some(Point2::new(-0.25, -0.4)), ..scripted(When::Step(5), away) };
+    let records = run(scenario, 400);
+    let at = disturbed_at(&records);
+    assert_eq!(at.len(), 1);
+    assert_eq!(records[at[0] - 1].moment.counters.goal_steps, 5);
+    let modes: Vec<u8> = records.iter().map(|record| record.moment.switching.mode.index()).collect();
+    let fetched = modes[at[0]..].windows(2).any(|pair| pair == [1, 2]);
+    assert!(fetched, "sub-controller 1 fetches the bead and hands over");
+}
+
+#[test]
+fn a_script_that_cannot_be_is_refused_by_name() {
+    let refusal = |disturbance| {
+        let arena = Arena::open("open").unwrap();
+        Trial::new(scripted(When::Tick(1), disturbance), arena).unwrap_err()
+    };
+    let far = refusal(Disturbance::Displace { x_m: 2.0, y_m: 0.0 });
+    assert!(matches!(&far, TrialError::Input(error) if error.field() == "displace"), "{far}");
+    let hard = refusal(Disturbance::Impulse { x_n_s: 1.0, y_n_s: 0.0 });
+    assert_eq!(hard.to_string(), "disturbance: x_n_s is 1, it must be within ±0.002");
+}
