@@ -287,7 +287,42 @@ async fn arm_and_magnet_can_be_asked_for_numbers() {
     assert!((lift_n / 4.815e-3 - 0.976).abs() < 1e-3, "{field}");
     assert!(field["b_t"][1][2].as_f64() > Some(0.3), "B is defined inside: {field}");
 
+    let area = json!({"x_min_m": -0.3, "x_max_m": 0.28, "y_min_m": -0.54, "y_max_m": -0.21});
+    let body = json!({"area": area, "cell_m": 0.01, "tool_height_m": 0.1, "tool_orientation": "vertical"});
+    let (status, map) = lab.ask("POST", "/api/kinematics/workspace", &body.to_string()).await;
+    assert_eq!(status, 200, "{map}");
+    let values = map["manipulability_m3"].as_array().unwrap();
+    assert_eq!(json!(values.len()), json!(58 * 33));
+    assert!(values.iter().all(|value| value.as_f64() > map["least_m3"].as_f64()), "free of singularities");
+
+    let pull = json!({"orientation": "A", "lower_face_height_m": 0.095, "direction_rad": 0, "friction": 0.2,
+        "farthest_m": 0.15, "count": 16});
+    let (status, curve) = lab.ask("POST", "/api/magnetics/pull", &pull.to_string()).await;
+    assert_eq!(status, 200, "{curve}");
+    // Specification §2, 4 cm aside.
+    assert!((curve["lift_ratio"][4].as_f64().unwrap() - 0.651).abs() < 1e-3, "{curve}");
+    assert!((curve["lateral_ratio"][4].as_f64().unwrap() - 0.309).abs() < 1e-3, "{curve}");
+    assert!((curve["capture_m"][1].as_f64().unwrap() - 0.1004).abs() < 1e-4, "{curve}");
+    let reach = json!({"orientation": "A", "lowest_m": 0.09, "highest_m": 0.2, "direction_rad": 0, "friction": 0.2,
+        "drag_n_s_m": 0.01, "count": 12});
+    let (status, curve) = lab.ask("POST", "/api/magnetics/reach", &reach.to_string()).await;
+    assert_eq!(status, 200, "{curve}");
+    assert!((curve["largest_speed_m_s"][1].as_f64().unwrap() - 0.079).abs() < 5e-4, "{curve}");
+
+    let mut flat = pull.clone();
+    flat["count"] = json!(1);
+    let mut low = pull;
+    low["lower_face_height_m"] = json!(0);
+    let huge = json!({"size_m": [1, 1, 1], "polarization_t": [0, 0, 1e308], "position_m": [0, 0, 0]});
     for (path, body, field) in [
+        ("magnetics/pull", flat, "count"),
+        ("magnetics/pull", low, "lower_face_height_m"),
+        (
+            "kinematics/workspace",
+            json!({"area": area, "cell_m": 1e-6, "tool_height_m": 0.1, "tool_orientation": "paper"}),
+            "cell_m",
+        ),
+        ("magnetics/field", json!({"magnet": huge, "points_m": [[1, 0, 0]], "moment_a_m2": 1e9}), "points_m[0]"),
         (
             "kinematics/inverse",
             json!({"poses": [{"position_m": [0, 0, 0], "rotation": [[1, 0, 0], [0, 2, 0], [0, 0, 1]]}]}),
@@ -338,6 +373,31 @@ async fn a_hand_leaves_nothing_behind() {
     assert!(!then["hand_m"].is_null(), "{then}");
     browser.send(json!({"type": "step", "ticks": 1})).await;
     browser.state("a tick on", |m| m["tick"].as_u64() > then["tick"].as_u64() && m["hand_m"].is_null()).await;
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_bead_can_be_kicked_and_a_scripted_kick_comes_by_itself() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let kick = |x_n_s: f64| json!({"impulse": {"x_n_s": x_n_s, "y_n_s": 0.0}});
+    browser.send(json!({"type": "disturb", "disturbance": kick(1.0)})).await;
+    let error = browser.error().await;
+    assert_eq!((&error["code"], &error["field"]), (&json!("disturbance_out_of_range"), &json!("x_n_s")), "{error}");
+    browser.send(json!({"type": "disturb", "disturbance": kick(3e-4)})).await;
+    browser.send(json!({"type": "step", "ticks": 10})).await;
+    let state = browser.state("kicked", |m| m["tick"] == 10).await;
+    assert_eq!(state["disturbances"], 1);
+    assert!(state["tracking_error_m"].as_f64() > Some(0.01), "{state}");
+
+    // On a stage without an arm, and with a script.
+    let script = json!([{"at": {"tick": 5}, "disturbance": kick(3e-4)}]);
+    let load = json!({"type": "load_scenario", "map": "open", "positioner": "planar_stage", "script": script});
+    browser.send(load).await;
+    browser.until("the stage", |m| m["type"] == "scene" && m["positioner"] == "planar_stage").await;
+    browser.send(json!({"type": "step", "ticks": 10})).await;
+    let state = browser.state("struck", |m| m["tick"] == 10 && m["disturbances"] == 1).await;
+    assert!(state["joints_rad"].is_null(), "{state}");
     lab.close().await;
 }
 

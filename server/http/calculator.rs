@@ -172,8 +172,17 @@ pub async fn field(body: Bytes) -> Result<Json<FieldAnswer>, Problem> {
         })?;
     let relative = |point: &[f64; 3]| Vector3::from(*point) - Vector3::from(magnet.position_m);
     let points_m: Vec<_> = request.points_m.iter().map(relative).collect();
-    let b_t = block.fields_t(&points_m).into_iter().map(Into::into).collect();
-    let force_n = points_m.iter().map(|point| force::force_n(&block, point, request.moment_a_m2).into()).collect();
+    let b_t: Vec<[f64; 3]> = block.fields_t(&points_m).into_iter().map(Into::into).collect();
+    let force_n: Vec<[f64; 3]> =
+        points_m.iter().map(|point| force::force_n(&block, point, request.moment_a_m2).into()).collect();
+    let beyond = |i: &usize| b_t[*i].iter().chain(&force_n[*i]).any(|value| !value.is_finite());
+    if let Some(index) = (0..points_m.len()).find(beyond) {
+        let detail =
+            format!("the numbers are too large or too small to compute with, at {:?}", request.points_m[index]);
+        return Err(
+            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "not_finite", detail).field(&format!("points_m[{index}]"))
+        );
+    }
     Ok(Json(FieldAnswer { b_t, force_n }))
 }
 
