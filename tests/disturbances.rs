@@ -1,6 +1,7 @@
-//! What befalls a trial by script: kicks, pushes, displacements, a blind tracker.
+//! What befalls a trial by script: kicks, pushes, displacements, a blind tracker; and trials without an arm.
 
 use ferry::geometry::Point2;
+use ferry::plant::PositionerKind;
 use ferry::scenario::{Disturbance, Scenario, Scripted, When};
 use ferry::trial::{Arena, EventKind, Moment, Source, TickRecord, Trial, TrialError};
 
@@ -77,4 +78,28 @@ fn a_script_that_cannot_be_is_refused_by_name() {
     assert!(matches!(&far, TrialError::Input(error) if error.field() == "displace"), "{far}");
     let hard = refusal(Disturbance::Impulse { x_n_s: 1.0, y_n_s: 0.0 });
     assert_eq!(hard.to_string(), "disturbance: x_n_s is 1, it must be within ±0.002");
+}
+
+#[test]
+fn the_stage_carries_the_bead_where_no_arm_reaches() {
+    let mut scenario = Scenario::idle("attractor-example", 1);
+    scenario.start_m = Some(Point2::new(-0.78, 0.73));
+    scenario.goal_m = Some(Point2::new(0.77, 0.19));
+    let records = run(scenario.clone(), 2000);
+    let last = &records.last().unwrap().moment;
+    assert_eq!(last.positioner.kind(), PositionerKind::PlanarStage);
+    assert!((last.bead_m.xy() - last.tool_m.xy()).norm() < 0.03);
+    let gone_m = (last.tool_m.xy() - Point2::new(-0.78, 0.73)).norm();
+    assert!(gone_m > 0.4, "{gone_m}");
+    assert!(records.iter().all(|record| (record.moment.tool_m.z - 0.1).abs() < 1e-12));
+
+    // The arm is refused there, and may be asked for where it reaches.
+    scenario.positioner = Some(PositionerKind::Arm);
+    let arena = Arena::open("attractor-example").unwrap();
+    let refusal = Trial::new(scenario.clone(), arena.clone()).unwrap_err().to_string();
+    assert!(refusal.contains("start_m") && refusal.contains("1.068 m from the base"), "{refusal}");
+    scenario.start_m = arena.space.points().find(|p| (0.3..0.7).contains(&p.coords.norm()));
+    scenario.goal_m = None;
+    let trial = Trial::new(scenario, arena).unwrap();
+    assert_eq!(trial.moment().positioner.kind(), PositionerKind::Arm);
 }

@@ -86,7 +86,7 @@ fn report_failures(episodes: &[Episode]) {
 fn print_table(rows: &[Row], seed: u64, adapter: &str) {
     println!("seed {seed}, rendered by {adapter}");
     println!(
-        "{:<10} {:<10} {:>5} {:>9} {:>9} {:>15} {:>9} {:>7} {:>7} {:>6} {:>8} {:>15}",
+        "{:<10} {:<17} {:>5} {:>9} {:>9} {:>15} {:>9} {:>7} {:>7} {:>6} {:>8} {:>15}",
         "controller",
         "map",
         "dist.",
@@ -102,7 +102,7 @@ fn print_table(rows: &[Row], seed: u64, adapter: &str) {
     );
     for row in rows {
         println!(
-            "{:<10} {:<10} {:>5} {:>9} {:>9} {:>15} {:>9.1} {:>7.1} {:>7.1} {:>6.1} {:>8.2} {:>15}",
+            "{:<10} {:<17} {:>5} {:>9} {:>9} {:>15} {:>9.1} {:>7.1} {:>7.1} {:>6.1} {:>8.2} {:>15}",
             row.controller,
             row.map,
             row.disturbances,

@@ -7,6 +7,9 @@ use crate::map::{FreeSpace, Map};
 use crate::plant::BEAD_RADIUS_M;
 use crate::scenario::CLEARANCE_M;
 
+/// A drawing of one mistake made everywhere is not worth a screen of lines.
+const SHOWN_REPAIRS: usize = 20;
+
 /// Arguments of `ferry map`.
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -28,6 +31,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         w.y_min_m,
         w.y_max_m
     );
+    println!("moved by   {}", if map.is_for_stage() { "a planar stage, no arm" } else { "the arm" });
     println!("walls      {} polygons, {} free regions", map.walls().len(), map.free().len());
     for (what, clearance_m) in [("bead", BEAD_RADIUS_M), ("trials", CLEARANCE_M)] {
         let space = FreeSpace::new(&map, clearance_m);
@@ -38,7 +42,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             space.components()
         );
     }
-    let widest = FreeSpace::new(&map, 0.0).points().map(|p: Point2<f64>| map.clearance_m(p)).fold(0.0, f64::max);
-    println!("widest     {:.0} mm across", 2e3 * widest);
+    let reach_m = |p: Point2<f64>| (map.nearest_wall_point(p) - p).norm();
+    let widest_m = 2.0 * FreeSpace::new(&map, BEAD_RADIUS_M).points().map(reach_m).fold(0.0, f64::max);
+    println!("widest     {:.0} mm across", widest_m * 1e3);
+    for repair in map.repairs().iter().take(SHOWN_REPAIRS) {
+        println!("repaired   {repair}");
+    }
+    if let Some(more) = map.repairs().len().checked_sub(SHOWN_REPAIRS).filter(|&more| more > 0) {
+        println!("repaired   {more} more");
+    }
     Ok(ExitCode::SUCCESS)
 }

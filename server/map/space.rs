@@ -9,6 +9,9 @@ use crate::geometry::Point2;
 /// Side of a cell.
 const CELL_M: f64 = 0.005;
 
+/// More than positions and distances can be off by.
+const ROUNDING_M: f64 = 1e-9;
+
 /// The points of a map that keep `clearance_m` from every wall, on a 5-mm grid.
 #[derive(Clone, Debug)]
 pub struct FreeSpace {
@@ -27,8 +30,7 @@ impl FreeSpace {
         let rows = ((w.y_max_m - w.y_min_m) / CELL_M).round().max(1.0) as usize;
         let mut space =
             Self { columns, origin_m: [w.x_min_m, w.y_min_m], clearance_m, component: vec![None; columns * rows] };
-        let free: Vec<bool> =
-            (0..columns * rows).map(|cell| map.clearance_m(space.center(cell)) >= clearance_m).collect();
+        let free = space.rasterise(map);
         let mut next = 0;
         for seed in 0..free.len() {
             if !free[seed] || space.component[seed].is_some() {
@@ -47,6 +49,27 @@ impl FreeSpace {
             next += 1;
         }
         space
+    }
+
+    /// Which cells are free. The clearance changes by no more than one goes, so that a cell far from the
+    /// walls, or deep in them, answers for those that follow it in its row.
+    fn rasterise(&self, map: &Map) -> Vec<bool> {
+        let mut free = vec![false; self.component.len()];
+        for (row, cells) in free.chunks_mut(self.columns).enumerate() {
+            let mut column = 0;
+            while column < self.columns {
+                let center = self.center(row * self.columns + column);
+                let distance_m = (map.nearest_wall_point(center) - center).norm();
+                // Near a wall, either side is too near.
+                let inside = distance_m < self.clearance_m || map.is_free(center);
+                let spare_m = if inside { distance_m } else { -distance_m } - self.clearance_m;
+                let alike = 1 + ((spare_m.abs() - ROUNDING_M) / CELL_M).max(0.0) as usize;
+                let end = (column + alike).min(self.columns);
+                cells[column..end].fill(spare_m >= 0.0);
+                column = end;
+            }
+        }
+        free
     }
 
     fn center(&self, cell: usize) -> Point2<f64> {
@@ -152,6 +175,19 @@ mod tests {
         assert_eq!(space.geodesic_m(left, right), None);
         let there = space.geodesic_m(Point2::new(-0.05, -0.35), Point2::new(-0.05, -0.25)).unwrap();
         assert!((there - 0.1).abs() < 0.01, "{there}");
+    }
+
+    #[test]
+    fn every_cell_is_as_free_as_its_centre() {
+        for map in Map::shipped_names().iter().map(|name| Map::shipped(name).unwrap()).chain([two_rooms()]) {
+            for clearance_m in [0.0, 0.0025, 0.012] {
+                let space = FreeSpace::new(&map, clearance_m);
+                for cell in 0..space.component.len() {
+                    let free = map.clearance_m(space.center(cell)) >= clearance_m;
+                    assert_eq!(space.component[cell].is_some(), free, "{} {}", map.name(), space.center(cell));
+                }
+            }
+        }
     }
 
     #[test]

@@ -29,13 +29,11 @@ fn hop(bead: &mut Bead, map: &Map, dt_s: f64) {
     let from = bead.position_m;
     let mut to = from + bead.velocity_m_s * dt_s;
     for _ in 0..PASSES {
-        let wall = map.nearest_wall_point(to);
-        let gap: Vector2<f64> = to - wall;
-        let distance_m = gap.norm();
-        if distance_m >= BEAD_RADIUS_M - SLOP_M {
+        let Some(wall) = map.nearest_wall_point_within(to, BEAD_RADIUS_M - SLOP_M) else {
             bead.position_m = to;
             return;
-        }
+        };
+        let gap: Vector2<f64> = to - wall;
         // The hop is shorter than the radius, so `to` is still on the wall's free side, and the
         // normal points from the wall to the bead.
         let Some(normal) = gap.try_normalize(1e-12) else { break };

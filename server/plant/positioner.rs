@@ -37,8 +37,7 @@ pub enum PositionerKind {
 impl PositionerKind {
     /// The one that a map is made for.
     pub fn of(map: &Map) -> Self {
-        let _ = map;
-        Self::Arm
+        if map.is_for_stage() { Self::PlanarStage } else { Self::Arm }
     }
 }
 

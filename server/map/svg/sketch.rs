@@ -1,0 +1,248 @@
+//! The outlines of what usvg has resolved, in metres, each in order by itself.
+
+use std::cell::Cell;
+use std::collections::HashSet;
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::float::simplify::SimplifyShape;
+use kurbo::{BezPath, PathEl};
+use usvg::tiny_skia_path::{Path, PathSegment, PathStroker, Point, Transform};
+
+use super::super::{MapError, Place, Repair, RepairKind};
+use super::Ring;
+use super::contacts::Budget;
+use super::screen::Screened;
+
+/// Chords stay this close to the curves they replace.
+const FLATNESS_MM: f64 = 0.05;
+
+/// Vertices of all outlines together, curves as chords. One for each 18-mm square of the largest workspace,
+/// where a bead needs 24 mm to pass; loading such a drawing takes a fifth of a second.
+pub(super) const MAX_VERTICES: usize = 50_000;
+
+/// Coordinates beyond this would cost the others their precision.
+const MAX_EXTENT_MM: f64 = 1e5;
+
+/// What a drawing leaves on the table.
+pub(super) struct Sketch {
+    /// Outlines in order: their union is what the non-zero rule fills.
+    pub rings: Vec<Ring>,
+    pub repairs: Vec<Repair>,
+}
+
+pub(super) fn sketch(tree: &usvg::Tree, to_mm: Transform, screened: &Screened) -> Result<Sketch, MapError> {
+    let mut pen = Pen {
+        screened,
+        to_mm,
+        budget: Budget::new(),
+        vertices: 0,
+        rings: Vec::new(),
+        places: Vec::new(),
+        drawn: HashSet::new(),
+        repairs: Vec::new(),
+        reported: HashSet::new(),
+    };
+    pen.group(tree.root(), "")?;
+    for id in &screened.shown {
+        if !pen.drawn.contains(id.as_str()) {
+            pen.repair(&screened.places[id], RepairKind::Nothing);
+        }
+    }
+    // Outlines of different elements meet in the union of all.
+    pen.budget.spend(&pen.rings).map_err(|ring| tangled(pen.places[ring]))?;
+    Ok(Sketch { rings: pen.rings, repairs: pen.repairs })
+}
+
+struct Pen<'a> {
+    screened: &'a Screened,
+    to_mm: Transform,
+    budget: Budget,
+    vertices: usize,
+    rings: Vec<Ring>,
+    /// Whose each ring is.
+    places: Vec<&'a Place>,
+    /// Ids of the shapes that usvg has drawn or knows to be unpainted.
+    drawn: HashSet<&'a str>,
+    repairs: Vec<Repair>,
+    /// The repairs again: what a `<use>` copies is reported once.
+    reported: HashSet<Repair>,
+}
+
+impl<'a> Pen<'a> {
+    /// `id` is that of the nearest element with one: what a `<use>` copies has lost its own.
+    fn group(&mut self, group: &'a usvg::Group, id: &'a str) -> Result<(), MapError> {
+        let id = if group.id().is_empty() { id } else { group.id() };
+        if group.clip_path().is_some_and(|clip| cuts(clip, group.stroke_bounding_box())) {
+            let reason = "its viewport cuts off a part of it; draw that part only, or add overflow=\"visible\"";
+            return Err(refused(self.place(id), reason));
+        }
+        if group.mask().is_some() || !group.filters().is_empty() {
+            return Err(refused(self.place(id), "filters are not applied; draw the shape itself"));
+        }
+        for node in group.children() {
+            match node {
+                usvg::Node::Group(inner) => self.group(inner, id)?,
+                usvg::Node::Path(path) => {
+                    let id = if path.id().is_empty() { id } else { path.id() };
+                    self.drawn.insert(id);
+                    if path.is_visible() {
+                        self.path(path, self.place(id))?;
+                    }
+                }
+                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn place(&self, id: &str) -> &'a Place {
+        self.screened.places.get(id).unwrap_or(&self.screened.root)
+    }
+
+    fn repair(&mut self, place: &Place, kind: RepairKind) {
+        let repair = Repair { place: place.clone(), kind };
+        if self.reported.insert(repair.clone()) {
+            self.repairs.push(repair);
+        }
+    }
+
+    fn path(&mut self, path: &usvg::Path, place: &'a Place) -> Result<(), MapError> {
+        let transform = self.to_mm.pre_concat(path.abs_transform());
+        let rings_before = self.rings.len();
+        if let Some(fill) = path.fill() {
+            let rule = match fill.rule() {
+                usvg::FillRule::NonZero => FillRule::NonZero,
+                usvg::FillRule::EvenOdd => FillRule::EvenOdd,
+            };
+            let outline = self.flatten(path.data(), transform, place)?;
+            let contacts = self.budget.spend(&outline.rings_mm).map_err(|_| tangled(place))?;
+            let kinds = [
+                (outline.is_open, RepairKind::Open),
+                (contacts.cross, RepairKind::Crosses),
+                (contacts.touch && !contacts.cross, RepairKind::Touches),
+            ];
+            if self.append(&outline, rule, place) {
+                for (_, kind) in kinds.into_iter().filter(|&(found, _)| found) {
+                    self.repair(place, kind);
+                }
+            }
+        }
+        if let Some(stroke) = path.stroke() {
+            // The outline is made in the path's own units, and finer than the flatness asked.
+            let scale = PathStroker::compute_resolution_scale(&transform);
+            check_reach(scale * stroke.width().get(), "its stroke is wide", place)?;
+            placed(path.data(), transform, place)?;
+            if let Some(outline) = path.data().stroke(&stroke.to_tiny_skia(), 8.0 * scale.max(1.0)) {
+                let outline = self.flatten(&outline, transform, place)?;
+                self.budget.spend(&outline.rings_mm).map_err(|_| tangled(place))?;
+                self.append(&outline, FillRule::NonZero, place);
+            }
+        }
+        if self.rings.len() == rings_before {
+            self.repair(place, RepairKind::Nothing);
+        }
+        Ok(())
+    }
+
+    /// Whether anything was left to append.
+    fn append(&mut self, outline: &Flat, rule: FillRule, place: &'a Place) -> bool {
+        let metres = |ring: &Ring| ring.iter().map(|[x, y]| [x / 1000.0, -y / 1000.0]).collect();
+        let contours: Vec<Ring> = outline.rings_mm.iter().map(metres).collect();
+        let before = self.rings.len();
+        self.rings.extend(contours.simplify_shape_as::<i64>(rule).into_iter().flatten());
+        self.places.resize(self.rings.len(), place);
+        self.rings.len() > before
+    }
+
+    fn flatten(&mut self, path: &Path, transform: Transform, place: &Place) -> Result<Flat, MapError> {
+        let path = placed(path, transform, place)?;
+        let mut flat = Flat { rings_mm: Vec::new(), is_open: false };
+        let mut is_closed = true;
+        let vertices = Cell::new(self.vertices);
+        let bezier = bezier(&path);
+        let affordable = bezier.into_iter().take_while(|_| vertices.get() <= MAX_VERTICES);
+        kurbo::flatten(affordable, FLATNESS_MM, |element| {
+            vertices.set(vertices.get() + usize::from(element != PathEl::ClosePath));
+            match element {
+                PathEl::MoveTo(p) => {
+                    flat.is_open |= !is_closed && flat.last_is_open();
+                    flat.rings_mm.push(vec![[p.x, p.y]]);
+                    is_closed = false;
+                }
+                PathEl::LineTo(p) => flat.rings_mm.last_mut().expect("a path starts with MoveTo").push([p.x, p.y]),
+                _ => is_closed = true,
+            }
+        });
+        flat.is_open |= !is_closed && flat.last_is_open();
+        flat.rings_mm.retain(|ring| ring.len() >= 3);
+        self.vertices = vertices.get();
+        if self.vertices > MAX_VERTICES {
+            return Err(refused(place, format!("with it the drawing has more than {MAX_VERTICES} vertices")));
+        }
+        Ok(flat)
+    }
+}
+
+/// A path as straight lines.
+struct Flat {
+    rings_mm: Vec<Ring>,
+    /// Whether some ring ends elsewhere than it began.
+    is_open: bool,
+}
+
+impl Flat {
+    fn last_is_open(&self) -> bool {
+        let Some([first, _, .., last]) = self.rings_mm.last().map(Vec::as_slice) else { return false };
+        (first[0] - last[0]).hypot(first[1] - last[1]) > FLATNESS_MM
+    }
+}
+
+/// Whether a viewport, the only clip there is, leaves anything out.
+fn cuts(clip: &usvg::ClipPath, content: usvg::Rect) -> bool {
+    let window = clip.root().bounding_box();
+    let slack = 1e-4 * window.width().max(window.height());
+    content.left() < window.left() - slack
+        || content.top() < window.top() - slack
+        || content.right() > window.right() + slack
+        || content.bottom() > window.bottom() + slack
+}
+
+/// A path in millimetres, if it lies in reach.
+fn placed(path: &Path, to_mm: Transform, place: &Place) -> Result<Path, MapError> {
+    let path = path.clone().transform(to_mm);
+    let reach_mm = path.as_ref().map_or(f32::INFINITY, |path| {
+        path.points().iter().fold(0.0, |reach: f32, p| reach.max(p.x.abs()).max(p.y.abs()))
+    });
+    check_reach(reach_mm, "it reaches far", place)?;
+    Ok(path.expect("what has no path reaches to infinity"))
+}
+
+fn check_reach(reach_mm: f32, what: &str, place: &Place) -> Result<(), MapError> {
+    if f64::from(reach_mm) <= MAX_EXTENT_MM {
+        return Ok(());
+    }
+    Err(refused(place, format!("{what}: {reach_mm:e} mm, the limit is {MAX_EXTENT_MM:e} mm")))
+}
+
+fn refused(place: &Place, reason: impl Into<String>) -> MapError {
+    MapError::Element { place: place.clone(), reason: reason.into() }
+}
+
+fn tangled(place: &Place) -> MapError {
+    refused(place, "with it too many outlines cross or overlap; simplify the drawing")
+}
+
+fn bezier(path: &Path) -> BezPath {
+    let point = |p: Point| kurbo::Point::new(f64::from(p.x), f64::from(p.y));
+    let mut bezier = BezPath::new();
+    for segment in path.segments() {
+        match segment {
+            PathSegment::MoveTo(p) => bezier.move_to(point(p)),
+            PathSegment::LineTo(p) => bezier.line_to(point(p)),
+            PathSegment::QuadTo(a, p) => bezier.quad_to(point(a), point(p)),
+            PathSegment::CubicTo(a, b, p) => bezier.curve_to(point(a), point(b), point(p)),
+            PathSegment::Close => bezier.close_path(),
+        }
+    }
+    bezier
+}

@@ -1,0 +1,240 @@
+//! Drawings that people make, and how each is read, repaired or refused.
+
+use std::fmt::Write;
+
+use crate::map::{Map, MapError};
+
+pub(super) fn wrap(body: &str) -> String {
+    format!(r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 200 200 200">{body}</svg>"#)
+}
+
+fn draw(body: &str) -> Result<Map, MapError> {
+    Map::from_svg("case", &wrap(body))
+}
+
+fn area_m2(map: &Map) -> f64 {
+    let ring_area = |ring: &[[f64; 2]]| {
+        (0..ring.len())
+            .map(|i| {
+                let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+                0.5 * (a[0] * b[1] - b[0] * a[1])
+            })
+            .sum::<f64>()
+    };
+    map.walls().iter().flat_map(|p| p.rings()).map(ring_area).sum()
+}
+
+/// Each body with what its error must say.
+fn assert_refused(cases: &[(&str, &str)]) {
+    for (body, part) in cases {
+        let message = draw(body).err().unwrap_or_else(|| panic!("{body} was accepted")).to_string();
+        assert!(message.contains(part), "{body}: {message}");
+    }
+}
+
+#[test]
+fn circles_strokes_groups_and_transforms_have_their_true_area() {
+    let cases = [
+        (r#"<circle cx="0" cy="300" r="30"/>"#, std::f64::consts::PI * 0.03 * 0.03),
+        (r#"<path d="M-50 300H50" fill="none" stroke="red" stroke-width="10"/>"#, 0.1 * 0.01),
+        (
+            r#"<g transform="translate(0 300) rotate(45) scale(2)"><rect x="-10" y="-10" width="20" height="20"/></g>"#,
+            0.04 * 0.04,
+        ),
+        (
+            r#"<rect x="-20" y="290" width="20" height="20"/><rect x="-10" y="290" width="20" height="20"/>"#,
+            0.03 * 0.02,
+        ),
+        (r#"<path fill-rule="evenodd" d="M-50 250H50V350H-50ZM-20 280H20V320H-20Z"/>"#, 0.1 * 0.1 - 0.04 * 0.04),
+        (r#"<path d="M0 300m-30 0a30 30 0 1 0 60 0a30 30 0 1 0-60 0z"/>"#, std::f64::consts::PI * 0.03 * 0.03),
+        (r#"<rect x="-10%" y="150%" width="20%" height="10%"/>"#, 0.04 * 0.02),
+        (
+            r#"<g transform="scale(.001) translate(0 3e5)"><circle fill="none" stroke="red" stroke-width="10000" r="30000"/></g>"#,
+            std::f64::consts::PI * (0.035 * 0.035 - 0.025 * 0.025),
+        ),
+        (
+            r#"<g transform="translate(0 300) scale(1000)"><circle fill="none" stroke="red" stroke-width=".01" r=".03"/></g>"#,
+            std::f64::consts::PI * (0.035 * 0.035 - 0.025 * 0.025),
+        ),
+        (
+            r##"<defs><rect id="r" width="20" height="10"/></defs><use href="#r" y="300"/><use href="#r" x="30" y="300"/>"##,
+            2.0 * 0.02 * 0.01,
+        ),
+        (
+            r##"<symbol id="s" viewBox="0 0 2 2"><rect width="1" height="1"/></symbol><use href="#s" y="300" width="40" height="40"/>"##,
+            0.02 * 0.02,
+        ),
+        ("<g/><g><g></g></g><defs/><symbol/>", 0.0),
+        (r#"<style>.a{fill:none;stroke:#000;stroke-width:4}</style><path class="a" d="M0 300H50"/>"#, 0.05 * 0.004),
+        (
+            r#"<rect y="300" width="20" height="10" display="none"/><rect y="300" width="5" height="5" visibility="hidden"/>"#,
+            0.0,
+        ),
+    ];
+    for (body, expected) in cases {
+        let map = draw(body).unwrap();
+        let area = area_m2(&map);
+        assert!((area - expected).abs() <= 5e-3 * expected, "{body}: {area} instead of {expected}");
+        assert!(map.repairs().is_empty(), "{body}: {:?}", map.repairs());
+    }
+}
+
+#[test]
+fn what_fills_a_shape_is_no_matter() {
+    for paint in [
+        r##"<linearGradient id="a" href="#b"/><linearGradient id="b" href="#c"/><linearGradient id="c" href="#b"/>"##,
+        r#"<radialGradient id="a"/>"#,
+        r##"<pattern id="a"><rect fill="url(#b)"/></pattern><pattern id="b"><rect fill="url(#a)"/></pattern>"##,
+        r#"<pattern id="a"><image/></pattern>"#,
+    ] {
+        let body = format!(r#"{paint}<rect y="300" width="20" height="10" fill="url(#a)"/>"#);
+        assert!((area_m2(&draw(&body).unwrap()) - 0.02 * 0.01).abs() < 1e-6, "{paint}");
+    }
+}
+
+#[test]
+fn a_nominal_size_in_other_units_changes_nothing() {
+    let body = r#"<rect x="-20" y="280" width="40" height="40"/>"#;
+    let plain = draw(body).unwrap();
+    for size in [r#"width="20cm" height="30cm""#, r#"width="1e30" height="1e-30""#, r#"width="0" height="100%""#] {
+        let text = wrap(body).replacen("viewBox", &format!("{size} viewBox"), 1);
+        assert_eq!(Map::from_svg("sized", &text).unwrap().walls(), plain.walls(), "{size}");
+    }
+}
+
+#[test]
+fn repairs_name_the_element_its_line_and_what_was_done() {
+    let cases = [
+        (
+            r#"<path id="bow" d="M-50 250L50 350V250L-50 350Z"/>"#,
+            r#"<path> id="bow" at line 2: its outline crosses itself; the fill rule decides what is wall"#,
+        ),
+        (
+            r#"<path d="M-50 250H50V350L0 250L-50 350Z"/>"#,
+            "<path> at line 2: its outline touches itself; the fill rule decides what is wall",
+        ),
+        (
+            r#"<polyline points="-50,250 50,250 50,350"/>"#,
+            "<polyline> at line 2: its outline is open; closed with a straight line",
+        ),
+        (
+            r#"<rect id="flat" y="300" width="0" height="9"/>"#,
+            r#"<rect> id="flat" at line 2: it draws nothing, having neither area nor stroke; left out"#,
+        ),
+        (r#"<line id="ferry-1" x2="50" y1="300" y2="300"/>"#, r#"<line> id="ferry-1" at line 2: it draws nothing"#),
+        (r#"<circle cy="300" transform="scale(0)" r="9"/>"#, "<circle> at line 2: it draws nothing"),
+        (
+            r##"<defs><path d="M0 300H50V350" id="p"/></defs>
+            <use href="#p"/><use href="#p" x="-50"/>"##,
+            "<use> at line 3: its outline is open",
+        ),
+    ];
+    for (body, expected) in cases {
+        let map = draw(&format!("\n{body}")).unwrap();
+        let message = map.repairs()[0].to_string();
+        assert!(message.starts_with(expected), "{body}: {message}");
+    }
+    let twice = draw("<line id=\"a\"/>\n<line id=\"a\"/><path id=\"a\" d=\"M0 300H9V310Z\"/>").unwrap();
+    let lines: Vec<u32> = twice.repairs().iter().map(|repair| repair.place.line).collect();
+    assert_eq!(lines, [1, 2]);
+    // Strokes may be open, and a ring that ends where it began is closed.
+    let fine = r#"<path fill="none" stroke="red" d="M0 300H50V350"/><path d="M0 300H50V350L0 300"/>"#;
+    assert!(draw(fine).unwrap().repairs().is_empty());
+    for name in Map::shipped_names() {
+        assert!(Map::shipped(&name).unwrap().repairs().is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn what_is_no_wall_is_refused_by_name() {
+    assert_refused(&[
+        (r#"<text id="label" x="0" y="300">hi</text>"#, "<text> id=\"label\" at line 1"),
+        (r#"<image href="x.png"/>"#, "<image>"),
+        (r#"<mask id="m"/>"#, r#"<mask> id="m" at line 1"#),
+        (r#"<script>alert()</script>"#, "<script>"),
+        (r#"<rect y="300" width="9" height="9" filter="blur(3)"/>"#, "filters are not applied"),
+        (r#"<line x2="50" stroke="red" stroke-dasharray="3 1"/>"#, r#"stroke-dasharray="3 1" is not drawn"#),
+        (r#"<line x2="50" style="stroke:red; vector-effect: non-scaling-stroke"/>"#, "vector-effect"),
+        (r#"<svg width="9" height="9"><rect width="20" height="9"/></svg>"#, "<svg> at line 1: its viewport cuts off"),
+        (r#"<rect x="-100" y="200" width="200" height="200"/>"#, "no free space"),
+    ]);
+    for (text, part) in [
+        ("<svg", "not a readable SVG"),
+        (r#"<html viewBox="0 0 50 50"/>"#, "<html>"),
+        (r#"<svg xmlns="http://www.w3.org/2000/svg"/>"#, "viewBox"),
+        (r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 nan 5"/>"#, "finite"),
+        (r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 5 5"/>"#, "20 to 4000"),
+        (r#"<!DOCTYPE svg [<!ENTITY a "b">]><svg viewBox="0 0 50 50"/>"#, "entities"),
+    ] {
+        let message = Map::from_svg("case", text).unwrap_err().to_string();
+        assert!(message.contains(part), "{message}");
+    }
+    let doctype = format!("<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"svg11.dtd\">\n{}", wrap(""));
+    assert!(Map::from_svg("doctype", &doctype).is_ok());
+}
+
+#[test]
+fn values_out_of_range_are_refused_with_element_and_value() {
+    assert_refused(&[
+        (r#"<circle id="c" r="ten"/>"#, r#"<circle> id="c" at line 1: r="ten" is no number"#),
+        (r#"<rect width="1e30" height="1"/>"#, r#"width="1e30""#),
+        (r#"<rect x="NaN" width="1" height="1"/>"#, r#"x="NaN""#),
+        (r#"<rect width="3em" height="1"/>"#, r#"width="3em""#),
+        (r#"<path d="M0 300L1e30 0V9Z"/>"#, "d has the number 1e30"),
+        (r#"<path d="M0 300A1e300 1e300 0 0 1 9 9Z"/>"#, "d has the number 1e300"),
+        (r#"<path d="M0 300 l9 9 q5 Z"/>"#, "is broken"),
+        (r#"<path d="M0 300 9 9;L9 9"/>"#, "';', which is no part of a path"),
+        (r#"<polygon points="0,0 1e9,0 0,9"/>"#, "points has the number 1e9"),
+        (r#"<line x2="9" stroke="red" stroke-width="1e30"/>"#, r#"stroke-width="1e30""#),
+        (r#"<line x2="9" stroke="red" stroke-width="9e5"/>"#, "its stroke is wide: 9e5 mm"),
+        (
+            r#"<g transform="scale(1e5)"><rect id="r" width="9" height="9"/></g>"#,
+            r#"<rect> id="r" at line 1: it reaches far"#,
+        ),
+        (r##"<use id="u" href="#nowhere"/>"##, r##"<use> id="u" at line 1: href="#nowhere""##),
+    ]);
+    for width in ["0", "-1"] {
+        let line = format!(r#"<path fill="none" d="M0 300H9" stroke="red" stroke-width="{width}"/>"#);
+        assert!(draw(&line).unwrap().walls().is_empty());
+    }
+}
+
+/// What costs far more than it is long: each is refused before the cost arises.
+#[test]
+fn drawings_that_explode_are_refused() {
+    let zigzag = |count: u32, step: u32| {
+        (0..count).fold("M0 300".to_owned(), |mut d, k| {
+            write!(d, "L{} {}", k.wrapping_mul(step) % 200, 200 + k.wrapping_mul(step + 66) % 199).unwrap();
+            d
+        })
+    };
+    let nested = |count| format!("{}<rect width=\"9\" height=\"9\"/>{}", "<g>".repeat(count), "</g>".repeat(count));
+    let uses = (1..12).fold("<g id=\"a0\"/>".to_owned(), |mut text, k| {
+        write!(text, "<g id=\"a{k}\">{}</g>", format!("<use href=\"#a{}\"/>", k - 1).repeat(9)).unwrap();
+        text
+    });
+    let attributes = (0..2000).fold(String::new(), |text, k| format!("{text} a{k}=\"\""));
+    let namespaces = (0..2000).fold(String::new(), |text, k| format!("{text} xmlns:a{k}=\"\""));
+    let path = |d: &str| format!("<path id=\"z\" d=\"{d}Z\"/>");
+    assert_refused(&[
+        (
+            &path(&zigzag(100_001, 7919)),
+            r#"<path> id="z" at line 1: with it the drawing has more than 200000 coordinates"#,
+        ),
+        (&path(&zigzag(49_000, 7919)), r#"<path> id="z" at line 1: with it too many outlines cross"#),
+        (&path(&zigzag(49_000, 2)), r#"<path> id="z" at line 1: with it too many outlines cross"#),
+        (&path(&format!("M0 300{}", "C9 9 90000 9 0 300".repeat(9000))), "more than 50000 vertices"),
+        (&nested(65), "<g> at line 1: it lies more than 64 elements deep"),
+        (&nested(60_000), "more than 20000 elements"),
+        (r##"<g id="a"><use id="u" href="#b"/></g><g id="b"><use href="#a"/></g>"##, "or uses itself"),
+        (&uses, "each <use> resolved"),
+        (&format!("<g{attributes}/>"), "more than 1000 attributes"),
+        (&format!("<g{namespaces}/>"), "more than 100 namespaces"),
+        (
+            &format!("<style>{}{{fill:red}}</style>{}", "g ".repeat(20), "<g>".repeat(50) + &"</g>".repeat(50)),
+            "<style>",
+        ),
+        (&format!("<title>{}</title>", " ".repeat(1 << 20)), "the limit is 1048576"),
+    ]);
+    assert!(draw(&nested(60)).is_ok());
+}
