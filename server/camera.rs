@@ -165,12 +165,33 @@ pub trait Eye {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError>;
 }
 
-/// Draws one stage. Cameras share a [`Gpu`]; each keeps its own geometry and image memory.
+/// Draws one stage. Cameras share a [`Gpu`]; each keeps its own geometry and image memory. When the device
+/// is lost, as when its driver restarts, the camera goes on with the one that takes its place.
 #[derive(Debug)]
 pub struct Camera {
+    workspace: Rect,
+    walls: Vec<Polygon>,
+    wall_height_m: f64,
+    parameters: CameraParameters,
+    renderers: Renderers,
+}
+
+/// All that is lost with a device.
+#[derive(Debug)]
+struct Renderers {
     gpu: Arc<Gpu>,
     view: view::ViewRenderer,
     scene: scene::SceneRenderer,
+}
+
+impl Renderers {
+    fn new(gpu: &Arc<Gpu>, stage: &Stage, parameters: &CameraParameters) -> Result<Self, CameraError> {
+        let gpu = gpu.living()?;
+        check_size(parameters.size_px, parameters.size_px, gpu.most_px())?;
+        let view = view::ViewRenderer::new(&gpu, stage, *parameters)?;
+        let scene = scene::SceneRenderer::new(&gpu, stage)?;
+        Ok(Self { gpu, view, scene })
+    }
 }
 
 impl Camera {
@@ -183,10 +204,13 @@ impl Camera {
     pub fn new(gpu: Arc<Gpu>, stage: &Stage, parameters: &CameraParameters) -> Result<Self, CameraError> {
         stage::check(stage)?;
         parameters.check(stage.wall_height_m)?;
-        check_size(parameters.size_px, parameters.size_px, gpu.most_px())?;
-        let view = view::ViewRenderer::new(&gpu, stage, *parameters)?;
-        let scene = scene::SceneRenderer::new(&gpu, stage)?;
-        Ok(Self { gpu, view, scene })
+        Ok(Self {
+            workspace: *stage.workspace,
+            walls: stage.walls.to_vec(),
+            wall_height_m: stage.wall_height_m,
+            parameters: *parameters,
+            renderers: Renderers::new(&gpu, stage, parameters)?,
+        })
     }
 
     /// The controllers' view, square: image up is +y, and the centre of pixel (u, v) shows the table
@@ -197,7 +221,7 @@ impl Camera {
     /// [`CameraError::Readback`] or [`CameraError::DeviceLost`] when the device fails.
     pub fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         subject.check()?;
-        self.view.draw(&self.gpu, subject)
+        self.draw(|Renderers { gpu, view, .. }| view.draw(gpu, subject))
     }
 
     /// The whole table with arm, magnet, walls, bead and goal, in perspective from the user's side.
@@ -209,8 +233,24 @@ impl Camera {
     /// [`MOST_PX`].
     pub fn scene(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
         subject.check()?;
-        check_size(width_px, height_px, self.gpu.most_px())?;
-        self.scene.draw(&self.gpu, subject, width_px, height_px)
+        check_size(width_px, height_px, self.renderers.gpu.most_px())?;
+        self.draw(|Renderers { gpu, scene, .. }| scene.draw(gpu, subject, width_px, height_px))
+    }
+
+    /// Draws, and draws once more on another device if this one is lost.
+    fn draw(
+        &mut self,
+        mut picture: impl FnMut(&mut Renderers) -> Result<CameraFrame, CameraError>,
+    ) -> Result<CameraFrame, CameraError> {
+        match picture(&mut self.renderers) {
+            Err(CameraError::DeviceLost { reason }) => {
+                tracing::warn!(reason, "the graphics device was lost and is opened anew");
+                let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
+                self.renderers = Renderers::new(&self.renderers.gpu, &stage, &self.parameters)?;
+                picture(&mut self.renderers)
+            }
+            drawn => drawn,
+        }
     }
 }
 

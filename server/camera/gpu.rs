@@ -1,7 +1,7 @@
 //! The device that draws: found once, shared by every camera.
 
 use std::str::FromStr;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::{CameraError, MOST_PX};
 
@@ -48,6 +48,9 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     adapter_name: String,
+    choice: AdapterChoice,
+    /// Opened by whoever first finds this device lost; locked by every camera that does.
+    successor: Mutex<Option<Arc<Self>>>,
     /// Set once, by the driver, from whichever thread is talking to the device.
     lost: Arc<OnceLock<String>>,
 }
@@ -86,7 +89,27 @@ impl Gpu {
             // Only the first loss is news.
             let _ = flag.set(format!("{reason:?}: {message}"));
         });
-        Ok(Arc::new(Self { device, queue, adapter_name, lost }))
+        Ok(Arc::new(Self { device, queue, adapter_name, choice, successor: Mutex::default(), lost }))
+    }
+
+    /// This device, or the one that has taken its place since it was lost: a driver that restarts takes
+    /// every device with it, and all cameras then share one new one. Blocks while it is opened.
+    ///
+    /// # Errors
+    /// Those of [`Gpu::open`].
+    pub fn living(self: &Arc<Self>) -> Result<Arc<Self>, CameraError> {
+        let mut gpu = Arc::clone(self);
+        while gpu.check_alive().is_err() {
+            let next = {
+                let mut successor = gpu.successor.lock().unwrap_or_else(PoisonError::into_inner);
+                match &*successor {
+                    Some(next) => Arc::clone(next),
+                    None => Arc::clone(successor.insert(Self::open(gpu.choice)?)),
+                }
+            };
+            gpu = next;
+        }
+        Ok(gpu)
     }
 
     /// Name of the adapter and of its driver's interface, such as
@@ -108,6 +131,13 @@ impl Gpu {
         }
     }
 
+    /// [`Self::check_alive`] after asking the device for news, without which it does not say that it is lost.
+    pub(super) fn check_lost(&self) -> Result<(), CameraError> {
+        // A device that cannot be asked is lost, and has said so.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.check_alive()
+    }
+
     /// Does `work`, and turns what the device says against it into an error. Without this the
     /// library would panic.
     pub(super) fn checked<T>(&self, what: &'static str, work: impl FnOnce() -> T) -> Result<T, CameraError> {
@@ -120,10 +150,9 @@ impl Gpu {
         // Scopes nest, the innermost is popped first.
         let said = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
         self.check_alive()?;
-        match said.into_iter().flatten().next() {
-            Some(error) => Err(CameraError::Rejected { what, reason: error.to_string() }),
-            None => Ok(done),
-        }
+        let Some(error) = said.into_iter().flatten().next() else { return Ok(done) };
+        self.check_lost()?;
+        Err(CameraError::Rejected { what, reason: error.to_string() })
     }
 }
 
@@ -152,6 +181,19 @@ mod tests {
         let _ = gpu.device.poll(wgpu::PollType::Poll);
         let error = gpu.checked("a test", || ()).unwrap_err();
         assert!(matches!(error, CameraError::DeviceLost { .. }), "{error}");
+    }
+
+    #[test]
+    fn a_lost_device_has_one_successor() {
+        let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
+        assert!(Arc::ptr_eq(&gpu.living().unwrap(), &gpu));
+        gpu.device.destroy();
+        let _ = gpu.device.poll(wgpu::PollType::Poll);
+        let next = gpu.living().unwrap();
+        assert!(!Arc::ptr_eq(&next, &gpu) && Arc::ptr_eq(&next, &gpu.living().unwrap()));
+        next.device.destroy();
+        let _ = next.device.poll(wgpu::PollType::Poll);
+        assert!(gpu.living().unwrap().check_alive().is_ok());
     }
 
     #[test]

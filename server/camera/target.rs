@@ -131,7 +131,10 @@ impl Target {
             .and_then(|()| self.copy_out().map_err(|error| error.to_string()));
         // Also takes back a mapping that is still under way, so that the next frame can be asked for.
         self.readback.unmap();
-        mapped.map_err(|reason| CameraError::Readback { reason })
+        mapped.or_else(|reason| {
+            gpu.check_lost()?;
+            Err(CameraError::Readback { reason })
+        })
     }
 
     /// The mapped buffer without the padding at the end of its rows.

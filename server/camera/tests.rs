@@ -141,6 +141,21 @@ fn the_same_state_gives_the_same_bytes() {
 }
 
 #[test]
+fn a_camera_goes_on_when_its_device_is_lost() {
+    let walls = posts();
+    let gpu = gpu();
+    let mut camera = Camera::new(gpu.clone(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
+    let (frame, scene) = (camera.capture(&state).unwrap(), camera.scene(&state, 320, 180).unwrap());
+    gpu.device.destroy();
+    assert!(camera.capture(&state).unwrap() == frame);
+    assert!(camera.scene(&state, 320, 180).unwrap() == scene);
+    // The next camera too, although it is given the lost device.
+    let mut next = Camera::new(gpu, &stage(&walls), &CameraParameters::default()).unwrap();
+    assert!(next.capture(&state).unwrap() == frame);
+}
+
+#[test]
 fn the_scene_shows_arm_goal_and_bead() {
     let walls = posts();
     let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
