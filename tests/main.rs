@@ -7,3 +7,4 @@ mod house;
 mod laboratory;
 mod recordings;
 mod reference;
+mod rendering;

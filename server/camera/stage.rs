@@ -43,9 +43,9 @@ mod scene {
 /// Metres that a shadow in the controllers' view moves in x and y for each metre of height: light
 /// from the upper left.
 pub(super) const SHADOW_PER_HEIGHT: [f64; 2] = [0.55, -0.65];
-/// Flat things on the floor are drawn this much above it, to lie on it and not in it. The pinhole
-/// moves by a two-hundredth of a pixel for it.
-pub(super) const SHADOW_LIFT_M: f64 = 5e-5;
+/// Flat things on the floor are drawn this much above it, to lie on it and not in it. Where one meets a
+/// wall's foot, the foot seems up to a fiftieth of a pixel aside for it.
+pub(super) const SHADOW_LIFT_M: f64 = 2e-5;
 
 /// How far the wall outside the workspace reaches; farther away the background is as dark.
 const OUTSIDE_M: f64 = 2.0;
