@@ -65,6 +65,16 @@ pub const MOST_PX: u32 = 4096;
 /// Largest height or table span that is accepted.
 const MOST_M: f64 = 10.0;
 
+/// How much work goes into pictures for people. The controllers' view is the same at either.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
+#[serde(rename_all = "snake_case")]
+pub enum Quality {
+    /// Hard edges and shadows, for adapters that render on the processor.
+    Economy,
+    /// Four samples a pixel and soft shadows.
+    Fine,
+}
+
 /// The pinhole that the controllers see through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS)]
 pub struct CameraParameters {
@@ -173,7 +183,18 @@ pub struct Camera {
     walls: Vec<Polygon>,
     wall_height_m: f64,
     parameters: CameraParameters,
+    /// Asked for; otherwise what the adapter can afford.
+    quality: Option<Quality>,
     renderers: Renderers,
+}
+
+/// From where a picture for people is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Viewpoint {
+    /// The user's side of the table, in perspective.
+    User,
+    /// Straight above, parallel.
+    Above,
 }
 
 /// All that is lost with a device.
@@ -185,11 +206,16 @@ struct Renderers {
 }
 
 impl Renderers {
-    fn new(gpu: &Arc<Gpu>, stage: &Stage, parameters: &CameraParameters) -> Result<Self, CameraError> {
+    fn new(
+        gpu: &Arc<Gpu>,
+        stage: &Stage,
+        parameters: &CameraParameters,
+        quality: Option<Quality>,
+    ) -> Result<Self, CameraError> {
         let gpu = gpu.living()?;
         check_size(parameters.size_px, parameters.size_px, gpu.most_px())?;
         let view = view::ViewRenderer::new(&gpu, stage, *parameters)?;
-        let scene = scene::SceneRenderer::new(&gpu, stage)?;
+        let scene = scene::SceneRenderer::new(&gpu, stage, quality.unwrap_or(gpu.quality()))?;
         Ok(Self { gpu, view, scene })
     }
 }
@@ -209,8 +235,26 @@ impl Camera {
             walls: stage.walls.to_vec(),
             wall_height_m: stage.wall_height_m,
             parameters: *parameters,
-            renderers: Renderers::new(&gpu, stage, parameters)?,
+            quality: None,
+            renderers: Renderers::new(&gpu, stage, parameters, None)?,
         })
+    }
+
+    /// The same camera at a quality of its own, whatever its adapter can afford.
+    ///
+    /// # Errors
+    /// [`CameraError::Rejected`] or [`CameraError::DeviceLost`] when the device fails.
+    pub fn with_quality(mut self, quality: Quality) -> Result<Self, CameraError> {
+        self.quality = Some(quality);
+        self.renew()?;
+        Ok(self)
+    }
+
+    /// Makes everything anew that lives on the device.
+    fn renew(&mut self) -> Result<(), CameraError> {
+        let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
+        self.renderers = Renderers::new(&self.renderers.gpu, &stage, &self.parameters, self.quality)?;
+        Ok(())
     }
 
     /// The controllers' view, square: image up is +y, and the centre of pixel (u, v) shows the table
@@ -234,7 +278,18 @@ impl Camera {
     pub fn scene(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
         subject.check()?;
         check_size(width_px, height_px, self.renderers.gpu.most_px())?;
-        self.draw(|Renderers { gpu, scene, .. }| scene.draw(gpu, subject, width_px, height_px))
+        self.draw(|Renderers { gpu, scene, .. }| scene.draw(gpu, subject, Viewpoint::User, width_px, height_px))
+    }
+
+    /// The workspace from straight above, +y up, without perspective: walls, block, bead and goal, but no
+    /// arm, which would hide them. The frame's `table_span_m` is the width seen.
+    ///
+    /// # Errors
+    /// As [`Camera::scene`].
+    pub fn plan(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
+        subject.check()?;
+        check_size(width_px, height_px, self.renderers.gpu.most_px())?;
+        self.draw(|Renderers { gpu, scene, .. }| scene.draw(gpu, subject, Viewpoint::Above, width_px, height_px))
     }
 
     /// Draws, and draws once more on another device if this one is lost.
@@ -245,8 +300,7 @@ impl Camera {
         match picture(&mut self.renderers) {
             Err(CameraError::DeviceLost { reason }) => {
                 tracing::warn!(reason, "the graphics device was lost and is opened anew");
-                let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
-                self.renderers = Renderers::new(&self.renderers.gpu, &stage, &self.parameters)?;
+                self.renew()?;
                 picture(&mut self.renderers)
             }
             drawn => drawn,

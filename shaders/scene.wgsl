@@ -3,13 +3,17 @@
 struct Scene {
     clip_from_base: mat4x4<f32>,
     light_from_base: mat4x4<f32>,
+    // The fourth is 1 for soft shadows and 0 for hard ones.
     toward_light: vec4<f32>,
+    // Homogeneous: a direction where the view is parallel.
     eye_m: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;
-@group(0) @binding(1) var shadow_map: texture_depth_2d;
-@group(0) @binding(2) var shadow_sampler: sampler_comparison;
+// Depth of what stands still as the light sees it, and of what moves.
+@group(0) @binding(1) var still_shadow: texture_depth_2d;
+@group(0) @binding(2) var moving_shadow: texture_depth_2d;
+@group(0) @binding(3) var shadow_sampler: sampler_comparison;
 
 struct Corner {
     @location(0) position_m: vec3<f32>,
@@ -64,18 +68,26 @@ fn vertex(corner: Corner) -> Pixel {
     return pixel;
 }
 
-// Share of the light that arrives: 0 in shadow, 1 outside, soft between.
+// Share of the light that passes one map.
+fn passes(map: texture_depth_2d, uv: vec2<f32>, depth: f32) -> f32 {
+    if (scene.toward_light.w == 0.0) {
+        return textureSampleCompareLevel(map, shadow_sampler, uv, depth);
+    }
+    let texel = 1.0 / vec2<f32>(textureDimensions(map));
+    var sum = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let offset = vec2(f32(i & 1) - 0.5, f32(i >> 1) - 0.5) * 1.5 * texel;
+        sum += textureSampleCompareLevel(map, shadow_sampler, uv + offset, depth);
+    }
+    return 0.25 * sum;
+}
+
+// Share of the light that arrives: 0 in shadow, 1 outside.
 fn sunlit(base_m: vec3<f32>, normal: vec3<f32>) -> f32 {
     // Off the surface, so that it does not shade itself.
     let at = scene.light_from_base * vec4(base_m + normal * 0.0015, 1.0);
     let uv = vec2(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y);
-    let texel = 1.0 / vec2<f32>(textureDimensions(shadow_map));
-    var sum = 0.0;
-    for (var i = 0; i < 4; i++) {
-        let offset = vec2(f32(i & 1) - 0.5, f32(i >> 1) - 0.5) * 1.5 * texel;
-        sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + offset, at.z);
-    }
-    return 0.25 * sum;
+    return min(passes(still_shadow, uv, at.z), passes(moving_shadow, uv, at.z));
 }
 
 @fragment
@@ -84,7 +96,7 @@ fn fragment(pixel: Pixel) -> @location(0) vec4<f32> {
     let toward_light = scene.toward_light.xyz;
     let sun = sunlit(pixel.base_m, normal) * max(dot(normal, toward_light), 0.0);
     let around = mix(GROUND, SKY, 0.5 + 0.5 * normal.z);
-    let toward_eye = normalize(scene.eye_m.xyz - pixel.base_m);
+    let toward_eye = normalize(scene.eye_m.xyz - pixel.base_m * scene.eye_m.w);
     let halfway = normalize(toward_light + toward_eye);
     let shine = SHINE * sun * pow(max(dot(normal, halfway), 0.0), 40.0);
     let lit = pixel.color.rgb * (around + sun * SUN) + vec3(shine);

@@ -3,6 +3,7 @@
 mod commands;
 mod determinism;
 mod disturbances;
+mod golden;
 mod house;
 mod laboratory;
 mod recordings;

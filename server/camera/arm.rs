@@ -76,7 +76,8 @@ fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
     tube(parts, origin(5), origin(6), 0.036, TUBE);
 }
 
-fn block(subject: &Subject) -> Part {
+/// The magnet.
+pub(super) fn block(subject: &Subject) -> Part {
     let size = Vector3::from(subject.block_size_m);
     cuboid(Point3::from(subject.tool_m) + Vector3::z() * (0.5 * size.z), size, MAGNET)
 }

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::{CameraError, MOST_PX};
+use super::{CameraError, MOST_PX, Quality};
 
 /// Which drivers may be used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,6 +48,7 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     adapter_name: String,
+    quality: Quality,
     choice: AdapterChoice,
     /// Opened by whoever first finds this device lost; locked by every camera that does.
     successor: Mutex<Option<Arc<Self>>>,
@@ -73,6 +74,7 @@ impl Gpu {
             .map_err(|error| CameraError::NoAdapter { reason: error.to_string() })?;
         let info = adapter.get_info();
         let adapter_name = format!("{} ({:?})", info.name, info.backend);
+        let quality = if info.device_type == wgpu::DeviceType::Cpu { Quality::Economy } else { Quality::Fine };
         // Nothing beyond the WebGL 2 limits is used, so that every driver will do.
         let required_limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
@@ -89,7 +91,7 @@ impl Gpu {
             // Only the first loss is news.
             let _ = flag.set(format!("{reason:?}: {message}"));
         });
-        Ok(Arc::new(Self { device, queue, adapter_name, choice, successor: Mutex::default(), lost }))
+        Ok(Arc::new(Self { device, queue, adapter_name, quality, choice, successor: Mutex::default(), lost }))
     }
 
     /// This device, or the one that has taken its place since it was lost: a driver that restarts takes
@@ -116,6 +118,11 @@ impl Gpu {
     /// `llvmpipe (LLVM 19.1.7, 256 bits) (Vulkan)`.
     pub fn adapter_name(&self) -> &str {
         &self.adapter_name
+    }
+
+    /// What the adapter can afford.
+    pub fn quality(&self) -> Quality {
+        self.quality
     }
 
     /// Largest side of an image.

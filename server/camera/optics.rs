@@ -1,8 +1,8 @@
 //! Projections: from `base` to the device's clip space (x right, y up, depth 0 to 1).
 
-use nalgebra::Matrix4;
+use nalgebra::{Matrix4, Vector4};
 
-use crate::geometry::{Point3, Vector3};
+use crate::geometry::{Point3, Rect, Vector2, Vector3};
 
 /// Share of the camera's height above the table that is closer than it can see.
 const NEAR: f64 = 0.02;
@@ -39,13 +39,33 @@ pub(super) fn pinhole_down(x_m: f64, y_m: f64, height_m: f64, span_m: f64) -> Ma
     )
 }
 
-/// A fixed view in perspective.
+/// A fixed view.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Perspective {
+pub(super) struct Projection {
     pub clip_from_base: Matrix4<f64>,
-    pub eye_m: Point3<f64>,
+    /// Homogeneous: for a parallel view the fourth is 0, and the rest the direction to the eye.
+    pub eye_m: Vector4<f64>,
     /// Width seen at the distance of the middle of the picture.
     pub span_m: f64,
+}
+
+/// Heights that the view from above holds, and depths below the table.
+const ABOVE_M: f64 = 1.0;
+
+/// Looks straight down at `area` with `margin_m` around it, +y up, without perspective; a picture of
+/// another `aspect` (width over height) shows more of the longer side.
+pub(super) fn parallel_down(area: &Rect, margin_m: f64, aspect: f64) -> Projection {
+    let size_m = area.size_m() + Vector2::repeat(2.0 * margin_m);
+    let half_y_m = 0.5 * size_m.y.max(size_m.x / aspect);
+    let (half_x_m, middle) = (half_y_m * aspect, area.center_m());
+    let rows = [
+        [1.0 / half_x_m, 0.0, 0.0, -middle.x / half_x_m],
+        [0.0, 1.0 / half_y_m, 0.0, -middle.y / half_y_m],
+        [0.0, 0.0, -0.5 / ABOVE_M, 0.5],
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+    let clip_from_base = Matrix4::from_fn(|row, column| rows[row][column]);
+    Projection { clip_from_base, eye_m: Vector4::z(), span_m: 2.0 * half_x_m }
 }
 
 /// Looks from direction `toward_eye` at the middle of `bounds`, just far enough away that all of
@@ -56,7 +76,7 @@ pub(super) fn perspective_around(
     toward_eye: Vector3<f64>,
     field_of_view_rad: f64,
     aspect: f64,
-) -> Perspective {
+) -> Projection {
     let (mut middle, radius) = ball_around(bounds);
     let [right, up, back] = axes(toward_eye);
     let tangent = (0.5 * field_of_view_rad).tan();
@@ -87,9 +107,9 @@ pub(super) fn perspective_around(
         row(back, -slope, -slope * near),
         row(back, -1.0, 0.0),
     ];
-    Perspective {
+    Projection {
         clip_from_base: Matrix4::from_fn(|row, column| rows[row][column]),
-        eye_m,
+        eye_m: eye_m.to_homogeneous(),
         span_m: 2.0 * tangent_x * distance,
     }
 }
@@ -177,6 +197,21 @@ mod tests {
                 touches |= most > 1.0 - 1e-9;
             }
             assert!(touches, "the picture is larger than needed at {aspect}");
+        }
+    }
+
+    #[test]
+    fn the_plan_holds_its_area_at_one_scale() {
+        let area = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
+        for aspect in [0.4, 1.0, 16.0 / 9.0] {
+            let plan = parallel_down(&area, 0.01, aspect);
+            let ndc = |x, y, z| plan.clip_from_base.transform_point(&Point3::new(x, y, z));
+            let corner = ndc(0.29, -0.2, 0.0);
+            assert!(corner.x.max(corner.y) <= 1.0 + 1e-12 && corner.x.max(corner.y) > 1.0 - 1e-12);
+            let (right, up) =
+                (ndc(0.1, -0.3, 0.0).x - ndc(0.0, -0.3, 0.0).x, ndc(0.0, -0.3, 0.0).y - ndc(0.0, -0.4, 0.0).y);
+            assert!((right * aspect - up).abs() < 1e-12 && (0.2 / right - plan.span_m).abs() < 1e-12);
+            assert!(ndc(0.0, -0.3, 0.1).z < ndc(0.0, -0.3, 0.0).z);
         }
     }
 

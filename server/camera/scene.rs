@@ -1,23 +1,24 @@
-//! The scene: the whole table in perspective, with one light, its shadows, and smooth edges.
+//! Pictures for people: the whole table in perspective or from above, with one light and its shadows.
+//!
+//! What stands still throws its shadows once, into a map that is kept; what moves throws them anew each
+//! frame, into a map of its own.
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::Matrix4;
 
-use super::geometry_buffers::{GeometryBuffers, Part, Solid};
+use super::geometry_buffers::{Batch, GeometryBuffers, Part, Solid};
 use super::gpu::Gpu;
 use super::mesh::{self, Color};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::target::{DEPTH_FORMAT, Target};
-use super::{BEAD_RADIUS_M, CameraError, Stage, Subject, arm, optics, stage};
+use super::{BEAD_RADIUS_M, CameraError, Quality, Stage, Subject, Viewpoint, arm, optics, stage};
 use crate::geometry::{Point3, Rect, Vector3};
 use crate::image::CameraFrame;
 
 pub(super) const SHADER: &str = include_str!("../../shaders/scene.wgsl");
 
-/// Samples a pixel.
-const SAMPLES: u32 = 4;
-/// Columns and rows of the shadow map: under a millimetre of table each.
-const SHADOW_PX: u32 = 2048;
+/// Columns and rows of the kept shadow map: under a millimetre of table each.
+const STILL_SHADOW_PX: u32 = 2048;
 /// From the middle of the table toward the eye: from the user's side, above, a little to the right.
 const TOWARD_EYE: [f64; 3] = [0.42, -1.0, 0.78];
 /// Across the shorter side of the picture.
@@ -29,6 +30,8 @@ const ARM_TOP_M: f64 = 0.63;
 const ARM_ASIDE_M: f64 = 0.15;
 /// What is in the picture below the floor: the table's front, and a little air.
 const MARGIN_BELOW_M: f64 = 0.05;
+/// Around the workspace in the plan: the border, and a little table.
+const PLAN_MARGIN_M: f64 = 0.015;
 const BACKGROUND: Color = [226, 231, 237, 255];
 
 /// Shining colours, which say where something is rather than what it looks like.
@@ -52,10 +55,26 @@ pub(super) struct Scene {
     pub clip_from_base: [[f32; 4]; 4],
     /// Column-major; to the shadow map's clip space.
     pub light_from_base: [[f32; 4]; 4],
-    /// Of length 1; the fourth is unused.
+    /// Of length 1; the fourth is 1 for soft shadows and 0 for hard ones.
     pub toward_light: [f32; 4],
-    /// The fourth is unused.
+    /// Homogeneous: the fourth is 0 for a parallel view, and the rest then the direction to the eye.
     pub eye_m: [f32; 4],
+}
+
+/// What a quality costs.
+struct Effort {
+    samples: u32,
+    moving_shadow_px: u32,
+    softness: f32,
+}
+
+impl Quality {
+    fn effort(self) -> Effort {
+        match self {
+            Self::Economy => Effort { samples: 1, moving_shadow_px: 1024, softness: 0.0 },
+            Self::Fine => Effort { samples: 4, moving_shadow_px: 2048, softness: 1.0 },
+        }
+    }
 }
 
 /// Draws the scene of one stage.
@@ -63,43 +82,39 @@ pub(super) struct Scene {
 pub(super) struct SceneRenderer {
     /// What must be in the picture.
     bounds: Vec<Point3<f64>>,
+    workspace: Rect,
+    light_from_base: Matrix4<f64>,
     picture: wgpu::RenderPipeline,
     picture_bindings: wgpu::BindGroup,
     shadow: wgpu::RenderPipeline,
     shadow_bindings: wgpu::BindGroup,
-    shadow_view: wgpu::TextureView,
+    /// Shadows of what moves, made anew each frame.
+    moving_shadow: wgpu::TextureView,
     uniforms: wgpu::Buffer,
     geometry: GeometryBuffers,
+    samples: u32,
+    softness: f32,
     /// Of the last size asked for.
     target: Option<Target>,
 }
 
 impl SceneRenderer {
     /// `stage` has been checked.
-    pub fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, CameraError> {
-        gpu.checked("the scene", || Self::build(gpu, stage))
+    pub fn new(gpu: &Gpu, stage: &Stage, quality: Quality) -> Result<Self, CameraError> {
+        gpu.checked("the scene", || Self::build(gpu, stage, quality))
     }
 
-    fn build(gpu: &Gpu, stage: &Stage) -> Self {
-        let device = &gpu.device;
-        let shadow_map = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("shadow map"),
-            size: wgpu::Extent3d { width: SHADOW_PX, height: SHADOW_PX, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: DEPTH_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let shadow_view = shadow_map.create_view(&Default::default());
-        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+    fn build(gpu: &Gpu, stage: &Stage, quality: Quality) -> Self {
+        let Effort { samples, moving_shadow_px, softness } = quality.effort();
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("shadow map"),
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
+        let still_shadow = shadow_map(gpu, STILL_SHADOW_PX);
+        let moving_shadow = shadow_map(gpu, moving_shadow_px);
         let uniforms = pipeline::uniforms::<Scene>(gpu, "scene");
         let module = pipeline::module(gpu, "scene", SHADER);
         let shadow = pipeline(
@@ -119,13 +134,14 @@ impl SceneRenderer {
                 module: &module,
                 vertex: "vertex",
                 fragment: Some("fragment"),
-                samples: SAMPLES,
+                samples,
                 depth_bias: Default::default(),
             },
         );
         let picture_resources = [
             uniforms.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&shadow_view),
+            wgpu::BindingResource::TextureView(&still_shadow),
+            wgpu::BindingResource::TextureView(&moving_shadow),
             wgpu::BindingResource::Sampler(&sampler),
         ];
         // One mesh for each solid, in the order of `Solid`.
@@ -137,17 +153,49 @@ impl SceneRenderer {
             mesh::unit_cube(),
             mesh::unit_cylinder(48),
         ];
-        Self {
-            bounds: bounds(stage.workspace),
+        let bounds = bounds(stage.workspace);
+        let renderer = Self {
+            light_from_base: optics::parallel_around(&bounds, toward_light()),
+            bounds,
+            workspace: *stage.workspace,
             picture_bindings: bind(gpu, &picture, &picture_resources),
             shadow_bindings: bind(gpu, &shadow, &picture_resources[..1]),
             picture,
             shadow,
-            shadow_view,
+            moving_shadow,
             geometry: GeometryBuffers::new(gpu, &meshes, arm::MOST_PARTS + 8),
             uniforms,
+            samples,
+            softness,
             target: None,
-        }
+        };
+        renderer.throw_still_shadows(gpu, &still_shadow);
+        renderer
+    }
+
+    fn throw_still_shadows(&self, gpu: &Gpu, map: &wgpu::TextureView) {
+        let scene = Scene { light_from_base: self.light_from_base.cast::<f32>().into(), ..Scene::zeroed() };
+        gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
+        let batches = self.geometry.place(gpu, &[Part::stage(Matrix4::identity())]);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.throw_shadows(&mut encoder, map, &batches);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn throw_shadows(&self, encoder: &mut wgpu::CommandEncoder, map: &wgpu::TextureView, batches: &[Batch]) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadow map"),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: map,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.shadow);
+        pass.set_bind_group(0, &self.shadow_bindings, &[]);
+        self.geometry.draw(&mut pass, batches);
     }
 
     /// `subject` and the size have been checked.
@@ -155,36 +203,34 @@ impl SceneRenderer {
         &mut self,
         gpu: &Gpu,
         subject: &Subject,
+        viewpoint: Viewpoint,
         width_px: u32,
         height_px: u32,
     ) -> Result<CameraFrame, CameraError> {
         // The old size is given back before the new one is asked for.
         let target = match self.target.take() {
             Some(kept) if (kept.width_px, kept.height_px) == (width_px, height_px) => kept,
-            _ => Target::new(gpu, width_px, height_px, SAMPLES)?,
+            _ => Target::new(gpu, width_px, height_px, self.samples)?,
         };
         let aspect = f64::from(width_px) / f64::from(height_px);
-        let toward_eye = Vector3::from(TOWARD_EYE);
-        let perspective = optics::perspective_around(&self.bounds, toward_eye, FIELD_OF_VIEW_RAD, aspect);
-        let toward_light = Vector3::from(TOWARD_LIGHT).normalize();
-        let light_from_base = optics::parallel_around(&self.bounds, toward_light);
+        let projection = match viewpoint {
+            Viewpoint::User => {
+                optics::perspective_around(&self.bounds, Vector3::from(TOWARD_EYE), FIELD_OF_VIEW_RAD, aspect)
+            }
+            Viewpoint::Above => optics::parallel_down(&self.workspace, PLAN_MARGIN_M, aspect),
+        };
         let scene = Scene {
-            clip_from_base: perspective.clip_from_base.cast::<f32>().into(),
-            light_from_base: light_from_base.cast::<f32>().into(),
-            toward_light: toward_light.push(0.0).cast::<f32>().into(),
-            eye_m: perspective.eye_m.to_homogeneous().cast::<f32>().into(),
+            clip_from_base: projection.clip_from_base.cast::<f32>().into(),
+            light_from_base: self.light_from_base.cast::<f32>().into(),
+            toward_light: toward_light().cast::<f32>().push(self.softness).into(),
+            eye_m: projection.eye_m.cast::<f32>().into(),
         };
         let encoder = gpu.checked("the scene", || {
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
-            let batches = self.geometry.place(gpu, &parts(subject));
+            let batches = self.geometry.place(gpu, &parts(subject, viewpoint));
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-
-            let mut pass = self.begin_shadow(&mut encoder);
-            pass.set_pipeline(&self.shadow);
-            pass.set_bind_group(0, &self.shadow_bindings, &[]);
-            self.geometry.draw(&mut pass, &batches);
-            drop(pass);
-
+            // The first batch is the stage, whose shadows are thrown already.
+            self.throw_shadows(&mut encoder, &self.moving_shadow, &batches[1..]);
             let background = BACKGROUND.map(|level| f64::from(level) / 255.0);
             let mut pass = target.begin(&mut encoder, background);
             pass.set_pipeline(&self.picture);
@@ -200,29 +246,38 @@ impl SceneRenderer {
             height_px,
             rgba,
             tick: subject.tick,
-            camera_m: perspective.eye_m.coords.into(),
-            table_span_m: perspective.span_m,
-        })
-    }
-
-    fn begin_shadow<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadow map"),
-            color_attachments: &[],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.shadow_view,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
+            camera_m: projection.eye_m.xyz().into(),
+            table_span_m: projection.span_m,
         })
     }
 }
 
-/// Everything in the picture, equal solids side by side.
-fn parts(subject: &Subject) -> Vec<Part> {
+fn toward_light() -> Vector3<f64> {
+    Vector3::from(TOWARD_LIGHT).normalize()
+}
+
+/// An empty shadow map.
+fn shadow_map(gpu: &Gpu, side_px: u32) -> wgpu::TextureView {
+    let map = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow map"),
+        size: wgpu::Extent3d { width: side_px, height: side_px, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    map.create_view(&Default::default())
+}
+
+/// Everything in the picture, equal solids side by side; the stage, which stands still, first.
+fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
     let [bead_x_m, bead_y_m, _] = subject.bead_m;
-    let mut parts = arm::parts(subject);
+    let mut parts = match viewpoint {
+        Viewpoint::User => arm::parts(subject),
+        Viewpoint::Above => vec![arm::block(subject)],
+    };
     parts.push(Part::stage(Matrix4::identity()));
     parts.push(Part {
         solid: Solid::Sphere,

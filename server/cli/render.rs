@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Where tool and bead are, in metres
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_point)]
     at: Point2<f64>,
-    /// What the controllers see, or the whole scene
+    /// What the controllers see, the whole scene, or the workspace from above
     #[arg(long, value_enum, default_value = "camera")]
     view: View,
     /// PNG file to write
@@ -33,6 +33,7 @@ pub struct Arguments {
 enum View {
     Camera,
     Scene,
+    Plan,
 }
 
 fn parse_point(text: &str) -> Result<Point2<f64>, String> {
@@ -63,6 +64,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let frame = match arguments.view {
         View::Camera => camera.capture(&subject)?,
         View::Scene => camera.scene(&subject, 1280, 720)?,
+        View::Plan => camera.plan(&subject, 1280, 720)?,
     };
     std::fs::write(&arguments.out, frame.to_png()?).with_context(|| arguments.out.display().to_string())?;
     Ok(ExitCode::SUCCESS)

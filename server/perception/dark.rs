@@ -1,0 +1,109 @@
+//! The dark pixels of an image, counted so that any rectangle of them is summed with four look-ups
+//! (summed-area table: Crow 1984, SIGGRAPH).
+
+use crate::image::GrayImage;
+
+/// Gray at or below this is an obstacle: half-way between the walls (50 and less) and the floor (200
+/// and more) of the controllers' view, so that noise of either sign tips nothing.
+pub const OBSTACLE_LEVEL: u8 = 125;
+
+/// A rectangle of whole pixels; rows count from the top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// First column.
+    pub column_px: usize,
+    /// First row.
+    pub row_px: usize,
+    /// Columns.
+    pub width_px: usize,
+    /// Rows.
+    pub height_px: usize,
+}
+
+impl PixelRect {
+    /// Pixels within.
+    pub fn area_px(&self) -> usize {
+        self.width_px * self.height_px
+    }
+}
+
+/// Which pixels of an image are dark.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DarkPixels {
+    width_px: usize,
+    height_px: usize,
+    /// Dark pixels above and left of each pixel corner, `height_px + 1` rows of `width_px + 1`.
+    sums: Vec<u32>,
+}
+
+impl DarkPixels {
+    /// The pixels of `gray` that are `threshold` or darker.
+    pub fn of(gray: &GrayImage, threshold: u8) -> Self {
+        let (width_px, height_px) = (gray.width_px, gray.height_px);
+        let stride = width_px + 1;
+        let mut sums = vec![0; stride * (height_px + 1)];
+        if width_px > 0 {
+            for (row, pixels) in gray.pixels.chunks_exact(width_px).enumerate().take(height_px) {
+                let (above, below) = sums.split_at_mut(stride * (row + 1));
+                let above = &above[stride * row + 1..];
+                let mut in_row = 0;
+                for ((sum, above), &level) in below[1..stride].iter_mut().zip(above).zip(pixels) {
+                    in_row += u32::from(level <= threshold);
+                    *sum = above + in_row;
+                }
+            }
+        }
+        Self { width_px, height_px, sums }
+    }
+
+    /// Columns of the image.
+    pub fn width_px(&self) -> usize {
+        self.width_px
+    }
+
+    /// Rows of the image.
+    pub fn height_px(&self) -> usize {
+        self.height_px
+    }
+
+    /// Dark pixels in `rect`, which must lie in the image.
+    pub fn count(&self, rect: &PixelRect) -> usize {
+        self.between([rect.column_px, rect.column_px + rect.width_px], [rect.row_px, rect.row_px + rect.height_px])
+    }
+
+    /// Dark pixels in the columns and rows from the first bound up to, not including, the second.
+    pub(super) fn between(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> usize {
+        let (top, bottom) = (top * (self.width_px + 1), bottom * (self.width_px + 1));
+        let [a, b, c, d] = [bottom + right, bottom + left, top + right, top + left].map(|at| self.sums[at] as usize);
+        a + d - b - c
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_rectangle_is_counted_as_its_pixels_are(
+            (width_px, height_px, pixels) in (1..12usize, 1..12usize).prop_flat_map(|(w, h)| {
+                (Just(w), Just(h), prop::collection::vec(any::<u8>(), w * h))
+            }),
+            threshold: u8,
+        ) {
+            let gray = GrayImage { width_px, height_px, pixels };
+            let dark = DarkPixels::of(&gray, threshold);
+            for (left, top) in (0..width_px).flat_map(|left| (0..height_px).map(move |top| (left, top))) {
+                for (right, bottom) in (left..=width_px).flat_map(|r| (top..=height_px).map(move |b| (r, b))) {
+                    let rect = PixelRect {
+                        column_px: left, row_px: top, width_px: right - left, height_px: bottom - top
+                    };
+                    let is_dark = |x: usize, y: usize| gray.pixels[y * width_px + x] <= threshold;
+                    let expected = (top..bottom).map(|y| (left..right).filter(|&x| is_dark(x, y)).count()).sum();
+                    prop_assert_eq!(dark.count(&rect), expected);
+                }
+            }
+        }
+    }
+}
