@@ -120,6 +120,13 @@ export class Lab {
     ];
   }
 
+  /** What a little of the page looks like around a point of the table. */
+  async look(point) {
+    const [x, y] = await this.px(point);
+    const clip = { x: Math.round(x), y: Math.round(y), width: 2, height: 2 };
+    return (await this.page.screenshot({ clip })).toString('base64');
+  }
+
   async click(point) {
     await this.page.mouse.click(...(await this.px(point)));
   }

@@ -144,6 +144,77 @@ async function bindsParametersBothWays({ lab }) {
   await until('the form', async () => (await threshold.inputValue()) === '10.0');
 }
 
+/** In words, once the server has answered. */
+function captureWords(lab) {
+  return until('a capture', async () => {
+    const text = await lab.text('magnet-capture');
+    return text !== '–' && text;
+  });
+}
+
+async function showsWhatTheMagnetCan({ lab }) {
+  await lab.reset();
+  const { mouse } = lab.page;
+  await lab.page.getByRole('tab', { name: 'Magnet' }).click();
+  await lab.page.getByText('Magnet and bead').click();
+  const before = await captureWords(lab);
+  check(before === '4 to 95 mm', `at the defaults it captures ${before}`);
+
+  const slider = lab.page.getByRole('slider', { name: 'Friction μ slider' });
+  await slider.scrollIntoViewIfNeeded();
+  const box = await slider.boundingBox();
+  const y = box.y + box.height / 2;
+  // The slider reaches from 0 to 1.
+  await mouse.move(box.x + 0.2 * box.width, y);
+  await mouse.down();
+  await mouse.move(box.x + 0.4 * box.width, y, { steps: 5 });
+  await until('less captured', async () => (await captureWords(lab)) !== before);
+  check(lab.scene.parameters.friction === 0.2, 'the slider was sent before it was let go');
+  await mouse.up();
+  await until('the friction', () => lab.scene.parameters.friction > 0.3);
+  check((await captureWords(lab)) !== before, 'the panel forgot the friction');
+  await lab.screenshot('magnet');
+
+  await lab.button('Restore defaults').click();
+  await until('the defaults', async () => (await captureWords(lab)) === before);
+  await lab.page.getByText('Magnet and bead').click();
+  await lab.page.getByRole('tab', { name: 'Plots' }).click();
+}
+
+async function showsSingularities({ lab }) {
+  await lab.reset();
+  // Far from everything that moves, and off the grid.
+  const [x, y] = lab.freePoints(await lab.point('bead'), 0.3, 0.5)[0];
+  const look = () => lab.look([x + 0.007, y + 0.007]);
+  const bare = await look();
+  const layer = lab.page.getByLabel('Singularity');
+  await layer.check();
+  await until('the layer', async () => (await look()) !== bare);
+  const range = [await lab.number('heat-least'), await lab.number('heat-greatest')];
+  check(range[0] >= 2 && range[0] < range[1], `the legend says ${range}`);
+  await lab.screenshot('singularity');
+  await layer.uncheck();
+  await until('the bare floor', async () => (await look()) === bare);
+}
+
+async function kicksTheBead({ lab }) {
+  await lab.reset();
+  const disturbances = await lab.number('disturbances');
+  const bead = await lab.point('bead');
+  await lab.run();
+  await lab.button('Disturb').click();
+  await lab.page.getByLabel('Direction of kick and push').selectOption('right');
+  const strength = lab.page.getByLabel('Strength of the kick in mN·s');
+  await strength.fill('0.8');
+  await strength.press('Enter');
+  await until('a moved bead', () => lab.state.bead_m[0] - bead[0] > 0.02);
+  await until('a count', async () => (await lab.number('disturbances')) === disturbances + 1);
+  await lab.page.getByRole('log').getByText('a kick of 0.80 mN·s').waitFor({ timeout: 5000 });
+  await lab.screenshot('kick');
+  await lab.button('Disturb').click();
+  await lab.button('Pause').click();
+}
+
 async function goesBackInTime({ lab }) {
   await lab.reset({ speed: '8' });
   await lab.run();
@@ -214,6 +285,9 @@ export const TESTS = [
   ['refuses a goal in a wall, beside it', refusesAGoalInAWall],
   ['obeys the keyboard', obeysTheKeyboard],
   ['binds parameters both ways', bindsParametersBothWays],
+  ['shows what the magnet can', showsWhatTheMagnetCan],
+  ['shows singularities', showsSingularities],
+  ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],

@@ -11,6 +11,10 @@ export function centimetres(value_m: number, digits = 1): string {
   return `${fixed(value_m * 100, digits)} cm`;
 }
 
+export function millimetres(value_m: number, digits = 0): string {
+  return `${fixed(value_m * 1000, digits)} mm`;
+}
+
 /** Newtons, or millinewtons below a tenth. */
 export function newtons(value_n: number): string {
   return Math.abs(value_n) < 0.1 ? `${fixed(value_n * 1000, 1)} mN` : `${fixed(value_n, 2)} N`;

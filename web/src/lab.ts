@@ -4,12 +4,19 @@ import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
 import { connect, liveAddress, type Picture } from './connection';
 import { History } from './history';
 import { EMPTY, reduce, type Input, type Model, type Place } from './model';
-import { BINARY_CAMERA_JPEG, BINARY_OBSERVATION, type ClientMessage } from './protocol.gen';
+import {
+  BINARY_CAMERA_JPEG,
+  BINARY_OBSERVATION,
+  type ClientMessage,
+  type Parameters,
+} from './protocol.gen';
 
 export interface Lab {
   readonly link: Accessor<Model['link']>;
   readonly hello: Accessor<Model['hello']>;
   readonly scene: Accessor<Model['scene']>;
+  /** The parameters in force, with what the form is about to change on top. */
+  readonly tuning: Accessor<Parameters | undefined>;
   readonly state: Accessor<Model['state']>;
   readonly overlay: Accessor<Model['overlay']>;
   readonly log: Accessor<Model['log']>;
@@ -24,6 +31,8 @@ export interface Lab {
   readonly canOperate: Accessor<boolean>;
   readonly history: History;
   send(message: ClientMessage): void;
+  /** What the form is about to change. */
+  draft(change: Partial<Parameters>): void;
   notify(place: Place, text: string): void;
   dismiss(place: Place, id: number): void;
 }
@@ -74,6 +83,7 @@ export function createLab(page: Location): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
+  const [draft, setDraft] = createSignal<Partial<Parameters>>({});
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -127,11 +137,16 @@ export function createLab(page: Location): Lab {
 
   const link = createMemo(() => model().link);
   const hello = createMemo(() => model().hello);
+  const scene = createMemo(() => model().scene);
   const ended = createMemo(() => model().state?.ended ?? undefined);
   return {
     link,
     hello,
-    scene: createMemo(() => model().scene),
+    scene,
+    tuning: createMemo(() => {
+      const truth = scene()?.parameters;
+      return truth && { ...truth, ...draft() };
+    }),
     state: createMemo(() => model().state),
     overlay: createMemo(() => model().overlay),
     log: createMemo(() => model().log),
@@ -148,6 +163,9 @@ export function createLab(page: Location): Lab {
     send: (message) => {
       // `release` is sent blindly when a hold ends; a lost socket has released it already.
       if (connection.send(message)) take({ type: 'sent', command: message.type });
+    },
+    draft: (change) => {
+      setDraft(change);
     },
     notify: (place, text) => {
       take({ type: 'notice', place, text });

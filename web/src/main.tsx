@@ -7,7 +7,7 @@ import { CameraPanel } from './panels/CameraPanel';
 import { ControllerPanel } from './panels/ControllerPanel';
 import { Header } from './panels/Header';
 import { LogPanel } from './panels/LogPanel';
-import { PlotsPanel } from './panels/PlotsPanel';
+import { LowerPanel } from './panels/LowerPanel';
 import { Transport } from './panels/Transport';
 import { createTheme } from './theme';
 import { WorkspacePanel } from './workspace/WorkspacePanel';
@@ -22,7 +22,7 @@ function Page(): JSX.Element {
         <WorkspacePanel lab={lab} theme={theme} />
         <CameraPanel lab={lab} />
         <ControllerPanel lab={lab} />
-        <PlotsPanel lab={lab} theme={theme} />
+        <LowerPanel lab={lab} theme={theme} />
         <LogPanel lab={lab} />
       </main>
       <Transport lab={lab} />

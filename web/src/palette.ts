@@ -1,5 +1,8 @@
 // Colours of the canvases, read from the style sheet so that each is written once.
 
+import { createMemo, type Accessor } from 'solid-js';
+import type { Theme } from './theme';
+
 const NAMES = [
   'floor',
   'grid',
@@ -17,13 +20,23 @@ const NAMES = [
   'error-x',
   'error-y',
   'danger',
+  'heat-low',
+  'heat-middle',
+  'heat-high',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;
 
-export function readPalette(): Palette {
+function readPalette(): Palette {
   const style = getComputedStyle(document.documentElement);
   return Object.fromEntries(
     NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]),
   ) as Palette;
+}
+
+export function createPalette(theme: Accessor<Theme>): Accessor<Palette> {
+  return createMemo(() => {
+    theme();
+    return readPalette();
+  });
 }

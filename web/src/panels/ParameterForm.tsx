@@ -1,6 +1,16 @@
 // The parameters, bound both ways: edits go out whole, and what the server says is shown.
 
-import { For, Index, Show, createEffect, createMemo, createSignal, on, onCleanup } from 'solid-js';
+import {
+  For,
+  Index,
+  Show,
+  batch,
+  createEffect,
+  createMemo,
+  createSignal,
+  on,
+  onCleanup,
+} from 'solid-js';
 import type { JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import {
@@ -23,22 +33,32 @@ interface Form {
   readonly values: () => Parameters;
   readonly defaults: () => Parameters;
   readonly disabled: () => boolean;
+  /** Why a field has no effect now, if it has none. */
+  readonly idle: (name: keyof Parameters) => string | undefined;
+  /** What a slider shows while it is moved. */
+  readonly moving: () => Partial<Parameters>;
+  readonly move: (change: Partial<Parameters>) => void;
   readonly edit: (change: Partial<Parameters>) => void;
 }
 
 function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
   const { form, field } = props;
   // While a slider moves, its number follows; it goes out when the slider is let go.
-  const [moving, setMoving] = createSignal<number>();
-  const shown = (): number => moving() ?? shownValue(field, form.values()[field.name]);
+  const shown = createMemo(() =>
+    shownValue(field, form.moving()[field.name] ?? form.values()[field.name]),
+  );
   const max = (): number =>
     field.atMost ? Math.min(field.max, shownValue(field, form.values()[field.atMost])) : field.max;
-  const text = (): string => shown().toFixed(digits(field.step));
+  // A memo, so that news of other parameters does not overwrite what is being typed.
+  const text = createMemo(() => shown().toFixed(digits(field.step)));
+  const stored = (value: number): Partial<Parameters> => ({
+    [field.name]: storedValue(field, value, form.values()),
+  });
   const commit = (value: number): void => {
-    setMoving(undefined);
-    if (Number.isFinite(value)) {
-      form.edit({ [field.name]: storedValue(field, value, form.values()) });
-    }
+    batch(() => {
+      form.move({});
+      if (Number.isFinite(value)) form.edit(stored(value));
+    });
   };
   const id = `parameter-${field.name}`;
   return (
@@ -75,8 +95,12 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
         step={field.step}
         value={shown()}
         disabled={form.disabled()}
-        onInput={(event) => setMoving(event.currentTarget.valueAsNumber)}
-        onPointerCancel={() => setMoving(undefined)}
+        onInput={(event) => {
+          form.move(stored(event.currentTarget.valueAsNumber));
+        }}
+        onPointerCancel={() => {
+          form.move({});
+        }}
         onChange={(event) => {
           commit(event.currentTarget.valueAsNumber);
         }}
@@ -96,7 +120,8 @@ function ChoiceRow(props: { form: Form; field: ChoiceField }): JSX.Element {
       </label>
       <select
         id={id}
-        disabled={form.disabled()}
+        disabled={form.disabled() || form.idle(field.name) !== undefined}
+        title={form.idle(field.name)}
         onChange={(event) => {
           form.edit({ [field.name]: event.currentTarget.value });
         }}
@@ -142,6 +167,7 @@ function GroupBox(props: { form: Form; group: Group; open: boolean }): JSX.Eleme
 /** Edits that are out, by name; they go when the server's parameters agree or it refuses. */
 function createForm(lab: Lab, scene: () => SceneMessage): Form {
   const [edits, setEdits] = createSignal<Partial<Parameters>>({});
+  const [moving, setMoving] = createSignal<Partial<Parameters>>({});
   let timer: ReturnType<typeof setTimeout> | undefined;
   const drop = (): void => {
     setEdits({});
@@ -158,6 +184,11 @@ function createForm(lab: Lab, scene: () => SceneMessage): Form {
     ),
   );
   createEffect(on(lab.refusals, drop, { defer: true }));
+  createEffect(() => {
+    // A slider that is disabled under the hand never says that it was let go.
+    if (!lab.canOperate()) setMoving({});
+    lab.draft({ ...edits(), ...moving() });
+  });
   onCleanup(() => {
     clearTimeout(timer);
   });
@@ -166,6 +197,12 @@ function createForm(lab: Lab, scene: () => SceneMessage): Form {
     values,
     defaults: () => scene().defaults,
     disabled: () => !lab.canOperate(),
+    idle: (name) =>
+      name === 'tool_orientation' && scene().positioner === 'planar_stage'
+        ? 'The planar stage always holds the block upright.'
+        : undefined,
+    moving,
+    move: setMoving,
     edit: (change) => {
       let parameters: Parameters = { ...values(), ...change };
       // Lowering T below the fetch radius takes the radius along.

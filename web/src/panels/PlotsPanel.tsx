@@ -7,7 +7,7 @@ import 'uplot/dist/uPlot.min.css';
 import { fixed } from '../format';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
-import { readPalette } from '../palette';
+import { createPalette } from '../palette';
 import type { Theme } from '../theme';
 import { createPlot, type PlotContext, type PlotSpec } from './plot';
 
@@ -139,10 +139,7 @@ function Plot(props: PlotProps): JSX.Element {
 
 export function PlotsPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
   const { lab } = props;
-  const palette = createMemo(() => {
-    props.theme();
-    return readPalette();
-  });
+  const palette = createPalette(() => props.theme());
   const context: PlotContext = {
     palette,
     disturbances: createMemo(() =>
@@ -154,13 +151,10 @@ export function PlotsPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element
     threshold_m: () => lab.scene()?.parameters.threshold_m,
   };
   return (
-    <section class="panel plots" aria-labelledby="plots-title">
-      <h2 id="plots-title" class="visually-hidden">
-        Plots
-      </h2>
+    <div class="plots">
       <For each={SPECS}>
         {(spec) => <Plot lab={lab} spec={spec} context={context} theme={props.theme} />}
       </For>
-    </section>
+    </div>
   );
 }

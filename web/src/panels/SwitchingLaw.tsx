@@ -3,7 +3,7 @@
 import { Show, type JSX } from 'solid-js';
 import { centimetres, fixed, newtons } from '../format';
 import { CONTROLLER_LABELS } from '../parameters';
-import type { Parameters, SceneMessage, StateMessage } from '../protocol.gen';
+import type { Parameters, PositionerKind, SceneMessage, StateMessage } from '../protocol.gen';
 
 const GAUGE_WIDTH = 272;
 const GAUGE_LEFT = 4;
@@ -47,7 +47,7 @@ function Block(props: {
   );
 }
 
-function Diagram(props: Props): JSX.Element {
+function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
   const first = (): boolean => props.state.mode === 1;
   const literal = (): boolean => props.parameters.switching_law === 'literal';
   return (
@@ -73,8 +73,8 @@ function Diagram(props: Props): JSX.Element {
       </g>
       <g class="block fixed">
         <rect x="246" y="33" width="33" height="38" rx="5" />
-        <text class="name" x="262.5" y="56">
-          arm
+        <text class="name narrow" x="262.5" y="56">
+          {props.positioner === 'arm' ? 'arm' : 'stage'}
         </text>
       </g>
       <Block y={6} name="Sub-controller 1" does="approach the bead" active={first()} mode={1} />
@@ -169,7 +169,11 @@ function captureText(capture_m: SceneMessage['capture_m']): string {
 export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }): JSX.Element {
   return (
     <div class="switching">
-      <Diagram state={props.state} parameters={props.scene.parameters} />
+      <Diagram
+        state={props.state}
+        parameters={props.scene.parameters}
+        positioner={props.scene.positioner}
+      />
       <Gauge state={props.state} parameters={props.scene.parameters} />
       <dl class="margins">
         <Margin name="e" value={centimetres(props.state.tracking_error_m)} />

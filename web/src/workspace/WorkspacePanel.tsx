@@ -1,18 +1,25 @@
 // The plan view: click places the goal, dragging the bead is the disturbance.
 
-import { For, Show, createEffect, createMemo, createSignal, onCleanup, onMount } from 'solid-js';
+import { Show, createEffect, createMemo, createSignal, onCleanup, onMount } from 'solid-js';
 import type { JSX } from 'solid-js';
+import { createAnswer } from '../answers';
 import { fixed } from '../format';
 import type { Lab } from '../lab';
 import { NoticeBar } from '../panels/NoticeBar';
+import type { WorkspaceMap, WorkspaceQuery } from '../protocol.gen';
 import type { Theme } from '../theme';
 import { fitView, insidePolygon, worldFromPx, type Vec2, type View } from '../transform';
+import { DisturbBar } from './DisturbBar';
+import { createHeat } from './drawHeat';
 import { wallPath } from './drawMap';
 import { createHand } from './hand';
+import { workspaceQuery } from './heat';
+import { HeatLegend } from './HeatLegend';
 import { attachKeyboard } from './keyboard';
-import { LAYERS, paint, type Layer } from './paint';
-import { readPalette } from '../palette';
+import { FIRST_LAYERS, paint, type Layer } from './paint';
+import { createPalette } from '../palette';
 import { GRAB_MOUSE_PX, attachPointer, type Pointing } from './pointer';
+import { WorkspaceHead } from './WorkspaceHead';
 
 /** Room for the numbers of the axes. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
@@ -28,8 +35,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
   const [pointing, setPointing] = createSignal<Pointing>({ at: undefined, nearBead: false });
   const [cursor, setCursor] = createSignal<Vec2>();
+  const [disturbing, setDisturbing] = createSignal(false);
   const [focused, setFocused] = createSignal(false);
-  const [layers, setLayers] = createSignal<ReadonlySet<Layer>>(new Set(LAYERS.map(([id]) => id)));
+  const [layers, setLayers] = createSignal<ReadonlySet<Layer>>(new Set(FIRST_LAYERS));
 
   const view = createMemo<View | undefined>(() => {
     const scene = lab.scene();
@@ -41,11 +49,22 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     const scene = lab.scene();
     return now && scene ? wallPath(scene.walls, now) : undefined;
   });
-  const palette = createMemo(() => {
-    props.theme();
-    return readPalette();
-  });
+  const palette = createPalette(() => props.theme());
   const hand = createHand(lab, view);
+
+  const heatQuestion = createMemo<WorkspaceQuery | undefined>(() => {
+    const scene = lab.scene();
+    const parameters = lab.tuning();
+    if (!scene || !parameters || !layers().has('singularity')) return undefined;
+    return workspaceQuery(scene, parameters);
+  });
+  const heatAnswer = createAnswer<WorkspaceQuery, WorkspaceMap>('/api/kinematics/workspace', () =>
+    lab.link().kind === 'live' ? heatQuestion() : undefined,
+  );
+  const heat = createMemo(() => {
+    const map = heatAnswer().data;
+    return map && createHeat(map, palette());
+  });
 
   const readout = createMemo(() => {
     const now = view();
@@ -89,6 +108,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       walls: wallsNow,
       state: lab.state(),
       overlay: lab.overlay(),
+      heat: heatQuestion() && heat(),
       history: lab.history,
       layers: layers(),
       drag: hand.drag(),
@@ -133,36 +153,17 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
 
   return (
     <section class="panel workspace">
-      <header class="panel-head">
-        <h2>Workspace</h2>
-        <fieldset class="layers">
-          <legend class="visually-hidden">Layers</legend>
-          <For each={LAYERS}>
-            {([id, label]) => (
-              <label>
-                <input
-                  type="checkbox"
-                  checked={layers().has(id)}
-                  onChange={(event) => {
-                    toggle(id, event.currentTarget.checked);
-                  }}
-                />
-                {label}
-              </label>
-            )}
-          </For>
-        </fieldset>
-        <button
-          type="button"
-          class="small"
-          disabled={!lab.canOperate() || !lab.state()?.goal_m}
-          onClick={() => {
-            lab.send({ type: 'clear_goal' });
-          }}
-        >
-          Clear goal
-        </button>
-      </header>
+      <WorkspaceHead
+        lab={lab}
+        layers={layers()}
+        onLayer={toggle}
+        disturbId="disturb"
+        disturbing={disturbing()}
+        onDisturbing={setDisturbing}
+      />
+      <Show when={disturbing() && lab.canOperate()}>
+        <DisturbBar lab={lab} id="disturb" />
+      </Show>
       <div class="stage">
         <canvas
           ref={canvas}
@@ -182,6 +183,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
         <NoticeBar lab={lab} place="workspace" />
       </div>
+      <Show when={heatQuestion()}>
+        <HeatLegend answer={heatAnswer()} />
+      </Show>
       <footer class="panel-foot">
         <p id="workspace-help" class="hint">
           Click: goal · drag the bead: disturb, Shift lifts it over walls · keys: arrows, Enter, D

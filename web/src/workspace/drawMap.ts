@@ -65,6 +65,19 @@ function drawGrid(ctx: CanvasRenderingContext2D, rect: Rect, view: View, palette
   ctx.stroke();
 }
 
+export function drawFloor(
+  ctx: CanvasRenderingContext2D,
+  rect: Rect,
+  view: View,
+  palette: Palette,
+): void {
+  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  ctx.fillStyle = palette.floor;
+  ctx.fillRect(left, top, right - left, bottom - top);
+}
+
+/** Grid and walls, on top of what lies on the floor. */
 export function drawMap(
   ctx: CanvasRenderingContext2D,
   scene: SceneMessage,
@@ -75,8 +88,6 @@ export function drawMap(
   const rect = scene.workspace;
   const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
-  ctx.fillStyle = palette.floor;
-  ctx.fillRect(left, top, right - left, bottom - top);
   drawGrid(ctx, rect, view, palette);
   ctx.fillStyle = palette.wall;
   ctx.fill(walls, 'evenodd');

@@ -18,6 +18,10 @@ const OUTLINE_POINTS = 40;
 
 type Ctx = CanvasRenderingContext2D;
 
+export function beadRadiusPx(view: View, radius_m: number): number {
+  return Math.max(MIN_BEAD_PX, radius_m * view.pxPerM);
+}
+
 function circle(ctx: Ctx, [x, y]: Vec2, radius: number): void {
   ctx.beginPath();
   ctx.arc(x, y, radius, 0, 2 * Math.PI);
@@ -180,7 +184,7 @@ export function drawBead(
     ctx.lineWidth = 1.5;
     ctx.stroke();
   }
-  circle(ctx, at, Math.max(MIN_BEAD_PX, scene.bead_radius_m * view.pxPerM));
+  circle(ctx, at, beadRadiusPx(view, scene.bead_radius_m));
   ctx.fillStyle = palette.bead;
   ctx.fill();
   ctx.strokeStyle = palette.floor;

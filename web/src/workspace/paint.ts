@@ -5,7 +5,8 @@ import type { History } from '../history';
 import type { OverlayMessage, SceneMessage, StateMessage } from '../protocol.gen';
 import { clampToRect, pxFromWorld, worldFromPx, type Vec2, type View } from '../transform';
 import { drawCursor, drawSpring } from './drawHand';
-import { drawMap } from './drawMap';
+import { drawHeat, type Heat } from './drawHeat';
+import { drawFloor, drawMap } from './drawMap';
 import {
   drawBead,
   drawCapture,
@@ -22,8 +23,11 @@ export const LAYERS = [
   ['trail', 'Trails'],
   ['camera', 'Camera field'],
   ['capture', 'Capture'],
+  ['singularity', 'Singularity'],
 ] as const;
 export type Layer = (typeof LAYERS)[number][0];
+/** The others cover nothing. */
+export const FIRST_LAYERS = LAYERS.map(([id]) => id).filter((id) => id !== 'singularity');
 
 const TRAIL_S = 60;
 
@@ -34,6 +38,8 @@ export interface Picture {
   readonly walls: Path2D;
   readonly state: StateMessage | undefined;
   readonly overlay: OverlayMessage | undefined;
+  /** The layer of singularities, when it is shown. */
+  readonly heat: Heat | undefined;
   readonly history: History;
   readonly layers: ReadonlySet<Layer>;
   readonly drag: DragState;
@@ -116,6 +122,13 @@ export function paint(
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, size.width, size.height);
+  drawFloor(ctx, picture.scene.workspace, picture.view, picture.palette);
+  if (picture.heat) {
+    ctx.save();
+    clipToWorkspace(ctx, picture);
+    drawHeat(ctx, picture.view, picture.palette, picture.heat);
+    ctx.restore();
+  }
   drawMap(ctx, picture.scene, picture.walls, picture.view, picture.palette);
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
   if (picture.cursor) drawCursor(ctx, picture.view, picture.palette, picture.cursor);

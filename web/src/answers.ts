@@ -1,0 +1,95 @@
+// Questions to the server's calculator, asked again whenever they change.
+
+import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { Limiter, browserClock, type Clock } from './limiter';
+
+export interface Answer<A> {
+  /** The newest answer, kept when a later question is refused. */
+  readonly data?: A;
+  /** Why the newest question has no answer. */
+  readonly error?: string;
+}
+
+const ASKED_PER_S = 12;
+
+/** Asks the newest question, so often a second at most; an answer overtaken by a later one is dropped. */
+export class Asker<A> {
+  private readonly limiter: Limiter<string>;
+  private asked = 0;
+  private answered = 0;
+  private newest: Answer<A> = {};
+
+  constructor(
+    private readonly answerTo: (question: string) => Promise<A>,
+    private readonly tell: (answer: Answer<A>) => void,
+    clock: Clock = browserClock,
+  ) {
+    this.limiter = new Limiter(1000 / ASKED_PER_S, (question) => void this.send(question), clock);
+  }
+
+  ask(question: string): void {
+    this.limiter.offer(question);
+  }
+
+  /** Whoever asked is not interested any more. */
+  forget(): void {
+    this.answered = this.asked;
+  }
+
+  private async send(question: string): Promise<void> {
+    this.asked += 1;
+    const number = this.asked;
+    let answer: Answer<A>;
+    try {
+      answer = { data: await this.answerTo(question) };
+    } catch (reason) {
+      answer = { error: reason instanceof Error ? reason.message : String(reason) };
+    }
+    if (number <= this.answered) return;
+    this.answered = number;
+    this.newest = answer.error === undefined ? answer : { ...this.newest, ...answer };
+    this.tell(this.newest);
+  }
+}
+
+/** What a refusal says: the `detail` of a problem, if there is one. */
+export function problemText(body: unknown): string | undefined {
+  return typeof body === 'object' && body && 'detail' in body && typeof body.detail === 'string'
+    ? body.detail
+    : undefined;
+}
+
+async function post<A>(path: string, body: string): Promise<A> {
+  const headers = { 'content-type': 'application/json' };
+  const response = await fetch(path, { method: 'POST', headers, body }).catch(() => {
+    throw new Error('The server does not answer.');
+  });
+  if (!response.ok) {
+    const problem: unknown = await response.json().catch(() => undefined);
+    throw new Error(problemText(problem) ?? `The server answered ${response.status}.`);
+  }
+  return (await response.json()) as A;
+}
+
+/** The answer to `question` at `path`; while there is no question, the last answer stays. */
+export function createAnswer<Q, A>(
+  path: string,
+  question: Accessor<Q | undefined>,
+): Accessor<Answer<A>> {
+  const [answer, setAnswer] = createSignal<Answer<A>>({});
+  const asker = new Asker<A>((body) => post<A>(path, body), setAnswer);
+  // As text, because an equal question is no new one.
+  const body = createMemo(() => {
+    const now = question();
+    return now === undefined ? undefined : JSON.stringify(now);
+  });
+  createEffect(() => {
+    const now = body();
+    if (now === undefined) asker.forget();
+    else asker.ask(now);
+  });
+  onCleanup(() => {
+    asker.forget();
+  });
+  return answer;
+}

@@ -1,0 +1,75 @@
+// Head of the plan view: what carries the magnet, which layers are shown, what can be done.
+
+import { For, Show, type JSX } from 'solid-js';
+import type { Lab } from '../lab';
+import { LAYERS, type Layer } from './paint';
+
+export function WorkspaceHead(props: {
+  lab: Lab;
+  layers: ReadonlySet<Layer>;
+  onLayer: (layer: Layer, on: boolean) => void;
+  disturbId: string;
+  disturbing: boolean;
+  onDisturbing: (on: boolean) => void;
+}): JSX.Element {
+  const { lab } = props;
+  const hasArm = (): boolean => lab.scene()?.positioner !== 'planar_stage';
+  const reason = (layer: Layer): string | undefined =>
+    layer === 'singularity' && !hasArm()
+      ? 'The planar stage has no arm, and so no singularities.'
+      : undefined;
+  return (
+    <header class="panel-head">
+      <h2>
+        Workspace
+        <Show when={!hasArm()}>
+          <span class="remark" data-testid="positioner">
+            Planar stage, no arm
+          </span>
+        </Show>
+      </h2>
+      <fieldset class="layers">
+        <legend class="visually-hidden">Layers</legend>
+        <For each={LAYERS}>
+          {([id, label]) => (
+            <label title={reason(id)}>
+              <input
+                type="checkbox"
+                checked={props.layers.has(id) && !reason(id)}
+                disabled={reason(id) !== undefined}
+                onChange={(event) => {
+                  props.onLayer(id, event.currentTarget.checked);
+                }}
+              />
+              {label}
+            </label>
+          )}
+        </For>
+      </fieldset>
+      <div class="buttons">
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate() || !lab.state()?.goal_m}
+          onClick={() => {
+            lab.send({ type: 'clear_goal' });
+          }}
+        >
+          Clear goal
+        </button>
+        <button
+          type="button"
+          class="small"
+          aria-expanded={props.disturbing}
+          aria-controls={props.disturbId}
+          disabled={!lab.canOperate()}
+          onClick={() => {
+            props.onDisturbing(!props.disturbing);
+          }}
+        >
+          Disturb
+        </button>
+      </div>
+    </header>
+  );
+}
