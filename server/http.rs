@@ -3,6 +3,7 @@
 mod access;
 mod api;
 mod assets;
+mod body;
 mod calculator;
 mod hub;
 mod live;
@@ -34,6 +35,8 @@ use hub::Hub;
 pub const SESSION_CAP: usize = 8;
 /// Largest request body.
 const BODY_LIMIT: usize = 1 << 20;
+/// The same where ten thousand poses must fit.
+const BATCH_BODY_LIMIT: usize = 8 << 20;
 /// The session that exists from the start.
 pub const MAIN_SESSION: &str = "main";
 
@@ -117,6 +120,14 @@ impl Server {
 
 /// All routes.
 pub fn router(server: Arc<Server>) -> Router {
+    let calculator = Router::new()
+        .route("/api/kinematics/forward", post(calculator::forward))
+        .route("/api/kinematics/inverse", post(calculator::inverse))
+        .route("/api/kinematics/workspace", post(calculator::workspace))
+        .route("/api/magnetics/field", post(calculator::field))
+        .route("/api/magnetics/pull", post(calculator::pull))
+        .route("/api/magnetics/reach", post(calculator::reach))
+        .layer(DefaultBodyLimit::max(BATCH_BODY_LIMIT));
     Router::new()
         .route("/healthz", get(|| async { "ok\n" }))
         .route("/metrics", get(metrics::metrics))
@@ -130,14 +141,9 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/live", get(live::live))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))
-        .route("/api/kinematics/forward", post(calculator::forward))
-        .route("/api/kinematics/inverse", post(calculator::inverse))
-        .route("/api/kinematics/workspace", post(calculator::workspace))
-        .route("/api/magnetics/field", post(calculator::field))
-        .route("/api/magnetics/pull", post(calculator::pull))
-        .route("/api/magnetics/reach", post(calculator::reach))
-        .fallback(assets::page)
         .layer(DefaultBodyLimit::max(BODY_LIMIT))
+        .merge(calculator)
+        .fallback(assets::page)
         .layer(axum::middleware::from_fn(access::guard))
         .with_state(server)
 }

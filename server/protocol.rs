@@ -20,7 +20,7 @@ mod parse;
 mod typescript;
 
 /// Raised when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 1;
+pub const PROTOCOL_VERSION: u32 = 2;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
@@ -64,7 +64,8 @@ pub enum ClientMessage {
         #[ts(optional, type = "number")]
         seed: Option<u64>,
     },
-    /// Another map; what is left out takes its default.
+    /// Another map. Controller, seed and parameters stay as they are where they are left out; the positioner is
+    /// then what the map is made for, the start is random, and there is neither goal nor script.
     LoadScenario {
         map: String,
         #[serde(default)]

@@ -10,7 +10,7 @@ use ts_rs::TS;
 use crate::geometry::Point2;
 use crate::plant::PositionerKind;
 
-pub use disturbance::{Disturbance, DisturbanceError, Scripted, When};
+pub use disturbance::{Disturbance, DisturbanceError, SCRIPT_LIMIT, Scripted, When};
 pub use parameters::{AttractorLaw, ParameterError, Parameters, SwitchingLaw};
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 
@@ -76,7 +76,7 @@ pub struct Scenario {
     /// How often the bead is lifted away at random during transport (specification §2).
     #[serde(default)]
     pub disturbances: u32,
-    /// Disturbances at set times.
+    /// Disturbances at set times, [`SCRIPT_LIMIT`] at most.
     #[serde(default)]
     pub script: Vec<Scripted>,
 }

@@ -51,6 +51,20 @@ pub enum TrialError {
     /// Start or goal is impossible.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A scripted disturbance is impossible.
+    #[error("script[{index}]: {error}")]
+    Script {
+        /// Which one, from 0.
+        index: usize,
+        /// What is wrong with it.
+        error: InputError,
+    },
+    /// More disturbances than a script may hold.
+    #[error("script has {entries} disturbances, the limit is {}", crate::scenario::SCRIPT_LIMIT)]
+    LongScript {
+        /// How many.
+        entries: usize,
+    },
     /// No picture.
     #[error(transparent)]
     Camera(#[from] CameraError),
@@ -123,9 +137,7 @@ impl Trial {
             None => start_point(&arena.map, &arena.space, scenario.seed)?,
         };
         input::check_place("start_m", start, &arena.map)?;
-        for scripted in &scenario.script {
-            Self::check_disturbance(&scripted.disturbance, &arena.map)?;
-        }
+        Self::check_script(&scenario.script, &arena.map)?;
         let limits = limits_for(&scenario.parameters, arena.map.workspace());
         let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
         let kind = scenario.positioner.unwrap_or_else(|| PositionerKind::of(&arena.map));

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 use ferry::camera::{AdapterChoice, Camera, CameraError, Eye, Gpu, Subject};
 use ferry::geometry::Point2;
 use ferry::image::CameraFrame;
-use ferry::plant::{BeadMotion, ToolOrientation};
-use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
+use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
+use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
 use ferry::trial::{Arena, Input, InputLog, LoggedTick, Source, Trial};
 use proptest::prelude::*;
 
@@ -26,7 +26,15 @@ fn camera() -> Camera {
 
 fn scenario(seed: u64) -> Scenario {
     let arena = posts();
-    Scenario::random(&arena.map, "posts", &arena.space, ControllerName::Attractor, 2, seed, 0).unwrap()
+    let random = Scenario::random(&arena.map, "posts", &arena.space, ControllerName::Attractor, 2, seed, 0).unwrap();
+    // Half of them without an arm, all with a script.
+    let positioner = seed.is_multiple_of(2).then_some(PositionerKind::PlanarStage);
+    let script = vec![
+        Scripted { at: When::Step(3), disturbance: Disturbance::Impulse { x_n_s: 2e-4, y_n_s: 3e-4 } },
+        Scripted { at: When::Tick(150), disturbance: Disturbance::Drift { x_n: 1e-3, y_n: -1e-3, for_s: 0.6 } },
+        Scripted { at: When::Tick(220), disturbance: Disturbance::Dropout { for_s: 0.5 } },
+    ];
+    Scenario { positioner, script, ..random }
 }
 
 /// What an operator does, and when.

@@ -69,15 +69,44 @@ fn a_displacement_comes_at_its_step() {
 }
 
 #[test]
+fn the_longer_dropout_and_the_last_push_count() {
+    let at = |tick, disturbance| Scripted { at: When::Tick(tick), disturbance };
+    let push = |y_n, for_s| Disturbance::Drift { x_n: 0.0, y_n, for_s };
+    let script = vec![
+        at(10, Disturbance::Dropout { for_s: 0.8 }),
+        at(20, Disturbance::Dropout { for_s: 0.1 }),
+        at(10, push(-2e-3, 60.0)),
+        at(60, push(2e-3, 0.1)),
+    ];
+    let records = run(Scenario { start_m: Some(START), script, ..Scenario::idle("open", 1) }, 400);
+    let tracked = |at: usize| records[at].moment.tracked_m;
+    assert!((13..110).all(|at| tracked(at) == tracked(12)));
+    assert!(moved_m(&records[399].moment) < 0.02, "the push has ended: {}", moved_m(&records[399].moment));
+}
+
+#[test]
+fn kicks_that_come_together_are_no_stronger_than_the_strongest() {
+    let kick = Scripted { at: When::Tick(5), disturbance: Disturbance::Impulse { x_n_s: 2e-3, y_n_s: 0.0 } };
+    let records = run(Scenario { start_m: Some(START), script: vec![kick; 64], ..Scenario::idle("open", 1) }, 6);
+    // 4.1 m/s for 8 ms.
+    assert!(moved_m(&records[5].moment) < 0.033, "{}", moved_m(&records[5].moment));
+    assert_eq!(records[5].moment.counters.disturbances, 64);
+}
+
+#[test]
 fn a_script_that_cannot_be_is_refused_by_name() {
     let refusal = |disturbance| {
         let arena = Arena::open("open").unwrap();
         Trial::new(scripted(When::Tick(1), disturbance), arena).unwrap_err()
     };
     let far = refusal(Disturbance::Displace { x_m: 2.0, y_m: 0.0 });
-    assert!(matches!(&far, TrialError::Input(error) if error.field() == "displace"), "{far}");
+    assert!(matches!(&far, TrialError::Script { index: 0, error } if error.field() == "displace"), "{far}");
     let hard = refusal(Disturbance::Impulse { x_n_s: 1.0, y_n_s: 0.0 });
-    assert_eq!(hard.to_string(), "disturbance: x_n_s is 1, it must be within ±0.002");
+    let expected = "script[0]: disturbance: x_n_s is 1, it must be finite, and both together at most 0.002";
+    assert_eq!(hard.to_string(), expected);
+    let many = vec![Scripted { at: When::Tick(1), disturbance: Disturbance::Dropout { for_s: 1.0 } }; 65];
+    let long = Trial::new(Scenario { script: many, ..Scenario::idle("open", 1) }, Arena::open("open").unwrap());
+    assert_eq!(long.unwrap_err().to_string(), "script has 65 disturbances, the limit is 64");
 }
 
 #[test]

@@ -286,6 +286,8 @@ async fn arm_and_magnet_can_be_asked_for_numbers() {
     let lift_n = field["force_n"][0][2].as_f64().unwrap();
     assert!((lift_n / 4.815e-3 - 0.976).abs() < 1e-3, "{field}");
     assert!(field["b_t"][1][2].as_f64() > Some(0.3), "B is defined inside: {field}");
+    assert_eq!(field["is_inside"], json!([false, true]));
+    assert!(field["convention"].as_str().unwrap().contains("inside the magnet B = mu0*H + J"));
 
     let area = json!({"x_min_m": -0.3, "x_max_m": 0.28, "y_min_m": -0.54, "y_max_m": -0.21});
     let body = json!({"area": area, "cell_m": 0.01, "tool_height_m": 0.1, "tool_orientation": "vertical"});
@@ -338,6 +340,11 @@ async fn arm_and_magnet_can_be_asked_for_numbers() {
         let (status, problem) = lab.ask("POST", &format!("/api/{path}"), &body.to_string()).await;
         assert!((400..500).contains(&status) && problem["field"] == field, "{path}: {problem}");
     }
+    // Ten thousand poses fit, more bytes than any are refused as a problem.
+    let many = json!({"poses": vec![far; 10_000]}).to_string();
+    assert_eq!(lab.ask("POST", "/api/kinematics/inverse", &many).await.0, 200);
+    let (status, problem) = lab.ask("POST", "/api/kinematics/inverse", &" ".repeat(9 << 20)).await;
+    assert_eq!((status, &problem["code"]), (413, &json!("too_large")), "{problem}");
     lab.close().await;
 }
 
@@ -371,6 +378,11 @@ async fn a_hand_leaves_nothing_behind() {
     browser.send(json!({"type": "rewind", "tick": tick})).await;
     let then = browser.state("that moment", |m| m["running"] == false && m["tick"].as_u64() <= Some(tick)).await;
     assert!(!then["hand_m"].is_null(), "{then}");
+    // A refused input changes nothing, not even that.
+    browser.send(json!({"type": "set_goal", "x_m": 9.0, "y_m": 9.0})).await;
+    browser.error().await;
+    let after = browser.state("as it was", |m| m["tick"] == then["tick"]).await;
+    assert_eq!((&after["hand_m"], &after["world_hash"]), (&then["hand_m"], &then["world_hash"]));
     browser.send(json!({"type": "step", "ticks": 1})).await;
     browser.state("a tick on", |m| m["tick"].as_u64() > then["tick"].as_u64() && m["hand_m"].is_null()).await;
     lab.close().await;
@@ -390,6 +402,12 @@ async fn the_bead_can_be_kicked_and_a_scripted_kick_comes_by_itself() {
     assert_eq!(state["disturbances"], 1);
     assert!(state["tracking_error_m"].as_f64() > Some(0.01), "{state}");
 
+    let never = json!([{"at": {"step": 0}, "disturbance": kick(3e-4)}]);
+    browser.send(json!({"type": "load_scenario", "map": "open", "script": never})).await;
+    let error = browser.error().await;
+    assert_eq!((&error["code"], &error["field"]), (&json!("bad_script"), &json!("script")), "{error}");
+    assert!(error["message"].as_str().unwrap().contains("script[0]"), "{error}");
+
     // On a stage without an arm, and with a script.
     let script = json!([{"at": {"tick": 5}, "disturbance": kick(3e-4)}]);
     let load = json!({"type": "load_scenario", "map": "open", "positioner": "planar_stage", "script": script});
@@ -398,6 +416,13 @@ async fn the_bead_can_be_kicked_and_a_scripted_kick_comes_by_itself() {
     browser.send(json!({"type": "step", "ticks": 10})).await;
     let state = browser.state("struck", |m| m["tick"] == 10 && m["disturbances"] == 1).await;
     assert!(state["joints_rad"].is_null(), "{state}");
+    // Gone back before it, and set up anew, it strikes again.
+    for back in [json!({"type": "rewind", "tick": 0}), json!({"type": "reset"})] {
+        browser.send(back).await;
+        browser.state("before it", |m| m["tick"] == 0 && m["disturbances"] == 0).await;
+        browser.send(json!({"type": "step", "ticks": 10})).await;
+        browser.state("struck again", |m| m["tick"] == 10 && m["disturbances"] == 1).await;
+    }
     lab.close().await;
 }
 

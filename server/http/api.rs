@@ -4,13 +4,14 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use axum::Json;
-use axum::body::{Body, Bytes};
+use axum::body::Body;
 use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use tokio_util::io::ReaderStream;
 
+use super::body::WholeBody;
 use super::problem::Problem;
 use super::{MAIN_SESSION, SESSION_CAP, Server};
 use crate::map::{Map, MapError};
@@ -85,7 +86,10 @@ impl Default for NewSession {
     }
 }
 
-pub async fn create_session(State(server): State<Arc<Server>>, body: Bytes) -> Result<Response, Problem> {
+pub async fn create_session(
+    State(server): State<Arc<Server>>,
+    WholeBody(body): WholeBody,
+) -> Result<Response, Problem> {
     let asked: NewSession = if body.is_empty() { NewSession::default() } else { parse(&body)? };
     // Files are for the command line: no client path touches the file system.
     Map::shipped(&asked.map).map_err(|error| {

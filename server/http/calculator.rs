@@ -1,12 +1,12 @@
 //! `POST /api/kinematics/…` and `POST /api/magnetics/…`: the arm and the magnet as a calculator.
 
 use axum::Json;
-use axum::body::Bytes;
 use axum::http::StatusCode;
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 use super::api::parse;
+use super::body::WholeBody;
 use super::problem::Problem;
 use crate::control::limits::LEAST_MANIPULABILITY_M3;
 use crate::geometry::{Isometry3, Matrix3, Vector3};
@@ -43,7 +43,7 @@ pub struct ForwardAnswer {
     flange: Vec<Pose>,
 }
 
-pub async fn forward(body: Bytes) -> Result<Json<ForwardAnswer>, Problem> {
+pub async fn forward(WholeBody(body): WholeBody) -> Result<Json<ForwardAnswer>, Problem> {
     let request: ForwardRequest = parse(&body)?;
     limit("joints_rad", request.joints_rad.len())?;
     let poses = request.joints_rad.iter().map(|joints| {
@@ -68,7 +68,7 @@ pub struct InverseAnswer {
     solutions: Vec<Vec<Joints>>,
 }
 
-pub async fn inverse(body: Bytes) -> Result<Json<InverseAnswer>, Problem> {
+pub async fn inverse(WholeBody(body): WholeBody) -> Result<Json<InverseAnswer>, Problem> {
     let request: InverseRequest = parse(&body)?;
     limit("poses", request.poses.len())?;
     let mut solutions = Vec::with_capacity(request.poses.len());
@@ -99,13 +99,14 @@ fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
 }
 
 /// The arm's manipulability over the table: the singularity-free workspace is where it is not small.
-pub async fn workspace(body: Bytes) -> Result<Json<WorkspaceMap>, Problem> {
+pub async fn workspace(WholeBody(body): WholeBody) -> Result<Json<WorkspaceMap>, Problem> {
     let WorkspaceQuery { area, cell_m, tool_height_m, tool_orientation } = parse(&body)?;
     // A tenth of a second for the largest.
     let making = move || manipulability_map(&area, cell_m, tool_height_m, tool_orientation);
     let made = tokio::task::spawn_blocking(making).await.map_err(Problem::internal)?;
     let map = made.map_err(|error| {
         let field = match error {
+            WorkspaceError::NonFinite { input: "height", .. } => "tool_height_m",
             WorkspaceError::NonFinite { .. } | WorkspaceError::EmptyArea { .. } => "area",
             WorkspaceError::EmptyCell { .. } | WorkspaceError::TooManyCells { .. } => "cell_m",
         };
@@ -115,13 +116,13 @@ pub async fn workspace(body: Bytes) -> Result<Json<WorkspaceMap>, Problem> {
 }
 
 /// The pull on the bead over its offset from the block.
-pub async fn pull(body: Bytes) -> Result<Json<PullCurve>, Problem> {
+pub async fn pull(WholeBody(body): WholeBody) -> Result<Json<PullCurve>, Problem> {
     let query: PullQuery = parse(&body)?;
     curves::pull(&query).map(Json).map_err(|error| no_curve(&error))
 }
 
 /// How far and how fast the block drags the bead, over its height.
-pub async fn reach(body: Bytes) -> Result<Json<ReachCurve>, Problem> {
+pub async fn reach(WholeBody(body): WholeBody) -> Result<Json<ReachCurve>, Problem> {
     let query: ReachQuery = parse(&body)?;
     // Some tenths of a millisecond a height.
     let curve = tokio::task::spawn_blocking(move || curves::reach(&query)).await.map_err(Problem::internal)?;
@@ -154,15 +155,21 @@ struct FieldRequest {
     moment_a_m2: f64,
 }
 
+/// What B means inside the magnet, for whoever asks there.
+const CONVENTION: &str = "b_t is the flux density B; inside the magnet B = mu0*H + J with the polarization J, a face counts \
+                          as outside; force_n is m*grad|B| and no sphere fits where is_inside is true";
+
 /// Answer of `POST /api/magnetics/field`: flux density, inside the magnet too, and the force on a
 /// sphere of that moment, aligned with the field.
 #[derive(Serialize)]
 pub struct FieldAnswer {
     b_t: Vec<[f64; 3]>,
     force_n: Vec<[f64; 3]>,
+    is_inside: Vec<bool>,
+    convention: &'static str,
 }
 
-pub async fn field(body: Bytes) -> Result<Json<FieldAnswer>, Problem> {
+pub async fn field(WholeBody(body): WholeBody) -> Result<Json<FieldAnswer>, Problem> {
     let request: FieldRequest = parse(&body)?;
     limit("points_m", request.points_m.len())?;
     let magnet = &request.magnet;
@@ -170,6 +177,10 @@ pub async fn field(body: Bytes) -> Result<Json<FieldAnswer>, Problem> {
         Cuboid::new(Vector3::from(magnet.size_m) / 2.0, Vector3::from(magnet.polarization_t)).map_err(|error| {
             Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "bad_magnet", error.to_string()).field("magnet")
         })?;
+    if request.moment_a_m2 < 0.0 {
+        let detail = format!("moment_a_m2 is {}, it must not be negative", request.moment_a_m2);
+        return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", detail).field("moment_a_m2"));
+    }
     let relative = |point: &[f64; 3]| Vector3::from(*point) - Vector3::from(magnet.position_m);
     let points_m: Vec<_> = request.points_m.iter().map(relative).collect();
     let b_t: Vec<[f64; 3]> = block.fields_t(&points_m).into_iter().map(Into::into).collect();
@@ -183,7 +194,8 @@ pub async fn field(body: Bytes) -> Result<Json<FieldAnswer>, Problem> {
             Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "not_finite", detail).field(&format!("points_m[{index}]"))
         );
     }
-    Ok(Json(FieldAnswer { b_t, force_n }))
+    let is_inside = points_m.iter().map(|point| block.contains(point)).collect();
+    Ok(Json(FieldAnswer { b_t, force_n, is_inside, convention: CONVENTION }))
 }
 
 fn limit(field: &str, count: usize) -> Result<(), Problem> {

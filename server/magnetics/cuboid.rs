@@ -23,11 +23,15 @@ use std::f64::consts::PI;
 /// form, an eightfold difference, keeps no more digits than that.
 const DIPOLE_DISTANCE: f64 = 1e3;
 
+/// Half sides within which nothing overflows, m.
+const LEAST_HALF_M: f64 = 1e-9;
+const MOST_HALF_M: f64 = 1e6;
+
 /// Why a cuboid cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CuboidError {
-    /// A side is zero, negative, infinite or NaN.
-    #[error("{field} must be positive and finite, not {value}")]
+    /// A side is zero, negative, NaN, or of no magnet's size.
+    #[error("{field} must be {LEAST_HALF_M} to {MOST_HALF_M} m, not {value}")]
     HalfSize {
         /// `half_size_m.x`, `half_size_m.y` or `half_size_m.z`.
         field: &'static str,
@@ -61,7 +65,7 @@ impl Cuboid {
     pub fn new(half_size_m: Vector3<f64>, polarization_t: Vector3<f64>) -> Result<Self, CuboidError> {
         let names = ["half_size_m.x", "half_size_m.y", "half_size_m.z"];
         for (field, &value) in names.into_iter().zip(&half_size_m) {
-            if !(value.is_finite() && value > 0.0) {
+            if !(LEAST_HALF_M..=MOST_HALF_M).contains(&value) {
                 return Err(CuboidError::HalfSize { field, value });
             }
         }
@@ -72,6 +76,11 @@ impl Cuboid {
             }
         }
         Ok(Self { half_size_m, polarization_t })
+    }
+
+    /// Whether a point (m, from the centre) lies inside; a face belongs to the outside.
+    pub fn contains(&self, point_m: &Vector3<f64>) -> bool {
+        (0..3).all(|axis| point_m[axis].abs() < self.half_size_m[axis])
     }
 
     /// Magnetic moment, A·m²: polarisation times volume over μ0.

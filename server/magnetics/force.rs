@@ -11,7 +11,8 @@ use super::{
 use crate::geometry::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Offset at which the search for the capture interval begins, m: no pull of this block lasts so far.
+/// Offset at which the search for the capture interval begins, m: no pull of this block beats a friction of
+/// 0.001 so far away. An interval that ends here ends nowhere.
 pub const FARTHEST_M: f64 = 0.5;
 /// Step of that search, m.
 const SCAN_STEP_M: f64 = 1e-3;

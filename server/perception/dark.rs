@@ -71,6 +71,17 @@ impl DarkPixels {
         self.between([rect.column_px, rect.column_px + rect.width_px], [rect.row_px, rect.row_px + rect.height_px])
     }
 
+    /// 1 for each dark pixel and 0 for any other, row by row.
+    pub(super) fn flags(&self) -> Vec<u8> {
+        let stride = self.width_px + 1;
+        let mut flags = Vec::with_capacity(self.width_px * self.height_px);
+        for (above, below) in self.sums.chunks_exact(stride).zip(self.sums.chunks_exact(stride).skip(1)) {
+            let until = || above.iter().zip(below).map(|(above, below)| below - above);
+            flags.extend(until().skip(1).zip(until()).map(|(until, before)| (until - before) as u8));
+        }
+        flags
+    }
+
     /// Dark pixels in the columns and rows from the first bound up to, not including, the second.
     pub(super) fn between(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> usize {
         let (top, bottom) = (top * (self.width_px + 1), bottom * (self.width_px + 1));
@@ -94,6 +105,8 @@ mod tests {
         ) {
             let gray = GrayImage { width_px, height_px, pixels };
             let dark = DarkPixels::of(&gray, threshold);
+            prop_assert!(dark.flags().iter().zip(&gray.pixels).all(|(&flag, &level)| (flag == 1) == (level <= threshold)));
+            prop_assert_eq!(dark.flags().len(), gray.pixels.len());
             for (left, top) in (0..width_px).flat_map(|left| (0..height_px).map(move |top| (left, top))) {
                 for (right, bottom) in (left..=width_px).flat_map(|r| (top..=height_px).map(move |b| (r, b))) {
                     let rect = PixelRect {

@@ -96,13 +96,16 @@ impl Plant {
         // Friction is an impulse that can stop but never reverse the bead, so that sticking is exact at
         // any step length. Drag is implicit, and last, so that it does not help the bead to stick.
         bead.velocity_m_s += force_n * (dt_s / mass_kg);
+        let is_lifted = hand.is_some_and(|hand| hand.lift);
+        let wall_friction_m_s = if is_lifted { 0.0 } else { contact::lean(bead, map) };
         self.rub(bead, normal_n * dt_s / mass_kg);
+        bead.velocity_m_s = shrunk(bead.velocity_m_s, wall_friction_m_s);
         bead.velocity_m_s /= 1.0 + damping_n_s_m * dt_s / mass_kg;
         let speed_m_s = bead.velocity_m_s.norm();
         if hand.is_some() && speed_m_s > HAND_SPEED_LIMIT_M_S {
             bead.velocity_m_s *= HAND_SPEED_LIMIT_M_S / speed_m_s;
         }
-        if hand.is_some_and(|hand| hand.lift) {
+        if is_lifted {
             bead.position_m += bead.velocity_m_s * dt_s;
         } else {
             contact::advance(bead, map, dt_s);
@@ -115,27 +118,30 @@ impl Plant {
     /// 2/5·m·r²), until both are equal and it rolls; then 7/5 of its mass resists (Goldstein,
     /// *Classical Mechanics*, §5).
     fn rub(&self, bead: &mut Bead, load_m_s: f64) {
-        let slip = bead.velocity_m_s - bead.roll_m_s;
         let friction_m_s = self.parameters.friction * load_m_s;
         let resistance = self.parameters.rolling_resistance;
         // A resistance beyond the friction never lets it begin to roll.
         if self.parameters.bead_motion == BeadMotion::Sliding || resistance >= self.parameters.friction {
             bead.roll_m_s = Vector2::zeros();
             bead.velocity_m_s = shrunk(bead.velocity_m_s, friction_m_s);
-        } else if slip.norm() * SPHERE_INERTIA / (1.0 + SPHERE_INERTIA) <= friction_m_s {
-            let common = (bead.velocity_m_s + bead.roll_m_s * SPHERE_INERTIA) / (1.0 + SPHERE_INERTIA);
-            bead.velocity_m_s = shrunk(common, resistance * load_m_s / (1.0 + SPHERE_INERTIA));
-            bead.roll_m_s = bead.velocity_m_s;
-        } else {
-            let change = slip.normalize() * friction_m_s;
-            bead.velocity_m_s -= change;
-            bead.roll_m_s = shrunk(bead.roll_m_s + change / SPHERE_INERTIA, resistance * load_m_s / SPHERE_INERTIA);
+            return;
         }
+        let common = (bead.velocity_m_s + bead.roll_m_s * SPHERE_INERTIA) / (1.0 + SPHERE_INERTIA);
+        let rolling = shrunk(common, resistance * load_m_s / (1.0 + SPHERE_INERTIA));
+        if (bead.velocity_m_s - rolling).norm() <= friction_m_s {
+            (bead.velocity_m_s, bead.roll_m_s) = (rolling, rolling);
+            return;
+        }
+        // It would take more than Coulomb's friction: the bead slips.
+        let slip = bead.velocity_m_s - bead.roll_m_s;
+        let change = slip.try_normalize(0.0).unwrap_or_default() * friction_m_s;
+        bead.velocity_m_s -= change;
+        bead.roll_m_s = shrunk(bead.roll_m_s + change / SPHERE_INERTIA, resistance * load_m_s / SPHERE_INERTIA);
     }
 }
 
 /// `velocity` made slower by `by_m_s`, at most to rest.
-fn shrunk(velocity: Vector2<f64>, by_m_s: f64) -> Vector2<f64> {
+pub(super) fn shrunk(velocity: Vector2<f64>, by_m_s: f64) -> Vector2<f64> {
     let speed_m_s = velocity.norm();
     if speed_m_s > by_m_s { velocity * (1.0 - by_m_s / speed_m_s) } else { Vector2::zeros() }
 }

@@ -1,5 +1,6 @@
 //! The bead against the walls: it slides along them, bounces a little, and never passes.
 
+use super::bead::shrunk;
 use super::{BEAD_RADIUS_M, Bead};
 use crate::geometry::{Point2, Vector2};
 use crate::map::Map;
@@ -8,10 +9,28 @@ use crate::map::Map;
 const RESTITUTION: f64 = 0.3;
 /// Friction of bead on wall.
 const WALL_FRICTION: f64 = 0.1;
-/// Corners need a pass for each of their two walls, and one more to see that both hold.
+/// Most walls that one hop settles in turn before it looks for the corner between the last two.
 const PASSES: usize = 4;
 /// Rounding allowed when a contact is checked.
 const SLOP_M: f64 = 1e-9;
+/// A bead this near to a wall leans on it.
+const TOUCH_M: f64 = 1e-7;
+/// Slower than this into the wall that it touches, the bead leans and does not bounce: what the strongest
+/// pull adds in a millisecond.
+const LEAN_M_S: f64 = 0.02;
+
+/// Takes the push of a bead into the wall that it leans on, so that only what is left of it works
+/// against the table's friction. Returns by how much the wall's own friction slows the bead.
+pub(super) fn lean(bead: &mut Bead, map: &Map) -> f64 {
+    let Some(wall) = map.nearest_wall_point_within(bead.position_m, BEAD_RADIUS_M + TOUCH_M) else { return 0.0 };
+    let Some(normal) = (bead.position_m - wall).try_normalize(1e-12) else { return 0.0 };
+    let push_m_s = -bead.velocity_m_s.dot(&normal);
+    if !(0.0..=LEAN_M_S).contains(&push_m_s) {
+        return 0.0;
+    }
+    bead.velocity_m_s += normal * push_m_s;
+    WALL_FRICTION * push_m_s
+}
 
 /// Moves the bead for `dt_s`, in hops short enough that its centre cannot cross a wall unseen.
 pub(super) fn advance(bead: &mut Bead, map: &Map, dt_s: f64) {
@@ -22,33 +41,59 @@ pub(super) fn advance(bead: &mut Bead, map: &Map, dt_s: f64) {
     }
 }
 
+/// A wall where the bead met it: its nearest point, and the normal from it to the bead.
+#[derive(Clone, Copy)]
+struct Contact {
+    wall_m: Point2<f64>,
+    normal: Vector2<f64>,
+}
+
 fn hop(bead: &mut Bead, map: &Map, dt_s: f64) {
     if bead.velocity_m_s == Vector2::zeros() {
         return;
     }
-    let from = bead.position_m;
-    let mut to = from + bead.velocity_m_s * dt_s;
+    let mut to = bead.position_m + bead.velocity_m_s * dt_s;
+    let mut last: Option<Contact> = None;
     for _ in 0..PASSES {
-        let Some(wall) = map.nearest_wall_point_within(to, BEAD_RADIUS_M - SLOP_M) else {
+        let Some(wall_m) = map.nearest_wall_point_within(to, BEAD_RADIUS_M - SLOP_M) else {
             bead.position_m = to;
             return;
         };
-        let gap: Vector2<f64> = to - wall;
         // The hop is shorter than the radius, so `to` is still on the wall's free side, and the
         // normal points from the wall to the bead.
-        let Some(normal) = gap.try_normalize(1e-12) else { break };
-        to = wall + normal * BEAD_RADIUS_M;
-        let approach_m_s = bead.velocity_m_s.dot(&normal);
-        if approach_m_s < 0.0 {
-            let impulse_m_s = -(1.0 + RESTITUTION) * approach_m_s;
-            let tangential = bead.velocity_m_s - normal * approach_m_s;
-            let drop_m_s = (WALL_FRICTION * impulse_m_s).min(tangential.norm());
-            let tangential = tangential - tangential.try_normalize(1e-12).unwrap_or_default() * drop_m_s;
-            bead.velocity_m_s = tangential - normal * RESTITUTION * approach_m_s;
+        let Some(normal) = (to - wall_m).try_normalize(1e-12) else { break };
+        let met = Contact { wall_m, normal };
+        bounce(bead, normal);
+        to = wall_m + normal * BEAD_RADIUS_M;
+        // In a corner each wall pushes the bead into the other, by less each time but never by nothing.
+        // Nearer than its radius to where it fitted there is no wall that it could have passed.
+        if let Some(corner_m) = last.and_then(|other| corner(other, met))
+            && (corner_m - bead.position_m).norm() < BEAD_RADIUS_M
+            && map.nearest_wall_point_within(corner_m, BEAD_RADIUS_M - SLOP_M).is_none()
+        {
+            to = corner_m;
         }
+        last = Some(met);
     }
     // A wedge too narrow to resolve: stay where it was valid.
     bead.velocity_m_s = Vector2::zeros();
+}
+
+/// The impulse of a wall on a bead that moves into it.
+fn bounce(bead: &mut Bead, normal: Vector2<f64>) {
+    let approach_m_s = bead.velocity_m_s.dot(&normal);
+    if approach_m_s < 0.0 {
+        let impulse_m_s = -(1.0 + RESTITUTION) * approach_m_s;
+        let tangential = shrunk(bead.velocity_m_s - normal * approach_m_s, WALL_FRICTION * impulse_m_s);
+        bead.velocity_m_s = tangential - normal * RESTITUTION * approach_m_s;
+    }
+}
+
+/// Where the bead touches both walls, if they are not parallel.
+fn corner(a: Contact, b: Contact) -> Option<Point2<f64>> {
+    let normals = nalgebra::Matrix2::from_rows(&[a.normal.transpose(), b.normal.transpose()]);
+    let reach = |c: Contact| c.normal.dot(&c.wall_m.coords) + BEAD_RADIUS_M;
+    normals.try_inverse().map(|inverse| Point2::from(inverse * Vector2::new(reach(a), reach(b))))
 }
 
 /// The nearest point to `wanted` at which the bead fits, to a millimetre, searched outward on circles;
@@ -60,7 +105,8 @@ pub fn nearest_fit(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
     }
     let farthest_mm = (map.workspace().size_m().norm() * 1e3).ceil() as u32;
     (1..=farthest_mm).find_map(|radius_mm| {
-        let count = 16 + 4 * radius_mm.min(60);
+        // A millimetre apart on the circle too.
+        let count = (std::f64::consts::TAU * f64::from(radius_mm)).ceil().max(16.0) as u32;
         (0..count)
             .map(|k| {
                 let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(count)).sin_cos();

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::*;
-use crate::geometry::{Vector2, Vector3};
+use crate::geometry::{UnitQuaternion, Vector2, Vector3};
 
 const PARAMETERS: PlantParameters = PlantParameters {
     block_orientation: BlockOrientation::A,
@@ -148,6 +148,65 @@ fn the_pull_goes_through_a_wall_and_the_bead_does_not() {
         step(&plant, &mut state, &map, Point3::new(0.03, -0.3, 0.1));
     }
     assert_eq!(state, before, "pressed to the wall it rests");
+    assert_eq!(state.bead.velocity_m_s, Vector2::zeros());
+}
+
+#[test]
+fn a_bead_that_leans_on_a_wall_is_held_by_the_tables_friction() {
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
+        <rect x="0" y="200" width="4" height="200"/></svg>"#;
+    let (plant, map) = (Plant::new(PARAMETERS), Map::from_svg("wall", svg).unwrap());
+    let holds_n = PARAMETERS.friction * dipole::weight_n();
+    // Into the wall and along it, in units of what the table holds; whether it slides along the wall.
+    for (into, along, slides) in [(2.0, 0.9, false), (3.0, 0.8, false), (0.5, 0.9, false), (2.0, 1.3, true)] {
+        let mut state = at_rest(Point2::new(-BEAD_RADIUS_M, -0.3));
+        state.drift_n = Vector2::new(into, 0.0) * holds_n;
+        for _ in 0..500 {
+            step(&plant, &mut state, &map, FAR_AWAY);
+        }
+        let before = state.bead;
+        state.drift_n.y = along * holds_n;
+        for _ in 0..5000 {
+            step(&plant, &mut state, &map, FAR_AWAY);
+        }
+        assert_eq!(state.bead != before, slides, "{into} {along}: {:?}", state.bead);
+    }
+}
+
+#[test]
+fn a_bead_bounces_out_of_an_acute_corner() {
+    // Two walls that meet at 60°, opening to the left.
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
+        <path d="M0 300 L-150 213.4 L-150 200 L200 200 L200 400 L-150 400 L-150 386.6 Z"/></svg>"#;
+    let map = Map::from_svg("corner", svg).unwrap();
+    let mut bead = Bead { velocity_m_s: Vector2::new(0.5, 0.003), ..Bead::at(Point2::new(-0.02, -0.3)) };
+    for _ in 0..100 {
+        contact::advance(&mut bead, &map, 1e-3);
+        assert!(map.clearance_m(bead.position_m) >= BEAD_RADIUS_M - 1e-6);
+    }
+    assert!(bead.velocity_m_s.x < -0.01, "{bead:?}");
+}
+
+#[test]
+fn a_bead_rolls_only_as_far_as_friction_turns_it() {
+    // What slows or turns the bead in one step is never more than Coulomb's friction.
+    for resistance in [0.0, 0.01, 0.1, 0.15, 0.19] {
+        let parameters = PlantParameters {
+            bead_motion: BeadMotion::Rolling,
+            rolling_resistance: resistance,
+            drag_n_s_m: 0.0,
+            ..PARAMETERS
+        };
+        let (plant, map) = (Plant::new(parameters), open());
+        let most_m_s = PARAMETERS.friction * dipole::GRAVITY_M_S2 * 1e-3;
+        for (v, roll) in [(0.3, 0.3), (0.3, 0.298), (0.3, 0.0), (0.0, 0.3), (0.1, -0.1), (0.002, 0.0)] {
+            let mut state = at_rest(Point2::new(0.0, -0.37));
+            (state.bead.velocity_m_s.x, state.bead.roll_m_s.x) = (v, roll);
+            step(&plant, &mut state, &map, FAR_AWAY);
+            let change_m_s = (state.bead.velocity_m_s.x - v).abs();
+            assert!(change_m_s <= most_m_s * (1.0 + 1e-6), "{resistance} {v} {roll}: {change_m_s}");
+        }
+    }
 }
 
 #[test]
@@ -161,9 +220,18 @@ fn a_tilted_block_pulls_where_it_leans() {
     };
     let (upright, tilted) = (pull(ToolOrientation::Vertical), pull(ToolOrientation::Paper));
     assert!(upright.lateral_n.norm() < 1e-12, "{upright:?}");
-    // The block's middle stands 5 mm above the tool point, tilted by 3.2°, and so does its axis.
-    assert!(tilted.lateral_n.norm() > 1e-5, "{tilted:?}");
-    assert!((tilted.vertical_n / upright.vertical_n - 1.0).abs() < 0.02);
+    // By hand: the flange's rotation vector is the paper's, the block hangs on it with its middle 175 mm
+    // below, and the bead lies under the tool point, 180 mm below.
+    let base_from_flange = UnitQuaternion::from_scaled_axis(Vector3::new(2.182, -2.182, 0.0));
+    let down = base_from_flange * Vector3::z();
+    let base_from_block = base_from_flange * crate::robot::tool_down().inverse();
+    let bead_from_middle = Vector3::new(tool.x, tool.y, BEAD_RADIUS_M) - (tool.coords - down * 0.005);
+    let block = force::block(BlockOrientation::A, dipole::BLOCK_REMANENCE_T);
+    let in_block = base_from_block.inverse() * bead_from_middle;
+    let expected = base_from_block * force::force_n(&block, &in_block, dipole::moment_a_m2());
+    assert!((tilted.lateral_n - expected.xy()).norm() < 1e-12 && (tilted.vertical_n - expected.z).abs() < 1e-12);
+    // It leans by 3.2°: a lateral pull of a part of the lift.
+    assert!(tilted.lateral_n.norm() > 0.005 * tilted.vertical_n, "{tilted:?}");
 }
 
 #[test]
@@ -186,12 +254,13 @@ fn a_straight_tool_path_stays_in_its_plane() {
 }
 
 /// However violently a hand pulls, a magnet flies or a kick strikes, the bead stays on its side of
-/// every wall: ten million ticks, a tenth of a second each pull, on every map.
+/// every wall: ten million ticks, a tenth of a second each pull, on every map and in clutter.
 #[test]
 fn ten_million_violent_ticks_cross_no_wall() {
     const TICKS: usize = 10_000_000;
     const RUNS: usize = 200;
-    let maps = Map::shipped_names().iter().map(|name| Map::shipped(name).unwrap()).collect::<Vec<_>>();
+    let mut maps = Map::shipped_names().iter().map(|name| Map::shipped(name).unwrap()).collect::<Vec<_>>();
+    maps.push(clutter());
     let crossings: usize = (0..RUNS)
         .into_par_iter()
         .map(|run| {
@@ -208,6 +277,19 @@ fn a_violent_run_is_the_same_each_time() {
     let runs: Vec<_> = (0..4).into_par_iter().map(|_| violent_run(&map, 7, 20_000).1).collect();
     assert!(runs.windows(2).all(|pair| pair[0] == pair[1]));
     assert_ne!(runs[0], violent_run(&map, 8, 20_000).1);
+}
+
+/// Thin walls at every angle, crossing each other: notches and wedges of all kinds.
+fn clutter() -> Map {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let mut body = String::new();
+    for _ in 0..60 {
+        let (x, y) = (rng.random_range(-180.0..180.0), rng.random_range(210.0..390.0));
+        let (turn, length) = (rng.random_range(0.0..180.0), rng.random_range(5.0..60.0));
+        body += &format!(r#"<rect x="{x}" y="{y}" width="{length}" height=".3" transform="rotate({turn} {x} {y})"/>"#);
+    }
+    let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">{body}</svg>"#);
+    Map::from_svg("clutter", &svg).unwrap()
 }
 
 /// Counts steps after which the bead overlaps a wall or has passed through one, and hashes every tick.

@@ -59,6 +59,9 @@ impl From<&CommandError> for ErrorMessage {
                 ("map_refused", Some("map"))
             }
             CommandError::Trial(TrialError::Parameter(error)) => ("parameter_out_of_range", Some(error.field)),
+            CommandError::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => {
+                ("bad_script", Some("script"))
+            }
             CommandError::Trial(_) => ("trial_failed", None),
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
             CommandError::Busy => ("busy", None),

@@ -3,6 +3,10 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+/// Most disturbances of one script.
+pub const SCRIPT_LIMIT: usize = 64;
+/// Control steps of a goal at which a script may strike: the limit that a goal has.
+const MOST_STEPS: u32 = 600;
 /// Largest kick: it sends the resting bead off at about 4 m/s.
 const MOST_IMPULSE_N_S: f64 = 2e-3;
 /// Largest push: about twice the bead's weight.
@@ -50,7 +54,7 @@ pub enum Disturbance {
 pub enum When {
     /// Before this tick.
     Tick(#[ts(type = "number")] u64),
-    /// At this control step since the goal was placed.
+    /// At this control step, 1 to 600, of whichever goal first gets so far.
     Step(u32),
 }
 
@@ -76,12 +80,29 @@ pub struct DisturbanceError {
     pub allowed: String,
 }
 
+impl Scripted {
+    /// Checks time and numbers.
+    pub fn check(&self) -> Result<(), DisturbanceError> {
+        if let When::Step(step) = self.at
+            && !(1..=MOST_STEPS).contains(&step)
+        {
+            let allowed = format!("1 to {MOST_STEPS}");
+            return Err(DisturbanceError { field: "step", value: f64::from(step), allowed });
+        }
+        self.disturbance.check()
+    }
+}
+
 impl Disturbance {
     /// Checks every number but the place, which is the map's business.
     pub fn check(&self) -> Result<(), DisturbanceError> {
-        let within = |field, value: f64, most: f64| {
-            let good = (-most..=most).contains(&value);
-            if good { Ok(()) } else { Err(DisturbanceError { field, value, allowed: format!("within ±{most}") }) }
+        let within = |field: [&'static str; 2], value: [f64; 2], most: f64| {
+            // The larger part is named; NaN fails both.
+            let larger = usize::from(!value[0].is_nan() && (value[1].is_nan() || value[1].abs() > value[0].abs()));
+            let allowed = || format!("finite, and both together at most {most}");
+            let good = value[0].hypot(value[1]) <= most;
+            let error = || DisturbanceError { field: field[larger], value: value[larger], allowed: allowed() };
+            if good { Ok(()) } else { Err(error()) }
         };
         let lasts = |value: f64| {
             let good = value > 0.0 && value <= MOST_SECONDS;
@@ -90,13 +111,9 @@ impl Disturbance {
         };
         match *self {
             Self::Displace { .. } => Ok(()),
-            Self::Impulse { x_n_s, y_n_s } => {
-                within("x_n_s", x_n_s, MOST_IMPULSE_N_S)?;
-                within("y_n_s", y_n_s, MOST_IMPULSE_N_S)
-            }
+            Self::Impulse { x_n_s, y_n_s } => within(["x_n_s", "y_n_s"], [x_n_s, y_n_s], MOST_IMPULSE_N_S),
             Self::Drift { x_n, y_n, for_s } => {
-                within("x_n", x_n, MOST_DRIFT_N)?;
-                within("y_n", y_n, MOST_DRIFT_N)?;
+                within(["x_n", "y_n"], [x_n, y_n], MOST_DRIFT_N)?;
                 lasts(for_s)
             }
             Self::Dropout { for_s } => lasts(for_s),
@@ -114,6 +131,10 @@ mod tests {
         assert_eq!(field(Disturbance::Impulse { x_n_s: 0.0, y_n_s: 1.0 }), "y_n_s");
         assert_eq!(field(Disturbance::Drift { x_n: f64::NAN, y_n: 0.0, for_s: 1.0 }), "x_n");
         assert_eq!(field(Disturbance::Dropout { for_s: 0.0 }), "for_s");
+        // A kick is bounded as a whole, not along each axis.
+        assert_eq!(field(Disturbance::Impulse { x_n_s: 1.8e-3, y_n_s: 1.9e-3 }), "y_n_s");
         Disturbance::Dropout { for_s: 1.0 }.check().unwrap();
+        let never = Scripted { at: When::Step(0), disturbance: Disturbance::Dropout { for_s: 1.0 } };
+        assert_eq!(never.check().unwrap_err().field, "step");
     }
 }

@@ -220,20 +220,17 @@ impl Worker {
 
     /// While time stands a release puts the bead where the pointer is, since nothing else could.
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
+        let before = self.hashes();
+        let as_it_was = self.hand_is_past.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
             self.drop_past_hand()?;
         }
-        let held = self.trial.state().world.plant.hand;
-        let configures = matches!(input, Input::Configure(_));
-        let before = self.hashes();
-        match (&input, held) {
-            (Input::Release, Some(_)) if self.hand_is_past => {}
-            (Input::Release, Some(hand)) if !self.running => {
-                let Point2 { coords } = hand.target_m;
-                self.trial.apply(Input::Place { x_m: coords.x, y_m: coords.y })?;
-            }
-            _ => self.trial.apply(input)?,
+        let done = self.apply(input);
+        if let (Err(_), Some(state)) = (&done, as_it_was) {
+            self.trial.restore(state);
+            self.hand_is_past = true;
         }
+        let configures = done?;
         if self.hashes() != before {
             self.timeline.forget_after(self.trial.state().world.tick);
         }
@@ -244,6 +241,21 @@ impl Worker {
             self.look()?;
         }
         Ok(())
+    }
+
+    /// Returns whether it changes the parameters.
+    fn apply(&mut self, input: Input) -> Result<bool, InputError> {
+        let held = self.trial.state().world.plant.hand;
+        let configures = matches!(input, Input::Configure(_));
+        match (&input, held) {
+            (Input::Release, Some(_)) if self.hand_is_past => {}
+            (Input::Release, Some(hand)) if !self.running => {
+                let Point2 { coords } = hand.target_m;
+                self.trial.apply(Input::Place { x_m: coords.x, y_m: coords.y })?;
+            }
+            _ => self.trial.apply(input)?,
+        }
+        Ok(configures)
     }
 
     fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {

@@ -4,15 +4,18 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::{Event, EventKind, InputError, Trial, input::check_on_table};
+use super::{Event, EventKind, InputError, Trial, TrialError, input::check_on_table};
 use crate::geometry::{Point2, Vector2};
 use crate::map::{FreeSpace, Map};
 use crate::plant::{Bead, bead_mass_kg, contact};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{Disturbance, Scripted, When};
+use crate::scenario::{Disturbance, SCRIPT_LIMIT, Scripted, When};
 
 /// A random disturbance puts the bead down at least this far away (specification §2).
 const LEAST_DISPLACEMENT_M: f64 = 0.15;
+
+/// No kick makes the bead faster than this.
+const KICKED_M_S: f64 = 4.1;
 
 /// Disturbances still to come, and those that last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,6 +51,20 @@ impl Trial {
         }
     }
 
+    /// Checks a scenario's script, naming the entry at fault.
+    pub(super) fn check_script(script: &[Scripted], map: &Map) -> Result<(), TrialError> {
+        if script.len() > SCRIPT_LIMIT {
+            return Err(TrialError::LongScript { entries: script.len() });
+        }
+        for (index, scripted) in script.iter().enumerate() {
+            let checked = scripted.check().map_err(InputError::from);
+            checked
+                .and_then(|()| Self::check_disturbance(&scripted.disturbance, map))
+                .map_err(|error| TrialError::Script { index, error })?;
+        }
+        Ok(())
+    }
+
     /// Checks a disturbance against its ranges and the map.
     pub(super) fn check_disturbance(disturbance: &Disturbance, map: &Map) -> Result<(), InputError> {
         disturbance.check()?;
@@ -57,29 +74,37 @@ impl Trial {
         }
     }
 
-    /// Carries out a disturbance that has been checked.
+    /// Carries out a disturbance that has been checked. A bead on the magnet feels neither kick nor push;
+    /// whoever displaces one takes it off the magnet, or out of the hand.
     pub(super) fn strike(&mut self, disturbance: &Disturbance) {
         let ticks = |for_s: f64| (for_s / SERVO_PERIOD_S).ceil() as u64;
         let world = &mut self.state.world;
         let tick = world.tick;
+        let bead = &mut world.plant.bead;
         let text = match *disturbance {
+            Disturbance::Impulse { .. } | Disturbance::Drift { .. } if bead.lifted_off => return,
             Disturbance::Displace { x_m, y_m } => {
                 // A map without any room for the bead is no arena.
                 let Some(to) = contact::nearest_fit(&self.arena.map, Point2::new(x_m, y_m)) else { return };
-                let from = std::mem::replace(&mut world.plant.bead, Bead::at(to)).position_m;
+                let from = std::mem::replace(bead, Bead::at(to)).position_m;
+                world.plant.hand = None;
                 format!("the bead was lifted {:.0} cm away", (to - from).norm() * 100.0)
             }
             Disturbance::Impulse { x_n_s, y_n_s } => {
-                world.plant.bead.velocity_m_s += Vector2::new(x_n_s, y_n_s) / bead_mass_kg();
+                // Kicks that come together do not add up to more than the strongest one.
+                let most_m_s = bead.velocity_m_s.norm().max(KICKED_M_S);
+                let kicked = bead.velocity_m_s + Vector2::new(x_n_s, y_n_s) / bead_mass_kg();
+                bead.velocity_m_s = kicked.cap_magnitude(most_m_s);
                 format!("a kick of {:.2} mN·s", x_n_s.hypot(y_n_s) * 1e3)
             }
             Disturbance::Drift { x_n, y_n, for_s } => {
+                // One push at a time: the last counts.
                 world.plant.drift_n = Vector2::new(x_n, y_n);
                 world.script.drift_until = tick + ticks(for_s);
                 format!("a push of {:.1} mN for {for_s} s", x_n.hypot(y_n) * 1e3)
             }
             Disturbance::Dropout { for_s } => {
-                world.script.dropout_until = tick + ticks(for_s);
+                world.script.dropout_until = world.script.dropout_until.max(tick + ticks(for_s));
                 format!("the tracker is blind for {for_s} s")
             }
         };
@@ -93,8 +118,12 @@ impl Trial {
         world.script.at_leg_step = None;
         world.script.remaining -= 1;
         let (map, space) = (&self.arena.map, &self.arena.space);
-        if let Some(to) = far_point(map, space, world.plant.bead.position_m, &mut world.rng) {
-            self.strike(&Disturbance::Displace { x_m: to.x, y_m: to.y });
+        match far_point(map, space, world.plant.bead.position_m, &mut world.rng) {
+            Some(to) => self.strike(&Disturbance::Displace { x_m: to.x, y_m: to.y }),
+            None => {
+                let text = "no disturbance: no free place is far enough from the bead";
+                self.events.push(Event::new(world.tick, EventKind::Session, text));
+            }
         }
     }
 }

@@ -257,6 +257,11 @@ impl Trial {
 
     fn configure(&mut self, parameters: &Parameters) -> Result<(), InputError> {
         parameters.check()?;
+        let world = &self.state.world;
+        let there = Point3::new(world.reference_m.x, world.reference_m.y, parameters.tool_height_m);
+        limits_for(parameters, self.arena.map.workspace())
+            .position(there, &world.reference)
+            .map_err(|refusal| InputError::Reach { field: "parameters", refusal })?;
         self.plant = Plant::new(parameters.plant());
         self.state.world.parameters = parameters.clone();
         Ok(())

@@ -1,108 +1,111 @@
-//! One bit a cell, a row after the other, each row padded to whole words.
+//! One bit a cell.
 
 use serde::{Deserialize, Serialize};
 
 const WORD_BITS: usize = 64;
 const WORD_BYTES: usize = WORD_BITS / 8;
 
-/// Bits of a grid. Bytes rather than words, so that it serialises in one piece: it is hashed at every tick.
+/// Bits of a grid, row by row, each row padded to whole words. Kept as bytes, which serialise in one piece:
+/// the map is hashed at every tick.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
 pub(super) struct BitGrid {
+    pub columns: usize,
+    pub rows: usize,
     #[serde(with = "serde_bytes")]
     bytes: Vec<u8>,
 }
 
-fn words_a_row(columns: usize) -> usize {
-    columns.div_ceil(WORD_BITS)
-}
-
-/// The bits of a word from `from` up to, not including, `to`.
-fn span(from: usize, to: usize) -> u64 {
-    (u64::MAX >> (WORD_BITS - to)) & (u64::MAX << from)
-}
-
 impl BitGrid {
     pub fn zero(columns: usize, rows: usize) -> Self {
-        Self { bytes: vec![0; words_a_row(columns) * rows * WORD_BYTES] }
+        let bytes = vec![0; columns.div_ceil(WORD_BITS) * rows * WORD_BYTES];
+        Self { columns, rows, bytes }
     }
 
-    /// Whether it has room for exactly such a grid.
-    pub fn fits(&self, columns: usize, rows: usize) -> bool {
-        self.bytes.len() == words_a_row(columns) * rows * WORD_BYTES
+    /// Whether there are as many bytes as the shape asks for; what was read from a file may lie.
+    pub fn is_whole(&self) -> bool {
+        let bytes = self.columns.div_ceil(WORD_BITS).checked_mul(self.rows).and_then(|n| n.checked_mul(WORD_BYTES));
+        bytes == Some(self.bytes.len())
     }
 
-    fn word(&self, index: usize) -> u64 {
-        let bytes = &self.bytes[index * WORD_BYTES..(index + 1) * WORD_BYTES];
-        u64::from_le_bytes(bytes.try_into().expect("a word has eight bytes"))
-    }
-}
-
-/// A grid's bits with its shape.
-#[derive(Clone, Copy)]
-pub(super) struct Rows<'a> {
-    pub bits: &'a BitGrid,
-    pub columns: usize,
-}
-
-impl Rows<'_> {
     pub fn get(&self, column: usize, row: usize) -> bool {
-        self.bits.bytes[row * words_a_row(self.columns) * WORD_BYTES + column / 8] >> (column % 8) & 1 == 1
+        self.bytes[self.byte(column, row)] >> (column % 8) & 1 == 1
     }
 
-    /// Calls `visit` with each word of a row that has bits in the columns from `from` up to, not including,
-    /// `to`: the index of its first column, the word, and which of its bits are meant. Stops when it says so.
-    fn any_word(&self, row: usize, from: usize, to: usize, mut test: impl FnMut(u64, u64) -> bool) -> bool {
-        let start = row * words_a_row(self.columns);
-        (from / WORD_BITS..to.div_ceil(WORD_BITS)).any(|index| {
+    pub fn flip(&mut self, column: usize, row: usize) {
+        let byte = self.byte(column, row);
+        self.bytes[byte] ^= 1 << (column % 8);
+    }
+
+    /// Whether a bit of the row is set from column `from` up to, not including, `to`.
+    pub fn any(&self, row: usize, from: usize, to: usize) -> bool {
+        self.words(row, from, to).any(|(_, word, asked)| word & asked != 0)
+    }
+
+    /// Whether all such bits are set.
+    pub fn all(&self, row: usize, from: usize, to: usize) -> bool {
+        self.words(row, from, to).all(|(_, word, asked)| !word & asked == 0)
+    }
+
+    /// The nearest set bit of the row at `column` or after it.
+    pub fn next(&self, row: usize, column: usize) -> Option<usize> {
+        let mut words = self.words(row, column, self.columns).map(|(first, word, asked)| (first, word & asked));
+        words.find(|&(_, word)| word != 0).map(|(first, word)| first + word.trailing_zeros() as usize)
+    }
+
+    /// The nearest set bit of the row at `column` or before it.
+    pub fn previous(&self, row: usize, column: usize) -> Option<usize> {
+        let mut words = self.words(row, 0, column + 1).rev().map(|(first, word, asked)| (first, word & asked));
+        words.find(|&(_, word)| word != 0).map(|(first, word)| first + word.ilog2() as usize)
+    }
+
+    /// The words of a row that hold columns `from` up to, not including, `to`, which must lie in the grid: each with
+    /// its first column and with the bits that are meant.
+    fn words(&self, row: usize, from: usize, to: usize) -> impl DoubleEndedIterator<Item = (usize, u64, u64)> {
+        let start = row * self.columns.div_ceil(WORD_BITS);
+        (from / WORD_BITS..to.div_ceil(WORD_BITS)).map(move |index| {
             let first = index * WORD_BITS;
-            let wanted = span(from.saturating_sub(first), (to - first).min(WORD_BITS));
-            test(self.bits.word(start + index), wanted)
+            let asked = u64::MAX << from.saturating_sub(first) & u64::MAX >> (first + WORD_BITS).saturating_sub(to);
+            let at = (start + index) * WORD_BYTES;
+            let bytes = self.bytes[at..at + WORD_BYTES].try_into().expect("a word has eight bytes");
+            (first, u64::from_le_bytes(bytes), asked)
         })
     }
 
-    /// Whether a bit is set in the columns from `from` up to, not including, `to`.
-    pub fn any(&self, row: usize, from: usize, to: usize) -> bool {
-        self.any_word(row, from, to, |word, wanted| word & wanted != 0)
-    }
-
-    /// Whether every such bit is set.
-    pub fn all(&self, row: usize, from: usize, to: usize) -> bool {
-        !self.any_word(row, from, to, |word, wanted| !word & wanted != 0)
-    }
-
-    /// The set bit nearest to `column` at or after it.
-    pub fn next(&self, row: usize, column: usize) -> Option<usize> {
-        let start = row * words_a_row(self.columns);
-        let mut wanted = u64::MAX << (column % WORD_BITS);
-        for index in column / WORD_BITS..words_a_row(self.columns) {
-            let word = self.bits.word(start + index) & wanted;
-            if word != 0 {
-                return Some(index * WORD_BITS + word.trailing_zeros() as usize);
-            }
-            wanted = u64::MAX;
-        }
-        None
-    }
-
-    /// The set bit nearest to `column` at or before it.
-    pub fn previous(&self, row: usize, column: usize) -> Option<usize> {
-        let start = row * words_a_row(self.columns);
-        let mut wanted = u64::MAX >> (WORD_BITS - 1 - column % WORD_BITS);
-        for index in (0..=column / WORD_BITS).rev() {
-            let word = self.bits.word(start + index) & wanted;
-            if word != 0 {
-                return Some(index * WORD_BITS + WORD_BITS - 1 - word.leading_zeros() as usize);
-            }
-            wanted = u64::MAX;
-        }
-        None
+    fn byte(&self, column: usize, row: usize) -> usize {
+        row * self.columns.div_ceil(WORD_BITS) * WORD_BYTES + column / 8
     }
 }
 
-impl BitGrid {
-    /// Turns a bit of a grid with so many columns over.
-    pub fn flip(&mut self, columns: usize, column: usize, row: usize) {
-        self.bytes[row * words_a_row(columns) * WORD_BYTES + column / 8] ^= 1 << (column % 8);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn rows_answer_as_a_list_of_flags_would(
+            (flags, from, to) in prop::collection::vec(any::<bool>(), 1..200).prop_flat_map(|flags| {
+                let columns = flags.len();
+                (Just(flags), 0..columns, 0..=columns)
+            }),
+        ) {
+            // The row in the middle must know nothing of its neighbours.
+            let mut grid = BitGrid::zero(flags.len(), 3);
+            for (column, &flag) in flags.iter().enumerate() {
+                grid.flip(column, 0);
+                grid.flip(column, 2);
+                if flag {
+                    grid.flip(column, 1);
+                }
+            }
+            prop_assert!(grid.is_whole());
+            prop_assert!((0..flags.len()).all(|column| grid.get(column, 1) == flags[column]));
+            prop_assert_eq!(grid.next(1, from), (from..flags.len()).find(|&column| flags[column]));
+            prop_assert_eq!(grid.previous(1, from), (0..=from).rev().find(|&column| flags[column]));
+            if from < to {
+                prop_assert_eq!(grid.any(1, from, to), flags[from..to].iter().any(|&flag| flag));
+                prop_assert_eq!(grid.all(1, from, to), flags[from..to].iter().all(|&flag| flag));
+            }
+        }
     }
 }

@@ -1,0 +1,244 @@
+//! What the map tells of a place, a disc and a way.
+
+use serde::Serialize;
+
+use super::ObstacleMap;
+use crate::geometry::{Point2, Rect, Vector2};
+
+/// What is known of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellState {
+    /// Never seen.
+    Unknown,
+    /// Seen, and nothing stands there.
+    Free,
+    /// Something stands there.
+    Obstacle,
+}
+
+/// What is known of an area.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Area {
+    /// Seen throughout, and free.
+    Free,
+    /// Without a known obstacle, but not seen throughout.
+    Unknown,
+    /// It touches an obstacle, or leaves the workspace.
+    Blocked,
+}
+
+/// What to take unknown cells for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// As if they were free.
+    Free,
+    /// As if they were obstacles.
+    Blocked,
+}
+
+/// The whole grid for the page, row by row from the least y, each row from the least x.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SeenLayer {
+    /// What the grid covers, in `base`.
+    pub workspace: Rect,
+    /// Cells across.
+    pub columns: usize,
+    /// Cells away from the user.
+    pub rows: usize,
+    /// Equal cells in succession, which may go on in the next row: state and how many.
+    pub runs: Vec<(CellState, u32)>,
+}
+
+impl ObstacleMap {
+    /// What is known of a place; outside of the workspace is an obstacle.
+    pub fn state(&self, point: Point2<f64>) -> CellState {
+        if !self.workspace.contains(point) {
+            return CellState::Obstacle;
+        }
+        let (columns, rows) = self.shape();
+        let at = self.in_cells(point);
+        self.cell_state((at.x as usize).min(columns - 1), (at.y as usize).min(rows - 1))
+    }
+
+    /// What is known of a disc.
+    pub fn disc(&self, center: Point2<f64>, radius_m: f64) -> Area {
+        self.way(center, center, radius_m)
+    }
+
+    /// What is known of all places that are `clearance_m` or less from the straight way between two points. What is
+    /// not a number is blocked.
+    pub fn way(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64) -> Area {
+        if !self.keeps_in(from, to, clearance_m) {
+            return Area::Blocked;
+        }
+        let mut spans = self.spans(from, to, clearance_m);
+        if spans.clone().any(|(row, [first, end])| self.cells.obstacle.any(row, first, end)) {
+            return Area::Blocked;
+        }
+        let all_seen = spans.all(|(row, [first, end])| self.cells.seen.all(row, first, end));
+        if all_seen { Area::Free } else { Area::Unknown }
+    }
+
+    /// Whether a straight way can be gone with so much clearance on all sides.
+    pub fn is_way_free(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64, unknown: Unknown) -> bool {
+        match unknown {
+            Unknown::Blocked => self.way(from, to, clearance_m) == Area::Free,
+            Unknown::Free => {
+                self.keeps_in(from, to, clearance_m)
+                    && !self
+                        .spans(from, to, clearance_m)
+                        .any(|(row, [first, end])| self.cells.obstacle.any(row, first, end))
+            }
+        }
+    }
+
+    /// Distance to the nearest known obstacle or to the workspace's border; 0 within an obstacle or outside.
+    pub fn nearest_obstacle_m(&self, point: Point2<f64>) -> f64 {
+        let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = self.workspace;
+        if !self.workspace.contains(point) {
+            return 0.0;
+        }
+        let border = [point.x - x_min_m, x_max_m - point.x, point.y - y_min_m, y_max_m - point.y];
+        let mut nearest_m = border.into_iter().fold(f64::INFINITY, f64::min);
+        let (columns, rows) = self.shape();
+        let at = self.in_cells(point);
+        let (column, row) = ((at.x as usize).min(columns - 1), (at.y as usize).min(rows - 1));
+        let mut look = |row: usize| {
+            let dy_m = (self.row_edge_m(row) - point.y).max(point.y - self.row_edge_m(row + 1)).max(0.0);
+            if dy_m >= nearest_m {
+                return false;
+            }
+            let obstacle = &self.cells.obstacle;
+            for found in [obstacle.previous(row, column), obstacle.next(row, column)].into_iter().flatten() {
+                let dx_m = (self.column_edge_m(found) - point.x).max(point.x - self.column_edge_m(found + 1));
+                nearest_m = nearest_m.min(dy_m.hypot(dx_m.max(0.0)));
+            }
+            true
+        };
+        let _ = (row..rows).all(&mut look);
+        let _ = (0..row).rev().all(&mut look);
+        nearest_m
+    }
+
+    /// The whole grid, run by run.
+    pub fn seen_layer(&self) -> SeenLayer {
+        let (columns, rows) = self.shape();
+        let mut runs: Vec<(CellState, u32)> = Vec::new();
+        for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
+            let state = self.cell_state(column, row);
+            match runs.last_mut() {
+                Some((last, count)) if *last == state => *count += 1,
+                _ => runs.push((state, 1)),
+            }
+        }
+        SeenLayer { workspace: self.workspace, columns, rows, runs }
+    }
+
+    pub(super) fn cell_state(&self, column: usize, row: usize) -> CellState {
+        match (self.cells.seen.get(column, row), self.cells.obstacle.get(column, row)) {
+            (_, true) => CellState::Obstacle,
+            (true, false) => CellState::Free,
+            (false, false) => CellState::Unknown,
+        }
+    }
+
+    /// A place in cells from the corner of least x and y.
+    fn in_cells(&self, point: Point2<f64>) -> Vector2<f64> {
+        let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
+        (point - corner).component_div(&self.cell_m())
+    }
+
+    /// Whether a capsule stays in the workspace: both its discs do.
+    fn keeps_in(&self, from: Point2<f64>, to: Point2<f64>, radius_m: f64) -> bool {
+        let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = self.workspace;
+        let inner = Rect {
+            x_min_m: x_min_m + radius_m,
+            x_max_m: x_max_m - radius_m,
+            y_min_m: y_min_m + radius_m,
+            y_max_m: y_max_m - radius_m,
+        };
+        inner.contains(from) && inner.contains(to)
+    }
+
+    /// The cells that a capsule within the workspace touches, row by row: the first column, and the one after the last.
+    fn spans(
+        &self,
+        from: Point2<f64>,
+        to: Point2<f64>,
+        radius_m: f64,
+    ) -> impl Iterator<Item = (usize, [usize; 2])> + Clone {
+        let (columns, rows) = self.shape();
+        let cell_m = self.cell_m();
+        let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
+        let touched = move |low_m: f64, high_m: f64, cell_m: f64, count: usize| {
+            let first = ((low_m / cell_m).ceil() - 1.0).max(0.0) as usize;
+            // A cast of what is negative is 0.
+            let end = ((high_m / cell_m).floor() + 1.0) as usize;
+            [first.min(count), end.min(count)]
+        };
+        // From the corner on.
+        let capsule = Capsule::new(from - corner, to - corner, radius_m.max(0.0));
+        let [low_m, high_m] = capsule.extent_y();
+        let [first, end] = touched(low_m, high_m, cell_m.y, rows);
+        (first..end).filter_map(move |row| {
+            let strip = [row as f64 * cell_m.y, (row + 1) as f64 * cell_m.y];
+            let [low_m, high_m] = capsule.extent_x(strip);
+            let span = touched(low_m, high_m, cell_m.x, columns);
+            (span[0] < span[1]).then_some((row, span))
+        })
+    }
+}
+
+/// All places within `radius_m` of a straight line.
+#[derive(Clone, Copy)]
+struct Capsule {
+    from: Vector2<f64>,
+    to: Vector2<f64>,
+    radius_m: f64,
+    /// From the line to its flank on the side of greater x; none for a point.
+    flank: Option<Vector2<f64>>,
+}
+
+impl Capsule {
+    fn new(from: Vector2<f64>, to: Vector2<f64>, radius_m: f64) -> Self {
+        let along = to - from;
+        let flank = Vector2::new(along.y, -along.x).try_normalize(0.0);
+        let flank = flank.map(|normal| normal * if normal.x < 0.0 { -radius_m } else { radius_m });
+        Self { from, to, radius_m, flank }
+    }
+
+    fn extent_y(&self) -> [f64; 2] {
+        [self.from.y.min(self.to.y) - self.radius_m, self.from.y.max(self.to.y) + self.radius_m]
+    }
+
+    /// Least and greatest x of the part between two y; an empty range where there is none.
+    fn extent_x(&self, strip: [f64; 2]) -> [f64; 2] {
+        let mirrored = |v: Vector2<f64>| Vector2::new(-v.x, v.y);
+        // The flank on the side of lesser x, mirrored, is this one turned half around and mirrored.
+        let other = Self {
+            from: mirrored(self.from),
+            to: mirrored(self.to),
+            radius_m: self.radius_m,
+            flank: self.flank.map(|flank| mirrored(-flank)),
+        };
+        [-other.greatest_x(strip), self.greatest_x(strip)]
+    }
+
+    fn greatest_x(&self, [low, high]: [f64; 2]) -> f64 {
+        // The outline is concave as a function of y: the maximum is as near to its top as the strip allows.
+        let top = if self.from.x >= self.to.x { self.from } else { self.to };
+        let y = top.y.clamp(low, high);
+        let on_disc = |center: Vector2<f64>| {
+            let rest = self.radius_m * self.radius_m - (y - center.y) * (y - center.y);
+            (rest >= 0.0).then(|| center.x + rest.sqrt())
+        };
+        let on_flank = || {
+            let [from, to] = [self.from + self.flank?, self.to + self.flank?];
+            let share = (y - from.y) / (to.y - from.y);
+            (0.0..=1.0).contains(&share).then(|| from.x + share * (to.x - from.x))
+        };
+        let found = [on_disc(self.from), on_disc(self.to), on_flank()];
+        found.into_iter().flatten().fold(f64::NEG_INFINITY, f64::max)
+    }
+}

@@ -1,0 +1,297 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::geometry::Point2;
+use crate::perception::{OBSTACLE_LEVEL, Percept, Quadtree, test_frame, wall_spread};
+
+const WORKSPACE: Rect = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
+
+/// The walls of a made-up world, 5 mm high: a slanted one, a thin one, a post.
+fn is_wall(p: Point2<f64>) -> bool {
+    !WORKSPACE.contains(p)
+        || (p.y + 0.42 - 0.3 * p.x).abs() < 0.011 && p.x < 0.05
+        || (p.x - 0.1003).abs() < 0.0011 && p.y > -0.33
+        || (p - Point2::new(0.0, -0.28)).norm() < 0.0137
+}
+
+/// What a camera sees of it: a place is dark when anything up to 5 mm above it is on the ray.
+fn look(map: &mut ObstacleMap, center: Point2<f64>, is_wall: impl Fn(Point2<f64>) -> bool) -> Change {
+    let spread = wall_spread(0.3, 0.005);
+    let frame = test_frame(center, |p| {
+        (0..=8).any(|i| is_wall(center + (p - center) / (1.0 + (spread - 1.0) * f64::from(i) / 8.0)))
+    });
+    let percept = Percept::of(&frame);
+    map.update(&DarkPixels::of(&percept.gray, OBSTACLE_LEVEL), &percept.calibration, spread)
+}
+
+fn tour() -> impl Iterator<Item = Point2<f64>> {
+    // Steps that are no multiple of a cell or of a pixel.
+    (0..40).map(|i| Point2::new(-0.25 + 0.01237 * f64::from(i), -0.375 + 0.08 * (0.7 * f64::from(i)).sin()))
+}
+
+fn all_cells(map: &ObstacleMap) -> impl Iterator<Item = CellRect> {
+    let (columns, rows) = map.shape();
+    (0..rows).flat_map(move |row| (0..columns).map(move |column| CellRect { column, row, columns: 1, rows: 1 }))
+}
+
+/// Whether anything within `margin_m` of a rectangle is wall, looked at every .2 mm.
+fn wall_within(rect: &Rect, margin_m: f64) -> bool {
+    let count = |from: f64, to: f64| ((to - from + 2.0 * margin_m) / 2e-4).floor() as usize;
+    let (across, down) = (count(rect.x_min_m, rect.x_max_m), count(rect.y_min_m, rect.y_max_m));
+    (0..=across).any(|i| {
+        (0..=down).any(|j| {
+            is_wall(Point2::new(rect.x_min_m - margin_m + 2e-4 * i as f64, rect.y_min_m - margin_m + 2e-4 * j as f64))
+        })
+    })
+}
+
+#[test]
+fn cells_of_two_millimetres_and_bounded_in_number() {
+    assert_eq!(shape(&WORKSPACE), (290, 165));
+    let square = |side_m: f64| Rect { x_min_m: 0.0, x_max_m: side_m, y_min_m: 0.0, y_max_m: side_m };
+    assert_eq!(shape(&square(1.0)), (500, 500));
+    assert_eq!(shape(&square(4.0)), (512, 512));
+    assert_eq!(shape(&square(0.0)), (1, 1));
+    let long = Rect { x_max_m: 1e6, ..square(1e-3) };
+    assert!(shape(&long).0 <= 4096 && shape(&Rect { y_max_m: f64::NAN, ..long }).1 == 1);
+    let cell_m = ObstacleMap::new(WORKSPACE).cell_m();
+    assert!((cell_m - Vector2::repeat(0.002)).norm() < 1e-12);
+}
+
+#[test]
+fn nothing_is_known_at_first_and_the_outside_is_wall() {
+    let map = ObstacleMap::new(WORKSPACE);
+    let middle = Point2::new(0.0, -0.4);
+    assert_eq!(map.disc(middle, 0.01), Area::Unknown);
+    assert!(map.is_way_free(middle, Point2::new(0.1, -0.4), 0.01, Unknown::Free));
+    assert!(!map.is_way_free(middle, Point2::new(0.1, -0.4), 0.01, Unknown::Blocked));
+    assert_eq!(map.disc(Point2::new(0.275, -0.4), 0.01), Area::Blocked);
+    assert_eq!(map.disc(Point2::new(0.3, -0.4), 0.0), Area::Blocked);
+    assert_eq!(map.disc(Point2::new(f64::NAN, -0.4), 0.01), Area::Blocked);
+    assert_eq!(map.disc(middle, f64::NAN), Area::Blocked);
+    assert_eq!(map.state(middle), CellState::Unknown);
+    assert_eq!(map.state(Point2::new(0.3, -0.4)), CellState::Obstacle);
+    assert!((map.nearest_obstacle_m(Point2::new(0.2, -0.4)) - 0.08).abs() < 1e-12);
+    assert_eq!(map.nearest_obstacle_m(Point2::new(0.2, 0.4)), 0.0);
+    let layer = map.seen_layer();
+    assert_eq!(layer.runs, [(CellState::Unknown, 290 * 165)]);
+    assert!(map.rectangles().is_empty());
+}
+
+#[test]
+fn obstacles_are_the_walls_to_a_cell_and_a_pixel_wherever_they_are_seen_from() {
+    let mut map = ObstacleMap::new(WORKSPACE);
+    tour().for_each(|center| drop(look(&mut map, center, is_wall)));
+    let (mut walls, mut free) = (0, 0);
+    let pixel_m = 0.2 / 480.0;
+    for cell in all_cells(&map) {
+        let rect = map.rect(&cell);
+        match map.cell_state(cell.column, cell.row) {
+            CellState::Obstacle => {
+                walls += 1;
+                assert!(wall_within(&rect, pixel_m), "{rect:?} is no wall");
+            }
+            CellState::Free => {
+                free += 1;
+                // What sticks into the cell by less than a pixel can be missed.
+                assert!(!wall_within(&rect, -pixel_m), "{rect:?} holds a wall");
+            }
+            CellState::Unknown => (),
+        }
+    }
+    assert!(walls > 2000 && free > 40_000, "{walls} {free}");
+}
+
+#[test]
+fn a_world_that_stands_still_is_never_cleared_and_soon_without_news() {
+    let mut map = ObstacleMap::new(WORKSPACE);
+    for center in tour() {
+        let change = look(&mut map, center, is_wall);
+        assert_eq!(change.cleared, [], "from {center}");
+    }
+    let version = map.version();
+    assert!(version > 3);
+    for center in tour() {
+        assert_eq!(look(&mut map, center, is_wall), Change::default());
+    }
+    assert_eq!(map.version(), version);
+}
+
+#[test]
+fn what_is_gone_is_cleared_and_what_is_new_is_said() {
+    let center = Point2::new(-0.05, -0.35);
+    let post = |p: Point2<f64>| (p - Point2::new(-0.02, -0.33)).norm() < 0.008;
+    let area_m2 = |rects: &[Rect]| rects.iter().map(|rect| rect.size_m().product()).sum::<f64>();
+    let mut map = ObstacleMap::new(WORKSPACE);
+    let change = look(&mut map, center, |_| false);
+    assert!(change.seen_more && change.appeared.is_empty() && map.version() == 0);
+    assert_eq!(map.disc(Point2::new(-0.02, -0.33), 0.01), Area::Free);
+    let change = look(&mut map, center, post);
+    assert!((2e-4..3e-4).contains(&area_m2(&change.appeared)) && !change.seen_more && map.version() == 1);
+    // All obstacles are new ones, so the two partitions are one.
+    assert_eq!(map.rectangles().len(), change.appeared.len());
+    assert_eq!(map.disc(Point2::new(-0.02, -0.35), 0.015), Area::Blocked);
+    assert_eq!(look(&mut map, center, post), Change::default());
+    let change = look(&mut map, center, |_| false);
+    assert!((2e-4..3e-4).contains(&area_m2(&change.cleared)) && map.version() == 2);
+    assert!(map.rectangles().is_empty());
+}
+
+#[test]
+fn blocks_of_a_quadtree_hold_what_pixels_hold() {
+    let center = Point2::new(0.02, -0.35);
+    let percept = Percept::of(&test_frame(center, is_wall));
+    let dark = DarkPixels::of(&percept.gray, OBSTACLE_LEVEL);
+    let (mut fine, mut coarse) = (ObstacleMap::new(WORKSPACE), ObstacleMap::new(WORKSPACE));
+    fine.update(&dark, &percept.calibration, 1.0);
+    coarse.update(&Quadtree::of_dark(&dark, 6).dark_pixels(), &percept.calibration, 1.0);
+    for cell in all_cells(&fine) {
+        let holds = |map: &ObstacleMap| map.cells.obstacle.get(cell.column, cell.row);
+        assert!(holds(&coarse) || !holds(&fine));
+    }
+    assert_eq!(fine.cells.seen, coarse.cells.seen);
+}
+
+#[test]
+fn cells_finer_than_pixels_are_seen_too() {
+    let calibration = Calibration { center_m: Point2::new(0.0, -0.4), m_per_px: 0.01, size_px: 64 };
+    let gray = crate::image::GrayImage { width_px: 64, height_px: 64, pixels: vec![0; 64 * 64] };
+    let mut map = ObstacleMap::new(WORKSPACE);
+    map.update(&DarkPixels::of(&gray, 50), &calibration, 1.0);
+    assert_eq!(map.rectangles(), [WORKSPACE]);
+    // Absurd geometry changes nothing and breaks nothing.
+    for (m_per_px, spread) in [(0.0, 1.0), (f64::NAN, 1.0), (1e-300, 1.0), (0.01, f64::INFINITY), (0.01, f64::NAN)] {
+        let absurd = Calibration { m_per_px, ..calibration };
+        assert_eq!(map.update(&DarkPixels::of(&gray, 50), &absurd, spread), Change::default(), "{m_per_px} {spread}");
+    }
+}
+
+#[test]
+fn a_map_survives_serialisation_and_a_forged_one_is_refused() {
+    let mut map = ObstacleMap::new(WORKSPACE);
+    tour().take(3).for_each(|center| drop(look(&mut map, center, is_wall)));
+    let bytes = postcard::to_stdvec(&map).unwrap();
+    assert!(bytes.len() < 14_000, "{}", bytes.len());
+    let back: ObstacleMap = postcard::from_bytes(&bytes).unwrap();
+    assert_eq!(back, map);
+    let mut forged = map.clone();
+    forged.workspace.x_max_m = 0.5;
+    assert!(postcard::from_bytes::<ObstacleMap>(&postcard::to_stdvec(&forged).unwrap()).is_err());
+    let mut forged = map.clone();
+    Arc::make_mut(&mut forged.cells).seen = BitGrid::zero(290, 164);
+    assert!(postcard::from_bytes::<ObstacleMap>(&postcard::to_stdvec(&forged).unwrap()).is_err());
+}
+
+/// A map of about 60 × 40 cells, randomly known.
+fn random_map(obstacles: &[(usize, usize)], unseen: &[(usize, usize)]) -> ObstacleMap {
+    let workspace = Rect { x_min_m: -0.071, x_max_m: 0.05, y_min_m: -0.03, y_max_m: 0.05 };
+    let mut map = ObstacleMap::new(workspace);
+    let cells = Arc::make_mut(&mut map.cells);
+    let (columns, rows) = (cells.seen.columns, cells.seen.rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            let is_obstacle = obstacles.contains(&(column, row));
+            if is_obstacle {
+                cells.obstacle.flip(column, row);
+            }
+            if is_obstacle || !unseen.contains(&(column, row)) {
+                cells.seen.flip(column, row);
+            }
+        }
+    }
+    map
+}
+
+fn distance_m(point: Point2<f64>, rect: &Rect) -> f64 {
+    let dx = (rect.x_min_m - point.x).max(point.x - rect.x_max_m).max(0.0);
+    let dy = (rect.y_min_m - point.y).max(point.y - rect.y_max_m).max(0.0);
+    dx.hypot(dy)
+}
+
+/// Distance of a rectangle from a line, a convex function along it, by ternary search.
+fn line_distance_m(from: Point2<f64>, to: Point2<f64>, rect: &Rect) -> f64 {
+    let at = |share: f64| distance_m(from + (to - from) * share, rect);
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..120 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if at(a) <= at(b) { high = b } else { low = a }
+    }
+    at(0.5 * (low + high)).min(at(0.0)).min(at(1.0))
+}
+
+prop_compose! {
+    fn maps()(
+        obstacles in prop::collection::vec((0..61usize, 0..40usize), 0..12),
+        unseen in prop::collection::vec((0..61usize, 0..40usize), 0..12),
+    ) -> ObstacleMap {
+        random_map(&obstacles, &unseen)
+    }
+}
+
+fn places() -> impl Strategy<Value = Point2<f64>> {
+    (-0.08..0.06, -0.04..0.06).prop_map(|(x, y)| Point2::new(x, y))
+}
+
+proptest! {
+    #[test]
+    fn a_way_is_what_the_cells_within_its_clearance_are(
+        map in maps(), from in places(), to in places(), on_axis in 0..4u8, clearance_m in 0.0..0.02f64,
+    ) {
+        let to = match on_axis {
+            0 => Point2::new(from.x, to.y),
+            1 => Point2::new(to.x, from.y),
+            2 => from,
+            _ => to,
+        };
+        let mut expected = Area::Free;
+        for cell in all_cells(&map) {
+            let distance_m = line_distance_m(from, to, &map.rect(&cell));
+            let state = map.cell_state(cell.column, cell.row);
+            prop_assume!(state == CellState::Free || (distance_m - clearance_m).abs() > 1e-9);
+            if distance_m < clearance_m || distance_m == 0.0 {
+                match state {
+                    CellState::Obstacle => expected = Area::Blocked,
+                    CellState::Unknown if expected == Area::Free => expected = Area::Unknown,
+                    _ => (),
+                }
+            }
+        }
+        let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = *map.workspace();
+        let keeps_in = |p: Point2<f64>| {
+            [p.x - x_min_m, x_max_m - p.x, p.y - y_min_m, y_max_m - p.y].iter().all(|&rest| rest >= clearance_m)
+        };
+        if !keeps_in(from) || !keeps_in(to) {
+            expected = Area::Blocked;
+        }
+        prop_assert_eq!(map.way(from, to, clearance_m), expected);
+        prop_assert_eq!(map.way(to, from, clearance_m), expected);
+        prop_assert_eq!(map.is_way_free(from, to, clearance_m, Unknown::Blocked), expected == Area::Free);
+        prop_assert_eq!(map.is_way_free(from, to, clearance_m, Unknown::Free), expected != Area::Blocked);
+    }
+
+    #[test]
+    fn the_nearest_obstacle_is_the_nearest_cell_or_the_border(map in maps(), at in places()) {
+        let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = *map.workspace();
+        let border_m = [at.x - x_min_m, x_max_m - at.x, at.y - y_min_m, y_max_m - at.y];
+        let cells = all_cells(&map).filter(|cell| map.cells.obstacle.get(cell.column, cell.row));
+        let distances_m = cells.map(|cell| distance_m(at, &map.rect(&cell))).chain(border_m);
+        let expected = distances_m.fold(f64::INFINITY, f64::min).max(0.0);
+        prop_assert!((map.nearest_obstacle_m(at) - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn rectangles_and_layer_tell_the_same_as_the_cells(map in maps()) {
+        let rectangles = map.rectangles();
+        let runs = map.seen_layer().runs;
+        let mut states = runs.iter().flat_map(|&(state, count)| std::iter::repeat_n(state, count as usize));
+        for cell in all_cells(&map) {
+            let middle = map.rect(&cell).center_m();
+            let state = map.state(middle);
+            prop_assert_eq!(Some(state), states.next());
+            let held = rectangles.iter().filter(|rect| rect.contains(middle)).count();
+            prop_assert_eq!(held, usize::from(state == CellState::Obstacle));
+        }
+        prop_assert_eq!(states.next(), None);
+        prop_assert_eq!(map.partition().formula(), rectangles.len());
+    }
+}

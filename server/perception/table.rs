@@ -1,0 +1,98 @@
+//! From pixels to the table.
+
+use super::Calibration;
+use super::dark::PixelRect;
+use crate::geometry::Rect;
+
+/// How many times farther from the image's middle the top of a wall seems than its foot, for a pinhole
+/// `camera_height_m` above the table. 1 where the wall is as high as the camera or higher, which no camera sees.
+pub fn wall_spread(camera_height_m: f64, wall_height_m: f64) -> f64 {
+    let spread = camera_height_m / (camera_height_m - wall_height_m);
+    if spread.is_finite() { spread.max(1.0) } else { 1.0 }
+}
+
+impl PixelRect {
+    /// The part of the table that these pixels show, read at table height, in `base`.
+    ///
+    /// For dark pixels this errs on the safe side. Whatever stands on a place hides it, so the rectangle holds all of
+    /// the wall's foot that is in view; it also holds the side or top that is seen beyond the foot, up to
+    /// `wall_spread − 1` times the distance from the image's middle: with the default camera 1.7 mm at the rim and
+    /// 2.4 mm in the corners. Blocks of a quadtree add up to their smallest side. [`super::ObstacleMap`] takes the
+    /// spread out again.
+    pub fn on_table(&self, calibration: &Calibration) -> Rect {
+        let (column, row) = (self.column_px as f64, self.row_px as f64);
+        let upper_left = calibration.table_from_image(column, row);
+        let lower_right =
+            calibration.table_from_image(column + self.width_px as f64, row + self.height_px as f64);
+        Rect { x_min_m: upper_left.x, x_max_m: lower_right.x, y_min_m: lower_right.y, y_max_m: upper_left.y }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Point2, Vector2};
+    use proptest::prelude::*;
+
+    prop_compose! {
+        fn calibrations()(
+            x_m in -4.0..4.0, y_m in -4.0..4.0, span_m in 0.01..10.0, size_px in 1usize..4096,
+        ) -> Calibration {
+            Calibration { center_m: Point2::new(x_m, y_m), m_per_px: span_m / size_px as f64, size_px }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn pixel_to_metre_and_back_is_the_same_pixel(
+            calibration in calibrations(), across in 0.0..1.0, down in 0.0..1.0,
+        ) {
+            let size_px = calibration.size_px as f64;
+            let (column_px, row_px) = (across * size_px, down * size_px);
+            let back = calibration.image_from_table(calibration.table_from_image(column_px, row_px));
+            prop_assert!((back.0 - column_px).abs() < 1e-6 && (back.1 - row_px).abs() < 1e-6, "{back:?}");
+        }
+
+        #[test]
+        fn metre_to_pixel_and_back_is_the_same_place(
+            calibration in calibrations(), x_m in -4.0..4.0, y_m in -4.0..4.0,
+        ) {
+            let point = Point2::new(x_m, y_m);
+            let (column_px, row_px) = calibration.image_from_table(point);
+            prop_assert!((calibration.table_from_image(column_px, row_px) - point).norm() < 1e-12);
+        }
+
+        #[test]
+        fn right_is_plus_x_and_down_is_minus_y_by_the_size_of_a_pixel(
+            calibration in calibrations(), column_px in 0.0..4096.0, row_px in 0.0..4096.0,
+        ) {
+            let at = calibration.table_from_image(column_px, row_px);
+            let step = calibration.table_from_image(column_px + 1.0, row_px + 1.0) - at;
+            let expected = Vector2::new(calibration.m_per_px, -calibration.m_per_px);
+            prop_assert!((step - expected).norm() < 1e-12);
+            // The middle of the image is the middle of the table seen.
+            let half_px = calibration.size_px as f64 / 2.0;
+            prop_assert_eq!(calibration.table_from_image(half_px, half_px), calibration.center_m);
+        }
+
+        #[test]
+        fn a_rectangle_of_pixels_holds_the_middles_of_its_own_and_of_no_other(
+            calibration in calibrations(),
+            (column_px, row_px, width_px, height_px) in (0usize..99, 0usize..99, 1usize..99, 1usize..99),
+            (across, down) in (0usize..200, 0usize..200),
+        ) {
+            let rect = PixelRect { column_px, row_px, width_px, height_px };
+            let middle = calibration.table_from_image(across as f64 + 0.5, down as f64 + 0.5);
+            let inside = (column_px..column_px + width_px).contains(&across)
+                && (row_px..row_px + height_px).contains(&down);
+            prop_assert_eq!(rect.on_table(&calibration).contains(middle), inside);
+        }
+    }
+
+    #[test]
+    fn wall_tops_spread_by_the_height_they_are_nearer() {
+        assert!((wall_spread(0.3, 0.005) - 300.0 / 295.0).abs() < 1e-12);
+        assert_eq!(wall_spread(0.3, 0.0), 1.0);
+        assert_eq!([wall_spread(0.3, 0.3), wall_spread(0.3, 0.4), wall_spread(f64::NAN, 0.0)], [1.0; 3]);
+    }
+}
