@@ -202,21 +202,16 @@ enum Viewpoint {
 struct Renderers {
     gpu: Arc<Gpu>,
     view: view::ViewRenderer,
-    scene: scene::SceneRenderer,
+    /// Made when it is first asked for: sessions and trials never do.
+    scene: Option<scene::SceneRenderer>,
 }
 
 impl Renderers {
-    fn new(
-        gpu: &Arc<Gpu>,
-        stage: &Stage,
-        parameters: &CameraParameters,
-        quality: Option<Quality>,
-    ) -> Result<Self, CameraError> {
+    fn new(gpu: &Arc<Gpu>, stage: &Stage, parameters: &CameraParameters) -> Result<Self, CameraError> {
         let gpu = gpu.living()?;
         check_size(parameters.size_px, parameters.size_px, gpu.most_px())?;
         let view = view::ViewRenderer::new(&gpu, stage, *parameters)?;
-        let scene = scene::SceneRenderer::new(&gpu, stage, quality.unwrap_or(gpu.quality()))?;
-        Ok(Self { gpu, view, scene })
+        Ok(Self { gpu, view, scene: None })
     }
 }
 
@@ -236,25 +231,16 @@ impl Camera {
             wall_height_m: stage.wall_height_m,
             parameters: *parameters,
             quality: None,
-            renderers: Renderers::new(&gpu, stage, parameters, None)?,
+            renderers: Renderers::new(&gpu, stage, parameters)?,
         })
     }
 
     /// The same camera at a quality of its own, whatever its adapter can afford.
-    ///
-    /// # Errors
-    /// [`CameraError::Rejected`] or [`CameraError::DeviceLost`] when the device fails.
-    pub fn with_quality(mut self, quality: Quality) -> Result<Self, CameraError> {
+    #[must_use]
+    pub fn with_quality(mut self, quality: Quality) -> Self {
         self.quality = Some(quality);
-        self.renew()?;
-        Ok(self)
-    }
-
-    /// Makes everything anew that lives on the device.
-    fn renew(&mut self) -> Result<(), CameraError> {
-        let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
-        self.renderers = Renderers::new(&self.renderers.gpu, &stage, &self.parameters, self.quality)?;
-        Ok(())
+        self.renderers.scene = None;
+        self
     }
 
     /// The controllers' view, square: image up is +y, and the centre of pixel (u, v) shows the table
@@ -265,7 +251,7 @@ impl Camera {
     /// [`CameraError::Readback`] or [`CameraError::DeviceLost`] when the device fails.
     pub fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         subject.check()?;
-        self.draw(|Renderers { gpu, view, .. }| view.draw(gpu, subject))
+        self.draw(|Self { renderers: Renderers { gpu, view, .. }, .. }| view.draw(gpu, subject))
     }
 
     /// The whole table with arm, magnet, walls, bead and goal, in perspective from the user's side.
@@ -276,9 +262,7 @@ impl Camera {
     /// As [`Camera::capture`], and [`CameraError::Size`] for an image without pixels or one beyond
     /// [`MOST_PX`].
     pub fn scene(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
-        subject.check()?;
-        check_size(width_px, height_px, self.renderers.gpu.most_px())?;
-        self.draw(|Renderers { gpu, scene, .. }| scene.draw(gpu, subject, Viewpoint::User, width_px, height_px))
+        self.for_people(subject, Viewpoint::User, width_px, height_px)
     }
 
     /// The workspace from straight above, +y up, without perspective: walls, block, bead and goal, but no
@@ -287,21 +271,42 @@ impl Camera {
     /// # Errors
     /// As [`Camera::scene`].
     pub fn plan(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
+        self.for_people(subject, Viewpoint::Above, width_px, height_px)
+    }
+
+    fn for_people(
+        &mut self,
+        subject: &Subject,
+        viewpoint: Viewpoint,
+        width_px: u32,
+        height_px: u32,
+    ) -> Result<CameraFrame, CameraError> {
         subject.check()?;
         check_size(width_px, height_px, self.renderers.gpu.most_px())?;
-        self.draw(|Renderers { gpu, scene, .. }| scene.draw(gpu, subject, Viewpoint::Above, width_px, height_px))
+        self.draw(|Self { workspace, walls, wall_height_m, quality, renderers, .. }| {
+            let Renderers { gpu, scene, .. } = renderers;
+            let scene = match scene {
+                Some(scene) => scene,
+                None => {
+                    let stage = Stage { workspace, walls, wall_height_m: *wall_height_m };
+                    scene.insert(scene::SceneRenderer::new(gpu, &stage, quality.unwrap_or(gpu.quality()))?)
+                }
+            };
+            scene.draw(gpu, subject, viewpoint, width_px, height_px)
+        })
     }
 
     /// Draws, and draws once more on another device if this one is lost.
     fn draw(
         &mut self,
-        mut picture: impl FnMut(&mut Renderers) -> Result<CameraFrame, CameraError>,
+        mut picture: impl FnMut(&mut Self) -> Result<CameraFrame, CameraError>,
     ) -> Result<CameraFrame, CameraError> {
-        match picture(&mut self.renderers) {
+        match picture(self) {
             Err(CameraError::DeviceLost { reason }) => {
                 tracing::warn!(reason, "the graphics device was lost and is opened anew");
-                self.renew()?;
-                picture(&mut self.renderers)
+                let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
+                self.renderers = Renderers::new(&self.renderers.gpu, &stage, &self.parameters)?;
+                picture(self)
             }
             drawn => drawn,
         }

@@ -49,7 +49,7 @@ fn subject() -> Subject {
 fn camera(gpu: &Arc<Gpu>, quality: Quality) -> Camera {
     let arena = Arena::open("colon").unwrap();
     assert!(arena.map.is_free(Point2::new(0.06, -0.475)));
-    arena.camera(gpu).unwrap().with_quality(quality).unwrap()
+    arena.camera(gpu).unwrap().with_quality(quality)
 }
 
 fn read(name: &str) -> (u32, u32, Vec<u8>) {

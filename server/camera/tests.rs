@@ -159,7 +159,7 @@ fn a_camera_goes_on_when_its_device_is_lost() {
 fn the_scene_shows_arm_goal_and_bead() {
     let walls = posts();
     let camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
-    let mut camera = camera.with_quality(Quality::Fine).unwrap();
+    let mut camera = camera.with_quality(Quality::Fine);
     let seen = subject([-0.05, -0.33, 0.1], [0.07, -0.41, 0.0025]);
     let mut differences = Vec::new();
     let whole = camera.scene(&seen, 640, 360).unwrap();

@@ -74,10 +74,14 @@ impl DarkPixels {
     /// 1 for each dark pixel and 0 for any other, row by row.
     pub(super) fn flags(&self) -> Vec<u8> {
         let stride = self.width_px + 1;
-        let mut flags = Vec::with_capacity(self.width_px * self.height_px);
-        for (above, below) in self.sums.chunks_exact(stride).zip(self.sums.chunks_exact(stride).skip(1)) {
-            let until = || above.iter().zip(below).map(|(above, below)| below - above);
-            flags.extend(until().skip(1).zip(until()).map(|(until, before)| (until - before) as u8));
+        let mut flags = vec![0; self.width_px * self.height_px];
+        for (row, flags) in flags.chunks_exact_mut(self.width_px.max(1)).enumerate() {
+            let (above, below) = self.sums[row * stride..(row + 2) * stride].split_at(stride);
+            let left = above.iter().zip(below);
+            let right = above[1..].iter().zip(&below[1..]);
+            for (flag, ((a, b), (c, d))) in flags.iter_mut().zip(left.zip(right)) {
+                *flag = (d - c - (b - a)) as u8;
+            }
         }
         flags
     }
