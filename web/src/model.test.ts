@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { EMPTY, LOG_LINES, placeOfError, reduce, type Input, type Model } from './model';
-import type { EventMessage, ServerMessage } from './protocol.gen';
+import { PROTOCOL_VERSION, type EventMessage, type ServerMessage } from './protocol.gen';
 import { sceneOf, stateAt } from './testing';
 
 const message = (one: ServerMessage): Input => ({ type: 'message', message: one });
@@ -28,7 +28,9 @@ describe('messages', () => {
       adapter: '',
     } as const;
     expect(play(message({ type: 'hello', ...hello })).link.kind).toBe('outdated');
-    expect(play(message({ type: 'hello', ...hello, protocol: 1 })).link.kind).toBe('connecting');
+    expect(play(message({ type: 'hello', ...hello, protocol: PROTOCOL_VERSION })).link.kind).toBe(
+      'connecting',
+    );
   });
 });
 
