@@ -4,6 +4,7 @@ mod evaluate;
 mod map;
 mod render;
 mod serve;
+mod sweep;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -34,6 +35,8 @@ enum Command {
     Render(render::Arguments),
     /// Check a map and print what it is
     Map(map::Arguments),
+    /// Take one camera image a centimetre of a map, as training looks at them
+    Sweep(sweep::Arguments),
 }
 
 /// Parses the arguments and runs the command; clap's own exits (help, usage) come back as codes.
@@ -56,6 +59,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
     }
 }
 

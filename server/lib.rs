@@ -9,7 +9,7 @@
 //! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: what is set up, seen and measured.
 //! - floor 5: [`control`]: switching law, sub-controllers 1 and 2, limits.
 //! - floor 6: [`trial`]: one episode as a pure, deterministic loop.
-//! - floor 7: [`evaluate`], [`session`]: trials in bulk; a trial on a real clock.
+//! - floor 7: [`learn`], [`evaluate`], [`session`]: images in bulk; trials in bulk; a trial on a real clock.
 //! - floor 8: [`recording`], [`protocol`]: Rerun; every wire type.
 //! - floor 9: [`http`]: axum routes and the WebSocket.
 //! - floor 10: [`cli`]: assembling.
@@ -23,6 +23,7 @@ pub mod evaluate;
 pub mod geometry;
 pub mod http;
 pub mod image;
+pub mod learn;
 pub mod magnetics;
 pub mod map;
 pub mod perception;

@@ -1,13 +1,25 @@
 //! What is seen in a camera frame: gray image, obstacle test, observation, obstacles near the tool.
 
+mod dark;
 mod observation;
+mod obstacle_map;
 mod obstacles;
+mod quadtree;
+mod rectangles;
+mod table;
+#[cfg(test)]
+mod test_world;
 
 use crate::geometry::{Point2, Vector2};
 use crate::image::{CameraFrame, GrayImage};
 
+pub use dark::{DarkPixels, OBSTACLE_LEVEL, PixelRect};
 pub use observation::{OBSERVATION_SIZE_PX, Observation};
+pub use obstacle_map::{Area, CellState, Change, ObstacleMap, SeenLayer, Unknown};
 pub use obstacles::{ObstacleMask, Patch};
+pub use quadtree::{Quadtree, QuadtreeParameters};
+pub use rectangles::{CellMask, CellRect, Partition};
+pub use table::wall_spread;
 
 /// Side of the square of pixels whose mean decides the obstacle test (paper, §IV-A).
 pub const TEST_PATCH_PX: i64 = 15;

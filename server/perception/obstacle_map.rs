@@ -3,18 +3,18 @@
 //! **Grid.** Cells of 2 mm, or as coarse as it takes to have about 2¹⁸ at most (7.8 mm in 4 m × 4 m), narrowed so
 //! that whole cells fill the workspace. Two bits a cell: 13 KB for the usual 580 mm × 330 mm, 64 KB at most.
 //! Snapshots share the cells until one changes, and cells serialise as two pieces of bytes, so that hashing a map
-//! takes little longer than copying it.
+//! takes little longer than copying it: there is no need to keep it out of the hash of every tick.
 //!
 //! **Walls have a height**, and the pinhole sees their tops farther from its axis than they stand: a wall darkens
 //! everything from its foot to [`super::wall_spread`] times as far from the middle, 1.7 mm more at the rim of the
 //! default image and 2.4 mm in its corners. Whatever stands on a place therefore darkens both the place and the
-//! place spread; where either is bright, nothing stands. A cell is an obstacle when both hold a dark pixel. That
-//! misses no wall of the height that was said or higher. It adds less than a cell, and what lies in gaps
-//! narrower than the spread.
+//! place spread; where either is bright, nothing stands. A cell is an obstacle when any pixel in it is dark and so is
+//! its place spread. That misses no wall of the height that was said or higher; it adds up to a cell and a pixel,
+//! and what lies in gaps narrower than the spread. Lower walls lose the difference from their far side.
 //!
 //! **No flicker.** Cells that are not wholly in view, spread included, stay as they are. A cell that was an obstacle
-//! becomes free only when no dark pixel is within a pixel of it: an edge that sticks out into a cell by less than a
-//! pixel is seen from one place and not from the next, and must not come and go.
+//! becomes free only when no such pixel is within two pixels of it: an edge that sticks out into a cell by less than
+//! a pixel is seen from one place and not from the next, and must not come and go.
 
 mod bits;
 mod queries;

@@ -129,9 +129,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn gray(width_px: usize, height_px: usize, is_dark: impl Fn(usize, usize) -> bool) -> GrayImage {
-        let pixels = (0..width_px * height_px)
-            .map(|i| if is_dark(i % width_px, i / width_px) { 20 } else { 230 })
-            .collect();
+        let pixels =
+            (0..width_px * height_px).map(|i| if is_dark(i % width_px, i / width_px) { 20 } else { 230 }).collect();
         GrayImage { width_px, height_px, pixels }
     }
 

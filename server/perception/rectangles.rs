@@ -234,9 +234,8 @@ impl Grid {
                 if self.cells[first] & DARK == 0 {
                     continue;
                 }
-                let goes_on = |at: usize, cut: u8, step: usize| {
-                    self.cells[at] & cut == 0 && self.cells[at + step] & DARK != 0
-                };
+                let goes_on =
+                    |at: usize, cut: u8, step: usize| self.cells[at] & cut == 0 && self.cells[at + step] & DARK != 0;
                 let columns = 1 + (first..).take_while(|&at| goes_on(at, CUT_RIGHT, 1)).count();
                 let down = (first..).step_by(self.stride);
                 let rows = 1 + down.take_while(|&at| goes_on(at, CUT_BELOW, self.stride)).count();

@@ -22,8 +22,7 @@ impl PixelRect {
     pub fn on_table(&self, calibration: &Calibration) -> Rect {
         let (column, row) = (self.column_px as f64, self.row_px as f64);
         let upper_left = calibration.table_from_image(column, row);
-        let lower_right =
-            calibration.table_from_image(column + self.width_px as f64, row + self.height_px as f64);
+        let lower_right = calibration.table_from_image(column + self.width_px as f64, row + self.height_px as f64);
         Rect { x_min_m: upper_left.x, x_max_m: lower_right.x, y_min_m: lower_right.y, y_max_m: upper_left.y }
     }
 }
@@ -32,6 +31,8 @@ impl PixelRect {
 mod tests {
     use super::*;
     use crate::geometry::{Point2, Vector2};
+    use crate::perception::test_world::{seen_from, simple};
+    use crate::perception::{Quadtree, QuadtreeParameters};
     use proptest::prelude::*;
 
     prop_compose! {
@@ -86,6 +87,35 @@ mod tests {
             let inside = (column_px..column_px + width_px).contains(&across)
                 && (row_px..row_px + height_px).contains(&down);
             prop_assert_eq!(rect.on_table(&calibration).contains(middle), inside);
+        }
+    }
+
+    #[test]
+    fn rectangles_hold_every_wall_in_view_and_little_else() {
+        for center in [Point2::new(-0.1, -0.4), Point2::new(0.103, -0.3)] {
+            let percept = seen_from(center, simple);
+            let tree = Quadtree::of(&percept.gray, &QuadtreeParameters::default());
+            let rectangles: Vec<Rect> = tree
+                .partition()
+                .rectangles
+                .iter()
+                .map(|cells| tree.pixels(cells).on_table(&percept.calibration))
+                .collect();
+            // A block's diagonal, and the spread in a corner of the image.
+            let excess_m = 6.0 * 2f64.sqrt() * percept.calibration.m_per_px + 0.0024;
+            let around = |p: Point2<f64>| {
+                (0..40).any(|i| {
+                    let turn = Vector2::new((0.157 * f64::from(i)).cos(), (0.157 * f64::from(i)).sin());
+                    (1..=8).any(|j| simple(p + turn * (excess_m * f64::from(j) / 8.0)))
+                })
+            };
+            for i in 0..200 * 200 {
+                let p =
+                    center + Vector2::new(0.001 * f64::from(i % 200), 0.001 * f64::from(i / 200)).add_scalar(-0.0995);
+                let held = rectangles.iter().any(|rect| rect.contains(p));
+                assert!(held || !simple(p), "{p} is wall");
+                assert!(!held || simple(p) || around(p), "{p} is far from any wall");
+            }
         }
     }
 

@@ -1,10 +1,12 @@
 //! `cargo bench`: how fast the plant is. `ARCHITECTURE.md` holds the figures of one run.
 
+mod camera;
 mod kinematics;
 mod magnetics;
+mod perception;
 mod plant;
 
 use criterion::{criterion_group, criterion_main};
 
-criterion_group!(speed, kinematics::benches, magnetics::benches, plant::benches);
+criterion_group!(speed, kinematics::benches, magnetics::benches, plant::benches, camera::benches, perception::benches);
 criterion_main!(speed);

@@ -6,7 +6,7 @@ use criterion::Criterion;
 use ferry::geometry::{Point2, Rect};
 use ferry::image::CameraFrame;
 use ferry::perception::{
-    DarkPixels, OBSTACLE_LEVEL, ObstacleMap, Observation, Percept, Quadtree, QuadtreeParameters, Unknown, wall_spread,
+    DarkPixels, OBSTACLE_LEVEL, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, Unknown, wall_spread,
 };
 
 const WORKSPACE: Rect = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };

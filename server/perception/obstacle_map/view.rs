@@ -104,7 +104,9 @@ fn standing(dark: &DarkPixels, spread: f64) -> DarkPixels {
     let (lefts, tops) = (tops(width_px), tops(height_px));
     let flags = dark.flags();
     // Dark here or to the right; nothing asks the last column.
-    let pairs: Vec<u8> = flags.windows(2).map(|pair| pair[0] | pair[1]).chain([0]).collect();
+    let mut pairs = Vec::with_capacity(flags.len());
+    pairs.extend(flags.windows(2).map(|pair| pair[0] | pair[1]));
+    pairs.push(0);
     let mut pixels = Vec::with_capacity(flags.len());
     for (flags, top) in flags.chunks_exact(width_px).zip(tops) {
         let (upper, lower) = pairs[top * width_px..(top + 2) * width_px].split_at(width_px);

@@ -6,6 +6,9 @@ use pathfinding::prelude::{connected_components, kuhn_munkres};
 use proptest::prelude::*;
 
 use super::*;
+use crate::geometry::Point2;
+use crate::perception::test_world::{channel, posts, seen_from, simple};
+use crate::perception::{Quadtree, QuadtreeParameters};
 
 fn mask(columns: usize, rows: usize, is_dark: impl Fn(usize, usize) -> bool) -> CellMask {
     let dark = (0..columns * rows).map(|i| is_dark(i % columns, i / columns)).collect();
@@ -154,6 +157,24 @@ fn terms_counted_otherwise(mask: &CellMask) -> [usize; 4] {
     };
     let independent = across.len() + down.len() - matched;
     [vertices.len(), independent, regions(false, &by_corners, 1) - 1, regions(true, &by_edges, 0)]
+}
+
+#[test]
+fn camera_images_have_the_minimum_that_the_formula_says() {
+    let finer = QuadtreeParameters { smallest_px: 3, ..Default::default() };
+    for (name, world) in [("simple", simple as fn(_) -> _), ("channel", channel), ("posts", posts)] {
+        for center in [Point2::new(-0.2, -0.42), Point2::new(0.013, -0.37), Point2::new(0.2, -0.3)] {
+            let gray = seen_from(center, world).gray;
+            for parameters in [QuadtreeParameters::default(), QuadtreeParameters::PAPER, finer] {
+                let tree = Quadtree::of(&gray, &parameters);
+                let p = tree.partition();
+                assert_eq!(p, checked(&tree.mask));
+                let terms = [p.concave_vertices, p.independent_chords, p.holes, p.components];
+                assert_eq!(terms, terms_counted_otherwise(&tree.mask), "{name} from {center}");
+                assert!(p.rectangles.len() <= tree.dark.len());
+            }
+        }
+    }
 }
 
 proptest! {

@@ -1,0 +1,41 @@
+//! `ferry sweep`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::learn::sweep::{STEP_M, Sweep};
+use crate::trial::Arena;
+
+/// Arguments of `ferry sweep`.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// A map's name, or the path of an SVG
+    #[arg(long, default_value = "colon")]
+    map: String,
+    /// Folder that sweeps are kept in
+    #[arg(long, default_value = "data/sweeps")]
+    out: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let arena = Arena::open(&arguments.map)?;
+    let gpu = super::open_gpu()?;
+    let size_m = arena.map.workspace().size_m() / STEP_M;
+    let bar = ProgressBar::new((size_m.x.floor() * size_m.y.floor()) as u64)
+        .with_style(ProgressStyle::with_template("images {bar:30} {pos}/{len} {eta} left")?);
+    let started = Instant::now();
+    let sweep = Sweep::open(&arena, &gpu, &arguments.out, &|| bar.inc(1))?;
+    let taken = bar.position();
+    bar.finish_and_clear();
+    let obstacles = sweep.obstacle.iter().filter(|&&obstacle| obstacle).count();
+    println!("map        {}", arena.map.name());
+    println!("images     {} × {}, one a centimetre, {obstacles} of them over a wall", sweep.columns, sweep.rows);
+    match taken {
+        0 => println!("kept       in {}", arguments.out.display()),
+        _ => println!("taken      in {:.1} s, kept in {}", started.elapsed().as_secs_f64(), arguments.out.display()),
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,225 @@
+//! What the camera sees from every place of a map (paper, §IV-A): one image a centimetre, taken by the very
+//! path that a live trial's images take, and kept on disk.
+
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::camera::{Camera, CameraError, CameraParameters, Gpu, Subject};
+use crate::geometry::Point2;
+use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
+use crate::plant::BEAD_RADIUS_M;
+use crate::trial::Arena;
+
+/// Distance between two places (paper, §IV-A).
+pub const STEP_M: f64 = 0.01;
+/// Bytes of one image.
+pub const IMAGE_BYTES: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
+/// Raised when the same map gives other images: new colours, another observation, another layout of the file.
+const VERSION: u32 = 1;
+/// A sweep has no bead: it lies where no camera sees it.
+const OUT_OF_SIGHT_M: f64 = 100.0;
+
+/// Why there is no sweep.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// An image could not be taken.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The cache could not be read or written.
+    #[error("sweep: {path}: {error}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        error: std::io::Error,
+    },
+}
+
+/// One image for each cell of the workspace, taken over its centre.
+#[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sweep {
+    /// Cells along x.
+    pub columns: usize,
+    /// Cells along y.
+    pub rows: usize,
+    /// Whether the obstacle test is true there; row by row from the lower left, as all here.
+    pub obstacle: Vec<bool>,
+    /// `[rows · columns][84][84]`, flat: channel 0 of the observation.
+    pub images: Vec<u8>,
+}
+
+impl std::fmt::Debug for Sweep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Sweep of {} × {}", self.columns, self.rows)
+    }
+}
+
+impl Sweep {
+    /// Takes all images on all cores; `progress` is called after each.
+    ///
+    /// # Errors
+    /// [`SweepError::Camera`].
+    pub fn take(arena: &Arena, gpu: &Arc<Gpu>, progress: &(dyn Fn() + Sync)) -> Result<Self, SweepError> {
+        let (columns, rows) = cells(arena);
+        let views = (0..rows)
+            .into_par_iter()
+            .map_init(
+                || None,
+                |kept, row| {
+                    let camera = match kept {
+                        Some(camera) => camera,
+                        None => kept.insert(arena.camera(gpu)?),
+                    };
+                    (0..columns)
+                        .map(|column| {
+                            let view = look(arena, camera, center(arena, column, row))?;
+                            progress();
+                            Ok(view)
+                        })
+                        .collect::<Result<Vec<_>, CameraError>>()
+                },
+            )
+            .collect::<Result<Vec<_>, CameraError>>()?;
+        let (obstacle, images): (Vec<bool>, Vec<Vec<u8>>) = views.into_iter().flatten().unzip();
+        Ok(Self { columns, rows, obstacle, images: images.concat() })
+    }
+
+    /// The sweep kept in `folder`, or a new one, which is then kept. What is kept is found by a hash of all
+    /// that makes the images; a file that is torn or of another version is made anew.
+    ///
+    /// # Errors
+    /// [`SweepError`].
+    pub fn open(
+        arena: &Arena,
+        gpu: &Arc<Gpu>,
+        folder: &Path,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Self, SweepError> {
+        let path = folder.join(format!("{:016x}.sweep", content_hash(arena)));
+        if let Some(kept) = read(&path, cells(arena)) {
+            return Ok(kept);
+        }
+        let sweep = Self::take(arena, gpu, progress)?;
+        sweep.write(folder, &path).map_err(|error| SweepError::Io { path, error })?;
+        Ok(sweep)
+    }
+
+    /// The image over a cell.
+    pub fn image(&self, cell: usize) -> &[u8] {
+        &self.images[cell * IMAGE_BYTES..(cell + 1) * IMAGE_BYTES]
+    }
+
+    /// Under another name first, so that nobody ever finds half a file.
+    fn write(&self, folder: &Path, path: &Path) -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        let part = path.with_extension("part");
+        let bytes = postcard::to_stdvec(self).map_err(std::io::Error::other)?;
+        let mut file = BufWriter::new(File::create(&part)?);
+        file.write_all(&xxhash_rust::xxh3::xxh3_64(&bytes).to_le_bytes())?;
+        file.write_all(&bytes)?;
+        file.into_inner()?.sync_all()?;
+        std::fs::rename(part, path)
+    }
+}
+
+/// A kept sweep, if it is whole.
+fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
+    let mut bytes = Vec::new();
+    BufReader::new(File::open(path).ok()?).read_to_end(&mut bytes).ok()?;
+    let (hash, bytes) = bytes.split_at_checked(8)?;
+    if xxhash_rust::xxh3::xxh3_64(bytes).to_le_bytes() != hash {
+        return None;
+    }
+    let sweep: Sweep = postcard::from_bytes(bytes).ok()?;
+    let cells = columns * rows;
+    let fits = sweep.obstacle.len() == cells && sweep.images.len() == cells * IMAGE_BYTES;
+    (fits && (sweep.columns, sweep.rows) == (columns, rows)).then_some(sweep)
+}
+
+/// Hash of the map's drawing, the camera and this module's version: equal hashes, equal images.
+fn content_hash(arena: &Arena) -> u64 {
+    let CameraParameters { height_m, table_span_m, size_px } = CameraParameters::default();
+    let numbers = [height_m, table_span_m, f64::from(size_px), STEP_M, f64::from(VERSION)];
+    let mut hash = xxhash_rust::xxh3::Xxh3::new();
+    for number in numbers {
+        hash.update(&number.to_bits().to_le_bytes());
+    }
+    hash.update(arena.map.svg().as_bytes());
+    hash.digest()
+}
+
+/// Columns and rows of whole cells.
+fn cells(arena: &Arena) -> (usize, usize) {
+    let size_m = arena.map.workspace().size_m();
+    let count = |side_m: f64| (side_m / STEP_M + 1e-6).floor().max(1.0) as usize;
+    (count(size_m.x), count(size_m.y))
+}
+
+fn center(arena: &Arena, column: usize, row: usize) -> Point2<f64> {
+    let w = arena.map.workspace();
+    Point2::new(w.x_min_m + (column as f64 + 0.5) * STEP_M, w.y_min_m + (row as f64 + 0.5) * STEP_M)
+}
+
+fn look(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<(bool, Vec<u8>), CameraError> {
+    let subject = Subject {
+        tick: 0,
+        tool_m: [tool.x, tool.y, 0.1],
+        bead_m: [OUT_OF_SIGHT_M, OUT_OF_SIGHT_M, BEAD_RADIUS_M],
+        goal_m: None,
+        link_frames: None,
+        block_size_m: [0.05, 0.025, 0.01],
+    };
+    let percept = Percept::of(&camera.capture(&subject)?);
+    let observation = Observation::new(&percept.gray, None, tool, arena.map.workspace());
+    Ok((percept.obstacle(), observation.channel(0).pixels))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    use super::*;
+    use crate::camera::AdapterChoice;
+    use crate::map::Map;
+
+    fn arena() -> Arc<Arena> {
+        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 200 120 100">
+            <rect x="-60" y="230" width="30" height="30"/></svg>"#;
+        Arena::of(Map::from_svg("small", svg).unwrap())
+    }
+
+    #[test]
+    fn a_sweep_is_what_a_live_camera_sees_and_is_taken_once() {
+        let (arena, gpu) = (arena(), Gpu::open(AdapterChoice::Auto).unwrap());
+        let folder = tempfile::tempdir().unwrap();
+        let taken = AtomicU32::new(0);
+        let progress = || {
+            taken.fetch_add(1, Ordering::Relaxed);
+        };
+        let open = || Sweep::open(&arena, &gpu, folder.path(), &progress).unwrap();
+        let sweep = open();
+        assert_eq!((sweep.columns, sweep.rows, taken.load(Ordering::Relaxed)), (12, 10, 120));
+        let mut camera = arena.camera(&gpu).unwrap();
+        for (column, row) in [(0, 0), (5, 5), (11, 9)] {
+            let tool = center(&arena, column, row);
+            let (obstacle, image) = look(&arena, &mut camera, tool).unwrap();
+            let cell = row * 12 + column;
+            assert_eq!((sweep.obstacle[cell], sweep.image(cell)), (obstacle, image.as_slice()));
+            assert_eq!(obstacle, !arena.map.is_free(tool));
+        }
+        assert_eq!(open(), sweep);
+        assert_eq!(taken.load(Ordering::Relaxed), 120, "read from the disk");
+
+        // A torn file is no sweep.
+        let path = std::fs::read_dir(folder.path()).unwrap().next().unwrap().unwrap().path();
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
+        assert_eq!(open(), sweep);
+        assert_eq!(taken.load(Ordering::Relaxed), 240, "taken anew");
+    }
+}

@@ -1,0 +1,40 @@
+//! Pictures, with readback, on whatever adapter is found.
+
+use std::hint::black_box;
+
+use criterion::Criterion;
+use ferry::camera::{AdapterChoice, Gpu, Quality, Subject};
+use ferry::geometry::Point3;
+use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation};
+use ferry::trial::Arena;
+
+pub fn benches(c: &mut Criterion) {
+    let gpu = Gpu::open(AdapterChoice::Auto).expect("a graphics adapter is needed");
+    println!("rendered by {}", gpu.adapter_name());
+    let arena = Arena::open("colon").unwrap();
+    let mut group = c.benchmark_group("camera");
+    let mut at = 0;
+    let mut next = || {
+        at = (at + 1) % 40;
+        let tool_m = Point3::new(-0.2 + 0.01 * f64::from(at), -0.48, 0.1);
+        let home = Positioner::home(PositionerKind::Arm, tool_m);
+        let arm = Positioner::at(tool_m, ToolOrientation::Vertical, &home).unwrap();
+        Subject {
+            tick: 0,
+            tool_m: tool_m.coords.into(),
+            bead_m: [tool_m.x - 0.015, tool_m.y, BEAD_RADIUS_M],
+            goal_m: Some([0.19, -0.28]),
+            link_frames: arm.link_frames(),
+            block_size_m: [0.05, 0.025, 0.01],
+        }
+    };
+    let mut camera = arena.camera(&gpu).unwrap();
+    group.bench_function("controllers' view, 480×480", |b| b.iter(|| black_box(camera.capture(&next()).unwrap())));
+    for (name, quality) in [("economy", Quality::Economy), ("fine", Quality::Fine)] {
+        let mut camera = arena.camera(&gpu).unwrap().with_quality(quality);
+        group.bench_function(format!("scene, 640×360, {name}"), |b| {
+            b.iter(|| black_box(camera.scene(&next(), 640, 360).unwrap()));
+        });
+    }
+    group.finish();
+}
