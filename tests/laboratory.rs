@@ -343,7 +343,8 @@ async fn arm_and_magnet_can_be_asked_for_numbers() {
     // Ten thousand poses fit, more bytes than any are refused as a problem.
     let many = json!({"poses": vec![far; 10_000]}).to_string();
     assert_eq!(lab.ask("POST", "/api/kinematics/inverse", &many).await.0, 200);
-    let (status, problem) = lab.ask("POST", "/api/kinematics/inverse", &" ".repeat(9 << 20)).await;
+    // One byte too many: the server has read all but that when it answers, and nobody writes into a closed socket.
+    let (status, problem) = lab.ask("POST", "/api/kinematics/inverse", &" ".repeat((8 << 20) + 1)).await;
     assert_eq!((status, &problem["code"]), (413, &json!("too_large")), "{problem}");
     lab.close().await;
 }
