@@ -26,11 +26,6 @@ pub const BEAD_RADIUS_M: f64 = dipole::SPHERE_DIAMETER_M / 2.0;
 /// Plant steps a servo period: 1 kHz.
 pub const SUBSTEPS: usize = 8;
 
-/// Mass of the bead.
-pub fn bead_mass_kg() -> f64 {
-    dipole::mass_kg()
-}
-
 /// What the physics can be told.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlantParameters {

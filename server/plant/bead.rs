@@ -14,6 +14,8 @@ pub const HAND_STIFFNESS_N_M: f64 = 1.0;
 /// The hand moves the bead no faster than this (specification §2).
 pub const HAND_SPEED_LIMIT_M_S: f64 = 1.0;
 
+/// No kick makes the bead faster than this.
+const KICKED_M_S: f64 = 4.1;
 /// Moment of inertia of a sphere in units of m·r².
 const SPHERE_INERTIA: f64 = 0.4;
 
@@ -55,6 +57,12 @@ impl Bead {
     /// Kinetic energy, that of the rotation included.
     pub fn kinetic_energy_j(&self) -> f64 {
         0.5 * dipole::mass_kg() * (self.velocity_m_s.norm_squared() + SPHERE_INERTIA * self.roll_m_s.norm_squared())
+    }
+
+    /// Kicks it. Kicks that come together do not add up to more than the strongest one.
+    pub fn kick(&mut self, impulse_n_s: Vector2<f64>) {
+        let most_m_s = self.velocity_m_s.norm().max(KICKED_M_S);
+        self.velocity_m_s = (self.velocity_m_s + impulse_n_s / dipole::mass_kg()).cap_magnitude(most_m_s);
     }
 
     fn jump_to(&mut self, tool_m: Point2<f64>) {

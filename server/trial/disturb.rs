@@ -1,21 +1,17 @@
 //! Disturbances: those of the scenario's script, those that strike at random, and the operator's.
 
-use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::{Event, EventKind, InputError, Trial, TrialError, input::check_on_table};
 use crate::geometry::{Point2, Vector2};
 use crate::map::{FreeSpace, Map};
-use crate::plant::{Bead, bead_mass_kg, contact};
+use crate::plant::{Bead, contact};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Disturbance, SCRIPT_LIMIT, Scripted, When};
 
 /// A random disturbance puts the bead down at least this far away (specification §2).
 const LEAST_DISPLACEMENT_M: f64 = 0.15;
-
-/// No kick makes the bead faster than this.
-const KICKED_M_S: f64 = 4.1;
 
 /// Disturbances still to come, and those that last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -91,10 +87,7 @@ impl Trial {
                 format!("the bead was lifted {:.0} cm away", (to - from).norm() * 100.0)
             }
             Disturbance::Impulse { x_n_s, y_n_s } => {
-                // Kicks that come together do not add up to more than the strongest one.
-                let most_m_s = bead.velocity_m_s.norm().max(KICKED_M_S);
-                let kicked = bead.velocity_m_s + Vector2::new(x_n_s, y_n_s) / bead_mass_kg();
-                bead.velocity_m_s = kicked.cap_magnitude(most_m_s);
+                bead.kick(Vector2::new(x_n_s, y_n_s));
                 format!("a kick of {:.2} mN·s", x_n_s.hypot(y_n_s) * 1e3)
             }
             Disturbance::Drift { x_n, y_n, for_s } => {
@@ -130,8 +123,6 @@ impl Trial {
 
 fn far_point(map: &Map, space: &FreeSpace, from: Point2<f64>, rng: &mut ChaCha8Rng) -> Option<Point2<f64>> {
     let component = space.component_at(from);
-    let far = |rng: &mut dyn Rng| {
-        space.sample(map, component, &mut { rng }).filter(|to| (to - from).norm() >= LEAST_DISPLACEMENT_M)
-    };
-    (0..1000).find_map(|_| far(rng))
+    let is_far = |to: &Point2<f64>| (to - from).norm() >= LEAST_DISPLACEMENT_M;
+    (0..1000).find_map(|_| space.sample(map, component, rng).filter(is_far))
 }
