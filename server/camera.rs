@@ -49,8 +49,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Isometry3, Polygon, Rect};
-use crate::image::CameraFrame;
+use crate::geometry::{CameraMount, Isometry3, Point2, Polygon, Rect};
+use crate::image::{CameraFrame, Picture};
 
 pub use error::CameraError;
 pub use gpu::{AdapterChoice, Gpu};
@@ -62,7 +62,10 @@ pub const BEAD_RADIUS_M: f64 = 0.0025;
 /// single request could claim gigabytes.
 pub const MOST_PX: u32 = 4096;
 
-/// Largest height or table span that is accepted.
+/// Columns and rows of the controllers' view (specification §3).
+pub const VIEW_PX: u32 = 480;
+
+/// Largest height and offset of a camera that is accepted, and how far from its tool it may see table.
 const MOST_M: f64 = 10.0;
 
 /// How much work goes into pictures for people. The controllers' view is the same at either.
@@ -75,41 +78,37 @@ pub enum Quality {
     Fine,
 }
 
-/// The pinhole that the controllers see through.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS)]
-pub struct CameraParameters {
-    /// Height of the optical centre above the table.
-    pub height_m: f64,
-    /// Width of table (z = 0) across the image.
-    pub table_span_m: f64,
-    /// Columns and rows of the square image.
-    pub size_px: u32,
-}
-
-impl Default for CameraParameters {
-    fn default() -> Self {
-        Self { height_m: 0.30, table_span_m: 0.20, size_px: 480 }
+/// Refuses a mount that no image can be made with, over walls of `wall_height_m`.
+///
+/// # Errors
+/// [`CameraError::Parameter`], [`CameraError::BelowWalls`] or [`CameraError::Horizon`].
+pub fn check_mount(mount: &CameraMount, wall_height_m: f64) -> Result<(), CameraError> {
+    let CameraMount { height_m, offset_m, tilt_rad, field_of_view_rad, .. } = *mount;
+    let upright = |tilt_rad: f64| tilt_rad.abs() < std::f64::consts::FRAC_PI_2;
+    let near = |offset_m: f64| offset_m.abs() <= MOST_M;
+    let fields = [
+        ("height_m", height_m, height_m > 0.0 && height_m <= MOST_M, "above 0 and at most 10 m"),
+        ("offset_m[0]", offset_m[0], near(offset_m[0]), "at most 10 m to either side"),
+        ("offset_m[1]", offset_m[1], near(offset_m[1]), "at most 10 m to either side"),
+        ("tilt_rad[0]", tilt_rad[0], upright(tilt_rad[0]), "less than a right angle to either side"),
+        ("tilt_rad[1]", tilt_rad[1], upright(tilt_rad[1]), "less than a right angle to either side"),
+        (
+            "field_of_view_rad",
+            field_of_view_rad,
+            field_of_view_rad > 1e-3 && field_of_view_rad < std::f64::consts::PI,
+            "above .001 and less than pi",
+        ),
+    ];
+    if let Some((name, value, _, expected)) = fields.into_iter().find(|(_, _, good, _)| !good) {
+        return Err(CameraError::Parameter { name, value, expected });
     }
-}
-
-impl CameraParameters {
-    /// Refuses values that no image can be made of, for walls of `wall_height_m`.
-    ///
-    /// # Errors
-    /// [`CameraError::Parameter`], [`CameraError::BelowWalls`] or [`CameraError::Size`]. A camera
-    /// applies its adapter's own limit on the size besides.
-    pub fn check(&self, wall_height_m: f64) -> Result<(), CameraError> {
-        let lengths = [("height_m", self.height_m), ("table_span_m", self.table_span_m)];
-        for (name, value) in lengths {
-            if !(value > 0.0 && value <= MOST_M) {
-                let expected = "above 0 and at most 10 m";
-                return Err(CameraError::Parameter { name, value, expected });
-            }
-        }
-        if self.height_m <= wall_height_m {
-            return Err(CameraError::BelowWalls { height_m: self.height_m, wall_height_m });
-        }
-        check_size(self.size_px, self.size_px, MOST_PX)
+    if height_m <= wall_height_m {
+        return Err(CameraError::BelowWalls { height_m, wall_height_m });
+    }
+    let seen = mount.over(Point2::origin()).table_corners_m();
+    match seen.filter(|corners| corners.iter().all(|corner| corner.coords.norm() <= MOST_M)) {
+        Some(_) => Ok(()),
+        None => Err(CameraError::Horizon { tilt_rad, field_of_view_rad }),
     }
 }
 
@@ -141,6 +140,8 @@ pub struct Subject {
     pub link_frames: Option<[Isometry3<f64>; 6]>,
     /// Edges of the magnet along x, y and z of `base`.
     pub block_size_m: [f64; 3],
+    /// How the controllers' camera sits on the tool.
+    pub mount: CameraMount,
 }
 
 impl Subject {
@@ -182,7 +183,7 @@ pub struct Camera {
     workspace: Rect,
     walls: Vec<Polygon>,
     wall_height_m: f64,
-    parameters: CameraParameters,
+    view_px: u32,
     /// Asked for; otherwise what the adapter can afford.
     quality: Option<Quality>,
     renderers: Renderers,
@@ -207,31 +208,30 @@ struct Renderers {
 }
 
 impl Renderers {
-    fn new(gpu: &Arc<Gpu>, stage: &Stage, parameters: &CameraParameters) -> Result<Self, CameraError> {
+    fn new(gpu: &Arc<Gpu>, stage: &Stage, view_px: u32) -> Result<Self, CameraError> {
         let gpu = gpu.living()?;
-        check_size(parameters.size_px, parameters.size_px, gpu.most_px())?;
-        let view = view::ViewRenderer::new(&gpu, stage, *parameters)?;
+        check_size(view_px, view_px, gpu.most_px())?;
+        let view = view::ViewRenderer::new(&gpu, stage, view_px)?;
         Ok(Self { gpu, view, scene: None })
     }
 }
 
 impl Camera {
-    /// Prepares to draw `stage`; later changes of the stage need a new camera.
+    /// Prepares to draw `stage`, the controllers' view with `view_px` columns and rows; later changes of
+    /// the stage need a new camera.
     ///
     /// # Errors
-    /// [`CameraError::Parameter`], [`CameraError::BelowWalls`], [`CameraError::Size`] or
-    /// [`CameraError::Stage`] for bad input, [`CameraError::Rejected`] or
+    /// [`CameraError::Size`] or [`CameraError::Stage`] for bad input, [`CameraError::Rejected`] or
     /// [`CameraError::DeviceLost`] when the device fails.
-    pub fn new(gpu: Arc<Gpu>, stage: &Stage, parameters: &CameraParameters) -> Result<Self, CameraError> {
+    pub fn new(gpu: Arc<Gpu>, stage: &Stage, view_px: u32) -> Result<Self, CameraError> {
         stage::check(stage)?;
-        parameters.check(stage.wall_height_m)?;
         Ok(Self {
             workspace: *stage.workspace,
             walls: stage.walls.to_vec(),
             wall_height_m: stage.wall_height_m,
-            parameters: *parameters,
+            view_px,
             quality: None,
-            renderers: Renderers::new(&gpu, stage, parameters)?,
+            renderers: Renderers::new(&gpu, stage, view_px)?,
         })
     }
 
@@ -243,34 +243,34 @@ impl Camera {
         self
     }
 
-    /// The controllers' view, square: image up is +y, and the centre of pixel (u, v) shows the table
-    /// at `x = tool_x + (u + ½ − W/2)·span/W`, `y = tool_y − (v + ½ − W/2)·span/W`.
+    /// The controllers' view, square: image up is +y, and the centre of pixel (u, v) of W × W is the place
+    /// (2u + 1 − W, W − 2v − 1)/W of the frame's pinhole.
     ///
     /// # Errors
-    /// [`CameraError::Subject`] for a state that is not finite, [`CameraError::Rejected`],
-    /// [`CameraError::Readback`] or [`CameraError::DeviceLost`] when the device fails.
+    /// [`CameraError::Subject`] for a state that is not finite, those of [`check_mount`],
+    /// [`CameraError::Rejected`], [`CameraError::Readback`] or [`CameraError::DeviceLost`] when the device
+    /// fails.
     pub fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         subject.check()?;
+        check_mount(&subject.mount, self.wall_height_m)?;
         self.draw(|Self { renderers: Renderers { gpu, view, .. }, .. }| view.draw(gpu, subject))
     }
 
     /// The whole table with arm, magnet, walls, bead and goal, in perspective from the user's side.
-    /// The frame's `camera_m` is the eye; its `table_span_m` is the width seen at the distance of
-    /// the middle of the picture.
     ///
     /// # Errors
     /// As [`Camera::capture`], and [`CameraError::Size`] for an image without pixels or one beyond
     /// [`MOST_PX`].
-    pub fn scene(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
+    pub fn scene(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<Picture, CameraError> {
         self.for_people(subject, Viewpoint::User, width_px, height_px)
     }
 
     /// The workspace from straight above, +y up, without perspective: walls, block, bead and goal, but no
-    /// arm, which would hide them. The frame's `table_span_m` is the width seen.
+    /// arm, which would hide them.
     ///
     /// # Errors
     /// As [`Camera::scene`].
-    pub fn plan(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<CameraFrame, CameraError> {
+    pub fn plan(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<Picture, CameraError> {
         self.for_people(subject, Viewpoint::Above, width_px, height_px)
     }
 
@@ -280,7 +280,7 @@ impl Camera {
         viewpoint: Viewpoint,
         width_px: u32,
         height_px: u32,
-    ) -> Result<CameraFrame, CameraError> {
+    ) -> Result<Picture, CameraError> {
         subject.check()?;
         check_size(width_px, height_px, self.renderers.gpu.most_px())?;
         self.draw(|Self { workspace, walls, wall_height_m, quality, renderers, .. }| {
@@ -297,15 +297,12 @@ impl Camera {
     }
 
     /// Draws, and draws once more on another device if this one is lost.
-    fn draw(
-        &mut self,
-        mut picture: impl FnMut(&mut Self) -> Result<CameraFrame, CameraError>,
-    ) -> Result<CameraFrame, CameraError> {
+    fn draw<T>(&mut self, mut picture: impl FnMut(&mut Self) -> Result<T, CameraError>) -> Result<T, CameraError> {
         match picture(self) {
             Err(CameraError::DeviceLost { reason }) => {
                 tracing::warn!(reason, "the graphics device was lost and is opened anew");
                 let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
-                self.renderers = Renderers::new(&self.renderers.gpu, &stage, &self.parameters)?;
+                self.renderers = Renderers::new(&self.renderers.gpu, &stage, self.view_px)?;
                 picture(self)
             }
             drawn => drawn,

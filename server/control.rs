@@ -77,6 +77,14 @@ pub enum Refusal {
         /// The limit.
         limit_m_s: f64,
     },
+    /// The camera does not see where the step goes, as when it is mounted far aside.
+    #[error("the step to ({x_m:.3}, {y_m:.3}) m leaves the camera's view")]
+    OutOfView {
+        /// Target, x.
+        x_m: f64,
+        /// Target, y.
+        y_m: f64,
+    },
     /// The obstacle test is true somewhere on the step.
     #[error("the camera sees an obstacle on the step, at ({x_m:.3}, {y_m:.3}) m")]
     Obstacle {

@@ -1,22 +1,29 @@
-//! Camera frames and gray images, and their encodings.
+//! Pictures, camera frames and gray images, and their encodings.
 
 use serde::{Deserialize, Serialize};
 
-/// What the camera returns: RGBA8 pixels with the moment and place they were taken.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CameraFrame {
+use crate::geometry::Pinhole;
+
+/// A picture of RGBA8 pixels.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Picture {
     /// Columns.
     pub width_px: u32,
     /// Rows.
     pub height_px: u32,
     /// Row-major RGBA, four bytes a pixel, the top row first.
     pub rgba: Vec<u8>,
-    /// Tick at which the frame was taken.
+}
+
+/// What the controllers' camera returns: a square picture with the moment and place it was taken.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CameraFrame {
+    /// The picture.
+    pub picture: Picture,
+    /// Tick at which it was taken.
     pub tick: u64,
-    /// Optical centre in `base`.
-    pub camera_m: [f64; 3],
-    /// Width of table seen at z = 0.
-    pub table_span_m: f64,
+    /// The camera.
+    pub pinhole: Pinhole,
 }
 
 /// An 8-bit gray image.
@@ -41,7 +48,7 @@ pub enum EncodeError {
     Jpeg(#[from] jpeg_encoder::EncodingError),
 }
 
-impl CameraFrame {
+impl Picture {
     /// Gray by Rec. 601 luma, rounded to the nearest level.
     pub fn to_gray(&self) -> GrayImage {
         let pixels = self
@@ -56,12 +63,12 @@ impl CameraFrame {
         GrayImage { width_px: self.width_px as usize, height_px: self.height_px as usize, pixels }
     }
 
-    /// The frame as a PNG file.
+    /// The picture as a PNG file.
     pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
         encode_png(self.width_px, self.height_px, png::ColorType::Rgba, &self.rgba)
     }
 
-    /// The frame as a JPEG file; `quality` from 1 to 100.
+    /// The picture as a JPEG file; `quality` from 1 to 100.
     pub fn to_jpeg(&self, quality: u8) -> Result<Vec<u8>, EncodeError> {
         let mut out = Vec::with_capacity(64 * 1024);
         jpeg_encoder::Encoder::new(&mut out, quality).encode(

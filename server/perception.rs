@@ -6,16 +6,17 @@ mod obstacle_map;
 mod obstacles;
 mod quadtree;
 mod rectangles;
+mod rectify;
 mod table;
 #[cfg(test)]
 mod test_world;
 
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::{Point2, Rect, Vector2};
 use crate::image::{CameraFrame, GrayImage};
 
 pub use dark::{DarkPixels, OBSTACLE_LEVEL, PixelRect};
 pub use observation::{OBSERVATION_SIZE_PX, Observation};
-pub use obstacle_map::{Area, CellState, Change, ObstacleMap, SeenLayer, Unknown};
+pub use obstacle_map::{Area, CellState, Change, ObstacleMap, Unknown};
 pub use obstacles::{ObstacleMask, Patch};
 pub use quadtree::{Quadtree, QuadtreeParameters};
 pub use rectangles::{CellMask, CellRect, Partition};
@@ -26,18 +27,19 @@ pub const TEST_PATCH_PX: i64 = 15;
 /// A mean below this is an obstacle (paper, §IV-A).
 pub const OBSTACLE_MEAN: f64 = 150.0;
 
-/// The camera's geometry: a pixel's place on the table and back.
+/// A pixel's place on the table and back, for an image taken from straight above, +y up.
 ///
-/// The camera looks straight down and image up is +y. Wall tops, 5 mm nearer to the camera, seem up
-/// to 1.7 % farther from the middle than they are.
+/// Wall tops, 5 mm nearer to the camera, seem up to 1.7 % farther from the camera's foot than they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Calibration {
-    /// Point of the table under the optical centre.
+    /// Point of the table in the middle of the image.
     pub center_m: Point2<f64>,
     /// Metres of table a pixel.
     pub m_per_px: f64,
     /// Columns and rows.
     pub size_px: usize,
+    /// Point of the table below the camera.
+    pub foot_m: Point2<f64>,
 }
 
 impl Calibration {
@@ -53,31 +55,49 @@ impl Calibration {
         let offset = (point - self.center_m) / self.m_per_px;
         (half + offset.x, half - offset.y)
     }
+
+    /// Whether a point is in the image.
+    pub fn sees(&self, point: Point2<f64>) -> bool {
+        let half_m = 0.5 * self.size_px as f64 * self.m_per_px;
+        let offset = point - self.center_m;
+        offset.x.abs() < half_m && offset.y.abs() < half_m
+    }
 }
 
 /// One frame, understood.
 #[derive(Clone, Debug)]
 pub struct Percept {
-    /// Gray by Rec. 601, 480×480.
+    /// Gray by Rec. 601, seen from straight above: the frame's own for a camera that looks straight down,
+    /// rectified for a tilted one.
     pub gray: GrayImage,
     /// Where its pixels lie.
     pub calibration: Calibration,
-    /// Mean of the central 15×15 pixels.
+    /// Mean of the 15×15 pixels around the tool, which the default camera has in the middle.
     pub center_mean: f64,
 }
 
 impl Percept {
-    /// Looks at a frame.
-    pub fn of(frame: &CameraFrame) -> Self {
-        let gray = frame.to_gray();
-        let calibration = Calibration {
-            center_m: Point2::new(frame.camera_m[0], frame.camera_m[1]),
-            m_per_px: frame.table_span_m / f64::from(frame.width_px),
-            size_px: frame.width_px as usize,
-        };
+    /// Looks at a frame that was taken with the tool at `tool_m`.
+    pub fn of(frame: &CameraFrame, tool_m: Point2<f64>) -> Self {
+        let (gray, calibration) = rectify::from_above(frame.picture.to_gray(), &frame.pinhole);
         let mut percept = Self { gray, calibration, center_mean: 0.0 };
-        percept.center_mean = percept.patch_mean(calibration.center_m);
+        percept.center_mean = percept.patch_mean(tool_m);
         percept
+    }
+
+    /// The part of the table that [`Self::patch_mean`] looks at around a point.
+    pub fn patch(&self, point: Point2<f64>) -> Rect {
+        let (column, row) = self.calibration.image_from_table(point);
+        let corner_px = |at: f64| at.floor() - (TEST_PATCH_PX / 2) as f64;
+        let side_px = TEST_PATCH_PX as f64;
+        let upper_left = self.calibration.table_from_image(corner_px(column), corner_px(row));
+        let size_m = side_px * self.calibration.m_per_px;
+        Rect {
+            x_min_m: upper_left.x,
+            x_max_m: upper_left.x + size_m,
+            y_min_m: upper_left.y - size_m,
+            y_max_m: upper_left.y,
+        }
     }
 
     /// The paper's obstacle test.
@@ -129,10 +149,14 @@ pub(crate) use tests::frame as test_frame;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::CameraMount;
+    use crate::image::Picture;
 
     /// A frame whose pixels are given by a rule on table coordinates.
     pub(crate) fn frame(center: Point2<f64>, wall: impl Fn(Point2<f64>) -> bool) -> CameraFrame {
-        let calibration = Calibration { center_m: center, m_per_px: 0.2 / 480.0, size_px: 480 };
+        let pinhole = CameraMount::default().over(center);
+        let m_per_px = 2.0 * 0.3 * pinhole.tangent() / 480.0;
+        let calibration = Calibration { center_m: center, m_per_px, size_px: 480, foot_m: center };
         let rgba = (0..480 * 480)
             .flat_map(|i| {
                 let point = calibration.table_from_image((i % 480) as f64 + 0.5, (i / 480) as f64 + 0.5);
@@ -140,19 +164,13 @@ mod tests {
                 [level, level, level, 255]
             })
             .collect();
-        CameraFrame {
-            width_px: 480,
-            height_px: 480,
-            rgba,
-            tick: 0,
-            camera_m: [center.x, center.y, 0.3],
-            table_span_m: 0.2,
-        }
+        CameraFrame { picture: Picture { width_px: 480, height_px: 480, rgba }, tick: 0, pinhole }
     }
 
     #[test]
     fn calibration_goes_there_and_back() {
-        let calibration = Calibration { center_m: Point2::new(0.1, -0.3), m_per_px: 0.2 / 480.0, size_px: 480 };
+        let center_m = Point2::new(0.1, -0.3);
+        let calibration = Calibration { center_m, m_per_px: 0.2 / 480.0, size_px: 480, foot_m: center_m };
         let upper_left = calibration.table_from_image(0.0, 0.0);
         assert!((upper_left - Point2::new(0.0, -0.2)).norm() < 1e-12);
         let (column, row) = calibration.image_from_table(upper_left);
@@ -162,18 +180,18 @@ mod tests {
     #[test]
     fn the_obstacle_test_is_the_mean_of_the_middle() {
         let center = Point2::new(0.0, -0.3);
-        assert!(!Percept::of(&frame(center, |_| false)).obstacle());
-        assert!(Percept::of(&frame(center, |p| (p - center).norm() < 0.004)).obstacle());
-        assert!(!Percept::of(&frame(center, |p| (p - center).norm() > 0.006)).obstacle());
+        assert!(!Percept::of(&frame(center, |_| false), center).obstacle());
+        assert!(Percept::of(&frame(center, |p| (p - center).norm() < 0.004), center).obstacle());
+        assert!(!Percept::of(&frame(center, |p| (p - center).norm() > 0.006), center).obstacle());
     }
 
     #[test]
     fn a_thin_wall_across_the_step_is_seen_and_leaving_a_wall_is_allowed() {
         let center = Point2::new(0.0, -0.3);
         let to = center + Vector2::new(0.02, 0.0);
-        let thin = Percept::of(&frame(center, |p| (p.x - 0.01).abs() < 0.002));
+        let thin = Percept::of(&frame(center, |p| (p.x - 0.01).abs() < 0.002), center);
         assert!(thin.obstacle_on_step(center, to).is_some());
-        let behind = Percept::of(&frame(center, |p| p.x < 0.001));
+        let behind = Percept::of(&frame(center, |p| p.x < 0.001), center);
         assert!(behind.obstacle_on_step(center, to).is_none());
         assert!(behind.obstacle_on_step(center, center - Vector2::new(0.02, 0.0)).is_some());
     }

@@ -20,7 +20,7 @@ mod parse;
 mod typescript;
 
 /// Raised when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 2;
+pub const PROTOCOL_VERSION: u32 = 3;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
@@ -127,6 +127,8 @@ pub enum ServerMessage {
     Event(EventMessage),
     /// What the controller made of the last camera frame.
     Overlay(OverlayMessage),
+    /// What the camera has shown up to now, when that changed.
+    Seen(SeenMessage),
     /// A message was refused; nothing changed.
     Error(ErrorMessage),
 }
@@ -172,8 +174,8 @@ pub struct SceneMessage {
     pub defaults: Parameters,
     /// Radius of the bead.
     pub bead_radius_m: f64,
-    /// Side of the square of table that the camera sees.
-    pub camera_span_m: f64,
+    /// Corners of the part of the table that the camera sees, from the tool.
+    pub camera_sees_m: Vec<[f64; 2]>,
     /// Number of the trial: another one when a trial was set up anew.
     #[ts(type = "number")]
     pub trial: u64,
@@ -292,12 +294,50 @@ pub struct OverlayMessage {
     pub tick: u64,
     /// Obstacles sensed in it.
     pub obstacles: Vec<SensedObstacle>,
-    /// Mean of the central 15×15 pixels, 0 to 255.
+    /// Mean of the 15×15 pixels around the tool, 0 to 255.
     pub center_mean: f64,
+    /// Those pixels, on the table.
+    pub patch: Rect,
     /// Obstacle test: `center_mean` < 150.
     pub obstacle: bool,
     /// Next tool target.
     pub target_m: Option<[f64; 2]>,
+    /// Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's picture.
+    pub picture_from_table: [[f64; 3]; 3],
+    /// What the image is made of.
+    pub blocks: BlocksLayer,
+}
+
+/// Column, row, width and height in pixels of a square image of the table, rows counted from the top.
+pub type PixelBlock = [u32; 4];
+
+/// The camera's image as the planner takes it, seen from straight above.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct BlocksLayer {
+    /// Upper left corner on the table.
+    pub origin_m: [f64; 2],
+    /// Side of a pixel on the table.
+    pub pixel_m: f64,
+    /// Dark blocks of the quadtree.
+    pub dark: Vec<PixelBlock>,
+    /// Free blocks of the quadtree.
+    pub free: Vec<PixelBlock>,
+    /// The dark blocks merged into as few rectangles as possible.
+    pub rectangles: Vec<PixelBlock>,
+}
+
+/// What the camera has shown of the workspace since the trial began.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct SeenMessage {
+    /// What the grid covers.
+    pub workspace: Rect,
+    /// Cells along x.
+    pub columns: u32,
+    /// Cells along y.
+    pub rows: u32,
+    /// Equal cells in succession, from the least x and y row by row, which may go on in the next row: 0 for
+    /// unknown, 1 for free, 2 for an obstacle; and how many.
+    pub runs: Vec<(u8, u32)>,
 }
 
 /// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.

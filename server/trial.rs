@@ -15,10 +15,9 @@ mod state;
 
 use std::sync::Arc;
 
-use crate::camera::{Camera, CameraError, CameraParameters, Eye, Gpu, Stage, Subject};
+use crate::camera::{Camera, CameraError, Eye, Gpu, Stage, Subject, VIEW_PX};
 use crate::control::{approach, limits::Limits, step_is_due};
 use crate::geometry::{Point2, Point3, Rect, Vector2};
-use crate::image::CameraFrame;
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::perception::Percept;
 use crate::plant::{Plant, Positioner, PositionerKind};
@@ -100,11 +99,11 @@ impl Arena {
         Arc::new(Self { map, space })
     }
 
-    /// A camera that looks at this map, at the defaults of specification §3.
+    /// A camera that looks at this map.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let map = &self.map;
         let stage = Stage { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
-        Camera::new(gpu.clone(), &stage, &CameraParameters::default())
+        Camera::new(gpu.clone(), &stage, VIEW_PX)
     }
 }
 
@@ -145,7 +144,7 @@ impl Trial {
         let positioner =
             limits.position(tool_m, &home).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
         let plant = Plant::new(scenario.parameters.plant());
-        let state = TrialState::at_start(&scenario, tool_m, positioner);
+        let state = TrialState::at_start(&scenario, arena.map.workspace(), tool_m, positioner);
         let mut trial = Self { arena, plant, state, inputs: Vec::new(), events: Vec::new(), scenario };
         if let Some(goal) = trial.scenario.goal_m {
             trial.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y })?;
@@ -200,6 +199,7 @@ impl Trial {
             goal_m: world.goal_m.map(|goal| [goal.x, goal.y]),
             link_frames: world.plant.positioner.link_frames(),
             block_size_m: self.plant.block_size_m(),
+            mount: world.parameters.camera_mount(),
         }
     }
 
@@ -213,16 +213,15 @@ impl Trial {
     pub fn tick(&mut self, source: Source<'_>) -> Result<TickRecord, TrialError> {
         let tick = self.state.world.tick;
         let mut decision = None;
-        let mut frame: Option<Arc<CameraFrame>> = None;
-        let mut percept: Option<Percept> = None;
+        let mut seen = None;
         if step_is_due(tick) {
             let decided = match source {
                 Source::Eye(eye) => {
-                    let taken = eye.capture(&self.subject())?;
-                    let seen = Percept::of(&taken);
-                    let decided = self.decide(&seen);
-                    percept = Some(seen);
-                    frame = Some(Arc::new(taken));
+                    let tool_m = self.tool_m().xy();
+                    let frame = eye.capture(&self.subject())?;
+                    let percept = Percept::of(&frame, tool_m);
+                    let decided = self.decide(&percept);
+                    seen = Some(record::Seen { frame, percept, tool_m });
                     decided
                 }
                 Source::Logged(logged) => logged.ok_or(TrialError::MissingDecision { tick })?,
@@ -235,7 +234,7 @@ impl Trial {
         self.sense();
         self.state.world.tick += 1;
         self.judge();
-        Ok(self.record(decision, frame, percept))
+        Ok(self.record(decision, seen))
     }
 
     /// Moves the tool's reference along the motion, and arm and bead after it.

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
-use ferry::geometry::{Point2, Point3};
-use ferry::image::CameraFrame;
+use ferry::geometry::{CameraMount, Point2, Point3};
+use ferry::image::Picture;
 use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation};
 use ferry::scenario::Parameters;
 use ferry::trial::Arena;
@@ -18,10 +18,23 @@ const TOLERANCE: u8 = 8;
 /// Share of the pixels that may count.
 const MOST_DIFFERENT: f64 = 0.001;
 
-type Draw = fn(&mut Camera, &Subject) -> CameraFrame;
+type Draw = fn(&mut Camera, &Subject) -> Picture;
 
-const VIEWS: [(&str, Quality, Draw); 5] = [
-    ("camera", Quality::Economy, |camera, subject| camera.capture(subject).unwrap()),
+/// Beside the tool and looking at it, with the magnet before it.
+fn beside(subject: &Subject) -> Subject {
+    let mount = CameraMount {
+        offset_m: [0.0, 0.08],
+        tilt_rad: [0.05, -0.25],
+        field_of_view_rad: 0.8,
+        sees_magnet: true,
+        ..CameraMount::default()
+    };
+    Subject { mount, ..*subject }
+}
+
+const VIEWS: [(&str, Quality, Draw); 6] = [
+    ("camera", Quality::Economy, |camera, subject| camera.capture(subject).unwrap().picture),
+    ("camera-tilted", Quality::Economy, |camera, subject| camera.capture(&beside(subject)).unwrap().picture),
     ("scene-economy", Quality::Economy, |camera, subject| camera.scene(subject, 640, 360).unwrap()),
     ("scene-fine", Quality::Fine, |camera, subject| camera.scene(subject, 640, 360).unwrap()),
     ("plan-economy", Quality::Economy, |camera, subject| camera.plan(subject, 640, 360).unwrap()),
@@ -43,6 +56,7 @@ fn subject() -> Subject {
         goal_m: Some([-0.19, -0.48]),
         link_frames: arm.link_frames(),
         block_size_m: Plant::new(Parameters::default().plant()).block_size_m(),
+        mount: CameraMount::default(),
     }
 }
 

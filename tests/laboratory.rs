@@ -2,8 +2,10 @@
 
 use std::cell::Cell;
 use std::net::SocketAddr;
+use std::sync::Arc;
 use std::time::Duration;
 
+use ferry::camera::{AdapterChoice, Gpu};
 use ferry::http;
 use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
@@ -25,11 +27,16 @@ pub struct Laboratory {
 
 impl Laboratory {
     pub async fn open() -> Self {
+        Self::open_on(gpu()).await
+    }
+
+    /// The same with a graphics device of its own.
+    async fn open_on(gpu: Arc<Gpu>) -> Self {
         let data = tempfile::tempdir().unwrap();
         let (stop, stopping) = watch::channel(false);
         let listener = http::listen("127.0.0.1:0".parse().unwrap()).await.unwrap();
         let address = listener.local_addr().unwrap();
-        let server = http::Server::new(gpu(), data.path().to_owned(), stopping).unwrap();
+        let server = http::Server::new(gpu, data.path().to_owned(), stopping).unwrap();
         let served = tokio::spawn(async move { http::serve(listener, server).await.unwrap() });
         Self { address, data, stop, served }
     }
@@ -354,6 +361,70 @@ async fn a_goal_given_up_does_not_stop_the_fetch() {
     browser.send(json!({"type": "step", "ticks": 600})).await;
     let fetched = browser.state("fetched", |m| m["mode"] == 2 && m["switches"] == 2).await;
     assert!(fetched["phase"] == "transporting" && fetched["leg_steps"].as_u64() < Some(20), "{fetched}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_session_goes_on_when_its_graphics_device_is_lost() {
+    let device = Gpu::open(AdapterChoice::Auto).unwrap();
+    let lab = Laboratory::open_on(device.clone()).await;
+    let mut browser = lab.browser().await;
+    let load =
+        json!({"type": "load_scenario", "map": "posts", "seed": 3, "start_m": [-0.25, -0.38], "goal_m": [0.12, -0.33]});
+    let mut hashes = Vec::new();
+    for lose in [false, true] {
+        browser.send(load.clone()).await;
+        browser.send(json!({"type": "step", "ticks": 200})).await;
+        browser.state("under way", |m| m["tick"] == 200).await;
+        if lose {
+            device.destroy();
+        }
+        browser.send(json!({"type": "step", "ticks": 400})).await;
+        let then = browser.state("farther", |m| m["tick"] == 600 || m["ended"] != Value::Null).await;
+        assert_eq!(then["ended"], Value::Null);
+        hashes.push(then["world_hash"].clone());
+    }
+    assert_eq!(hashes[0], hashes[1], "the same moment, whatever device saw it");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_moved_camera_is_obeyed_shown_and_refused_when_absurd() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let parameters = browser_parameters(&lab).await;
+    for (field, value) in [
+        ("camera_field_of_view_rad", 0.0),
+        ("camera_field_of_view_rad", 3.0),
+        ("camera_height_m", 0.004),
+        ("camera_tilt_x_rad", 1.5),
+        ("camera_offset_y_m", -4.0),
+    ] {
+        let mut absurd = parameters.clone();
+        absurd[field] = json!(value);
+        browser.send(json!({"type": "configure", "parameters": absurd})).await;
+        let error = browser.error().await;
+        assert_eq!((&error["field"], &error["code"]), (&json!(field), &json!("parameter_out_of_range")), "{error}");
+    }
+    let mut moved = parameters.clone();
+    moved["camera_offset_x_m"] = json!(0.05);
+    moved["camera_tilt_x_rad"] = json!(-0.15);
+    moved["camera_sees_magnet"] = json!(true);
+    browser.send(json!({"type": "configure", "parameters": moved})).await;
+    let scene = browser.until("the new field of view", |m| m["type"] == "scene" && m["parameters"] == moved).await;
+    let right = |corner: usize| scene["camera_sees_m"][corner][0].as_f64().unwrap();
+    assert!(right(0) < -0.06 && right(1) > 0.06 && right(1) < 0.11, "{}", scene["camera_sees_m"]);
+    // What stands still is seen only as long as nobody moves.
+    browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
+    browser.send(json!({"type": "step", "ticks": 40})).await;
+    let overlay = browser.until("blocks", |m| m["type"] == "overlay" && m["tick"] == 33).await;
+    let blocks = |kind: &str| overlay["blocks"][kind].as_array().unwrap().len();
+    assert!(blocks("rectangles") > 0 && blocks("rectangles") < blocks("dark") && blocks("free") > 0, "{overlay}");
+    let seen = browser.until("what was seen", |m| m["type"] == "seen").await;
+    let cells: u64 = seen["runs"].as_array().unwrap().iter().map(|run| run[1].as_u64().unwrap()).sum();
+    assert_eq!(cells, seen["columns"].as_u64().unwrap() * seen["rows"].as_u64().unwrap());
+    let free = seen["runs"].as_array().unwrap().iter().any(|run| run[0] == 1);
+    assert!(free, "{seen}");
     lab.close().await;
 }
 

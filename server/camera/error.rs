@@ -29,7 +29,7 @@ pub enum CameraError {
     /// A camera parameter is absurd.
     #[error("camera {name} is {value}: it must be {expected}")]
     Parameter {
-        /// The field of [`CameraParameters`](super::CameraParameters).
+        /// The field of [`CameraMount`](crate::geometry::CameraMount).
         name: &'static str,
         /// Its value.
         value: f64,
@@ -43,6 +43,14 @@ pub enum CameraError {
         height_m: f64,
         /// Height of the walls.
         wall_height_m: f64,
+    },
+    /// The camera would see the horizon, or table so far off that nothing can be made out.
+    #[error("camera tilt {tilt_rad:?} rad with field_of_view_rad {field_of_view_rad}: it would see the horizon")]
+    Horizon {
+        /// Tilt toward +x and +y.
+        tilt_rad: [f64; 2],
+        /// Angle across the image.
+        field_of_view_rad: f64,
     },
     /// The image has no pixels, or too many.
     #[error("an image of {width_px} x {height_px} pixels: each side must be 1 to {most_px}")]

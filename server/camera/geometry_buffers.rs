@@ -16,8 +16,8 @@ pub(super) enum Solid {
     Stage,
     Sphere,
     Disc,
-    Ring,
     Cube,
+    Ring,
     Cylinder,
 }
 

@@ -114,6 +114,11 @@ impl Gpu {
         Ok(gpu)
     }
 
+    /// Gives the device up, as a driver does that restarts: whoever draws on it goes on with another.
+    pub fn destroy(&self) {
+        self.device.destroy();
+    }
+
     /// Name of the adapter and of its driver's interface, such as
     /// `llvmpipe (LLVM 19.1.7, 256 bits) (Vulkan)`.
     pub fn adapter_name(&self) -> &str {

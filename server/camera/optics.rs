@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::geometry::{Point3, Rect, Vector2, Vector3};
+use crate::geometry::{Pinhole, Point3, Rect, Vector2, Vector3};
 
 /// Share of the camera's height above the table that is closer than it can see.
 const NEAR: f64 = 0.02;
@@ -12,31 +12,23 @@ const BEYOND_M: f64 = 0.05;
 /// Corrections of the picture's middle; each shrinks the error several times.
 const CENTERING_ROUNDS: usize = 8;
 
-/// A pinhole at (`x_m`, `y_m`, `height_m`) that looks straight down, image up = +y, with `span_m` of
-/// table across a square image: at depth d below it, x lands at 2·height·x/(span·d).
-pub(super) fn pinhole_down(x_m: f64, y_m: f64, height_m: f64, span_m: f64) -> Matrix4<f64> {
-    let zoom = 2.0 * height_m / span_m;
-    let (near, far) = (NEAR * height_m, height_m + BEYOND_M);
+/// A camera that sees only table: [`super::check_mount`] has passed it.
+pub(super) fn pinhole(camera: &Pinhole) -> Matrix4<f64> {
+    let [right, up, forward] = camera.axes();
+    let center = camera.center_m();
+    let height_m = center.z;
+    let corners = camera.table_corners_m().unwrap_or([center.xy(); 4]);
+    let depths_m = corners.map(|corner| forward.dot(&(Point3::new(corner.x, corner.y, 0.0) - center)));
+    let (near, far) = (NEAR * height_m, depths_m.into_iter().fold(height_m, f64::max) + BEYOND_M);
     let slope = far / (far - near);
-    // Rows give clip x, y, z and w; w is the depth height − z.
-    Matrix4::new(
-        zoom,
-        0.0,
-        0.0,
-        -zoom * x_m, //
-        0.0,
-        zoom,
-        0.0,
-        -zoom * y_m, //
-        0.0,
-        0.0,
-        -slope,
-        slope * (height_m - near), //
-        0.0,
-        0.0,
-        -1.0,
-        height_m,
-    )
+    let zoom = 1.0 / camera.tangent();
+    // Rows give clip x, y, z and w; w is the depth along the optical axis.
+    let row = |axis: Vector3<f64>, scale: f64, offset: f64| {
+        let scaled = axis * scale;
+        [scaled.x, scaled.y, scaled.z, offset - scaled.dot(&center.coords)]
+    };
+    let rows = [row(right, zoom, 0.0), row(up, zoom, 0.0), row(forward, slope, -slope * near), row(forward, 1.0, 0.0)];
+    Matrix4::from_fn(|row, column| rows[row][column])
 }
 
 /// A fixed view.
@@ -45,8 +37,6 @@ pub(super) struct Projection {
     pub clip_from_base: Matrix4<f64>,
     /// Homogeneous: for a parallel view the fourth is 0, and the rest the direction to the eye.
     pub eye_m: Vector4<f64>,
-    /// Width seen at the distance of the middle of the picture.
-    pub span_m: f64,
 }
 
 /// Heights that the view from above holds, and depths below the table.
@@ -65,7 +55,7 @@ pub(super) fn parallel_down(area: &Rect, margin_m: f64, aspect: f64) -> Projecti
         [0.0, 0.0, 0.0, 1.0],
     ];
     let clip_from_base = Matrix4::from_fn(|row, column| rows[row][column]);
-    Projection { clip_from_base, eye_m: Vector4::z(), span_m: 2.0 * half_x_m }
+    Projection { clip_from_base, eye_m: Vector4::z() }
 }
 
 /// Looks from direction `toward_eye` at the middle of `bounds`, just far enough away that all of
@@ -107,11 +97,7 @@ pub(super) fn perspective_around(
         row(back, -slope, -slope * near),
         row(back, -1.0, 0.0),
     ];
-    Projection {
-        clip_from_base: Matrix4::from_fn(|row, column| rows[row][column]),
-        eye_m: eye_m.to_homogeneous(),
-        span_m: 2.0 * tangent_x * distance,
-    }
+    Projection { clip_from_base: Matrix4::from_fn(|row, column| rows[row][column]), eye_m: eye_m.to_homogeneous() }
 }
 
 /// How far from `middle` the eye must be to have all `bounds` within the tangents to the right and up.
@@ -169,10 +155,11 @@ fn ball_around(points: &[Point3<f64>]) -> (Point3<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::{CameraMount, Point2};
 
     #[test]
     fn the_pinhole_puts_table_metres_on_pixels() {
-        let clip_from_base = pinhole_down(0.1, -0.3, 0.3, 0.2);
+        let clip_from_base = pinhole(&CameraMount::default().over(Point2::new(0.1, -0.3)));
         let ndc = |x, y, z| clip_from_base.transform_point(&Point3::new(x, y, z));
         assert!((ndc(0.2, -0.3, 0.0).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-12);
         assert!((ndc(0.1, -0.2, 0.0).xy() - nalgebra::point![0.0, 1.0]).norm() < 1e-12);
@@ -180,6 +167,23 @@ mod tests {
         assert!((ndc(0.15, -0.3, 0.15).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-12);
         assert!(ndc(0.1, -0.3, 0.01).z < ndc(0.1, -0.3, 0.0).z);
         assert!((ndc(0.1, -0.3, 0.3 - 0.006).z).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_tilted_pinhole_projects_as_its_description_says() {
+        let mount = CameraMount { tilt_rad: [0.2, -0.3], offset_m: [0.05, 0.1], ..CameraMount::default() };
+        let camera = mount.over(Point2::new(0.1, -0.3));
+        let clip_from_base = pinhole(&camera);
+        for (x, y, z) in [(0.2, -0.3, 0.0), (0.1, -0.25, 0.05), (0.3, -0.4, 0.005)] {
+            let point = Point3::new(x, y, z);
+            let ndc = clip_from_base.transform_point(&point);
+            assert!((ndc.xy().coords - camera.image_from_point(point).unwrap()).norm() < 1e-12);
+        }
+        for corner in camera.table_corners_m().unwrap() {
+            let ndc = clip_from_base.transform_point(&Point3::new(corner.x, corner.y, 0.0));
+            assert!((ndc.x.abs() - 1.0).abs() < 1e-12 && (ndc.y.abs() - 1.0).abs() < 1e-12);
+            assert!((0.0..1.0).contains(&ndc.z), "{ndc}");
+        }
     }
 
     #[test]
@@ -210,7 +214,7 @@ mod tests {
             assert!(corner.x.max(corner.y) <= 1.0 + 1e-12 && corner.x.max(corner.y) > 1.0 - 1e-12);
             let (right, up) =
                 (ndc(0.1, -0.3, 0.0).x - ndc(0.0, -0.3, 0.0).x, ndc(0.0, -0.3, 0.0).y - ndc(0.0, -0.4, 0.0).y);
-            assert!((right * aspect - up).abs() < 1e-12 && (0.2 / right - plan.span_m).abs() < 1e-12);
+            assert!((right * aspect - up).abs() < 1e-12);
             assert!(ndc(0.0, -0.3, 0.1).z < ndc(0.0, -0.3, 0.0).z);
         }
     }

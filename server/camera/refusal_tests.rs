@@ -7,26 +7,13 @@ use super::*;
 fn absurd_requests_are_refused_by_name() {
     let gpu = gpu();
     let walls = posts();
-    let good = CameraParameters::default();
-    let open = |parameters| Camera::new(gpu.clone(), &stage(&walls), &parameters);
-    for height_m in [f64::NAN, f64::INFINITY, 0.0, -0.3, 1e9] {
-        let error = open(CameraParameters { height_m, ..good }).unwrap_err();
-        let CameraError::Parameter { name, .. } = error else { panic!("{error}") };
-        assert_eq!(name, "height_m");
-    }
-    for table_span_m in [f64::NAN, 0.0, -0.2, 1e9] {
-        let error = open(CameraParameters { table_span_m, ..good }).unwrap_err();
-        let CameraError::Parameter { name, .. } = error else { panic!("{error}") };
-        assert_eq!(name, "table_span_m");
-    }
-    let low = CameraParameters { height_m: 0.004, ..good };
-    assert!(matches!(open(low), Err(CameraError::BelowWalls { .. })));
-    for size_px in [0, 1_000_000] {
-        let error = open(CameraParameters { size_px, ..good }).unwrap_err();
+    let open = |view_px| Camera::new(gpu.clone(), &stage(&walls), view_px);
+    for view_px in [0, 1_000_000] {
+        let error = open(view_px).unwrap_err();
         assert!(matches!(error, CameraError::Size { .. }), "{error}");
     }
 
-    let mut camera = open(good).unwrap();
+    let mut camera = open(VIEW_PX).unwrap();
     let state = subject([0.0, -0.37, 0.1], [0.0, -0.37, 0.0025]);
     for (width_px, height_px) in [(0, 100), (100, 0), (100, 1_000_000)] {
         let error = camera.scene(&state, width_px, height_px).unwrap_err();
@@ -35,14 +22,39 @@ fn absurd_requests_are_refused_by_name() {
     let lost = Subject { bead_m: [f64::NAN; 3], ..state };
     let error = camera.capture(&lost).unwrap_err();
     assert!(matches!(error, CameraError::Subject { what: "bead_m" }), "{error}");
+    let good = state.mount;
+    let mounts = [
+        [f64::NAN, f64::INFINITY, 0.0, -0.3, 1e9]
+            .map(|height_m| ("height_m", CameraMount { height_m, ..good }))
+            .as_slice(),
+        &[f64::NAN, 0.0, -0.2, 1e-9, 3.15, 1e9]
+            .map(|field_of_view_rad| ("field_of_view_rad", CameraMount { field_of_view_rad, ..good })),
+        &[f64::NAN, f64::INFINITY, -1e9].map(|x_m| ("offset_m[0]", CameraMount { offset_m: [x_m, 0.0], ..good })),
+        &[f64::NAN, 1.6, -7.0].map(|y_rad| ("tilt_rad[1]", CameraMount { tilt_rad: [0.0, y_rad], ..good })),
+    ]
+    .concat();
+    for (field, mount) in mounts {
+        let error = camera.capture(&Subject { mount, ..state }).map(|_| ()).unwrap_err();
+        assert!(matches!(error, CameraError::Parameter { name, .. } if name == field), "{field}: {error}");
+    }
+    let low = CameraMount { height_m: 0.004, ..good };
+    let error = camera.capture(&Subject { mount: low, ..state }).map(|_| ()).unwrap_err();
+    assert!(matches!(error, CameraError::BelowWalls { .. }), "{error}");
+    for mount in [
+        CameraMount { tilt_rad: [1.3, 0.0], ..good },
+        CameraMount { field_of_view_rad: 3.1, ..good },
+        CameraMount { tilt_rad: [-0.7, 0.7], field_of_view_rad: 1.2, ..good },
+    ] {
+        let error = camera.capture(&Subject { mount, ..state }).map(|_| ()).unwrap_err();
+        assert!(matches!(error, CameraError::Horizon { .. }), "{mount:?}: {error}");
+    }
     assert!(camera.capture(&state).is_ok(), "a refusal left the camera unusable");
 }
 
 #[test]
 fn odd_stages_are_refused_or_drawn() {
     let gpu = gpu();
-    let parameters = CameraParameters::default();
-    let open = |stage: &Stage| Camera::new(gpu.clone(), stage, &parameters);
+    let open = |stage: &Stage| Camera::new(gpu.clone(), stage, VIEW_PX);
     let bad = [block(f64::NAN, 0.0, 0.1, 0.1)];
     assert!(matches!(open(&stage(&bad)), Err(CameraError::Stage { .. })));
     let empty = Rect { x_max_m: -0.3, ..WORKSPACE };

@@ -13,7 +13,7 @@ use super::pipeline::{self, Pass, bind, pipeline};
 use super::target::{DEPTH_FORMAT, Target};
 use super::{BEAD_RADIUS_M, CameraError, Quality, Stage, Subject, Viewpoint, arm, optics, stage};
 use crate::geometry::{Point3, Rect, Vector3};
-use crate::image::CameraFrame;
+use crate::image::Picture;
 
 pub(super) const SHADER: &str = include_str!("../../shaders/scene.wgsl");
 
@@ -149,8 +149,8 @@ impl SceneRenderer {
             stage::scene_mesh(stage),
             mesh::unit_sphere(32),
             mesh::unit_disc(32),
-            mesh::unit_ring(64, RING_INNER),
             mesh::unit_cube(),
+            mesh::unit_ring(64, RING_INNER),
             mesh::unit_cylinder(48),
         ];
         let bounds = bounds(stage.workspace);
@@ -206,7 +206,7 @@ impl SceneRenderer {
         viewpoint: Viewpoint,
         width_px: u32,
         height_px: u32,
-    ) -> Result<CameraFrame, CameraError> {
+    ) -> Result<Picture, CameraError> {
         // The old size is given back before the new one is asked for.
         let target = match self.target.take() {
             Some(kept) if (kept.width_px, kept.height_px) == (width_px, height_px) => kept,
@@ -241,14 +241,7 @@ impl SceneRenderer {
         })?;
         let rgba = target.finish(gpu, encoder)?;
         self.target = Some(target);
-        Ok(CameraFrame {
-            width_px,
-            height_px,
-            rgba,
-            tick: subject.tick,
-            camera_m: projection.eye_m.xyz().into(),
-            table_span_m: projection.span_m,
-        })
+        Ok(Picture { width_px, height_px, rgba })
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) mod controllers {
     pub const WALL_SIDE_DARK: Color = [28, 13, 18, 255];
     /// Gray 226, 206 at its darkest by [`BEAD_SHADE`].
     pub const BEAD: Color = [255, 232, 120, 255];
+    /// Gray 165, between wall and floor: what it hides is neither.
+    pub const MAGNET: Color = [160, 167, 168, 255];
     /// Darkest share of the bead's colour.
     pub const BEAD_SHADE: f64 = 0.91;
 }

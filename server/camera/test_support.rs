@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{AdapterChoice, Gpu, Stage, Subject};
-use crate::geometry::{Isometry3, Polygon, Rect, Vector3};
+use crate::geometry::{CameraMount, Isometry3, Polygon, Rect, Vector3};
 use nalgebra::{Translation3, UnitQuaternion};
 
 pub const WORKSPACE: Rect = Rect { x_min_m: -0.30, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
@@ -58,6 +58,7 @@ pub fn subject(tool_m: [f64; 3], bead_m: [f64; 3]) -> Subject {
         goal_m: Some([0.19, -0.28]),
         link_frames: Some(forward(tool_down(flange_m))),
         block_size_m: [0.05, 0.025, 0.010],
+        mount: CameraMount::default(),
     }
 }
 

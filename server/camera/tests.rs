@@ -7,12 +7,12 @@ use crate::image::GrayImage;
 
 /// Where a pixel's ray meets the plane at `z_m`.
 fn ground(frame: &CameraFrame, column: u32, row: u32, z_m: f64) -> Point2<f64> {
-    let half = 0.5 * f64::from(frame.width_px);
-    let pixel_m = frame.table_span_m / f64::from(frame.width_px);
-    let closer = (frame.camera_m[2] - z_m) / frame.camera_m[2];
+    let [x_m, y_m, height_m] = frame.pinhole.position_m;
+    let pixel_m = 0.2 / 480.0;
+    let closer = (height_m - z_m) / height_m;
     Point2::new(
-        frame.camera_m[0] + (f64::from(column) + 0.5 - half) * pixel_m * closer,
-        frame.camera_m[1] - (f64::from(row) + 0.5 - half) * pixel_m * closer,
+        x_m + (f64::from(column) + 0.5 - 240.0) * pixel_m * closer,
+        y_m - (f64::from(row) + 0.5 - 240.0) * pixel_m * closer,
     )
 }
 
@@ -25,8 +25,7 @@ fn pixels(gray: &GrayImage) -> impl Iterator<Item = (u32, u32, u8)> {
 fn a_post_covers_the_pixels_that_geometry_says() {
     let (x0, y0, x1, y1) = (-0.02, -0.40, 0.03, -0.36);
     let walls = [block(x0, y0, x1, y1)];
-    let parameters = CameraParameters::default();
-    let mut camera = Camera::new(gpu(), &stage(&walls), &parameters).unwrap();
+    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
     // A pinhole sees a prism as the hull of its foot and its top.
     let covered = |frame: &CameraFrame, column, row| {
         (0..=20).any(|step| {
@@ -37,8 +36,8 @@ fn a_post_covers_the_pixels_that_geometry_says() {
     for tool_m in [[0.0, -0.37, 0.1], [0.06, -0.41, 0.1], [-0.0601, -0.3333, 0.1]] {
         // The bead is out of sight.
         let frame = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap();
-        assert_eq!(frame.camera_m, [tool_m[0], tool_m[1], 0.3]);
-        let gray = frame.to_gray();
+        assert_eq!(frame.pinhole.position_m, [tool_m[0], tool_m[1], 0.3]);
+        let gray = frame.picture.to_gray();
         let inside = |column, row| WORKSPACE.contains(ground(&frame, column, row, 0.0));
         let (mut right, mut all) = (0, 0);
         for (column, row, level) in pixels(&gray).filter(|(c, r, _)| inside(*c, *r)) {
@@ -56,15 +55,15 @@ fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
     // the foot is.
     let pixel_m = 0.2 / 480.0;
     let walls = [block(0.0, -0.45, 0.05, -0.30)];
-    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
     for (shift_px, first_dark) in [(-0.25, 240), (0.25, 240), (0.75, 239), (-0.75, 241)] {
         let tool_m = [shift_px * pixel_m, -0.37, 0.1];
-        let gray = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap().to_gray();
+        let gray = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap().picture.to_gray();
         let row = &gray.pixels[240 * 480..241 * 480];
         assert_eq!(row.iter().position(|level| *level <= 50), Some(first_dark), "{shift_px}");
     }
     // +y is up: the wall ends at y = −.30, above the middle.
-    let gray = camera.capture(&subject([0.025, -0.37, 0.1], [0.2, -0.5, 0.0025])).unwrap().to_gray();
+    let gray = camera.capture(&subject([0.025, -0.37, 0.1], [0.2, -0.5, 0.0025])).unwrap().picture.to_gray();
     let level = |row: usize| gray.pixels[row * 480 + 240];
     // .07 m · .3 / .295 above the middle, in pixels: the top is closer to the camera.
     let top_px = 240.0 - 0.07 * (0.3 / 0.295) / pixel_m;
@@ -74,7 +73,7 @@ fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
 #[test]
 fn every_pixel_keeps_the_brightness_contract() {
     let walls = posts();
-    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
     let poses = [
         ([0.0, -0.37], [0.04, -0.40, 0.0025]),
         ([0.27, -0.22], [0.25, -0.25, 0.0025]),
@@ -85,7 +84,7 @@ fn every_pixel_keeps_the_brightness_contract() {
     ];
     for ([x_m, y_m], bead_m) in poses {
         let frame = camera.capture(&subject([x_m, y_m, 0.1], bead_m)).unwrap();
-        let gray = frame.to_gray();
+        let gray = frame.picture.to_gray();
         let mut bright = 0;
         for (column, row, level) in pixels(&gray) {
             assert!(level <= 50 || level >= 200, "gray {level} at {column}, {row}");
@@ -102,7 +101,7 @@ fn every_pixel_keeps_the_brightness_contract() {
         let pixel = |offset_m: f64| (240.0 + offset_m * closer * 480.0 / 0.2) as usize;
         let (column, row) = (pixel(bead_m[0] - x_m), pixel(y_m - bead_m[1]));
         let at = 4 * (row * 480 + column);
-        let [red, _, blue] = [0, 1, 2].map(|channel| i32::from(frame.rgba[at + channel]));
+        let [red, _, blue] = [0, 1, 2].map(|channel| i32::from(frame.picture.rgba[at + channel]));
         assert!(gray.pixels[at / 4] >= 200);
         assert!(red - blue > 20, "no bead at {column}, {row}");
     }
@@ -111,7 +110,7 @@ fn every_pixel_keeps_the_brightness_contract() {
 #[test]
 fn controllers_see_neither_goal_nor_magnet_nor_arm() {
     let walls = posts();
-    let mut camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
     let seen = subject([0.17, -0.30, 0.1], [0.15, -0.32, 0.0025]);
     let mut other = seen;
     other.goal_m = None;
@@ -124,13 +123,13 @@ fn controllers_see_neither_goal_nor_magnet_nor_arm() {
 fn the_same_state_gives_the_same_bytes() {
     let walls = posts();
     let gpu = gpu();
-    let mut cameras = [0, 1].map(|_| Camera::new(gpu.clone(), &stage(&walls), &CameraParameters::default()).unwrap());
+    let mut cameras = [0, 1].map(|_| Camera::new(gpu.clone(), &stage(&walls), VIEW_PX).unwrap());
     let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
     let elsewhere = subject([-0.1, -0.45, 0.1], [0.04, -0.36, 0.0025]);
     let [first, second] = &mut cameras;
     let frame = first.capture(&state).unwrap();
     let scene = first.scene(&state, 321, 201).unwrap();
-    assert_eq!((frame.tick, frame.rgba.len()), (7, 480 * 480 * 4));
+    assert_eq!((frame.tick, frame.picture.rgba.len()), (7, 480 * 480 * 4));
     assert_eq!(scene.rgba.len(), 321 * 201 * 4);
     first.capture(&elsewhere).unwrap();
     first.scene(&elsewhere, 100, 300).unwrap();
@@ -144,21 +143,21 @@ fn the_same_state_gives_the_same_bytes() {
 fn a_camera_goes_on_when_its_device_is_lost() {
     let walls = posts();
     let gpu = gpu();
-    let mut camera = Camera::new(gpu.clone(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let mut camera = Camera::new(gpu.clone(), &stage(&walls), VIEW_PX).unwrap();
     let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
     let (frame, scene) = (camera.capture(&state).unwrap(), camera.scene(&state, 320, 180).unwrap());
-    gpu.device.destroy();
+    gpu.destroy();
     assert!(camera.capture(&state).unwrap() == frame);
     assert!(camera.scene(&state, 320, 180).unwrap() == scene);
     // The next camera too, although it is given the lost device.
-    let mut next = Camera::new(gpu, &stage(&walls), &CameraParameters::default()).unwrap();
+    let mut next = Camera::new(gpu, &stage(&walls), VIEW_PX).unwrap();
     assert!(next.capture(&state).unwrap() == frame);
 }
 
 #[test]
 fn the_scene_shows_arm_goal_and_bead() {
     let walls = posts();
-    let camera = Camera::new(gpu(), &stage(&walls), &CameraParameters::default()).unwrap();
+    let camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
     let mut camera = camera.with_quality(Quality::Fine);
     let seen = subject([-0.05, -0.33, 0.1], [0.07, -0.41, 0.0025]);
     let mut differences = Vec::new();
@@ -186,7 +185,7 @@ fn cameras_of_one_device_work_in_several_threads() {
         let threads = [0, 1, 2].map(|_| {
             scope.spawn(|| {
                 let stage = stage(&walls);
-                let mut camera = Camera::new(gpu.clone(), &stage, &CameraParameters::default()).unwrap();
+                let mut camera = Camera::new(gpu.clone(), &stage, VIEW_PX).unwrap();
                 (0..10).map(|_| camera.capture(&state).unwrap()).next_back()
             })
         });

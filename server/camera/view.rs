@@ -9,15 +9,16 @@ use super::mesh::{self, Color, Mesh};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::stage::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
 use super::target::Target;
-use super::{BEAD_RADIUS_M, CameraError, CameraParameters, Stage, Subject, optics};
-use crate::image::CameraFrame;
+use super::{BEAD_RADIUS_M, CameraError, Stage, Subject, arm, optics};
+use crate::geometry::Point2;
+use crate::image::{CameraFrame, Picture};
 
 pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
 
 /// Samples a pixel: one, so that no pixel is a mixture of wall and floor.
 const SAMPLES: u32 = 1;
-/// Stage, the bead's shadow, the bead.
-const PARTS: u64 = 3;
+/// Stage, the bead, its shadow, and the magnet where it is seen.
+const MOST_PARTS: u64 = 4;
 
 /// Uniforms of `view.wgsl`, laid out as there.
 #[repr(C)]
@@ -30,7 +31,7 @@ pub(super) struct View {
 /// Draws the controllers' view of one stage.
 #[derive(Debug)]
 pub(super) struct ViewRenderer {
-    parameters: CameraParameters,
+    size_px: u32,
     pipeline: wgpu::RenderPipeline,
     uniforms: wgpu::Buffer,
     bindings: wgpu::BindGroup,
@@ -39,9 +40,9 @@ pub(super) struct ViewRenderer {
 }
 
 impl ViewRenderer {
-    /// `stage` and `parameters` have been checked.
-    pub fn new(gpu: &Gpu, stage: &Stage, parameters: CameraParameters) -> Result<Self, CameraError> {
-        let target = Target::new(gpu, parameters.size_px, parameters.size_px, SAMPLES)?;
+    /// `stage` and the size have been checked.
+    pub fn new(gpu: &Gpu, stage: &Stage, size_px: u32) -> Result<Self, CameraError> {
+        let target = Target::new(gpu, size_px, size_px, SAMPLES)?;
         gpu.checked("the controllers' view", || {
             let module = pipeline::module(gpu, "view", SHADER);
             let uniforms = pipeline::uniforms::<View>(gpu, "view");
@@ -56,13 +57,13 @@ impl ViewRenderer {
                 },
             );
             let bindings = bind(gpu, &pipeline, &[uniforms.as_entire_binding()]);
-            let meshes = [stage::controllers_mesh(stage), shaded_bead(), mesh::unit_disc(24)];
+            let meshes = [stage::controllers_mesh(stage), shaded_bead(), mesh::unit_disc(24), mesh::unit_cube()];
             Self {
-                parameters,
+                size_px,
                 pipeline,
                 uniforms,
                 bindings,
-                geometry: GeometryBuffers::new(gpu, &meshes, PARTS),
+                geometry: GeometryBuffers::new(gpu, &meshes, MOST_PARTS),
                 target,
             }
         })
@@ -70,9 +71,9 @@ impl ViewRenderer {
 
     /// `subject` has been checked.
     pub fn draw(&mut self, gpu: &Gpu, subject: &Subject) -> Result<CameraFrame, CameraError> {
-        let CameraParameters { height_m, table_span_m, size_px } = self.parameters;
         let [x_m, y_m, _] = subject.tool_m;
-        let clip_from_base = optics::pinhole_down(x_m, y_m, height_m, table_span_m);
+        let pinhole = subject.mount.over(Point2::new(x_m, y_m));
+        let clip_from_base = optics::pinhole(&pinhole);
         let encoder = gpu.checked("the controllers' view", || {
             let view = View { clip_from_base: clip_from_base.cast::<f32>().into() };
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&view));
@@ -85,14 +86,9 @@ impl ViewRenderer {
             drop(pass);
             encoder
         })?;
-        Ok(CameraFrame {
-            width_px: size_px,
-            height_px: size_px,
-            rgba: self.target.finish(gpu, encoder)?,
-            tick: subject.tick,
-            camera_m: [x_m, y_m, height_m],
-            table_span_m,
-        })
+        let rgba = self.target.finish(gpu, encoder)?;
+        let picture = Picture { width_px: self.size_px, height_px: self.size_px, rgba };
+        Ok(CameraFrame { picture, tick: subject.tick, pinhole })
     }
 }
 
@@ -101,7 +97,7 @@ fn background() -> [f64; 4] {
     controllers::WALL_TOP.map(|level| f64::from(level) / 255.0)
 }
 
-fn parts(subject: &Subject) -> [Part; PARTS as usize] {
+fn parts(subject: &Subject) -> Vec<Part> {
     let bead_m = Vector3::from(subject.bead_m);
     let [away_x, away_y] = SHADOW_PER_HEIGHT;
     let shadow_m = Vector3::new(
@@ -115,11 +111,15 @@ fn parts(subject: &Subject) -> [Part; PARTS as usize] {
         base_from_solid: Matrix4::new_translation(&at_m) * Matrix4::new_scaling(BEAD_RADIUS_M),
         color,
     };
-    [
+    let mut parts = vec![
         Part::stage(Matrix4::identity()),
         round(Solid::Disc, shadow_m, controllers::SHADOW),
         round(Solid::Sphere, bead_m, [255; 4]),
-    ]
+    ];
+    if subject.mount.sees_magnet {
+        parts.push(Part { color: controllers::MAGNET, ..arm::block(subject) });
+    }
+    parts
 }
 
 /// A ball whose shading is painted on: it never turns in the light.

@@ -59,13 +59,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         goal_m: None,
         link_frames: positioner.link_frames(),
         block_size_m: Plant::new(parameters.plant()).block_size_m(),
+        mount: parameters.camera_mount(),
     };
     let mut camera = arena.camera(&super::open_gpu()?)?;
-    let frame = match arguments.view {
-        View::Camera => camera.capture(&subject)?,
+    let picture = match arguments.view {
+        View::Camera => camera.capture(&subject)?.picture,
         View::Scene => camera.scene(&subject, 1280, 720)?,
         View::Plan => camera.plan(&subject, 1280, 720)?,
     };
-    std::fs::write(&arguments.out, frame.to_png()?).with_context(|| arguments.out.display().to_string())?;
+    std::fs::write(&arguments.out, picture.to_png()?).with_context(|| arguments.out.display().to_string())?;
     Ok(ExitCode::SUCCESS)
 }

@@ -63,6 +63,9 @@ impl Limits {
         if speed_m_s > self.speed_m_s + 1e-9 {
             return Err(Refusal::TooFast { speed_m_s, limit_m_s: self.speed_m_s });
         }
+        if !(percept.calibration.sees(from) && percept.calibration.sees(step.target_m)) {
+            return Err(Refusal::OutOfView { x_m: step.target_m.x, y_m: step.target_m.y });
+        }
         match percept.obstacle_on_step(from, step.target_m) {
             Some(place) => Err(Refusal::Obstacle { x_m: place.x, y_m: place.y }),
             None => Ok(()),
@@ -115,7 +118,7 @@ mod tests {
     fn a_step_is_refused_when_too_fast_or_into_a_wall() {
         let tool = Point3::new(0.0, -0.3, 0.1);
         let wall = crate::perception::test_frame(tool.xy(), |p| p.x > 0.015);
-        let percept = Percept::of(&wall);
+        let percept = Percept::of(&wall, tool.xy());
         let step = |x_m: f64, speed_m_s: f64| {
             let step = TargetStep { target_m: Point2::new(x_m, -0.3), speed_m_s };
             limits().step(tool, &step, &percept, &HOME)
@@ -124,6 +127,9 @@ mod tests {
         assert!(matches!(step(-0.01, 0.05), Err(Refusal::TooFast { .. })));
         assert!(matches!(step(-0.02, 0.04), Err(Refusal::TooFast { .. })), "too long for one control period");
         assert_eq!(step(0.004, 0.04), Ok(()));
+        let aside = Percept::of(&crate::perception::test_frame(Point2::new(0.102, -0.3), |_| false), tool.xy());
+        let unseen = TargetStep { target_m: Point2::new(0.005, -0.3), speed_m_s: 0.04 };
+        assert!(matches!(limits().step(tool, &unseen, &aside, &HOME), Err(Refusal::OutOfView { .. })));
         let wide = Limits { speed_m_s: 0.079, ..limits() };
         let into = TargetStep { target_m: Point2::new(0.0195, -0.3), speed_m_s: 0.079 };
         assert!(matches!(wide.step(tool, &into, &percept, &HOME), Err(Refusal::Obstacle { .. })));

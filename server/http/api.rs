@@ -134,12 +134,12 @@ pub async fn state(State(server): State<Arc<Server>>, Path(id): Path<String>) ->
 }
 
 pub async fn camera(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let png = view(&server, &id)?.sight.1.frame.to_png().map_err(Problem::internal)?;
+    let png = view(&server, &id)?.sight.1.frame.picture.to_png().map_err(Problem::internal)?;
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 
 pub async fn observation(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let png = view(&server, &id)?.sight.1.observation.side_by_side().to_png().map_err(Problem::internal)?;
+    let png = view(&server, &id)?.sight.1.observation().side_by_side().to_png().map_err(Problem::internal)?;
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 

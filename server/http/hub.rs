@@ -10,8 +10,8 @@ use tokio::sync::{OwnedSemaphorePermit, watch};
 use tokio::time::Instant;
 
 use crate::protocol::{
-    BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, ServerMessage,
-    StateMessage,
+    BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
+    ServerMessage, StateMessage,
 };
 use crate::session::{Session, View};
 
@@ -27,9 +27,12 @@ pub struct Encoded {
     /// Raised when `scene` changes.
     pub scene_version: u64,
     pub overlay: Utf8Bytes,
+    pub seen: Utf8Bytes,
+    /// Raised when `seen` changes.
+    pub seen_version: u64,
     pub camera: Bytes,
     pub observation: Bytes,
-    /// Raised when the three above change.
+    /// Raised when overlay, camera or observation change.
     pub sight_version: u64,
 }
 
@@ -192,6 +195,8 @@ impl Encoder {
             scene: Utf8Bytes::default(),
             scene_version: 0,
             overlay: Utf8Bytes::default(),
+            seen: Utf8Bytes::default(),
+            seen_version: 0,
             camera: Bytes::new(),
             observation: Bytes::new(),
             sight_version: 0,
@@ -205,14 +210,18 @@ impl Encoder {
         let seen = self.sight.as_ref().is_some_and(|sight| Arc::ptr_eq(sight, &view.sight));
         self.owes_sight = !seen && !camera_due;
         if !seen && camera_due {
-            self.sight = Some(view.sight.clone());
+            let before = self.sight.replace(view.sight.clone());
             let (tick, sight) = &*view.sight;
+            if !before.is_some_and(|before| before.1.known.shares_cells(&sight.known)) {
+                next.seen = json(&ServerMessage::Seen(SeenMessage::from(&sight.known)));
+                next.seen_version += 1;
+            }
             next.overlay = json(&ServerMessage::Overlay(OverlayMessage::from(view)));
-            match sight.frame.to_jpeg(JPEG_QUALITY) {
+            match sight.frame.picture.to_jpeg(JPEG_QUALITY) {
                 Ok(jpeg) => next.camera = binary(BINARY_CAMERA_JPEG, *tick, &jpeg),
                 Err(error) => tracing::warn!(%error, "camera frame not encoded"),
             }
-            next.observation = binary(BINARY_OBSERVATION, *tick, &sight.observation.bytes);
+            next.observation = binary(BINARY_OBSERVATION, *tick, &sight.observation().bytes);
             next.sight_version += 1;
         }
         self.last = Some(next.clone());

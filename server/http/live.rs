@@ -51,6 +51,7 @@ struct Connection {
 struct Sent {
     scene_version: u64,
     sight_version: u64,
+    seen_version: u64,
 }
 
 impl Connection {
@@ -113,6 +114,10 @@ impl Connection {
         if sent.sight_version != newest.sight_version {
             sent.sight_version = newest.sight_version;
             self.socket.feed(Message::Text(newest.overlay.clone())).await?;
+            if sent.seen_version != newest.seen_version {
+                sent.seen_version = newest.seen_version;
+                self.socket.feed(Message::Text(newest.seen.clone())).await?;
+            }
             self.socket.feed(Message::Binary(newest.camera.clone())).await?;
             self.socket.feed(Message::Binary(newest.observation.clone())).await?;
         }

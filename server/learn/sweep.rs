@@ -9,8 +9,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::camera::{Camera, CameraError, CameraParameters, Gpu, Subject};
-use crate::geometry::Point2;
+use crate::camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
+use crate::geometry::{CameraMount, Point2};
 use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
 use crate::plant::BEAD_RADIUS_M;
 use crate::trial::Arena;
@@ -143,8 +143,15 @@ fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
 
 /// Hash of the map's drawing, the camera and this module's version: equal hashes, equal images.
 fn content_hash(arena: &Arena) -> u64 {
-    let CameraParameters { height_m, table_span_m, size_px } = CameraParameters::default();
-    let numbers = [height_m, table_span_m, f64::from(size_px), STEP_M, f64::from(VERSION)];
+    let CameraMount {
+        height_m,
+        offset_m: [x_m, y_m],
+        tilt_rad: [tilt_x_rad, tilt_y_rad],
+        field_of_view_rad,
+        sees_magnet,
+    } = CameraMount::default();
+    let mount = [height_m, x_m, y_m, tilt_x_rad, tilt_y_rad, field_of_view_rad, f64::from(u8::from(sees_magnet))];
+    let numbers = mount.into_iter().chain([f64::from(VIEW_PX), STEP_M, f64::from(VERSION)]);
     let mut hash = xxhash_rust::xxh3::Xxh3::new();
     for number in numbers {
         hash.update(&number.to_bits().to_le_bytes());
@@ -173,8 +180,9 @@ fn look(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<(bool, 
         goal_m: None,
         link_frames: None,
         block_size_m: [0.05, 0.025, 0.01],
+        mount: CameraMount::default(),
     };
-    let percept = Percept::of(&camera.capture(&subject)?);
+    let percept = Percept::of(&camera.capture(&subject)?, tool);
     let observation = Observation::new(&percept.gray, None, tool, arena.map.workspace());
     Ok((percept.obstacle(), observation.channel(0).pixels))
 }

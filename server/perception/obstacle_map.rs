@@ -6,7 +6,7 @@
 //! takes little longer than copying it: there is no need to keep it out of the hash of every tick.
 //!
 //! **Walls have a height**, and the pinhole sees their tops farther from its axis than they stand: a wall darkens
-//! everything from its foot to [`super::wall_spread`] times as far from the middle, 1.7 mm more at the rim of the
+//! everything from its foot to [`super::wall_spread`] times as far from the camera's foot, 1.7 mm more at the rim of the
 //! default image and 2.4 mm in its corners. Whatever stands on a place therefore darkens both the place and the
 //! place spread; where either is bright, nothing stands. A cell is an obstacle when any pixel in it is dark and so is
 //! its place spread. That misses no wall of the height that was said or higher; it adds up to a cell and a pixel,
@@ -33,7 +33,7 @@ use crate::geometry::{Rect, Vector2};
 use bits::BitGrid;
 use view::View;
 
-pub use queries::{Area, CellState, SeenLayer, Unknown};
+pub use queries::{Area, CellState, Unknown};
 
 /// Side of a cell, where the workspace is not too large for it.
 const CELL_M: f64 = 0.002;
@@ -121,6 +121,11 @@ impl ObstacleMap {
     /// Grows by one with every update that changes an obstacle.
     pub fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Whether the two share their cells, as a copy does until either is updated with something new.
+    pub fn shares_cells(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.cells, &other.cells)
     }
 
     /// Cells across and away from the user.

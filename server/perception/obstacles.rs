@@ -153,7 +153,7 @@ mod tests {
     fn a_patch_is_the_near_part_of_a_post_and_never_larger_than_its_window() {
         let center = Point2::new(0.0, -0.3);
         let post = |p: Point2<f64>| (p.x - 0.05).abs() < 0.02 && (p.y + 0.3).abs() < 0.02;
-        let mask = ObstacleMask::of(&Percept::of(&frame(center, post)));
+        let mask = ObstacleMask::of(&Percept::of(&frame(center, post), center));
         let patches = mask.patches(center, 0.02);
         assert_eq!(patches.len(), 1);
         let patch = patches[0];
@@ -167,7 +167,7 @@ mod tests {
         let center = Point2::new(0.0, -0.3);
         let (far, near) = (Point2::new(-0.07, -0.3), Point2::new(0.0, -0.25));
         let posts = |p: Point2<f64>| (p - far).norm() < 0.01 || (p - near).norm() < 0.01;
-        let patches = ObstacleMask::of(&Percept::of(&frame(center, posts))).patches(center, 0.02);
+        let patches = ObstacleMask::of(&Percept::of(&frame(center, posts), center)).patches(center, 0.02);
         assert_eq!(patches.len(), 2);
         // A patch is the near part only: its centre lies up to half a window before the post's.
         assert!((patches[0].center_m - near).norm() < 7e-3 && (patches[1].center_m - far).norm() < 7e-3);
@@ -178,7 +178,7 @@ mod tests {
         let center = Point2::new(0.0, -0.3);
         for x in [0.003, -0.003, 0.0, 1e-4, -1e-4] {
             // The wall's edge is this far to the right of the tool.
-            let mask = ObstacleMask::of(&Percept::of(&frame(center, |p| p.x < x)));
+            let mask = ObstacleMask::of(&Percept::of(&frame(center, |p| p.x < x), center));
             let way = mask.way_off(center).unwrap();
             assert!((way - Vector2::x()).norm() < 0.05, "{x}: {way}");
         }
@@ -186,7 +186,8 @@ mod tests {
 
     #[test]
     fn an_empty_table_has_no_patches() {
-        let percept = Percept::of(&frame(Point2::new(0.0, -0.3), |_| false));
-        assert!(ObstacleMask::of(&percept).patches(Point2::new(0.0, -0.3), 0.02).is_empty());
+        let center = Point2::new(0.0, -0.3);
+        let percept = Percept::of(&frame(center, |_| false), center);
+        assert!(ObstacleMask::of(&percept).patches(center, 0.02).is_empty());
     }
 }

@@ -4,7 +4,7 @@ use super::Calibration;
 use super::dark::PixelRect;
 use crate::geometry::Rect;
 
-/// How many times farther from the image's middle the top of a wall seems than its foot, for a pinhole
+/// How many times farther from the camera's foot the top of a wall seems than its own foot, for a pinhole
 /// `camera_height_m` above the table. 1 where the wall is as high as the camera or higher, which no camera sees.
 pub fn wall_spread(camera_height_m: f64, wall_height_m: f64) -> f64 {
     let spread = camera_height_m / (camera_height_m - wall_height_m);
@@ -16,7 +16,7 @@ impl PixelRect {
     ///
     /// For dark pixels this errs on the safe side. Whatever stands on a place hides it, so the rectangle holds all of
     /// the wall's foot that is in view; it also holds the side or top that is seen beyond the foot, up to
-    /// `wall_spread − 1` times the distance from the image's middle: with the default camera 1.7 mm at the rim and
+    /// `wall_spread − 1` times the distance from the camera's foot: with the default camera 1.7 mm at the rim and
     /// 2.4 mm in the corners. Blocks of a quadtree add up to their smallest side. [`super::ObstacleMap`] takes the
     /// spread out again.
     pub fn on_table(&self, calibration: &Calibration) -> Rect {
@@ -39,7 +39,8 @@ mod tests {
         fn calibrations()(
             x_m in -4.0..4.0, y_m in -4.0..4.0, span_m in 0.01..10.0, size_px in 1usize..4096,
         ) -> Calibration {
-            Calibration { center_m: Point2::new(x_m, y_m), m_per_px: span_m / size_px as f64, size_px }
+            let center_m = Point2::new(x_m, y_m);
+            Calibration { center_m, m_per_px: span_m / size_px as f64, size_px, foot_m: center_m }
         }
     }
 
@@ -113,7 +114,11 @@ mod tests {
                 let p =
                     center + Vector2::new(0.001 * f64::from(i % 200), 0.001 * f64::from(i / 200)).add_scalar(-0.0995);
                 let held = rectangles.iter().any(|rect| rect.contains(p));
-                assert!(held || !simple(p), "{p} is wall");
+                // What sticks into a pixel by less than half of it is not seen.
+                let half_m = 0.5 * percept.calibration.m_per_px;
+                let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+                let within = corners.into_iter().all(|(x, y)| simple(p + Vector2::new(x, y) * half_m));
+                assert!(held || !within, "{p} is wall");
                 assert!(!held || simple(p) || around(p), "{p} is far from any wall");
             }
         }

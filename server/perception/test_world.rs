@@ -38,5 +38,5 @@ pub(super) fn posts(p: Point2<f64>) -> bool {
 /// What the camera over `center` sees: a place is dark when anything up to 5 mm above it is on the ray.
 pub(super) fn seen_from(center: Point2<f64>, is_wall: impl Fn(Point2<f64>) -> bool) -> Percept {
     let foot = |p: Point2<f64>, share: f64| center + (p - center) / (1.0 + (spread() - 1.0) * share);
-    Percept::of(&test_frame(center, |p| (0..=8).any(|i| is_wall(foot(p, f64::from(i) / 8.0)))))
+    Percept::of(&test_frame(center, |p| (0..=8).any(|i| is_wall(foot(p, f64::from(i) / 8.0)))), center)
 }

@@ -1,15 +1,19 @@
 //! To and from `session`'s types.
 
-use super::{ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SensedObstacle, StateMessage};
-use crate::camera::CameraParameters;
+use super::{
+    BlocksLayer, ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SeenMessage, SensedObstacle,
+    StateMessage,
+};
 use crate::geometry::Point2;
+use crate::image::CameraFrame;
 use crate::magnetics::force;
 use crate::map::Map;
+use crate::perception::{CellState, ObstacleMap, PixelRect};
 use crate::plant::BEAD_RADIUS_M;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters};
 use crate::session::{Command, CommandError, Scenery, View};
-use crate::trial::{Event, Input, InputError, Motion, Phase, TrialError};
+use crate::trial::{Event, Input, InputError, Motion, Phase, Sight, TrialError};
 
 /// Instead of the switching law's reason, which no longer matters.
 const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
@@ -101,12 +105,18 @@ impl From<&Scenery> for SceneMessage {
             parameters: p.clone(),
             defaults: Parameters::default(),
             bead_radius_m: BEAD_RADIUS_M,
-            camera_span_m: CameraParameters::default().table_span_m,
+            camera_sees_m: camera_sees_m(p),
             trial: scenery.trial,
             capture_m: capture_m(p),
             tick_s: SERVO_PERIOD_S,
         }
     }
+}
+
+/// Corners of the table seen, from the tool.
+fn camera_sees_m(p: &Parameters) -> Vec<[f64; 2]> {
+    let corners = p.camera_mount().over(Point2::origin()).table_corners_m();
+    corners.into_iter().flatten().map(|corner| corner.coords.into()).collect()
 }
 
 fn capture_m(p: &Parameters) -> Vec<Option<(f64, Option<f64>)>> {
@@ -173,12 +183,57 @@ impl From<&View> for OverlayMessage {
         Self {
             tick: *tick,
             obstacles: obstacles.collect(),
-            center_mean: sight.center_mean,
-            obstacle: sight.obstacle,
+            center_mean: sight.percept.center_mean,
+            patch: sight.percept.patch(sight.tool_m),
+            obstacle: sight.percept.obstacle(),
             target_m: match view.moment.motion {
                 Motion::Segment(step) => Some(step.target_m.coords.into()),
                 Motion::Hold | Motion::Track => None,
             },
+            picture_from_table: picture_from_table(&sight.frame),
+            blocks: BlocksLayer::from(sight),
+        }
+    }
+}
+
+/// The homography of a pinhole: what [`crate::geometry::Pinhole::image_from_point`] does to points of the table.
+fn picture_from_table(frame: &CameraFrame) -> [[f64; 3]; 3] {
+    let [right, up, forward] = frame.pinhole.axes();
+    let half_px = 0.5 * f64::from(frame.picture.width_px);
+    let scale_px = half_px / frame.pinhole.tangent();
+    let center = frame.pinhole.center_m().coords;
+    let rows = [forward * half_px + right * scale_px, forward * half_px - up * scale_px, forward];
+    rows.map(|axis| [axis.x, axis.y, -axis.dot(&center)])
+}
+
+impl From<&Sight> for BlocksLayer {
+    fn from(sight: &Sight) -> Self {
+        let tree = sight.blocks();
+        let calibration = &sight.percept.calibration;
+        let block = |rect: &PixelRect| [rect.column_px, rect.row_px, rect.width_px, rect.height_px].map(|px| px as u32);
+        Self {
+            origin_m: calibration.table_from_image(0.0, 0.0).coords.into(),
+            pixel_m: calibration.m_per_px,
+            dark: tree.dark.iter().map(block).collect(),
+            free: tree.free.iter().map(block).collect(),
+            rectangles: tree.partition().rectangles.iter().map(|cells| block(&tree.pixels(cells))).collect(),
+        }
+    }
+}
+
+impl From<&ObstacleMap> for SeenMessage {
+    fn from(known: &ObstacleMap) -> Self {
+        let (columns, rows) = known.shape();
+        let state = |state| match state {
+            CellState::Unknown => 0,
+            CellState::Free => 1,
+            CellState::Obstacle => 2,
+        };
+        Self {
+            workspace: *known.workspace(),
+            columns: columns as u32,
+            rows: rows as u32,
+            runs: known.runs().into_iter().map(|(cell, count)| (state(cell), count)).collect(),
         }
     }
 }

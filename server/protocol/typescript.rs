@@ -45,6 +45,8 @@ fn generated() -> String {
         declaration::<EventMessage>(c),
         declaration::<SensedObstacle>(c),
         declaration::<OverlayMessage>(c),
+        declaration::<BlocksLayer>(c),
+        declaration::<SeenMessage>(c),
         declaration::<ErrorMessage>(c),
         declaration::<PullQuery>(c),
         declaration::<PullCurve>(c),

@@ -102,7 +102,7 @@ impl Writer {
         if let Some(joints_rad) = moment.positioner.joints_rad() {
             stream.log("joints_rad", &Scalars::new(joints_rad))?;
         }
-        if let Some(jpeg) = sample.frame.as_ref().and_then(|frame| frame.to_jpeg(JPEG_QUALITY).ok()) {
+        if let Some(jpeg) = sample.frame.as_ref().and_then(|frame| frame.picture.to_jpeg(JPEG_QUALITY).ok()) {
             stream.log("camera", &EncodedImage::from_file_contents(jpeg))?;
         }
         sample.events.iter().try_for_each(|event| self.event(event))

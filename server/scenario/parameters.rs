@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::geometry::CameraMount;
 use crate::plant::{BeadMotion, BlockOrientation, PlantParameters, ToolOrientation};
 
 /// Which switching law runs.
@@ -43,6 +44,25 @@ pub struct Parameters {
     pub rolling_resistance: f64,
     /// Viscous drag on the bead, 0 to .1 N·s/m.
     pub drag_n_s_m: f64,
+    /// Height of the camera above the table, .1 to 1 m.
+    pub camera_height_m: f64,
+    /// Angle across the camera's image, .1 to 1.2 rad; the default, 36.87°, sees .20 m of table.
+    pub camera_field_of_view_rad: f64,
+    /// From the tool's axis to the camera along x, −.15 to .15 m.
+    pub camera_offset_x_m: f64,
+    /// The same along y.
+    pub camera_offset_y_m: f64,
+    /// How far the camera leans toward +x, −.4 to .4 rad.
+    pub camera_tilt_x_rad: f64,
+    /// The same toward +y.
+    pub camera_tilt_y_rad: f64,
+    /// Whether the magnet stands in the picture.
+    pub camera_sees_magnet: bool,
+    /// Gray at or below this is an obstacle, for blocks and map, 50 to 199: walls are 50 or darker, floor 200 or
+    /// lighter.
+    pub obstacle_level: u8,
+    /// Smallest side of a block of the quadtree, 1 to 240 px; the paper's figures have 50.
+    pub smallest_block_px: u32,
     /// Threshold T of the switching law, .02 to .2 m.
     pub threshold_m: f64,
     /// Distance at which sub-controller 1 has fetched the bead, .002 m to `threshold_m`.
@@ -73,6 +93,7 @@ pub struct Parameters {
 
 impl Default for Parameters {
     fn default() -> Self {
+        let camera = CameraMount::default();
         Self {
             block_orientation: BlockOrientation::A,
             tool_orientation: ToolOrientation::Vertical,
@@ -81,6 +102,15 @@ impl Default for Parameters {
             friction: 0.2,
             rolling_resistance: 0.01,
             drag_n_s_m: 0.01,
+            camera_height_m: camera.height_m,
+            camera_field_of_view_rad: camera.field_of_view_rad,
+            camera_offset_x_m: camera.offset_m[0],
+            camera_offset_y_m: camera.offset_m[1],
+            camera_tilt_x_rad: camera.tilt_rad[0],
+            camera_tilt_y_rad: camera.tilt_rad[1],
+            camera_sees_magnet: camera.sees_magnet,
+            obstacle_level: 125,
+            smallest_block_px: 6,
             threshold_m: 0.10,
             fetch_radius_m: 0.01,
             switching_law: SwitchingLaw::Hysteresis,
@@ -120,6 +150,15 @@ impl Parameters {
             ("friction", self.friction, 0.0, 1.0),
             ("rolling_resistance", self.rolling_resistance, 0.0, 0.2),
             ("drag_n_s_m", self.drag_n_s_m, 0.0, 0.1),
+            ("camera_height_m", self.camera_height_m, 0.1, 1.0),
+            // With the tilt at its ends the image's corners still see table and no horizon.
+            ("camera_field_of_view_rad", self.camera_field_of_view_rad, 0.1, 1.2),
+            ("camera_offset_x_m", self.camera_offset_x_m, -0.15, 0.15),
+            ("camera_offset_y_m", self.camera_offset_y_m, -0.15, 0.15),
+            ("camera_tilt_x_rad", self.camera_tilt_x_rad, -0.4, 0.4),
+            ("camera_tilt_y_rad", self.camera_tilt_y_rad, -0.4, 0.4),
+            ("obstacle_level", f64::from(self.obstacle_level), 50.0, 199.0),
+            ("smallest_block_px", f64::from(self.smallest_block_px), 1.0, 240.0),
             ("threshold_m", self.threshold_m, 0.02, 0.2),
             ("fetch_radius_m", self.fetch_radius_m, 0.002, self.threshold_m),
             ("approach_speed_m_s", self.approach_speed_m_s, 0.02, 0.25),
@@ -138,6 +177,17 @@ impl Parameters {
             }
         }
         Ok(())
+    }
+
+    /// How the camera sits on the tool.
+    pub fn camera_mount(&self) -> CameraMount {
+        CameraMount {
+            height_m: self.camera_height_m,
+            offset_m: [self.camera_offset_x_m, self.camera_offset_y_m],
+            tilt_rad: [self.camera_tilt_x_rad, self.camera_tilt_y_rad],
+            field_of_view_rad: self.camera_field_of_view_rad,
+            sees_magnet: self.camera_sees_magnet,
+        }
     }
 
     /// The part that the physics are told.

@@ -6,13 +6,18 @@ use crate::control::switching::{self, Mode};
 use crate::control::transport::TransportInput;
 use crate::control::{CONTROL_PERIOD_S, TargetStep};
 use crate::geometry::{Point2, Vector2};
-use crate::perception::Percept;
+use crate::map::WALL_HEIGHT_M;
+use crate::perception::{DarkPixels, Percept, wall_spread};
 
 impl Trial {
     /// Decides from a frame. Changes the mind only; the world waits for [`Self::carry_out`].
     pub(super) fn decide(&mut self, percept: &Percept) -> Decision {
-        self.state.mind.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
         let world = &self.state.world;
+        let mind = &mut self.state.mind;
+        mind.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
+        let dark = DarkPixels::of(&percept.gray, world.parameters.obstacle_level);
+        let spread = wall_spread(world.parameters.camera_height_m, WALL_HEIGHT_M);
+        mind.known.update(&dark, &percept.calibration, spread);
         let tool = self.tool_m();
         let bead = world.tracker.estimate().position_m;
         let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters);

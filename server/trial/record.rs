@@ -10,12 +10,12 @@ use crate::control::switching;
 use crate::control::transport::attractor::Superellipse;
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
-use crate::perception::{Observation, Percept};
+use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters};
 use crate::plant::{Hand, Load, Plant, Positioner};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 
-use super::state::Counters;
+use super::state::{Counters, TrialState};
 
 /// Kinds of event, for the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
@@ -64,14 +64,30 @@ impl Event {
 pub struct Sight {
     /// The frame.
     pub frame: Arc<CameraFrame>,
-    /// Mean of the central 15×15 pixels.
-    pub center_mean: f64,
-    /// Obstacle test.
-    pub obstacle: bool,
-    /// The network's observation.
-    pub observation: Observation,
+    /// The frame, understood.
+    pub percept: Percept,
+    /// Where the tool was.
+    pub tool_m: Point2<f64>,
+    /// Goal.
+    pub goal_m: Option<Point2<f64>>,
+    /// All that the camera has shown of the workspace up to now.
+    pub known: ObstacleMap,
+    /// How the image is cut into blocks.
+    pub quadtree: QuadtreeParameters,
     /// Obstacles that the attractor sensed.
     pub sensed: Vec<Superellipse>,
+}
+
+impl Sight {
+    /// The network's observation.
+    pub fn observation(&self) -> Observation {
+        Observation::new(&self.percept.gray, self.goal_m, self.tool_m, self.known.workspace())
+    }
+
+    /// The blocks of the image.
+    pub fn blocks(&self) -> Quadtree {
+        Quadtree::of(&self.percept.gray, &self.quadtree)
+    }
 }
 
 /// One tick, told.
@@ -142,6 +158,13 @@ impl Moment {
     }
 }
 
+/// A frame of this tick, and where the tool was.
+pub(super) struct Seen {
+    pub frame: CameraFrame,
+    pub percept: Percept,
+    pub tool_m: Point2<f64>,
+}
+
 impl Trial {
     /// The present moment.
     pub fn moment(&self) -> Moment {
@@ -175,29 +198,28 @@ impl Trial {
     /// What the camera sees now, outside any control step: changes nothing.
     pub fn look(&self, eye: &mut dyn Eye) -> Result<Sight, CameraError> {
         let frame = eye.capture(&self.subject())?;
-        let percept = Percept::of(&frame);
-        Ok(self.sight(Arc::new(frame), &percept))
+        let percept = Percept::of(&frame, self.tool_m().xy());
+        Ok(self.sight(Arc::new(frame), percept, self.tool_m().xy()))
     }
 
-    fn sight(&self, frame: Arc<CameraFrame>, percept: &Percept) -> Sight {
-        let goal = self.state.world.goal_m;
-        let workspace = self.arena.map.workspace();
+    fn sight(&self, frame: Arc<CameraFrame>, percept: Percept, tool_m: Point2<f64>) -> Sight {
+        let TrialState { world, mind, .. } = &self.state;
         Sight {
-            center_mean: percept.center_mean,
-            obstacle: percept.obstacle(),
-            observation: Observation::new(&percept.gray, goal, self.tool_m().xy(), workspace),
-            sensed: self.state.mind.carrier.sensed().to_vec(),
             frame,
+            percept,
+            tool_m,
+            goal_m: world.goal_m,
+            known: mind.known.clone(),
+            quadtree: QuadtreeParameters {
+                threshold: world.parameters.obstacle_level,
+                smallest_px: world.parameters.smallest_block_px as usize,
+            },
+            sensed: mind.carrier.sensed().to_vec(),
         }
     }
 
-    pub(super) fn record(
-        &mut self,
-        decision: Option<Decision>,
-        frame: Option<Arc<CameraFrame>>,
-        percept: Option<Percept>,
-    ) -> TickRecord {
-        let sight = frame.zip(percept).map(|(frame, percept)| self.sight(frame, &percept));
+    pub(super) fn record(&mut self, decision: Option<Decision>, seen: Option<Seen>) -> TickRecord {
+        let sight = seen.map(|Seen { frame, percept, tool_m }| self.sight(Arc::new(frame), percept, tool_m));
         let moment = self.moment();
         TickRecord {
             tick: moment.tick,

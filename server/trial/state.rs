@@ -11,7 +11,9 @@ use super::outcome::Phase;
 use crate::control::switching::{self, Mode};
 use crate::control::transport::Carrier;
 use crate::control::{Refusal, TargetStep};
+use crate::geometry::Rect;
 use crate::geometry::{Point2, Point3};
+use crate::perception::ObstacleMap;
 use crate::plant::{PlantState, Positioner};
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::tracking::Tracker;
@@ -97,6 +99,8 @@ pub struct Mind {
     pub carrier: Carrier,
     /// Hash of the last gray image.
     pub seen: u64,
+    /// All that the camera has shown of the workspace.
+    pub known: ObstacleMap,
 }
 
 /// A whole trial at one tick.
@@ -111,7 +115,7 @@ pub struct TrialState {
 }
 
 impl TrialState {
-    pub(super) fn at_start(scenario: &Scenario, tool_m: Point3<f64>, positioner: Positioner) -> Self {
+    pub(super) fn at_start(scenario: &Scenario, workspace: &Rect, tool_m: Point3<f64>, positioner: Positioner) -> Self {
         let start = tool_m.xy();
         let threshold_m = scenario.parameters.threshold_m;
         Self {
@@ -137,7 +141,7 @@ impl TrialState {
                 },
             },
             controller: scenario.controller,
-            mind: Mind { carrier: Carrier::new(scenario.controller), seen: 0 },
+            mind: Mind { carrier: Carrier::new(scenario.controller), seen: 0, known: ObstacleMap::new(*workspace) },
         }
     }
 

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Gpu, Quality, Subject};
-use ferry::geometry::Point3;
+use ferry::geometry::{CameraMount, Point3};
 use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation};
 use ferry::trial::Arena;
 
@@ -26,6 +26,7 @@ pub fn benches(c: &mut Criterion) {
             goal_m: Some([0.19, -0.28]),
             link_frames: arm.link_frames(),
             block_size_m: [0.05, 0.025, 0.01],
+            mount: CameraMount::default(),
         }
     };
     let mut camera = arena.camera(&gpu).unwrap();

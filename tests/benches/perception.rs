@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use criterion::Criterion;
-use ferry::geometry::{Point2, Rect};
-use ferry::image::CameraFrame;
+use ferry::geometry::{CameraMount, Point2, Rect};
+use ferry::image::{CameraFrame, Picture};
 use ferry::perception::{
     DarkPixels, OBSTACLE_LEVEL, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, Unknown, wall_spread,
 };
@@ -42,26 +42,22 @@ fn frame(x_m: f64, y_m: f64) -> CameraFrame {
             (false, false) => [238, 241, 240, 255],
         }
     };
-    CameraFrame {
-        width_px: SIZE_PX,
-        height_px: SIZE_PX,
-        rgba: (0..SIZE_PX * SIZE_PX).flat_map(pixel).collect(),
-        tick: 0,
-        camera_m: [x_m, y_m, HEIGHT_M],
-        table_span_m: SPAN_M,
-    }
+    let rgba = (0..SIZE_PX * SIZE_PX).flat_map(pixel).collect();
+    let picture = Picture { width_px: SIZE_PX, height_px: SIZE_PX, rgba };
+    CameraFrame { picture, tick: 0, pinhole: CameraMount::default().over(Point2::new(x_m, y_m)) }
 }
 
 /// Times each step from the frame to the rectangles and to the network's observation.
 pub fn benches(c: &mut Criterion) {
     let frames: Vec<CameraFrame> = (0..24).map(|i| frame(-0.23 + 0.02 * f64::from(i), -0.4)).collect();
-    let percepts: Vec<Percept> = frames.iter().map(Percept::of).collect();
+    let look = |frame: &CameraFrame| Percept::of(frame, frame.pinhole.foot_m());
+    let percepts: Vec<Percept> = frames.iter().map(look).collect();
     let spread = wall_spread(HEIGHT_M, 0.005);
     let mut group = c.benchmark_group("perception");
     let mut turn = (0..frames.len()).cycle();
     let mut next = || turn.next().expect("there are frames");
 
-    group.bench_function("gray and obstacle test of a frame", |b| b.iter(|| Percept::of(black_box(&frames[next()]))));
+    group.bench_function("gray and obstacle test of a frame", |b| b.iter(|| look(black_box(&frames[next()]))));
     group.bench_function("observation of a gray image", |b| {
         b.iter(|| {
             let percept = &percepts[next()];
@@ -69,7 +65,7 @@ pub fn benches(c: &mut Criterion) {
             Observation::new(black_box(&percept.gray), Some(tool), tool, &WORKSPACE)
         });
     });
-    group.bench_function("JPEG of a frame, quality 80", |b| b.iter(|| black_box(&frames[next()]).to_jpeg(80)));
+    group.bench_function("JPEG of a frame, quality 80", |b| b.iter(|| black_box(&frames[next()]).picture.to_jpeg(80)));
 
     let presets = [("6 px", QuadtreeParameters::default()), ("50 px", QuadtreeParameters::PAPER)];
     for (name, parameters) in presets {

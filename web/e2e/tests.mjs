@@ -197,6 +197,54 @@ async function showsSingularities({ lab }) {
   await until('the bare floor', async () => (await look()) === bare);
 }
 
+async function showsWhatTheCameraTells({ lab }) {
+  await lab.reset({ map: 'colon' });
+  const { page } = lab;
+  const fine = await until('blocks', () => page.getByTestId('blocks').textContent());
+  const [rectangles, alone] = fine.match(/\d+/g).map(Number);
+  check(rectangles > 0 && rectangles < alone, `it says: ${fine}`);
+  const smallest = page.getByRole('spinbutton', { name: 'Smallest block' });
+  await page.getByText('Camera', { exact: true }).last().click();
+  await smallest.fill('50');
+  await smallest.press('Enter');
+  await until('fewer blocks', async () => {
+    const [few] = (await page.getByTestId('blocks').textContent()).match(/\d+/g).map(Number);
+    return few < rectangles;
+  });
+
+  // Beside the tool and leaning toward it.
+  const seen = JSON.stringify(lab.scene.camera_sees_m);
+  for (const [name, value] of [
+    ['Offset y', '8'],
+    ['Tilt y', '-15'],
+  ]) {
+    const field = page.getByRole('spinbutton', { name, exact: true });
+    await field.fill(value);
+    await field.press('Enter');
+  }
+  await page.getByLabel('Magnet in the picture').check();
+  await until('another view', () => JSON.stringify(lab.scene.camera_sees_m) !== seen);
+  await page.getByLabel('Blocks', { exact: true }).selectOption('rectangles');
+  await lab.run();
+  await until('a second', () => lab.state.sim_time_s > 1);
+  await lab.button('Pause').click();
+
+  const here = lab.state.tool_m;
+  const look = () => lab.look([here[0] + 0.25 * (here[0] > 0 ? -1 : 1), here[1]]);
+  const bare = await look();
+  await page.getByLabel('Seen so far').check();
+  await until('the unseen in gray', async () => (await look()) !== bare);
+  for (const name of ['Quadtree', 'Rectangles'])
+    await page.getByLabel(name, { exact: true }).check();
+  await lab.screenshot('camera-aside');
+  for (const name of ['Seen so far', 'Quadtree', 'Rectangles']) {
+    await page.getByLabel(name, { exact: true }).uncheck();
+  }
+  await page.getByLabel('Blocks', { exact: true }).selectOption('none');
+  await lab.button('Restore defaults').click();
+  await until('the usual view', () => JSON.stringify(lab.scene.camera_sees_m) === seen);
+}
+
 async function kicksTheBead({ lab }) {
   await lab.reset();
   const disturbances = await lab.number('disturbances');
@@ -287,6 +335,7 @@ export const TESTS = [
   ['binds parameters both ways', bindsParametersBothWays],
   ['shows what the magnet can', showsWhatTheMagnetCan],
   ['shows singularities', showsSingularities],
+  ['shows what the camera tells', showsWhatTheCameraTells],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['looks right', looksRight],

@@ -19,6 +19,7 @@ export interface Lab {
   readonly tuning: Accessor<Parameters | undefined>;
   readonly state: Accessor<Model['state']>;
   readonly overlay: Accessor<Model['overlay']>;
+  readonly seen: Accessor<Model['seen']>;
   readonly log: Accessor<Model['log']>;
   readonly marks: Accessor<Model['marks']>;
   readonly notices: Accessor<Model['notices']>;
@@ -67,11 +68,11 @@ function frameScheduler(work: () => void): () => void {
   };
 }
 
-/** Drops what `input` supersedes: of states and overlays only the newest is worth drawing. */
+/** Drops what `input` supersedes: of states, overlays and what was seen only the newest is worth drawing. */
 export function enqueue(queue: Input[], input: Input): void {
   if (input.type === 'message') {
     const kind = input.message.type;
-    if (kind === 'state' || kind === 'overlay') {
+    if (kind === 'state' || kind === 'overlay' || kind === 'seen') {
       const old = queue.findIndex((item) => item.type === 'message' && item.message.type === kind);
       if (old >= 0) queue.splice(old, 1);
     }
@@ -149,6 +150,7 @@ export function createLab(page: Location): Lab {
     }),
     state: createMemo(() => model().state),
     overlay: createMemo(() => model().overlay),
+    seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
     marks: createMemo(() => model().marks),
     notices: createMemo(() => model().notices),

@@ -9,6 +9,7 @@ import {
   type Hello,
   type OverlayMessage,
   type SceneMessage,
+  type SeenMessage,
   type ServerMessage,
   type StateMessage,
 } from './protocol.gen';
@@ -51,6 +52,7 @@ export interface Model {
   readonly scene: SceneMessage | undefined;
   readonly state: StateMessage | undefined;
   readonly overlay: OverlayMessage | undefined;
+  readonly seen: SeenMessage | undefined;
   readonly log: readonly LogLine[];
   readonly marks: readonly EventMessage[];
   readonly notices: Readonly<Partial<Record<Place, Notice>>>;
@@ -73,6 +75,7 @@ export const EMPTY: Model = {
   scene: undefined,
   state: undefined,
   overlay: undefined,
+  seen: undefined,
   log: [],
   marks: [],
   notices: {},
@@ -188,13 +191,15 @@ function withMessage(model: Model, message: ServerMessage): Model {
       // Another trial: what was seen, marked and complained about is over.
       const otherTrial = model.scene !== undefined && model.scene.trial !== message.trial;
       return otherTrial
-        ? { ...model, scene: message, overlay: undefined, marks: [], notices: {} }
+        ? { ...model, scene: message, overlay: undefined, seen: undefined, marks: [], notices: {} }
         : { ...model, scene: message };
     }
     case 'state':
       return withState(model, message);
     case 'overlay':
       return { ...model, overlay: message };
+    case 'seen':
+      return { ...model, seen: message };
     case 'event': {
       // A session says something at tick 0 when it is set up anew: what came before is over.
       const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;

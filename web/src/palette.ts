@@ -15,6 +15,7 @@ const NAMES = [
   'bead',
   'goal',
   'sensed',
+  'unseen',
   'hand',
   'focus',
   'error-x',

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { GROUPS, digits, shownValue, storedValue, type NumberField } from './parameters';
+import { GROUPS } from './parameterGroups';
+import { digits, shownValue, storedValue, type NumberField } from './parameters';
 import { sceneOf } from './testing';
 
 const { defaults } = sceneOf('posts');

@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-export const PROTOCOL_VERSION = 2;
+export const PROTOCOL_VERSION = 3;
 export const BINARY_CAMERA_JPEG = 1;
 export const BINARY_OBSERVATION = 2;
 
@@ -107,6 +107,43 @@ rolling_resistance: number,
  * Viscous drag on the bead, 0 to .1 N·s/m.
  */
 drag_n_s_m: number, 
+/**
+ * Height of the camera above the table, .1 to 1 m.
+ */
+camera_height_m: number, 
+/**
+ * Angle across the camera's image, .1 to 1.2 rad; the default, 36.87°, sees .20 m of table.
+ */
+camera_field_of_view_rad: number, 
+/**
+ * From the tool's axis to the camera along x, −.15 to .15 m.
+ */
+camera_offset_x_m: number, 
+/**
+ * The same along y.
+ */
+camera_offset_y_m: number, 
+/**
+ * How far the camera leans toward +x, −.4 to .4 rad.
+ */
+camera_tilt_x_rad: number, 
+/**
+ * The same toward +y.
+ */
+camera_tilt_y_rad: number, 
+/**
+ * Whether the magnet stands in the picture.
+ */
+camera_sees_magnet: boolean, 
+/**
+ * Gray at or below this is an obstacle, for blocks and map, 50 to 199: walls are 50 or darker, floor 200 or
+ * lighter.
+ */
+obstacle_level: number, 
+/**
+ * Smallest side of a block of the quadtree, 1 to 240 px; the paper's figures have 50.
+ */
+smallest_block_px: number, 
 /**
  * Threshold T of the switching law, .02 to .2 m.
  */
@@ -228,7 +265,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "error" } & ErrorMessage;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "error" } & ErrorMessage;
 
 /**
  * See [`ServerMessage::Hello`].
@@ -304,9 +341,9 @@ defaults: Parameters,
  */
 bead_radius_m: number, 
 /**
- * Side of the square of table that the camera sees.
+ * Corners of the part of the table that the camera sees, from the tool.
  */
-camera_span_m: number, 
+camera_sees_m: Array<[number, number]>, 
 /**
  * Number of the trial: another one when a trial was set up anew.
  */
@@ -515,9 +552,13 @@ tick: number,
  */
 obstacles: Array<SensedObstacle>, 
 /**
- * Mean of the central 15×15 pixels, 0 to 255.
+ * Mean of the 15×15 pixels around the tool, 0 to 255.
  */
 center_mean: number, 
+/**
+ * Those pixels, on the table.
+ */
+patch: Rect, 
 /**
  * Obstacle test: `center_mean` < 150.
  */
@@ -525,7 +566,62 @@ obstacle: boolean,
 /**
  * Next tool target.
  */
-target_m: [number, number] | null, };
+target_m: [number, number] | null, 
+/**
+ * Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's picture.
+ */
+picture_from_table: [[number, number, number], [number, number, number], [number, number, number]], 
+/**
+ * What the image is made of.
+ */
+blocks: BlocksLayer, };
+
+/**
+ * The camera's image as the planner takes it, seen from straight above.
+ */
+export type BlocksLayer = { 
+/**
+ * Upper left corner on the table.
+ */
+origin_m: [number, number], 
+/**
+ * Side of a pixel on the table.
+ */
+pixel_m: number, 
+/**
+ * Dark blocks of the quadtree.
+ */
+dark: Array<[number, number, number, number]>, 
+/**
+ * Free blocks of the quadtree.
+ */
+free: Array<[number, number, number, number]>, 
+/**
+ * The dark blocks merged into as few rectangles as possible.
+ */
+rectangles: Array<[number, number, number, number]>, };
+
+/**
+ * What the camera has shown of the workspace since the trial began.
+ */
+export type SeenMessage = { 
+/**
+ * What the grid covers.
+ */
+workspace: Rect, 
+/**
+ * Cells along x.
+ */
+columns: number, 
+/**
+ * Cells along y.
+ */
+rows: number, 
+/**
+ * Equal cells in succession, from the least x and y row by row, which may go on in the next row: 0 for
+ * unknown, 1 for free, 2 for an obstacle; and how many.
+ */
+runs: Array<[number, number]>, };
 
 /**
  * See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.

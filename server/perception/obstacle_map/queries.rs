@@ -1,13 +1,10 @@
 //! What the map tells of a place, a disc and a way.
 
-use serde::Serialize;
-
 use super::ObstacleMap;
 use crate::geometry::{Point2, Rect, Vector2};
 
 /// What is known of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellState {
     /// Never seen.
     Unknown,
@@ -35,19 +32,6 @@ pub enum Unknown {
     Free,
     /// As if they were obstacles.
     Blocked,
-}
-
-/// The whole grid for the page, row by row from the least y, each row from the least x.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SeenLayer {
-    /// What the grid covers, in `base`.
-    pub workspace: Rect,
-    /// Cells across.
-    pub columns: usize,
-    /// Cells away from the user.
-    pub rows: usize,
-    /// Equal cells in succession, which may go on in the next row: state and how many.
-    pub runs: Vec<(CellState, u32)>,
 }
 
 impl ObstacleMap {
@@ -121,8 +105,9 @@ impl ObstacleMap {
         nearest_m
     }
 
-    /// The whole grid, run by run.
-    pub fn seen_layer(&self) -> SeenLayer {
+    /// The whole grid, row by row from the least y, each row from the least x: equal cells in succession, which
+    /// may go on in the next row, and how many.
+    pub fn runs(&self) -> Vec<(CellState, u32)> {
         let (columns, rows) = self.shape();
         let mut runs: Vec<(CellState, u32)> = Vec::new();
         for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
@@ -132,7 +117,7 @@ impl ObstacleMap {
                 _ => runs.push((state, 1)),
             }
         }
-        SeenLayer { workspace: self.workspace, columns, rows, runs }
+        runs
     }
 
     pub(super) fn cell_state(&self, column: usize, row: usize) -> CellState {

@@ -60,8 +60,7 @@ fn nothing_is_known_at_first_and_the_outside_is_wall() {
     assert_eq!(map.state(Point2::new(0.3, -0.4)), CellState::Obstacle);
     assert!((map.nearest_obstacle_m(Point2::new(0.2, -0.4)) - 0.08).abs() < 1e-12);
     assert_eq!(map.nearest_obstacle_m(Point2::new(0.2, 0.4)), 0.0);
-    let layer = map.seen_layer();
-    assert_eq!(layer.runs, [(CellState::Unknown, 290 * 165)]);
+    assert_eq!(map.runs(), [(CellState::Unknown, 290 * 165)]);
     assert!(map.rectangles().is_empty());
 }
 
@@ -143,7 +142,8 @@ fn blocks_of_a_quadtree_hold_what_pixels_hold() {
 
 #[test]
 fn cells_finer_than_pixels_are_seen_too() {
-    let calibration = Calibration { center_m: Point2::new(0.0, -0.4), m_per_px: 0.01, size_px: 64 };
+    let center_m = Point2::new(0.0, -0.4);
+    let calibration = Calibration { center_m, m_per_px: 0.01, size_px: 64, foot_m: center_m };
     let gray = crate::image::GrayImage { width_px: 64, height_px: 64, pixels: vec![0; 64 * 64] };
     let mut map = ObstacleMap::new(WORKSPACE);
     map.update(&DarkPixels::of(&gray, 50), &calibration, 1.0);
@@ -274,7 +274,7 @@ proptest! {
     #[test]
     fn rectangles_and_layer_tell_the_same_as_the_cells(map in maps()) {
         let rectangles = map.rectangles();
-        let runs = map.seen_layer().runs;
+        let runs = map.runs();
         let mut states = runs.iter().flat_map(|&(state, count)| std::iter::repeat_n(state, count as usize));
         for cell in all_cells(&map) {
             let middle = map.rect(&cell).center_m();

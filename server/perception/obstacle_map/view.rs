@@ -1,6 +1,7 @@
 //! Which pixels of an image tell of which cells.
 
 use super::ObstacleMap;
+use crate::geometry::Point2;
 use crate::image::GrayImage;
 use crate::perception::{Calibration, DarkPixels};
 
@@ -18,6 +19,24 @@ struct Axis {
     cells: Vec<(Span, Span)>,
 }
 
+/// How wall tops seem to move along one axis of an image: so many times farther from the camera's foot.
+struct Spread {
+    times: f64,
+    foot_px: f64,
+    size_px: usize,
+}
+
+impl Spread {
+    /// Where the top of what stands at a place seems to be.
+    fn top_px(&self, at_px: f64) -> f64 {
+        self.foot_px + (at_px - self.foot_px) * self.times
+    }
+
+    fn is_in_view(&self, at_px: f64) -> bool {
+        (0.0..=self.size_px as f64).contains(&at_px)
+    }
+}
+
 /// An image laid over a map.
 pub(super) struct View {
     standing: DarkPixels,
@@ -28,13 +47,15 @@ pub(super) struct View {
 impl View {
     pub fn of(map: &ObstacleMap, dark: &DarkPixels, calibration: &Calibration, spread: f64) -> Self {
         let (columns, rows) = map.shape();
-        let center = calibration.center_m;
-        let column_px = |i: usize| (map.column_edge_m(i) - center.x) / calibration.m_per_px;
-        let row_px = |i: usize| (center.y - map.row_edge_m(i)) / calibration.m_per_px;
+        let column_px = |i: usize| calibration.image_from_table(Point2::new(map.column_edge_m(i), 0.0)).0;
+        let row_px = |i: usize| calibration.image_from_table(Point2::new(0.0, map.row_edge_m(i))).1;
+        let foot_px = calibration.image_from_table(calibration.foot_m);
+        let across = Spread { times: spread, foot_px: foot_px.0, size_px: dark.width_px() };
+        let down = Spread { times: spread, foot_px: foot_px.1, size_px: dark.height_px() };
         Self {
-            standing: standing(dark, spread),
-            columns: Axis::of(columns, dark.width_px(), spread, |i| [column_px(i), column_px(i + 1)]),
-            rows: Axis::of(rows, dark.height_px(), spread, |i| [row_px(i + 1), row_px(i)]),
+            standing: standing(dark, &across, &down),
+            columns: Axis::of(columns, &across, |i| [column_px(i), column_px(i + 1)]),
+            rows: Axis::of(rows, &down, |i| [row_px(i + 1), row_px(i)]),
         }
     }
 
@@ -63,14 +84,13 @@ impl View {
 }
 
 impl Axis {
-    /// `edges_px` gives the lesser and the greater edge of a cell, in pixels from the middle of the image.
-    fn of(count: usize, size_px: usize, spread: f64, edges_px: impl Fn(usize) -> [f64; 2]) -> Self {
-        let half_px = size_px as f64 / 2.0;
+    /// `edges_px` gives the lesser and the greater edge of a cell.
+    fn of(count: usize, spread: &Spread, edges_px: impl Fn(usize) -> [f64; 2]) -> Self {
         let seen = |i: usize| {
-            let [low_px, high_px] = edges_px(i);
-            let in_view = |scale: f64| low_px * scale >= -half_px && high_px * scale <= half_px;
-            let middles = |margin_px| middles([half_px + low_px, half_px + high_px], margin_px, size_px);
-            (in_view(1.0) && in_view(spread)).then(|| (middles(0.0), middles(AROUND_PX)))
+            let edges_px = edges_px(i);
+            let in_view = edges_px.iter().all(|&px| spread.is_in_view(px) && spread.is_in_view(spread.top_px(px)));
+            let middles = |margin_px| middles(edges_px, margin_px, spread.size_px);
+            in_view.then(|| (middles(0.0), middles(AROUND_PX)))
         };
         let first = (0..count).find(|&i| seen(i).is_some()).unwrap_or(count);
         Self { first, cells: (first..count).map_while(seen).collect() }
@@ -91,17 +111,16 @@ fn middles([low_px, high_px]: [f64; 2], margin_px: f64, size_px: usize) -> Span 
 
 /// The dark pixels on whose place of the table something can stand: the top of it would darken the place spread, of
 /// which the four pixels around are asked. What would be out of view is left as it is.
-fn standing(dark: &DarkPixels, spread: f64) -> DarkPixels {
+fn standing(dark: &DarkPixels, across: &Spread, down: &Spread) -> DarkPixels {
     let (width_px, height_px) = (dark.width_px(), dark.height_px());
-    if spread == 1.0 || width_px < 2 || height_px < 2 {
+    if across.times == 1.0 || width_px < 2 || height_px < 2 {
         return dark.clone();
     }
-    let tops = |size_px: usize| -> Vec<usize> {
-        let half_px = size_px as f64 / 2.0;
-        let upper_left = |at: usize| (half_px + (at as f64 + 0.5 - half_px) * spread - 0.5).floor();
-        (0..size_px).map(|at| (upper_left(at).max(0.0) as usize).min(size_px - 2)).collect()
+    let tops = |spread: &Spread| -> Vec<usize> {
+        let upper_left = |at: usize| (spread.top_px(at as f64 + 0.5) - 0.5).floor();
+        (0..spread.size_px).map(|at| (upper_left(at).max(0.0) as usize).min(spread.size_px - 2)).collect()
     };
-    let (lefts, tops) = (tops(width_px), tops(height_px));
+    let (lefts, tops) = (tops(across), tops(down));
     let flags = dark.flags();
     // Dark here or to the right; nothing asks the last column.
     let mut pairs = Vec::with_capacity(flags.len());

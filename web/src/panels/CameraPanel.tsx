@@ -2,13 +2,15 @@
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { fixed } from '../format';
+import { blocksPath, patchPath } from '../homography';
 import type { Lab } from '../lab';
 
-/** Side of the camera's image; its central 15×15 pixels are the obstacle test. */
+/** Side of the camera's image. */
 const CAMERA_PX = 480;
-const PATCH_PX = 15;
 const OBSTACLE_BELOW = 150;
 const OBSERVATION_PX = 84;
+
+type BlocksShown = 'none' | 'quadtree' | 'rectangles';
 
 /** Writes a gray picture, a byte a pixel, on a canvas of its size. */
 function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
@@ -58,7 +60,15 @@ export function CameraPanel(props: { lab: Lab }): JSX.Element {
     drawGray(channel1, picture.bytes.subarray(size));
   });
 
-  const from = (CAMERA_PX - PATCH_PX) / 2;
+  const [blocksShown, setBlocksShown] = createSignal<BlocksShown>('none');
+  const blocks = (): string => {
+    const overlay = lab.overlay();
+    const shown = blocksShown();
+    if (!overlay || shown === 'none') return '';
+    const { picture_from_table, blocks: layer } = overlay;
+    const one = shown === 'rectangles' ? layer.rectangles : [...layer.dark, ...layer.free];
+    return blocksPath(picture_from_table, layer, one);
+  };
   return (
     <section class="panel camera" aria-labelledby="camera-title">
       <header class="panel-head">
@@ -68,7 +78,7 @@ export function CameraPanel(props: { lab: Lab }): JSX.Element {
             <span
               class="verdict"
               classList={{ obstacle: overlay().obstacle }}
-              title={`Obstacle test: the mean of the central 15×15 pixels is below ${OBSTACLE_BELOW}`}
+              title={`Obstacle test: the mean of the 15×15 pixels around the tool is below ${OBSTACLE_BELOW}`}
             >
               {overlay().obstacle ? 'obstacle' : 'free'}{' '}
               <span class="number">{fixed(overlay().center_mean, 0)}</span>
@@ -92,12 +102,40 @@ export function CameraPanel(props: { lab: Lab }): JSX.Element {
               viewBox={`0 0 ${CAMERA_PX} ${CAMERA_PX}`}
               aria-hidden="true"
             >
-              <rect x={from} y={from} width={PATCH_PX} height={PATCH_PX} />
+              <path class="blocks" d={blocks()} />
+              <Show when={lab.overlay()}>{(overlay) => <path d={patchPath(overlay())} />}</Show>
             </svg>
             <Show when={!seen()}>
               <p class="placeholder">No picture yet</p>
             </Show>
           </div>
+          <figcaption class="blocks-choice">
+            <span>
+              <label for="blocks-shown">Blocks</label>{' '}
+              <select
+                id="blocks-shown"
+                value={blocksShown()}
+                onChange={(event) => {
+                  setBlocksShown(event.currentTarget.value as BlocksShown);
+                }}
+              >
+                <option value="none">hidden</option>
+                <option value="quadtree">quadtree</option>
+                <option value="rectangles">rectangles</option>
+              </select>
+            </span>
+            <Show when={lab.overlay()?.blocks}>
+              {(layer) => (
+                <span
+                  class="number"
+                  data-testid="blocks"
+                  title="The dark blocks of the quadtree, merged into as few rectangles as possible: N − L − H + C of them"
+                >
+                  {layer().rectangles.length} rectangles; the quadtree alone {layer().dark.length}
+                </span>
+              )}
+            </Show>
+          </figcaption>
         </figure>
         <figure>
           <canvas

@@ -13,13 +13,14 @@ import {
 } from 'solid-js';
 import type { JSX } from 'solid-js';
 import type { Lab } from '../lab';
+import { GROUPS } from '../parameterGroups';
 import {
-  GROUPS,
   digits,
   shownValue,
   storedValue,
   type ChoiceField,
   type Field,
+  type FlagField,
   type Group,
   type NumberField,
 } from '../parameters';
@@ -138,13 +139,38 @@ function ChoiceRow(props: { form: Form; field: ChoiceField }): JSX.Element {
   );
 }
 
+function FlagRow(props: { form: Form; field: FlagField }): JSX.Element {
+  const { form, field } = props;
+  const value = (): boolean => form.values()[field.name];
+  const id = `parameter-${field.name}`;
+  return (
+    <div class="row" classList={{ changed: value() !== form.defaults()[field.name] }}>
+      <label for={id} title={field.help}>
+        {field.label}
+      </label>
+      <input
+        id={id}
+        type="checkbox"
+        checked={value()}
+        disabled={form.disabled()}
+        onChange={(event) => {
+          form.edit({ [field.name]: event.currentTarget.checked });
+        }}
+      />
+    </div>
+  );
+}
+
 function FieldRow(props: { form: Form; field: Field }): JSX.Element {
   const { form, field } = props;
-  return field.kind === 'number' ? (
-    <NumberRow form={form} field={field} />
-  ) : (
-    <ChoiceRow form={form} field={field} />
-  );
+  switch (field.kind) {
+    case 'number':
+      return <NumberRow form={form} field={field} />;
+    case 'choice':
+      return <ChoiceRow form={form} field={field} />;
+    case 'flag':
+      return <FlagRow form={form} field={field} />;
+  }
 }
 
 function GroupBox(props: { form: Form; group: Group; open: boolean }): JSX.Element {

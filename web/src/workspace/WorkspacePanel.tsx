@@ -12,6 +12,7 @@ import { fitView, insidePolygon, worldFromPx, type Vec2, type View } from '../tr
 import { DisturbBar } from './DisturbBar';
 import { createHeat } from './drawHeat';
 import { wallPath } from './drawMap';
+import { createSeen } from './drawSeen';
 import { createHand } from './hand';
 import { workspaceQuery } from './heat';
 import { HeatLegend } from './HeatLegend';
@@ -66,6 +67,11 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     return map && createHeat(map, palette());
   });
 
+  const seen = createMemo(() => {
+    const message = layers().has('seen') ? lab.seen() : undefined;
+    return message && createSeen(message, palette());
+  });
+
   const readout = createMemo(() => {
     const now = view();
     const scene = lab.scene();
@@ -109,6 +115,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       state: lab.state(),
       overlay: lab.overlay(),
       heat: heatQuestion() && heat(),
+      seen: seen(),
       history: lab.history,
       layers: layers(),
       drag: hand.drag(),

@@ -41,15 +41,18 @@ export function drawFootprint(
   view: View,
   palette: Palette,
   tool: Vec2,
-  span_m: number,
+  corners_m: SceneMessage['camera_sees_m'],
 ): void {
-  const [x, y] = pxFromWorld(view, tool);
-  const side = span_m * view.pxPerM;
+  ctx.beginPath();
+  for (const [x_m, y_m] of corners_m) {
+    ctx.lineTo(...pxFromWorld(view, [tool[0] + x_m, tool[1] + y_m]));
+  }
+  ctx.closePath();
   ctx.strokeStyle = palette.tool;
   ctx.globalAlpha = 0.45;
   ctx.lineWidth = 1;
   ctx.setLineDash([2, 3]);
-  ctx.strokeRect(x - side / 2, y - side / 2, side, side);
+  ctx.stroke();
   ctx.setLineDash([]);
   ctx.globalAlpha = 1;
 }

@@ -50,7 +50,7 @@ export function heatRange(map: WorkspaceMap): [number, number] | undefined {
   return range;
 }
 
-function rgb(color: string): Rgb {
+export function rgb(color: string): Rgb {
   const value = Number.parseInt(color.slice(1), 16);
   return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
 }

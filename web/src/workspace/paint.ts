@@ -7,6 +7,7 @@ import { clampToRect, pxFromWorld, worldFromPx, type Vec2, type View } from '../
 import { drawCursor, drawSpring } from './drawHand';
 import { drawHeat, type Heat } from './drawHeat';
 import { drawFloor, drawMap } from './drawMap';
+import { drawBlocks, drawRectangles, drawSeen, type Seen } from './drawSeen';
 import {
   drawBead,
   drawCapture,
@@ -23,11 +24,14 @@ export const LAYERS = [
   ['trail', 'Trails'],
   ['camera', 'Camera field'],
   ['capture', 'Capture'],
+  ['seen', 'Seen so far'],
+  ['blocks', 'Quadtree'],
+  ['rectangles', 'Rectangles'],
   ['singularity', 'Singularity'],
 ] as const;
 export type Layer = (typeof LAYERS)[number][0];
-/** The others cover nothing. */
-export const FIRST_LAYERS = LAYERS.map(([id]) => id).filter((id) => id !== 'singularity');
+/** Those that cover nothing. */
+export const FIRST_LAYERS: readonly Layer[] = ['sensed', 'trail', 'camera', 'capture'];
 
 const TRAIL_S = 60;
 
@@ -40,6 +44,8 @@ export interface Picture {
   readonly overlay: OverlayMessage | undefined;
   /** The layer of singularities, when it is shown. */
   readonly heat: Heat | undefined;
+  /** What the camera has shown, when it is shown. */
+  readonly seen: Seen | undefined;
   readonly history: History;
   readonly layers: ReadonlySet<Layer>;
   readonly drag: DragState;
@@ -93,9 +99,13 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
   ctx.save();
   clipToWorkspace(ctx, picture);
-  if (layers.has('sensed') && picture.overlay) drawSensed(ctx, view, palette, picture.overlay);
+  if (picture.overlay) {
+    if (layers.has('blocks')) drawBlocks(ctx, view, palette, picture.overlay.blocks);
+    if (layers.has('rectangles')) drawRectangles(ctx, view, palette, picture.overlay.blocks);
+    if (layers.has('sensed')) drawSensed(ctx, view, palette, picture.overlay);
+  }
   if (layers.has('trail')) paintTrails(ctx, picture, state);
-  if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_span_m);
+  if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_sees_m);
   if (layers.has('capture')) {
     drawCapture(ctx, view, palette, tool, scene.capture_m);
   }
@@ -130,6 +140,7 @@ export function paint(
     ctx.restore();
   }
   drawMap(ctx, picture.scene, picture.walls, picture.view, picture.palette);
+  if (picture.seen) drawSeen(ctx, picture.view, picture.seen);
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
   if (picture.cursor) drawCursor(ctx, picture.view, picture.palette, picture.cursor);
 }

@@ -1,0 +1,33 @@
+import { describe, expect, it } from 'vitest';
+import { blocksPath, pictureFromTable, type Homography } from './homography';
+
+/** 480 px over 20 cm around (0.1, −0.3), seen from straight above. */
+const ABOVE: Homography = [
+  [2400, 0, 0],
+  [0, -2400, -480],
+  [0, 0, 1],
+];
+
+describe('the picture of the table', () => {
+  it('has +y up', () => {
+    expect(pictureFromTable(ABOVE, [0.1, -0.3])).toEqual([240, 240]);
+    const [, row] = pictureFromTable(ABOVE, [0.1, -0.25]);
+    expect(row).toBeCloseTo(120);
+  });
+
+  it('divides by the depth', () => {
+    const leaning: Homography = [ABOVE[0], ABOVE[1], [1, 0, 1]];
+    expect(pictureFromTable(leaning, [0.1, -0.3])[0]).toBeCloseTo(240 / 1.1);
+  });
+
+  it('is nowhere at the horizon', () => {
+    const level: Homography = [ABOVE[0], ABOVE[1], [0, 0, 0]];
+    expect(pictureFromTable(level, [0.1, -0.3])).toEqual([NaN, NaN]);
+  });
+
+  it('holds blocks where their pixels are', () => {
+    const layer = { origin_m: [0, -0.2], pixel_m: 0.2 / 480, dark: [], free: [], rectangles: [] };
+    const path = blocksPath(ABOVE, { ...layer, origin_m: [0, -0.2] }, [[10, 20, 30, 40]]);
+    expect(path).toBe('M10.0 20.0L40.0 20.0L40.0 60.0L10.0 60.0Z');
+  });
+});
