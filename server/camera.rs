@@ -49,8 +49,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{CameraMount, Isometry3, Point2, Polygon, Rect};
-use crate::image::{CameraFrame, Picture};
+use crate::geometry::{Isometry3, Point2, Polygon, Rect};
+use crate::image::{CameraFrame, CameraMount, Picture};
 
 pub use error::CameraError;
 pub use gpu::{AdapterChoice, Gpu};

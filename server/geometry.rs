@@ -1,16 +1,12 @@
-//! Frames, poses, plane shapes and the pinhole, shared by every floor above.
+//! Frames, poses, plane shapes, shared by every floor above.
 //!
 //! Everything is given in the UR5's `base` frame unless a name says otherwise: x right, y away from
 //! the user is negative, z up, origin on the table under joint 1. Metres and radians.
-
-mod pinhole;
 
 pub use nalgebra::{
     Isometry3, Matrix3, Matrix6, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3, Vector6,
 };
 use serde::{Deserialize, Serialize};
-
-pub use pinhole::{CameraMount, Pinhole};
 
 /// A filled polygon with holes, in metres.
 ///

@@ -1,8 +1,10 @@
-//! Pictures, camera frames and gray images, and their encodings.
+//! Pictures, camera frames and gray images, and their encodings; and the pinhole that takes them.
+
+mod pinhole;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Pinhole;
+pub use pinhole::{CameraMount, Pinhole};
 
 /// A picture of RGBA8 pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -149,8 +149,7 @@ pub(crate) use tests::frame as test_frame;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::CameraMount;
-    use crate::image::Picture;
+    use crate::image::{CameraMount, Picture};
 
     /// A frame whose pixels are given by a rule on table coordinates.
     pub(crate) fn frame(center: Point2<f64>, wall: impl Fn(Point2<f64>) -> bool) -> CameraFrame {

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
-use ferry::geometry::{CameraMount, Point2, Point3};
-use ferry::image::Picture;
+use ferry::geometry::{Point2, Point3};
+use ferry::image::{CameraMount, Picture};
 use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation};
 use ferry::scenario::Parameters;
 use ferry::trial::Arena;

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use ferry::camera::{AdapterChoice, Camera, Gpu, Stage, Subject, VIEW_PX};
-use ferry::geometry::{CameraMount, Point2, Point3, Polygon, Rect, Vector2};
-use ferry::image::CameraFrame;
+use ferry::geometry::{Point2, Point3, Polygon, Rect, Vector2};
+use ferry::image::{CameraFrame, CameraMount};
 use ferry::map::{Map, WALL_HEIGHT_M};
 use ferry::perception::Percept;
 use ferry::plant::BEAD_RADIUS_M;

@@ -29,7 +29,7 @@ pub enum CameraError {
     /// A camera parameter is absurd.
     #[error("camera {name} is {value}: it must be {expected}")]
     Parameter {
-        /// The field of [`CameraMount`](crate::geometry::CameraMount).
+        /// The field of [`CameraMount`](crate::image::CameraMount).
         name: &'static str,
         /// Its value.
         value: f64,

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::geometry::{Pinhole, Point3, Rect, Vector2, Vector3};
+use crate::geometry::{Point3, Rect, Vector2, Vector3};
+use crate::image::Pinhole;
 
 /// Share of the camera's height above the table that is closer than it can see.
 const NEAR: f64 = 0.02;
@@ -155,7 +156,8 @@ fn ball_around(points: &[Point3<f64>]) -> (Point3<f64>, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{CameraMount, Point2};
+    use crate::geometry::Point2;
+    use crate::image::CameraMount;
 
     #[test]
     fn the_pinhole_puts_table_metres_on_pixels() {

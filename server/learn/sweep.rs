@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
-use crate::geometry::{CameraMount, Point2};
+use crate::geometry::Point2;
+use crate::image::CameraMount;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
 use crate::plant::BEAD_RADIUS_M;
 use crate::trial::Arena;

@@ -2,8 +2,8 @@
 //! the table (inverse perspective mapping: Mallot et al. 1991, Biological Cybernetics 64, 177–185).
 
 use super::Calibration;
-use crate::geometry::{Pinhole, Point3, Vector2, Vector3};
-use crate::image::GrayImage;
+use crate::geometry::{Point3, Vector2, Vector3};
+use crate::image::{GrayImage, Pinhole};
 
 /// The largest square of table around the optical axis that is wholly in view, with as many pixels as the
 /// image has. A camera that looks straight down has taken it already.
@@ -60,7 +60,8 @@ fn half_side_m(pinhole: &Pinhole) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{CameraMount, Point2};
+    use crate::geometry::Point2;
+    use crate::image::CameraMount;
     use proptest::prelude::*;
 
     /// What a camera sees of a pattern painted on the table.

@@ -196,7 +196,7 @@ impl From<&View> for OverlayMessage {
     }
 }
 
-/// The homography of a pinhole: what [`crate::geometry::Pinhole::image_from_point`] does to points of the table.
+/// The homography of a pinhole: what [`crate::image::Pinhole::image_from_point`] does to points of the table.
 fn picture_from_table(frame: &CameraFrame) -> [[f64; 3]; 3] {
     let [right, up, forward] = frame.pinhole.axes();
     let half_px = 0.5 * f64::from(frame.picture.width_px);

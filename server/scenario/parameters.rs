@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::geometry::CameraMount;
+use crate::image::CameraMount;
 use crate::plant::{BeadMotion, BlockOrientation, PlantParameters, ToolOrientation};
 
 /// Which switching law runs.

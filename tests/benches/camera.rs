@@ -4,7 +4,8 @@ use std::hint::black_box;
 
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Gpu, Quality, Subject};
-use ferry::geometry::{CameraMount, Point3};
+use ferry::geometry::Point3;
+use ferry::image::CameraMount;
 use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation};
 use ferry::trial::Arena;
 

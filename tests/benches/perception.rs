@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use criterion::Criterion;
-use ferry::geometry::{CameraMount, Point2, Rect};
-use ferry::image::{CameraFrame, Picture};
+use ferry::geometry::{Point2, Rect};
+use ferry::image::{CameraFrame, CameraMount, Picture};
 use ferry::perception::{
     DarkPixels, OBSTACLE_LEVEL, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, Unknown, wall_spread,
 };
