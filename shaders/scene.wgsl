@@ -1,19 +1,18 @@
-// The scene for people: one light with shadows, light from sky and table, a little shine.
+// The scene for people: one light with shadows, light from sky and table, a little shine, before a backdrop.
 
 struct Scene {
     clip_from_base: mat4x4<f32>,
     light_from_base: mat4x4<f32>,
-    // The fourth is 1 for soft shadows and 0 for hard ones.
+    // A direction: the fourth is 0.
     toward_light: vec4<f32>,
     // Homogeneous: a direction where the view is parallel.
     eye_m: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;
-// Depth of what stands still as the light sees it, and of what moves.
-@group(0) @binding(1) var still_shadow: texture_depth_2d;
-@group(0) @binding(2) var moving_shadow: texture_depth_2d;
-@group(0) @binding(3) var shadow_sampler: sampler_comparison;
+// Depth of what throws shadows, as the light sees it.
+@group(0) @binding(1) var shadow_map: texture_depth_2d;
+@group(0) @binding(2) var shadow_sampler: sampler_comparison;
 
 struct Corner {
     @location(0) position_m: vec3<f32>,
@@ -35,10 +34,14 @@ struct Pixel {
 }
 
 const SUN: vec3<f32> = vec3(0.80, 0.77, 0.71);
-const SKY: vec3<f32> = vec3(0.36, 0.39, 0.43);
+const SKY: vec3<f32> = vec3(0.39, 0.40, 0.42);
 const GROUND: vec3<f32> = vec3(0.20, 0.18, 0.17);
-const SHINE: f32 = 0.16;
-const GAMMA: f32 = 2.2;
+const SHINE: f32 = 0.20;
+// What glancing light from the sky adds: it makes tissue look moist, and round things round.
+const SHEEN: f32 = 0.30;
+// Of the backdrop, from the middle of the picture outward.
+const NEAR_COLOR: vec3<f32> = vec3(0.93, 0.945, 0.96);
+const FAR_COLOR: vec3<f32> = vec3(0.70, 0.75, 0.81);
 
 fn in_base(corner: Corner) -> vec3<f32> {
     let at = vec4(corner.position_m, 1.0);
@@ -53,53 +56,91 @@ fn shadow(corner: Corner) -> @builtin(position) vec4<f32> {
 
 @vertex
 fn vertex(corner: Corner) -> Pixel {
-    let n = corner.normal;
     var pixel: Pixel;
     pixel.base_m = in_base(corner);
     pixel.clip = scene.clip_from_base * vec4(pixel.base_m, 1.0);
     // Right for rotations and for stretches along the solid's own axes, which is all there is.
+    let stretch = corner.row_x.xyz * corner.row_x.xyz + corner.row_y.xyz * corner.row_y.xyz
+        + corner.row_z.xyz * corner.row_z.xyz;
+    let n = corner.normal / max(stretch, vec3(1e-12));
     pixel.normal = vec3(
         dot(corner.row_x.xyz, n),
         dot(corner.row_y.xyz, n),
         dot(corner.row_z.xyz, n),
     );
     let color = corner.color * corner.tint;
-    pixel.color = vec4(pow(color.rgb, vec3(GAMMA)), color.a);
+    // A gamma of 2, which costs software renderers less than 2.2.
+    pixel.color = vec4(color.rgb * color.rgb, color.a);
     return pixel;
 }
 
-// Share of the light that passes one map.
-fn passes(map: texture_depth_2d, uv: vec2<f32>, depth: f32) -> f32 {
-    if (scene.toward_light.w == 0.0) {
-        return textureSampleCompareLevel(map, shadow_sampler, uv, depth);
-    }
-    let texel = 1.0 / vec2<f32>(textureDimensions(map));
-    var sum = 0.0;
-    for (var i = 0; i < 4; i++) {
-        let offset = vec2(f32(i & 1) - 0.5, f32(i >> 1) - 0.5) * 1.5 * texel;
-        sum += textureSampleCompareLevel(map, shadow_sampler, uv + offset, depth);
-    }
-    return 0.25 * sum;
-}
-
-// Share of the light that arrives: 0 in shadow, 1 outside.
-fn sunlit(base_m: vec3<f32>, normal: vec3<f32>) -> f32 {
+// Where the shadow map keeps what is at `base_m`: column, row and depth.
+fn in_light(base_m: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     // Off the surface, so that it does not shade itself.
     let at = scene.light_from_base * vec4(base_m + normal * 0.0015, 1.0);
-    let uv = vec2(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y);
-    return min(passes(still_shadow, uv, at.z), passes(moving_shadow, uv, at.z));
+    // Nothing beyond the map is in shadow.
+    return vec3(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y, min(at.z, 1.0));
 }
 
-@fragment
-fn fragment(pixel: Pixel) -> @location(0) vec4<f32> {
-    let normal = normalize(pixel.normal);
+// Colour of a surface that `arriving` of the light reaches.
+fn lit(pixel: Pixel, normal: vec3<f32>, arriving: f32) -> vec4<f32> {
     let toward_light = scene.toward_light.xyz;
-    let sun = sunlit(pixel.base_m, normal) * max(dot(normal, toward_light), 0.0);
+    let sun = arriving * max(dot(normal, toward_light), 0.0);
     let around = mix(GROUND, SKY, 0.5 + 0.5 * normal.z);
     let toward_eye = normalize(scene.eye_m.xyz - pixel.base_m * scene.eye_m.w);
     let halfway = normalize(toward_light + toward_eye);
-    let shine = SHINE * sun * pow(max(dot(normal, halfway), 0.0), 40.0);
-    let lit = pixel.color.rgb * (around + sun * SUN) + vec3(shine);
+    let facing = max(dot(normal, halfway), 0.0);
+    let facing_8 = raised_4(facing * facing);
+    let glancing = 1.0 - abs(dot(normal, toward_eye));
+    let shine = SHINE * sun * raised_4(facing_8);
+    let lit = pixel.color.rgb * (around + sun * SUN) + shine + SHEEN * raised_4(glancing) * SKY;
     let linear = mix(pixel.color.rgb, lit, pixel.color.a);
-    return vec4(pow(min(linear, vec3(1.0)), vec3(1.0 / GAMMA)), 1.0);
+    return vec4(sqrt(min(linear, vec3(1.0))), 1.0);
+}
+
+fn raised_4(x: f32) -> f32 {
+    return x * x * x * x;
+}
+
+// Separate entry points, as a software renderer pays for both sides of a branch.
+@fragment
+fn hard(pixel: Pixel) -> @location(0) vec4<f32> {
+    let normal = normalize(pixel.normal);
+    let at = in_light(pixel.base_m, normal);
+    return lit(pixel, normal, textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy, at.z));
+}
+
+@fragment
+fn soft(pixel: Pixel) -> @location(0) vec4<f32> {
+    let normal = normalize(pixel.normal);
+    let at = in_light(pixel.base_m, normal);
+    let reach = 0.9 / vec2<f32>(textureDimensions(shadow_map));
+    var arriving = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let offset = vec2(f32(i & 1) * 2.0 - 1.0, f32(i >> 1) * 2.0 - 1.0) * reach;
+        arriving += 0.25 * textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + offset, at.z);
+    }
+    return lit(pixel, normal, arriving);
+}
+
+struct BackdropPixel {
+    @builtin(position) clip: vec4<f32>,
+    // −1 to 1 across the picture, +y up.
+    @location(0) at: vec2<f32>,
+}
+
+// A disc of radius 1 stretched over the whole picture, behind everything.
+@vertex
+fn backdrop(corner: Corner) -> BackdropPixel {
+    var pixel: BackdropPixel;
+    pixel.at = corner.position_m.xy * 1.5;
+    pixel.clip = vec4(pixel.at, 1.0, 1.0);
+    return pixel;
+}
+
+@fragment
+fn gradient(pixel: BackdropPixel) -> @location(0) vec4<f32> {
+    let from_middle = pixel.at - vec2(0.0, 0.25);
+    let far = min(dot(from_middle, from_middle) * 0.45, 1.0);
+    return vec4(mix(NEAR_COLOR, FAR_COLOR, far), 1.0);
 }

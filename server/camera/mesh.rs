@@ -141,6 +141,20 @@ pub(super) fn unit_cylinder(columns: u32) -> Mesh {
     mesh
 }
 
+/// A lid of radius 1 from z = 0 to its slightly domed top at z = 1: half of the ball r⁴ + z⁴ = 1.
+pub(super) fn unit_lid(columns: u32) -> Mesh {
+    let rows = 6;
+    let mut mesh = Mesh::default();
+    mesh.grid(rows, columns, PLAIN, |row, column| {
+        let (z, radius) = (0.25 * TAU * f64::from(row) / f64::from(rows)).sin_cos();
+        let (z, radius) = (z.sqrt(), radius.max(0.0).sqrt());
+        let out = around(column, columns);
+        let normal = (out * radius.powi(3) + Vector3::z() * z.powi(3)).normalize();
+        (Point3::from(out * radius + Vector3::z() * z), normal)
+    });
+    mesh
+}
+
 /// A disc of radius 1 at z = 0, facing up.
 pub(super) fn unit_disc(columns: u32) -> Mesh {
     let mut mesh = Mesh::default();
@@ -171,6 +185,7 @@ mod tests {
             ("cube", unit_cube(), [0.0, 0.0, 0.0]),
             ("sphere", unit_sphere(16), [0.0, 0.0, 0.0]),
             ("cylinder", unit_cylinder(16), [0.0, 0.0, 0.5]),
+            ("lid", unit_lid(16), [0.0, 0.0, 0.0]),
         ] {
             for vertex in &mesh.vertices {
                 let outward: f32 =

@@ -61,18 +61,20 @@ pub(super) fn parallel_down(area: &Rect, margin_m: f64, aspect: f64) -> Projecti
 
 /// Looks from direction `toward_eye` at the middle of `bounds`, just far enough away that all of
 /// them are in a picture of `aspect` (width over height) whose shorter side spans
-/// `field_of_view_rad`.
+/// `field_of_view_rad`, and of which they leave the share `margin` free on every side.
 pub(super) fn perspective_around(
     bounds: &[Point3<f64>],
     toward_eye: Vector3<f64>,
     field_of_view_rad: f64,
+    margin: f64,
     aspect: f64,
 ) -> Projection {
     let (mut middle, radius) = ball_around(bounds);
     let [right, up, back] = axes(toward_eye);
     let tangent = (0.5 * field_of_view_rad).tan();
     let (tangent_x, tangent_y) = (tangent * aspect.max(1.0), tangent / aspect.min(1.0));
-    let mut distance = distance_to_hold(bounds, middle, [right, up, back], [tangent_x, tangent_y]);
+    let filled = [tangent_x, tangent_y].map(|tangent| (1.0 - 2.0 * margin) * tangent);
+    let mut distance = distance_to_hold(bounds, middle, [right, up, back], filled);
     for _ in 0..CENTERING_ROUNDS {
         // What is near looks larger, so the middle of the picture is not the middle of the bounds.
         for axis in [right, up] {
@@ -83,7 +85,7 @@ pub(super) fn perspective_around(
             let (least, most) = seen.fold((f64::MAX, f64::MIN), |(least, most), at| (least.min(at), most.max(at)));
             middle += axis * (0.5 * (least + most) * distance);
         }
-        distance = distance_to_hold(bounds, middle, [right, up, back], [tangent_x, tangent_y]);
+        distance = distance_to_hold(bounds, middle, [right, up, back], filled);
     }
     let eye_m = middle + back * distance;
     let (near, far) = (0.1 * distance, 4.0 * (distance + radius));
@@ -193,14 +195,14 @@ mod tests {
         let bounds = [Point3::new(-0.3, -0.54, 0.0), Point3::new(0.28, -0.21, 0.0), Point3::new(0.0, 0.0, 0.6)];
         for aspect in [0.4, 1.0, 16.0 / 9.0] {
             let toward_eye = Vector3::new(0.4, -1.0, 0.8);
-            let view = perspective_around(&bounds, toward_eye, 0.6, aspect);
+            let view = perspective_around(&bounds, toward_eye, 0.6, 0.05, aspect);
             let mut touches = false;
             for point in &bounds {
                 let ndc = view.clip_from_base.transform_point(point);
                 let most = ndc.x.abs().max(ndc.y.abs());
-                assert!(most <= 1.0 + 1e-9, "{aspect}: {ndc}");
+                assert!(most <= 0.9 + 1e-9, "{aspect}: {ndc}");
                 assert!((0.0..1.0).contains(&ndc.z));
-                touches |= most > 1.0 - 1e-9;
+                touches |= most > 0.9 - 1e-9;
             }
             assert!(touches, "the picture is larger than needed at {aspect}");
         }

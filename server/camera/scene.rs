@@ -1,7 +1,6 @@
 //! Pictures for people: the whole table in perspective or from above, with one light and its shadows.
 //!
-//! What stands still throws its shadows once, into a map that is kept; what moves throws them anew each
-//! frame, into a map of its own.
+//! Only what moves throws shadows; the walls are so low that theirs are painted on the stage.
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::Matrix4;
@@ -17,35 +16,36 @@ use crate::image::Picture;
 
 pub(super) const SHADER: &str = include_str!("../../shaders/scene.wgsl");
 
-/// Columns and rows of the kept shadow map: under a millimetre of table each.
-const STILL_SHADOW_PX: u32 = 2048;
 /// From the middle of the table toward the eye: from the user's side, above, a little to the right.
-const TOWARD_EYE: [f64; 3] = [0.42, -1.0, 0.78];
+const TOWARD_EYE: [f64; 3] = [0.36, -1.0, 0.78];
 /// Across the shorter side of the picture.
-const FIELD_OF_VIEW_RAD: f64 = 0.5;
+const FIELD_OF_VIEW_RAD: f64 = 0.95;
 /// From the middle of the table toward the light: over the user's left shoulder.
-const TOWARD_LIGHT: [f64; 3] = [-0.38, -0.42, 1.0];
-/// The arm mostly stays below this, and its elbow within this of the robot's foot.
-const ARM_TOP_M: f64 = 0.63;
-const ARM_ASIDE_M: f64 = 0.15;
-/// What is in the picture below the floor: the table's front, and a little air.
-const MARGIN_BELOW_M: f64 = 0.05;
+const TOWARD_LIGHT: [f64; 3] = [-0.24, -0.70, 1.0];
+/// Over this the elbow mostly stays, and below this height.
+const ELBOW: Rect = Rect { x_min_m: -0.16, x_max_m: 0.16, y_min_m: -0.10, y_max_m: 0.08 };
+const ELBOW_TOP_M: f64 = 0.56;
+/// Within this the wrists mostly stay.
+const WRISTS: Rect = Rect { x_min_m: -0.42, x_max_m: 0.42, y_min_m: -0.45, y_max_m: -0.10 };
+/// They, and what else holds the tool, stay mostly below this.
+const WRISTS_TOP_M: f64 = 0.40;
+/// Share of the picture's height and width that is left free all around.
+const MARGIN: f64 = 0.03;
 /// Around the workspace in the plan: the border, and a little table.
 const PLAN_MARGIN_M: f64 = 0.015;
-const BACKGROUND: Color = [226, 231, 237, 255];
 
 /// Shining colours, which say where something is rather than what it looks like.
 const BEAD: Color = [255, 196, 20, 255];
-const BEAD_HALO: Color = [255, 178, 0, 0];
+const BEAD_HALO: Color = [244, 140, 0, 0];
 const GOAL: Color = [24, 150, 84, 0];
 /// Radius of the goal ring: the paper's distance at which the goal is reached.
 const GOAL_RADIUS_M: f64 = 0.02;
 /// Radius of the ring that helps to find the bead, which is a few pixels large.
-const HALO_RADIUS_M: f64 = 0.008;
+const HALO_RADIUS_M: f64 = 0.010;
 /// Rings lie this much above the floor.
 const RING_LIFT_M: f64 = 4e-4;
 /// Inner radius of a ring for an outer radius of 1.
-const RING_INNER: f64 = 0.75;
+const RING_INNER: f64 = 0.7;
 
 /// Uniforms of `scene.wgsl`, laid out as there.
 #[repr(C)]
@@ -55,7 +55,7 @@ pub(super) struct Scene {
     pub clip_from_base: [[f32; 4]; 4],
     /// Column-major; to the shadow map's clip space.
     pub light_from_base: [[f32; 4]; 4],
-    /// Of length 1; the fourth is 1 for soft shadows and 0 for hard ones.
+    /// A direction of length 1: the fourth is 0.
     pub toward_light: [f32; 4],
     /// Homogeneous: the fourth is 0 for a parallel view, and the rest then the direction to the eye.
     pub eye_m: [f32; 4],
@@ -64,15 +64,16 @@ pub(super) struct Scene {
 /// What a quality costs.
 struct Effort {
     samples: u32,
-    moving_shadow_px: u32,
-    softness: f32,
+    shadow_px: u32,
+    /// Entry point of the fragment stage.
+    fragment: &'static str,
 }
 
 impl Quality {
     fn effort(self) -> Effort {
         match self {
-            Self::Economy => Effort { samples: 1, moving_shadow_px: 1024, softness: 0.0 },
-            Self::Fine => Effort { samples: 4, moving_shadow_px: 2048, softness: 1.0 },
+            Self::Economy => Effort { samples: 1, shadow_px: 1024, fragment: "hard" },
+            Self::Fine => Effort { samples: 4, shadow_px: 1536, fragment: "soft" },
         }
     }
 }
@@ -86,14 +87,14 @@ pub(super) struct SceneRenderer {
     light_from_base: Matrix4<f64>,
     picture: wgpu::RenderPipeline,
     picture_bindings: wgpu::BindGroup,
+    backdrop: wgpu::RenderPipeline,
     shadow: wgpu::RenderPipeline,
     shadow_bindings: wgpu::BindGroup,
-    /// Shadows of what moves, made anew each frame.
-    moving_shadow: wgpu::TextureView,
+    /// Made anew each frame.
+    shadow_map: wgpu::TextureView,
     uniforms: wgpu::Buffer,
     geometry: GeometryBuffers,
     samples: u32,
-    softness: f32,
     /// Of the last size asked for.
     target: Option<Target>,
 }
@@ -105,7 +106,7 @@ impl SceneRenderer {
     }
 
     fn build(gpu: &Gpu, stage: &Stage, quality: Quality) -> Self {
-        let Effort { samples, moving_shadow_px, softness } = quality.effort();
+        let Effort { samples, shadow_px, fragment } = quality.effort();
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("shadow map"),
             mag_filter: wgpu::FilterMode::Linear,
@@ -113,8 +114,7 @@ impl SceneRenderer {
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
-        let still_shadow = shadow_map(gpu, STILL_SHADOW_PX);
-        let moving_shadow = shadow_map(gpu, moving_shadow_px);
+        let shadow_map = shadow_map(gpu, shadow_px);
         let uniforms = pipeline::uniforms::<Scene>(gpu, "scene");
         let module = pipeline::module(gpu, "scene", SHADER);
         let shadow = pipeline(
@@ -133,61 +133,59 @@ impl SceneRenderer {
             &Pass {
                 module: &module,
                 vertex: "vertex",
-                fragment: Some("fragment"),
+                fragment: Some(fragment),
+                samples,
+                depth_bias: Default::default(),
+            },
+        );
+        let backdrop = pipeline(
+            gpu,
+            &Pass {
+                module: &module,
+                vertex: "backdrop",
+                fragment: Some("gradient"),
                 samples,
                 depth_bias: Default::default(),
             },
         );
         let picture_resources = [
             uniforms.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&still_shadow),
-            wgpu::BindingResource::TextureView(&moving_shadow),
+            wgpu::BindingResource::TextureView(&shadow_map),
             wgpu::BindingResource::Sampler(&sampler),
         ];
-        // One mesh for each solid, in the order of `Solid`.
+        // One mesh for each solid, in the order of `Solid`. Discs are thick here: the lids of the joints.
         let meshes = [
             stage::scene_mesh(stage),
-            mesh::unit_sphere(32),
-            mesh::unit_disc(32),
+            mesh::unit_sphere(24),
+            mesh::unit_lid(40),
             mesh::unit_cube(),
             mesh::unit_ring(64, RING_INNER),
-            mesh::unit_cylinder(48),
+            mesh::unit_cylinder(40),
         ];
         let bounds = bounds(stage.workspace);
-        let renderer = Self {
+        Self {
             light_from_base: optics::parallel_around(&bounds, toward_light()),
             bounds,
             workspace: *stage.workspace,
             picture_bindings: bind(gpu, &picture, &picture_resources),
             shadow_bindings: bind(gpu, &shadow, &picture_resources[..1]),
             picture,
+            backdrop,
             shadow,
-            moving_shadow,
+            shadow_map,
             geometry: GeometryBuffers::new(gpu, &meshes, arm::MOST_PARTS + 8),
             uniforms,
             samples,
-            softness,
             target: None,
-        };
-        renderer.throw_still_shadows(gpu, &still_shadow);
-        renderer
+        }
     }
 
-    fn throw_still_shadows(&self, gpu: &Gpu, map: &wgpu::TextureView) {
-        let scene = Scene { light_from_base: self.light_from_base.cast::<f32>().into(), ..Scene::zeroed() };
-        gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
-        let batches = self.geometry.place(gpu, &[Part::stage(Matrix4::identity())]);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.throw_shadows(&mut encoder, map, &batches);
-        gpu.queue.submit([encoder.finish()]);
-    }
-
-    fn throw_shadows(&self, encoder: &mut wgpu::CommandEncoder, map: &wgpu::TextureView, batches: &[Batch]) {
+    fn throw_shadows(&self, encoder: &mut wgpu::CommandEncoder, batches: &[Batch]) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow map"),
             color_attachments: &[],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: map,
+                view: &self.shadow_map,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
                 stencil_ops: None,
             }),
@@ -215,27 +213,30 @@ impl SceneRenderer {
         let aspect = f64::from(width_px) / f64::from(height_px);
         let projection = match viewpoint {
             Viewpoint::User => {
-                optics::perspective_around(&self.bounds, Vector3::from(TOWARD_EYE), FIELD_OF_VIEW_RAD, aspect)
+                optics::perspective_around(&self.bounds, Vector3::from(TOWARD_EYE), FIELD_OF_VIEW_RAD, MARGIN, aspect)
             }
             Viewpoint::Above => optics::parallel_down(&self.workspace, PLAN_MARGIN_M, aspect),
         };
         let scene = Scene {
             clip_from_base: projection.clip_from_base.cast::<f32>().into(),
             light_from_base: self.light_from_base.cast::<f32>().into(),
-            toward_light: toward_light().cast::<f32>().push(self.softness).into(),
+            toward_light: toward_light().cast::<f32>().push(0.0).into(),
             eye_m: projection.eye_m.cast::<f32>().into(),
         };
         let encoder = gpu.checked("the scene", || {
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
             let batches = self.geometry.place(gpu, &parts(subject, viewpoint));
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            // The first batch is the stage, whose shadows are thrown already.
-            self.throw_shadows(&mut encoder, &self.moving_shadow, &batches[1..]);
-            let background = BACKGROUND.map(|level| f64::from(level) / 255.0);
-            let mut pass = target.begin(&mut encoder, background);
+            // The first batch is the stage, which throws no shadows; the last is the backdrop.
+            let backdrop = batches.len() - 1;
+            self.throw_shadows(&mut encoder, &batches[1..backdrop]);
+            let mut pass = target.begin(&mut encoder, [0.0; 4]);
             pass.set_pipeline(&self.picture);
             pass.set_bind_group(0, &self.picture_bindings, &[]);
-            self.geometry.draw(&mut pass, &batches);
+            self.geometry.draw(&mut pass, &batches[..backdrop]);
+            // Last, so that it costs nothing where something covers it.
+            pass.set_pipeline(&self.backdrop);
+            self.geometry.draw(&mut pass, &batches[backdrop..]);
             drop(pass);
             encoder
         })?;
@@ -264,7 +265,8 @@ fn shadow_map(gpu: &Gpu, side_px: u32) -> wgpu::TextureView {
     map.create_view(&Default::default())
 }
 
-/// Everything in the picture, equal solids side by side; the stage, which stands still, first.
+/// Everything in the picture, equal solids side by side; the stage first and the backdrop last, which
+/// throw no shadows.
 fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
     let [bead_x_m, bead_y_m, _] = subject.bead_m;
     let mut parts = match viewpoint {
@@ -280,6 +282,7 @@ fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
     parts.push(ring([bead_x_m, bead_y_m], HALO_RADIUS_M, BEAD_HALO));
     parts.extend(subject.goal_m.map(|goal_m| ring(goal_m, GOAL_RADIUS_M, GOAL)));
     parts.sort_by_key(|part| part.solid);
+    parts.push(Part { solid: Solid::Disc, base_from_solid: Matrix4::identity(), color: [255; 4] });
     parts
 }
 
@@ -293,15 +296,14 @@ fn ring([x_m, y_m]: [f64; 2], radius_m: f64, color: Color) -> Part {
     }
 }
 
-/// Corners of what the picture must hold: the table, and the arm above the robot's foot.
+/// Corners of what the picture must hold: the table, the tool over all of it, and the arm.
 fn bounds(workspace: &Rect) -> Vec<Point3<f64>> {
     let table = stage::table(workspace);
-    let arm = [-ARM_ASIDE_M, ARM_ASIDE_M].map(|x_m| Point3::new(x_m, 0.0, ARM_TOP_M));
-    let mut bounds = arm.to_vec();
-    for x_m in [table.x_min_m, table.x_max_m] {
-        for y_m in [table.y_min_m, table.y_max_m] {
-            bounds.push(Point3::new(x_m, y_m, -MARGIN_BELOW_M));
-        }
-    }
-    bounds
+    let areas =
+        [(table, -stage::TABLE_THICKNESS_M), (table, WRISTS_TOP_M), (WRISTS, WRISTS_TOP_M), (ELBOW, ELBOW_TOP_M)];
+    let corners = |(area, z_m): (Rect, f64)| {
+        let ends_x_m = [area.x_min_m, area.x_max_m];
+        ends_x_m.into_iter().flat_map(move |x_m| [area.y_min_m, area.y_max_m].map(|y_m| Point3::new(x_m, y_m, z_m)))
+    };
+    areas.into_iter().flat_map(corners).collect()
 }
