@@ -10,17 +10,25 @@ use super::geometry_buffers::{Part, Solid};
 use super::mesh::Color;
 use crate::geometry::{Isometry3, Point3, Vector3};
 
-const TUBE: Color = [206, 212, 220, 255];
-const CAP: Color = [96, 158, 214, 255];
-const DARK: Color = [58, 62, 70, 255];
-const GRIPPER: Color = [120, 126, 136, 255];
-const FINGER: Color = [88, 94, 104, 255];
-const MAGNET: Color = [38, 40, 48, 255];
+const METAL: Color = [203, 208, 214, 255];
+const LID: Color = [64, 140, 208, 255];
+const SEAM: Color = [44, 47, 54, 255];
+const FOOT: Color = [92, 97, 106, 255];
+const GRIPPER: Color = [56, 60, 68, 255];
+const FINGER: Color = [120, 126, 136, 255];
+const PAD: Color = [34, 36, 42, 255];
+const MAGNET: Color = [228, 225, 214, 255];
 
 /// Along the shoulder's axis, from the joint frames' plane to the middle of the upper arm.
 const UPPER_ARM_ASIDE_M: f64 = 0.1358;
 /// The same for the forearm.
 const FOREARM_ASIDE_M: f64 = 0.0165;
+/// Of the housings around the joints: the first two, the elbow, the wrists.
+const SHOULDER_RADIUS_M: f64 = 0.060;
+const ELBOW_RADIUS_M: f64 = 0.051;
+const WRIST_RADIUS_M: f64 = 0.0405;
+/// Width of the dark ring between two housings.
+const SEAM_M: f64 = 0.006;
 /// Longest gripper that is drawn, for a stage whose tool is not on the arm.
 const MOST_GRIPPER_M: f64 = 0.30;
 
@@ -28,7 +36,7 @@ const MOST_GRIPPER_M: f64 = 0.30;
 const COLUMN_M: f64 = 0.3;
 
 /// Parts that [`parts`] can return at most.
-pub(super) const MOST_PARTS: u64 = 48;
+pub(super) const MOST_PARTS: u64 = 96;
 
 /// The solids of robot, gripper and block, in any order.
 pub(super) fn parts(subject: &Subject) -> Vec<Part> {
@@ -47,33 +55,37 @@ pub(super) fn parts(subject: &Subject) -> Vec<Part> {
 fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
     let origin = |link: usize| Point3::from(base_from_link[link - 1].translation.vector);
     let axis = |link: usize| base_from_link[link - 1].rotation * Vector3::z();
-    let (up, foot) = (Vector3::z(), Point3::origin());
+    let joint = |link: usize| Line { origin: origin(link), along: axis(link) };
 
-    // Base and shoulder: an upright column, and the housing of joint 2 across it.
-    tube(parts, foot, foot + up * 0.022, 0.088, DARK);
-    tube(parts, foot + up * 0.022, origin(1) - up * 0.02, 0.068, TUBE);
-    let shoulder = (origin(1), axis(1));
-    housing(parts, shoulder, -0.058, UPPER_ARM_ASIDE_M - 0.058, 0.060);
+    let upright = Line { origin: Point3::origin(), along: Vector3::z() };
+    let shoulder_m = origin(1).z;
+    tube(parts, upright, [0.0, 0.010], 0.086, FOOT);
+    tube(parts, upright, [0.010, 0.034], 0.072, METAL);
+    tube(parts, upright, [0.034, 0.034 + SEAM_M], 0.069, SEAM);
+    tube(parts, upright, [0.034 + SEAM_M, shoulder_m], 0.0625, METAL);
+    housing(parts, joint(1), [-0.062, UPPER_ARM_ASIDE_M - 0.062], SHOULDER_RADIUS_M);
 
-    // Upper arm, on the far side of the shoulder, with a joint housing at either end.
+    // The upper arm, on the far side of the shoulder, and the forearm, back beside the joints.
     let aside = axis(1) * UPPER_ARM_ASIDE_M;
-    let elbow = (origin(2), axis(2));
-    housing(parts, shoulder, UPPER_ARM_ASIDE_M - 0.058, UPPER_ARM_ASIDE_M + 0.062, 0.060);
-    tube(parts, origin(1) + aside, origin(2) + aside, 0.048, TUBE);
-    housing(parts, elbow, UPPER_ARM_ASIDE_M - 0.052, UPPER_ARM_ASIDE_M + 0.055, 0.052);
+    housing(parts, joint(1), [UPPER_ARM_ASIDE_M + 0.052, UPPER_ARM_ASIDE_M - 0.058], SHOULDER_RADIUS_M);
+    housing(parts, joint(2), [UPPER_ARM_ASIDE_M + 0.046, UPPER_ARM_ASIDE_M - 0.050], ELBOW_RADIUS_M);
+    limb(parts, [origin(1) + aside, origin(2) + aside], [0.054, 0.047], [0.088, 0.076], 0.043);
 
-    // Forearm, back beside the joints.
     let aside = axis(2) * FOREARM_ASIDE_M;
-    housing(parts, elbow, FOREARM_ASIDE_M - 0.050, UPPER_ARM_ASIDE_M - 0.052, 0.050);
-    tube(parts, origin(2) + aside, origin(3) + aside, 0.040, TUBE);
+    housing(parts, joint(2), [FOREARM_ASIDE_M - 0.044, UPPER_ARM_ASIDE_M - 0.056], ELBOW_RADIUS_M);
+    limb(parts, [origin(2) + aside, origin(3) + aside], [0.046, 0.037], [0.076, 0.060], 0.036);
 
-    // Three wrists, each across the one before.
-    housing(parts, (origin(3), axis(3)), FOREARM_ASIDE_M - 0.044, FOREARM_ASIDE_M + 0.040, 0.042);
-    tube(parts, origin(3) + aside, origin(4), 0.038, TUBE);
-    housing(parts, (origin(4), axis(4)), -0.050, 0.042, 0.041);
-    tube(parts, origin(4), origin(5), 0.038, TUBE);
-    housing(parts, (origin(5), axis(5)), -0.050, 0.042, 0.041);
-    tube(parts, origin(5), origin(6), 0.036, TUBE);
+    // Three wrists; each ends in the side of the next.
+    housing(parts, joint(3), [FOREARM_ASIDE_M - 0.034, 0.062], WRIST_RADIUS_M);
+    for (link, next) in [(3, 4), (4, 5)] {
+        let length_m = (origin(next) - origin(link)).norm();
+        tube(parts, joint(link), [0.5 * length_m, length_m], 0.036, METAL);
+    }
+    for link in [4, 5] {
+        housing(parts, joint(link), [-0.040, 0.047], WRIST_RADIUS_M);
+    }
+    let flange_m = (origin(6) - origin(5)).norm();
+    tube(parts, joint(5), [0.047, flange_m], 0.0365, METAL);
 }
 
 /// The magnet.
@@ -84,9 +96,12 @@ pub(super) fn block(subject: &Subject) -> Part {
 
 /// What holds the block where there is no arm: a column of the planar stage.
 fn column(parts: &mut Vec<Part>, subject: &Subject) {
-    let top = Point3::from(subject.tool_m) + Vector3::z() * subject.block_size_m[2];
-    tube(parts, top, top + Vector3::z() * 0.02, 0.022, GRIPPER);
-    tube(parts, top + Vector3::z() * 0.02, top + Vector3::z() * COLUMN_M, 0.014, TUBE);
+    let block_top_m = Point3::from(subject.tool_m) + Vector3::z() * subject.block_size_m[2];
+    let upright = Line { origin: block_top_m, along: Vector3::z() };
+    tube(parts, upright, [0.0, 0.02], 0.022, GRIPPER);
+    lid(parts, upright, [0.02, 0.03], 0.022, GRIPPER);
+    tube(parts, upright, [0.02, COLUMN_M], 0.014, METAL);
+    lid(parts, upright, [COLUMN_M, COLUMN_M + 0.01], 0.014, LID);
 }
 
 /// From the flange to the block, whose edges are along `base`, so that the fingers
@@ -97,10 +112,13 @@ fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry
     let block_top = tool + Vector3::z() * size.z;
     let flange = Point3::from(base_from_flange.translation.vector);
     let along = base_from_flange.rotation * Vector3::z();
-    let length = along.dot(&(block_top - flange)).clamp(0.0, MOST_GRIPPER_M);
-    let at = |share: f64| flange + along * (share * length);
-    tube(parts, flange, at(0.22), 0.036, DARK);
-    tube(parts, at(0.22), at(0.30), 0.028, GRIPPER);
+    let length_m = along.dot(&(block_top - flange)).clamp(0.0, MOST_GRIPPER_M);
+    // Shares of the way down.
+    let line = Line { origin: flange, along: along * length_m };
+    tube(parts, line, [0.0, 0.08], 0.0375, SEAM);
+    tube(parts, line, [0.08, 0.12], 0.035, FINGER);
+    tube(parts, line, [0.12, 0.46], 0.034, GRIPPER);
+    lid(parts, line, [0.46, 0.50], 0.034, GRIPPER);
 
     let (across, wide) = if size.x < size.y { (0, 1) } else { (1, 0) };
     let solid = |along_across: f64, along_wide: f64, height: f64| {
@@ -108,49 +126,85 @@ fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry
         (edges[across], edges[wide], edges.z) = (along_across, along_wide, height);
         edges
     };
-    let palm = solid(size[across] + 0.036, 0.040, 0.45 * length);
-    parts.push(cuboid(at(0.52), palm, GRIPPER));
-    // Fingers reach from the palm half-way down the block.
-    let finger = solid(0.010, 0.022, 0.27 * length + 0.5 * size.z);
+    let (finger_m, pad_m) = (0.011, 0.004);
+    let knuckles = solid(size[across] + 2.0 * (finger_m + pad_m) + 0.010, 0.032, 0.15 * length_m);
+    parts.push(cuboid(line.at(0.57), knuckles, FINGER));
+    // Fingers reach from the knuckles down to the block's lower edge, with a pad on its side.
+    let finger = solid(finger_m, 0.018, 0.38 * length_m + 0.8 * size.z);
+    let pad = solid(pad_m, 0.021, size.z + 0.012);
     for side in [-0.5, 0.5] {
-        let mut offset = Vector3::z() * (-0.25 * size.z);
-        offset[across] = side * (size[across] + finger[across]);
-        parts.push(cuboid(at(0.865) + offset, finger, FINGER));
+        let mut offset = Vector3::z() * (-0.4 * size.z);
+        offset[across] = side * (size[across] + 2.0 * pad_m + finger_m);
+        parts.push(cuboid(line.at(0.81) + offset, finger, FINGER));
+        let mut offset = Vector3::z() * (-0.4 * size.z + 0.006);
+        offset[across] = side * (size[across] + pad_m);
+        parts.push(cuboid(line.at(1.0) + offset, pad, PAD));
     }
 }
 
-/// A cylinder between two points.
-fn tube(parts: &mut Vec<Part>, from: Point3<f64>, to: Point3<f64>, radius_m: f64, color: Color) {
-    let along = to - from;
+/// What round solids are strung on; places on it are multiples of `along`.
+#[derive(Clone, Copy)]
+struct Line {
+    origin: Point3<f64>,
+    along: Vector3<f64>,
+}
+
+impl Line {
+    fn at(&self, place: f64) -> Point3<f64> {
+        self.origin + self.along * place
+    }
+}
+
+/// The housing of a joint, between two places on its axis: the first carries a lid, the second meets the next
+/// housing at a seam.
+fn housing(parts: &mut Vec<Part>, joint: Line, [closed, open]: [f64; 2], radius_m: f64) {
+    let out = (closed - open).signum();
+    tube(parts, joint, [open, closed], radius_m, METAL);
+    tube(parts, joint, [open - out * SEAM_M, open], 0.95 * radius_m, SEAM);
+    tube(parts, joint, [closed, closed + out * 0.003], 0.94 * radius_m, SEAM);
+    tube(parts, joint, [closed + out * 0.003, closed + out * 0.007], 0.97 * radius_m, LID);
+    lid(parts, joint, [closed + out * 0.007, closed + out * 0.018], 0.97 * radius_m, LID);
+}
+
+/// A tube between two housings, which end in rounded stubs around it.
+fn limb(parts: &mut Vec<Part>, [from, to]: [Point3<f64>; 2], stub_radius_m: [f64; 2], stub_m: [f64; 2], radius_m: f64) {
+    let along = (to - from).normalize();
+    let whole = Line { origin: from, along };
+    tube(parts, whole, [0.0, (to - from).norm()], radius_m, METAL);
+    let ends = [whole, Line { origin: to, along: -along }];
+    for (end, (stub_radius_m, stub_m)) in ends.into_iter().zip(stub_radius_m.into_iter().zip(stub_m)) {
+        tube(parts, end, [0.0, stub_m], stub_radius_m, METAL);
+        lid(parts, end, [stub_m, stub_m + 0.016], stub_radius_m, METAL);
+        tube(parts, end, [stub_m + 0.012, stub_m + 0.020], radius_m + 0.0012, SEAM);
+    }
+}
+
+/// A cylinder between two places on a line.
+fn tube(parts: &mut Vec<Part>, line: Line, places: [f64; 2], radius_m: f64, color: Color) {
+    parts.extend(round(Solid::Cylinder, line, places, radius_m, color));
+}
+
+/// A lid whose rim is at the first place and whose top is at the second.
+fn lid(parts: &mut Vec<Part>, line: Line, places: [f64; 2], radius_m: f64, color: Color) {
+    parts.extend(round(Solid::Disc, line, places, radius_m, color));
+}
+
+/// Nothing where the places coincide.
+fn round(solid: Solid, line: Line, [from, to]: [f64; 2], radius_m: f64, color: Color) -> Option<Part> {
+    let along = line.along * (to - from);
     if along.norm() < 1e-9 {
-        return;
+        return None;
     }
     let slanted = if along.x.abs() < 0.7 * along.norm() { Vector3::x() } else { Vector3::y() };
     let u = along.cross(&slanted).normalize();
     let v = along.cross(&u).normalize();
-    parts.push(Part {
-        solid: Solid::Cylinder,
-        base_from_solid: Matrix4::from_columns(&[
-            (u * radius_m).push(0.0),
-            (v * radius_m).push(0.0),
-            along.push(0.0),
-            from.to_homogeneous(),
-        ]),
-        color,
-    });
-}
-
-/// The housing of a joint: a thick cylinder along the joint's axis, between two places on it, with
-/// the blue lid of this make on its outer end.
-fn housing(parts: &mut Vec<Part>, (origin, axis): (Point3<f64>, Vector3<f64>), from_m: f64, to_m: f64, radius_m: f64) {
-    let lid_m = 0.012;
-    let at = |along_m: f64| origin + axis * along_m;
-    // The outer end is the one farther from the joint frame.
-    let (inner_m, outer_m) = if from_m.abs() > to_m.abs() { (to_m, from_m) } else { (from_m, to_m) };
-    let outward = (outer_m - inner_m).signum();
-    tube(parts, at(inner_m), at(outer_m), radius_m, TUBE);
-    let lid = (at(outer_m), at(outer_m + outward * lid_m));
-    tube(parts, lid.0, lid.1, 0.93 * radius_m, CAP);
+    let base_from_solid = Matrix4::from_columns(&[
+        (u * radius_m).push(0.0),
+        (v * radius_m).push(0.0),
+        along.push(0.0),
+        line.at(from).to_homogeneous(),
+    ]);
+    Some(Part { solid, base_from_solid, color })
 }
 
 /// An upright box around `center`.
