@@ -8,7 +8,7 @@
 //!
 //! Brightness contract of the controllers' view, gray by Rec. 601: floor ≥ 200 with shadows
 //! included, walls ≤ 50 (tops and sides), everything outside the workspace ≤ 50, bead ≥ 200. No
-//! goal, no magnet and no arm are in it.
+//! goal and no arm are in it, and the magnet (gray 165, neither) only where the mount asks for it.
 //!
 //! | part | what it does |
 //! |---|---|
@@ -16,7 +16,8 @@
 //! | `gpu` | finds an adapter, opens the device, turns what it says into errors |
 //! | `target` | colour, depth and readback memory of one picture size |
 //! | `mesh`, `geometry_buffers` | triangles, and their copies on the device |
-//! | `stage` | walls, floor and table as triangles; the palettes of both views |
+//! | `stage` | walls and floor as triangles for the controllers' view |
+//! | `diorama` | walls, floor and table for people |
 //! | `arm` | robot, gripper and magnet as a list of simple solids |
 //! | `optics` | projections |
 //! | `pipeline` | what the drawing passes have in common |
@@ -25,6 +26,7 @@
 //! Metres in `base` and `f64` at the border; `f32` only on the device.
 
 mod arm;
+mod diorama;
 mod error;
 mod geometry_buffers;
 mod gpu;

@@ -165,10 +165,10 @@ mod tests {
     fn the_pinhole_puts_table_metres_on_pixels() {
         let clip_from_base = pinhole(&CameraMount::default().over(Point2::new(0.1, -0.3)));
         let ndc = |x, y, z| clip_from_base.transform_point(&Point3::new(x, y, z));
-        assert!((ndc(0.2, -0.3, 0.0).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-12);
-        assert!((ndc(0.1, -0.2, 0.0).xy() - nalgebra::point![0.0, 1.0]).norm() < 1e-12);
+        assert!((ndc(0.2, -0.3, 0.0).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-5);
+        assert!((ndc(0.1, -0.2, 0.0).xy() - nalgebra::point![0.0, 1.0]).norm() < 1e-5);
         // Half-way up to the camera everything is twice as large.
-        assert!((ndc(0.15, -0.3, 0.15).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-12);
+        assert!((ndc(0.15, -0.3, 0.15).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-5);
         assert!(ndc(0.1, -0.3, 0.01).z < ndc(0.1, -0.3, 0.0).z);
         assert!((ndc(0.1, -0.3, 0.3 - 0.006).z).abs() < 1e-12);
     }

@@ -10,7 +10,7 @@ use super::gpu::Gpu;
 use super::mesh::{self, Color};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::target::{DEPTH_FORMAT, Target};
-use super::{BEAD_RADIUS_M, CameraError, Quality, Stage, Subject, Viewpoint, arm, optics, stage};
+use super::{BEAD_RADIUS_M, CameraError, Quality, Stage, Subject, Viewpoint, arm, diorama, optics};
 use crate::geometry::{Point3, Rect, Vector3};
 use crate::image::Picture;
 
@@ -155,7 +155,7 @@ impl SceneRenderer {
         ];
         // One mesh for each solid, in the order of `Solid`. Discs are thick here: the lids of the joints.
         let meshes = [
-            stage::scene_mesh(stage),
+            diorama::mesh(stage),
             mesh::unit_sphere(24),
             mesh::unit_lid(40),
             mesh::unit_cube(),
@@ -298,9 +298,9 @@ fn ring([x_m, y_m]: [f64; 2], radius_m: f64, color: Color) -> Part {
 
 /// Corners of what the picture must hold: the table, the tool over all of it, and the arm.
 fn bounds(workspace: &Rect) -> Vec<Point3<f64>> {
-    let table = stage::table(workspace);
+    let table = diorama::table(workspace);
     let areas =
-        [(table, -stage::TABLE_THICKNESS_M), (table, WRISTS_TOP_M), (WRISTS, WRISTS_TOP_M), (ELBOW, ELBOW_TOP_M)];
+        [(table, -diorama::TABLE_THICKNESS_M), (table, WRISTS_TOP_M), (WRISTS, WRISTS_TOP_M), (ELBOW, ELBOW_TOP_M)];
     let corners = |(area, z_m): (Rect, f64)| {
         let ends_x_m = [area.x_min_m, area.x_max_m];
         ends_x_m.into_iter().flat_map(move |x_m| [area.y_min_m, area.y_max_m].map(|y_m| Point3::new(x_m, y_m, z_m)))
