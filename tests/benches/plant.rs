@@ -54,7 +54,7 @@ pub fn benches(c: &mut Criterion) {
 
     // The same while a push from side to side keeps the bead on the walls and in their folds.
     let mut state = PlantState::at_rest(Positioner::PlanarStage(path[0]), start);
-    let (mut at, mut touched) = (0, 0);
+    let (mut at, mut touched, mut ticks) = (0, 0, 0);
     group.bench_function("eight 1 kHz steps, colon, along its walls", |b| {
         b.iter(|| {
             let [here, next] = [path[at], path[(at + 1) % path.len()]].map(Positioner::PlanarStage);
@@ -62,11 +62,13 @@ pub fn benches(c: &mut Criterion) {
             let side = if at / 400 % 2 == 0 { 4e-3 } else { -4e-3 };
             state.drift_n = Vector2::new(side, side);
             plant.step(&mut state, &map, &here, &next);
+            ticks += 1;
             touched += usize::from(map.nearest_wall_point_within(state.bead.position_m, 0.0026).is_some());
             black_box(&state);
         });
     });
-    assert!(touched > 1000, "the bead must lean on walls");
+    // None when another benchmark was asked for.
+    assert!(10 * touched >= ticks, "the bead must lean on walls: {touched} of {ticks} ticks");
 
     // The same with the arm: inverse kinematics, servo and forward kinematics at 125 Hz besides.
     let mut arm = Positioner::home(PositionerKind::Arm, path[0]);
