@@ -77,6 +77,15 @@ pub enum Refusal {
         /// The limit.
         limit_m_s: f64,
     },
+    /// The planner searches; it goes on at the next control step.
+    #[error("the planner searches: {attempts} edges tried")]
+    Searching {
+        /// Edges tried so far.
+        attempts: u64,
+    },
+    /// No way leads to the goal, whatever is still unseen.
+    #[error("the goal is walled off: no way leads there, whatever is still unseen")]
+    WalledOff,
     /// The camera does not see where the step goes, as when it is mounted far aside.
     #[error("the step to ({x_m:.3}, {y_m:.3}) m leaves the camera's view")]
     OutOfView {

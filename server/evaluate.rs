@@ -41,6 +41,10 @@ pub struct Episode {
     pub delivered: bool,
     /// How it ended.
     pub outcome: String,
+    /// What kept sub-controller 2 from the goal in the end, if anything did.
+    pub trouble: Option<String>,
+    /// Why the arm held in the end, if it did.
+    pub refusal: Option<String>,
     /// Mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
     /// Largest difference in x during transport.
@@ -71,6 +75,8 @@ pub struct Row {
     pub episodes: u32,
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
+    /// Wilson 95 % interval of `successes / episodes`.
+    pub successes_wilson95: [f64; 2],
     /// Trials whose bead reached the goal.
     pub delivered: u32,
     /// Wilson 95 % interval of `delivered / episodes`.
@@ -156,6 +162,8 @@ pub fn episode(index: u32, scenario: Scenario, arena: &Arc<Arena>, eye: &mut dyn
             reached: trial.state().world.reached_tick.is_some(),
             delivered: moment.phase == Phase::Delivered,
             outcome: moment.phase.to_string(),
+            trouble: trial.state().mind.carrier.trouble().map(|trouble| trouble.to_string()),
+            refusal: moment.refusal.clone(),
             tracking_error_mean_m: sum_m / f64::from(count.max(1)),
             tracking_error_max_x_m: max_x_m,
             tracking_error_max_y_m: max_y_m,
@@ -214,13 +222,14 @@ pub fn summarize(experiment: &Experiment, map: &str, episodes: &[Episode]) -> Ro
     decisions.sort_by(f64::total_cmp);
     let quantile_ms =
         |q: f64| decisions.get(((decisions.len() - 1) as f64 * q).round() as usize).map_or(0.0, |s| s * 1e3);
-    let delivered = total(&|e| e.delivered);
+    let (reached, delivered) = (total(&|e| e.reached), total(&|e| e.delivered));
     Row {
         controller: experiment.controller.as_str().to_owned(),
         map: map.to_owned(),
         disturbances: experiment.disturbances,
         episodes: episodes.len() as u32,
-        successes: total(&|e| e.reached),
+        successes: reached,
+        successes_wilson95: wilson95(reached, episodes.len() as u32),
         delivered,
         wilson95: wilson95(delivered, episodes.len() as u32),
         tracking_error_mean_m: mean(&|e| e.tracking_error_mean_m),

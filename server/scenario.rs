@@ -18,17 +18,20 @@ pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerName {
+    /// Execution-extended rapidly exploring random trees (paper, §IV-C).
+    Errt,
     /// Attractor dynamics (paper, §IV-B).
     Attractor,
 }
 
 impl ControllerName {
     /// All that exist.
-    pub const ALL: [Self; 1] = [Self::Attractor];
+    pub const ALL: [Self; 2] = [Self::Errt, Self::Attractor];
 
     /// The name in files and commands.
     pub fn as_str(self) -> &'static str {
         match self {
+            Self::Errt => "errt",
             Self::Attractor => "attractor",
         }
     }

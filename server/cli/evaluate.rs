@@ -71,9 +71,14 @@ fn report_failures(episodes: &[Episode]) {
         let place =
             |p: Option<crate::geometry::Point2<f64>>| p.map_or("?".into(), |p| format!("{:.3},{:.3}", p.x, p.y));
         eprintln!(
-            "trial {}: {} (from {} to {}, seed {}, {} steps, {} disturbances)",
+            "trial {}: {}{} (from {} to {}, seed {}, {} steps, {} disturbances)",
             episode.index,
             episode.outcome,
+            [&episode.trouble, &episode.refusal]
+                .into_iter()
+                .flatten()
+                .map(|why| format!("; {why}"))
+                .collect::<String>(),
             place(episode.scenario.start_m),
             place(episode.scenario.goal_m),
             episode.scenario.seed,
@@ -86,11 +91,12 @@ fn report_failures(episodes: &[Episode]) {
 fn print_table(rows: &[Row], seed: u64, adapter: &str) {
     println!("seed {seed}, rendered by {adapter}");
     println!(
-        "{:<10} {:<17} {:>5} {:>9} {:>9} {:>15} {:>9} {:>7} {:>7} {:>6} {:>8} {:>15}",
+        "{:<10} {:<17} {:>5} {:>9} {:>15} {:>9} {:>15} {:>9} {:>7} {:>7} {:>6} {:>8} {:>15}",
         "controller",
         "map",
         "dist.",
         "reached",
+        "95 % Wilson",
         "delivered",
         "95 % Wilson",
         "error mm",
@@ -102,11 +108,12 @@ fn print_table(rows: &[Row], seed: u64, adapter: &str) {
     );
     for row in rows {
         println!(
-            "{:<10} {:<17} {:>5} {:>9} {:>9} {:>15} {:>9.1} {:>7.1} {:>7.1} {:>6.1} {:>8.2} {:>15}",
+            "{:<10} {:<17} {:>5} {:>9} {:>15} {:>9} {:>15} {:>9.1} {:>7.1} {:>7.1} {:>6.1} {:>8.2} {:>15}",
             row.controller,
             row.map,
             row.disturbances,
             format!("{}/{}", row.successes, row.episodes),
+            format!("{:.3} to {:.3}", row.successes_wilson95[0], row.successes_wilson95[1]),
             format!("{}/{}", row.delivered, row.episodes),
             format!("{:.3} to {:.3}", row.wilson95[0], row.wilson95[1]),
             row.tracking_error_mean_m * 1e3,

@@ -71,7 +71,8 @@ mod tests {
             let at = calibration.table_from_image(column_px, row_px);
             let step = calibration.table_from_image(column_px + 1.0, row_px + 1.0) - at;
             let expected = Vector2::new(calibration.m_per_px, -calibration.m_per_px);
-            prop_assert!((step - expected).norm() < 1e-12);
+            // Places of coarse pixels are kilometres apart.
+            prop_assert!((step - expected).norm() < 1e-9);
             // The middle of the image is the middle of the table seen.
             let half_px = calibration.size_px as f64 / 2.0;
             prop_assert_eq!(calibration.table_from_image(half_px, half_px), calibration.center_m);

@@ -4,6 +4,7 @@ use super::{
     BlocksLayer, ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SeenMessage, SensedObstacle,
     StateMessage,
 };
+use crate::control::transport::Carrier;
 use crate::geometry::Point2;
 use crate::image::CameraFrame;
 use crate::magnetics::force;
@@ -175,7 +176,11 @@ impl From<&View> for StateMessage {
 impl From<&View> for OverlayMessage {
     fn from(view: &View) -> Self {
         let (tick, sight) = &*view.sight;
-        let obstacles = sight.sensed.iter().map(|o| SensedObstacle {
+        let sensed = match &sight.carrier {
+            Carrier::Attractor(attractor) => attractor.sensed(),
+            Carrier::Errt(_) => &[],
+        };
+        let obstacles = sensed.iter().map(|o| SensedObstacle {
             center_m: o.center_m.coords.into(),
             half_size_m: o.half_size_m.into(),
             boundary_m: o.half_axes_m.into(),

@@ -79,6 +79,26 @@ pub struct Parameters {
     pub tracker_latency_ticks: u32,
     /// Share of the tracker's samples that are lost, 0 to .9.
     pub tracker_dropout: f64,
+    /// Share of ERRT's extensions that go toward the goal, 0 to .9.
+    pub errt_goal_probability: f64,
+    /// Share that go toward a waypoint of an earlier way, 0 to .9; at most 1 with the one above.
+    pub errt_waypoint_probability: f64,
+    /// Waypoints that ERRT keeps, 0 to 1000; 0 is without.
+    pub errt_waypoints: u32,
+    /// Most that β, the weight of the cost from the root, grows to, 0 to .95; 0 is the plain nearest neighbour.
+    pub errt_beta_most: f64,
+    /// Longest edge of ERRT's tree, .005 to .1 m.
+    pub errt_step_m: f64,
+    /// Distance that ERRT's ways keep from walls where there is room, .004 to .03 m.
+    pub errt_clearance_m: f64,
+    /// Edges that ERRT tries at one control step at most, 10 to 20000; then the arm holds and it goes on at the next.
+    pub errt_nodes_per_step: u32,
+    /// Ways that ERRT plans before it follows the shortest, 1 to 20; the publication follows the first.
+    pub errt_ways: u32,
+    /// How many times a length through the unseen counts when ERRT compares ways, 1 to 10.
+    pub errt_unseen_weight: f64,
+    /// Whether ERRT's ways are cut short.
+    pub errt_shortcut: bool,
     /// Which attractor law runs.
     pub attractor_law: AttractorLaw,
     /// Feedback gain K, 1.05 to 10 (K = kI; stable above 1).
@@ -119,6 +139,16 @@ impl Default for Parameters {
             tracker_noise_m: 0.001,
             tracker_latency_ticks: 2,
             tracker_dropout: 0.0,
+            errt_goal_probability: 0.1,
+            errt_waypoint_probability: 0.6,
+            errt_waypoints: 200,
+            errt_beta_most: 0.65,
+            errt_step_m: 0.03,
+            errt_clearance_m: 0.012,
+            errt_nodes_per_step: 2000,
+            errt_ways: 8,
+            errt_unseen_weight: 3.0,
+            errt_shortcut: true,
             attractor_law: AttractorLaw::Improved,
             attractor_gain: 2.0,
             attractor_safety_factor: 1.2,
@@ -166,6 +196,20 @@ impl Parameters {
             ("tracker_noise_m", self.tracker_noise_m, 0.0, 0.01),
             ("tracker_latency_ticks", f64::from(self.tracker_latency_ticks), 0.0, 50.0),
             ("tracker_dropout", self.tracker_dropout, 0.0, 0.9),
+            ("errt_goal_probability", self.errt_goal_probability, 0.0, 0.9),
+            (
+                "errt_waypoint_probability",
+                self.errt_waypoint_probability,
+                0.0,
+                (1.0 - self.errt_goal_probability).min(0.9),
+            ),
+            ("errt_waypoints", f64::from(self.errt_waypoints), 0.0, 1000.0),
+            ("errt_beta_most", self.errt_beta_most, 0.0, 0.95),
+            ("errt_step_m", self.errt_step_m, 0.005, 0.1),
+            ("errt_clearance_m", self.errt_clearance_m, 0.004, 0.03),
+            ("errt_ways", f64::from(self.errt_ways), 1.0, 20.0),
+            ("errt_unseen_weight", self.errt_unseen_weight, 1.0, 10.0),
+            ("errt_nodes_per_step", f64::from(self.errt_nodes_per_step), 10.0, 20_000.0),
             ("attractor_gain", self.attractor_gain, 1.05, 10.0),
             ("attractor_safety_factor", self.attractor_safety_factor, 1.0, 2.0),
             ("attractor_reactivity", self.attractor_reactivity, 0.2, 5.0),

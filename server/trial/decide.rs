@@ -1,10 +1,10 @@
 //! A control step: what the controllers decide, and what the trial makes of it.
 
 use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
-use super::{Decision, Event, EventKind, Motion, Trial, World, limits_for};
+use super::{Decision, Event, EventKind, Mind, Motion, Trial, World, limits_for};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::TransportInput;
-use crate::control::{CONTROL_PERIOD_S, TargetStep};
+use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Vector2};
 use crate::map::WALL_HEIGHT_M;
 use crate::perception::{DarkPixels, Percept, wall_spread};
@@ -39,8 +39,10 @@ impl Trial {
         let proposed = if (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
             Ok(settle_step(tool.xy(), goal, world.parameters.transport_speed_m_s))
         } else {
-            let input = TransportInput { percept, tool_m: tool.xy(), goal_m: goal, parameters: &world.parameters };
-            self.state.mind.carrier.transport().next_step(&input)
+            let Mind { carrier, known, .. } = &mut self.state.mind;
+            let parameters = &world.parameters;
+            let input = TransportInput { percept, known, tool_m: tool.xy(), goal_m: goal, parameters };
+            carrier.transport().next_step(&input)
         };
         let limits = limits_for(&world.parameters, self.arena.map.workspace());
         let seed = &world.reference;
@@ -100,8 +102,10 @@ impl Trial {
         }
         let step = self.state.world.counters.goal_steps;
         self.strike_as_scripted(Some(step));
-        let World { counters, phase, .. } = &self.state.world;
-        if *phase == Phase::Transporting && counters.leg_steps > LEG_STEP_LIMIT {
+        let World { counters, phase, refusal, .. } = &self.state.world;
+        if *phase == Phase::Transporting && *refusal == Some(Refusal::WalledOff) {
+            self.stop(StopReason::WalledOff);
+        } else if *phase == Phase::Transporting && counters.leg_steps > LEG_STEP_LIMIT {
             self.stop(StopReason::LegSteps);
         } else if counters.goal_steps > GOAL_STEP_LIMIT {
             self.stop(StopReason::GoalSteps);

@@ -156,7 +156,7 @@ impl Trial {
             Input::Release => self.release(),
             Input::SelectController(name) => {
                 self.state.controller = *name;
-                self.state.mind.carrier = Carrier::new(*name);
+                self.state.mind.carrier = Carrier::new(*name, self.scenario.seed);
             }
             Input::Configure(parameters) => self.configure(parameters)?,
             Input::Disturb(disturbance) => {

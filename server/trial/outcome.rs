@@ -48,6 +48,8 @@ pub enum StopReason {
     GoalSteps,
     /// [`SETTLE_S`]: reached, but not delivered.
     Settle,
+    /// No way leads to the goal.
+    WalledOff,
 }
 
 impl std::fmt::Display for Phase {
@@ -62,6 +64,7 @@ impl std::fmt::Display for Phase {
             Self::Stopped(StopReason::LegSteps) => "stopped: 150 steps without reaching the goal",
             Self::Stopped(StopReason::GoalSteps) => "stopped: 600 steps without delivering",
             Self::Stopped(StopReason::Settle) => "stopped: reached, but the bead did not follow within 5 s",
+            Self::Stopped(StopReason::WalledOff) => "stopped: the goal is walled off",
         })
     }
 }

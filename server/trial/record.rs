@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Decision, Input, Motion, Phase, Trial};
 use crate::camera::{CameraError, Eye};
 use crate::control::switching;
-use crate::control::transport::attractor::Superellipse;
+use crate::control::transport::Carrier;
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters};
@@ -74,8 +74,8 @@ pub struct Sight {
     pub known: ObstacleMap,
     /// How the image is cut into blocks.
     pub quadtree: QuadtreeParameters,
-    /// Obstacles that the attractor sensed.
-    pub sensed: Vec<Superellipse>,
+    /// Sub-controller 2, having decided.
+    pub carrier: Carrier,
 }
 
 impl Sight {
@@ -214,7 +214,7 @@ impl Trial {
                 threshold: world.parameters.obstacle_level,
                 smallest_px: world.parameters.smallest_block_px as usize,
             },
-            sensed: mind.carrier.sensed().to_vec(),
+            carrier: mind.carrier.clone(),
         }
     }
 

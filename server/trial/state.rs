@@ -141,7 +141,11 @@ impl TrialState {
                 },
             },
             controller: scenario.controller,
-            mind: Mind { carrier: Carrier::new(scenario.controller), seen: 0, known: ObstacleMap::new(*workspace) },
+            mind: Mind {
+                carrier: Carrier::new(scenario.controller, scenario.seed),
+                seen: 0,
+                known: ObstacleMap::new(*workspace),
+            },
         }
     }
 

@@ -1,6 +1,7 @@
 //! `cargo bench`: how fast the plant is. `ARCHITECTURE.md` holds the figures of one run.
 
 mod camera;
+mod errt;
 mod kinematics;
 mod magnetics;
 mod perception;
@@ -8,5 +9,13 @@ mod plant;
 
 use criterion::{criterion_group, criterion_main};
 
-criterion_group!(speed, kinematics::benches, magnetics::benches, plant::benches, camera::benches, perception::benches);
+criterion_group!(
+    speed,
+    kinematics::benches,
+    magnetics::benches,
+    plant::benches,
+    camera::benches,
+    perception::benches,
+    errt::benches
+);
 criterion_main!(speed);

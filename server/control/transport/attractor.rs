@@ -11,7 +11,7 @@ mod modulation;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Transport, TransportInput};
+use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Vector2};
 use crate::perception::ObstacleMask;
@@ -29,6 +29,13 @@ const CONTOUR_GAMMA: f64 = 2.0;
 const CONTOUR_SHARE: f64 = 0.5;
 /// Γ at which a contour is followed.
 const CONTOUR_TRACK_GAMMA: f64 = 1.15;
+
+/// A tool that stays within the first of these for so many control steps stands still, one within the second
+/// gets nowhere.
+const STILL_M: f64 = 0.003;
+const STILL_STEPS: u32 = 8;
+const AROUND_M: f64 = 0.03;
+const AROUND_STEPS: u32 = 40;
 
 /// Side on which a contour is followed, along the tangent (−n_y, n_x).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,6 +66,36 @@ pub struct Attractor {
     contour: Option<Side>,
     /// Superellipses of the last control step.
     sensed: Vec<Superellipse>,
+    progress: Progress,
+    trouble: Option<Trouble>,
+}
+
+/// Where the tool was when it last got anywhere, and how many control steps ago.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Progress {
+    still: Option<(Point2<f64>, u32)>,
+    around: Option<(Point2<f64>, u32)>,
+}
+
+impl Progress {
+    /// Takes note of a step.
+    fn note(&mut self, tool_m: Point2<f64>) {
+        for (since, radius_m) in [(&mut self.still, STILL_M), (&mut self.around, AROUND_M)] {
+            *since = match *since {
+                Some((at, steps)) if (tool_m - at).norm() <= radius_m => Some((at, steps + 1)),
+                _ => Some((tool_m, 0)),
+            };
+        }
+    }
+
+    fn trouble(&self) -> Option<Trouble> {
+        let lasts = |since: Option<(Point2<f64>, u32)>, steps| since.is_some_and(|(_, count)| count >= steps);
+        if lasts(self.still, STILL_STEPS) {
+            Some(Trouble::Saddle)
+        } else {
+            lasts(self.around, AROUND_STEPS).then_some(Trouble::Circling)
+        }
+    }
 }
 
 impl Attractor {
@@ -74,9 +111,11 @@ impl Attractor {
         let nominal = ((goal - point) * (parameters.attractor_gain - 1.0)).cap_magnitude(limit_m_s);
         let rho = parameters.attractor_reactivity;
         match parameters.attractor_law {
-            AttractorLaw::Literal => {
-                modulate(&self.sensed, point, nominal, rho, Basis::Normal).cap_magnitude(limit_m_s)
-            }
+            // The modulation means nothing inside: out first (specification §5).
+            AttractorLaw::Literal => match deepest(&self.sensed, point) {
+                Some(obstacle) => obstacle.normal(point) * limit_m_s,
+                None => modulate(&self.sensed, point, nominal, rho, Basis::Normal).cap_magnitude(limit_m_s),
+            },
             AttractorLaw::Improved => self.improved(point, nominal, rho),
         }
     }
@@ -121,9 +160,21 @@ impl Attractor {
     }
 }
 
+/// The obstacle that a point is deepest in, if it is in any.
+fn deepest(obstacles: &[Superellipse], point: Point2<f64>) -> Option<&Superellipse> {
+    let inside = obstacles.iter().map(|obstacle| (obstacle, obstacle.gamma(point))).filter(|(_, gamma)| *gamma < 1.0);
+    inside.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(obstacle, _)| obstacle)
+}
+
 impl Transport for Attractor {
     fn start_leg(&mut self) {
         self.contour = None;
+        self.progress = Progress::default();
+        self.trouble = None;
+    }
+
+    fn trouble(&self) -> Option<Trouble> {
+        self.trouble
     }
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
@@ -138,6 +189,12 @@ impl Transport for Attractor {
             .iter()
             .map(|patch| Superellipse::around(patch, parameters.attractor_safety_factor, clearance_m))
             .collect();
+        self.progress.note(input.tool_m);
+        let is_inside = deepest(&self.sensed, input.tool_m).is_some();
+        self.trouble = self.progress.trouble().map(|trouble| match trouble {
+            Trouble::Saddle if is_inside => Trouble::InsideObstacle,
+            other => other,
+        });
         let mut target_m = self.flow(input);
         if parameters.attractor_law == AttractorLaw::Improved {
             let reach_m = parameters.transport_speed_m_s * CONTROL_PERIOD_S;

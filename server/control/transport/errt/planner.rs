@@ -1,0 +1,287 @@
+//! The search, and what one search leaves to the next.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::cache::Cache;
+use super::clearance::{Clearance, End, Obstacles};
+use super::tree::Tree;
+use super::way::Way;
+use crate::geometry::{Point2, Rect};
+
+/// Share of a step that is tried from the root where a whole one is not clear: a start beside a wall may have no room
+/// for more.
+const FIRST_STEP: f64 = 0.25;
+
+/// How often a sample that lies too near to a wall is drawn again.
+const DRAWS: usize = 100;
+
+/// How to search. The defaults are those of the publication as far as it gives any.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlannerParameters {
+    /// Share of extensions that go toward the goal.
+    pub goal_probability: f64,
+    /// Share of extensions that go toward a waypoint; they go anywhere as long as the cache has none. What the two
+    /// leave goes anywhere.
+    pub waypoint_probability: f64,
+    /// Size of the cache; 0 is without.
+    pub waypoints: usize,
+    /// Most that β, the weight of the cost from the root, grows to; 0 is the plain nearest neighbour.
+    pub beta_most: f64,
+    /// How much β grows when a way is shorter than the last to the same goal, and falls otherwise.
+    pub beta_step: f64,
+    /// Ours: β falls by a step after every so many attempts of one search, too. In a winding channel the cost of
+    /// the right node is many times its distance, and a great β would let only nodes near the root grow.
+    pub beta_patience: usize,
+    /// Longest edge of the tree.
+    pub step_m: f64,
+    /// Ours: anywhere is anywhere that keeps the clearance, instead of anywhere in the workspace.
+    pub sample_where_clear: bool,
+    /// Ours: random shortcuts that are tried on a way that was found, after those from corner to corner; `None` is
+    /// the way as it was found.
+    pub shortcuts: Option<usize>,
+    /// Ours: distance that a way keeps from walls where there is room.
+    pub clearance_m: f64,
+    /// Ours: distance that it keeps in the narrowest places.
+    pub least_clearance_m: f64,
+    /// Attempts to add an edge after which a search is given up.
+    pub most_attempts: usize,
+}
+
+impl Default for PlannerParameters {
+    fn default() -> Self {
+        Self {
+            goal_probability: 0.1,
+            waypoint_probability: 0.6,
+            waypoints: 200,
+            beta_most: 0.65,
+            beta_step: 0.05,
+            beta_patience: 50,
+            step_m: 0.03,
+            sample_where_clear: true,
+            shortcuts: Some(200),
+            clearance_m: 0.012,
+            least_clearance_m: 0.006,
+            most_attempts: 20_000,
+        }
+    }
+}
+
+impl PlannerParameters {
+    /// The plain rapidly exploring random tree (LaValle 1998) with a share of extensions toward the goal.
+    pub fn plain() -> Self {
+        Self { waypoints: 0, beta_most: 0.0, sample_where_clear: false, shortcuts: None, ..Self::default() }
+    }
+}
+
+/// How far a search has come.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Progress {
+    /// Nothing was asked for.
+    #[default]
+    Idle,
+    /// It goes on.
+    Searching,
+    /// A way was found.
+    Found(Way),
+    /// It was given up. Another start draws other numbers.
+    Exhausted,
+    /// There is no way with the least clearance, whatever the unknown turns out to be.
+    WalledOff,
+}
+
+/// Plans one way after another. A value: all randomness comes from its seed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Planner {
+    rng: ChaCha8Rng,
+    cache: Cache,
+    beta: f64,
+    /// Goal and length of the last way as it was found.
+    last: Option<(Point2<f64>, f64)>,
+    search: Option<Search>,
+    progress: Progress,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Search {
+    parameters: PlannerParameters,
+    /// Of the obstacles that the tree keeps clear of.
+    version: u64,
+    /// Where the tool was.
+    from: Point2<f64>,
+    clearance: Clearance,
+    tree: Tree,
+    attempts: usize,
+}
+
+impl Planner {
+    /// A planner that remembers nothing.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            rng: ChaCha8Rng::seed_from_u64(seed),
+            cache: Cache::default(),
+            beta: 0.0,
+            last: None,
+            search: None,
+            progress: Progress::Idle,
+        }
+    }
+
+    /// Begins a search; one that goes on is dropped. The way may be found, or found not to exist, at once.
+    ///
+    /// `obstacles` must have been made for clearances up to that of `parameters`.
+    pub fn start(
+        &mut self,
+        parameters: &PlannerParameters,
+        obstacles: &Obstacles,
+        from: Point2<f64>,
+        goal: Point2<f64>,
+    ) {
+        self.cache.resize(parameters.waypoints);
+        self.search = None;
+        self.progress = Progress::WalledOff;
+        let start = End::near(from, obstacles, parameters.least_clearance_m);
+        let Some((start, goal)) = start.zip(End::at(goal, obstacles)) else { return };
+        let ends = [start, goal];
+        let straight = Clearance { asked_m: parameters.clearance_m, ends };
+        let is_straight = obstacles.is_clear(start.point, goal.point, &straight);
+        let levels_m = [parameters.clearance_m, parameters.least_clearance_m];
+        let reached = || obstacles.grid().clearance(ends, levels_m);
+        let Some(clearance) = is_straight.then_some(straight).or_else(reached) else { return };
+        let mut tree = Tree::new(start.point);
+        self.progress = Progress::Searching;
+        if is_straight {
+            tree.push(goal.point, 0);
+            self.progress = Progress::Found(Way { points: vec![start.point, goal.point], clearance });
+        }
+        let version = obstacles.version();
+        self.search = Some(Search { parameters: *parameters, version, from, clearance, tree, attempts: 0 });
+    }
+
+    /// Goes on for at most `attempts` attempts to add an edge, a bound on the work; how they are portioned out changes
+    /// nothing. If the obstacles changed since the start, the search begins anew.
+    pub fn advance(&mut self, obstacles: &Obstacles, attempts: usize) -> &Progress {
+        if let (Progress::Searching, Some(search)) = (&self.progress, &self.search)
+            && search.version != obstacles.version()
+        {
+            let (parameters, from, goal) = (search.parameters, search.from, search.clearance.ends[1].point);
+            self.start(&parameters, obstacles, from, goal);
+        }
+        for _ in 0..attempts {
+            if self.progress != Progress::Searching {
+                break;
+            }
+            self.attempt(obstacles);
+        }
+        &self.progress
+    }
+
+    fn attempt(&mut self, obstacles: &Obstacles) {
+        let Some(search) = &mut self.search else { return };
+        let parameters = search.parameters;
+        search.attempts += 1;
+        if search.attempts.is_multiple_of(parameters.beta_patience.max(1)) {
+            self.beta = (self.beta - parameters.beta_step).max(0.0);
+        }
+        let target = search.target(&self.cache, obstacles, &mut self.rng);
+        // A way's length is known only afterwards, and parameters may have changed since.
+        let beta = self.beta.min(parameters.beta_most);
+        if let Some(last) = search.extend(target, beta, obstacles) {
+            let points = search.tree.path(last);
+            if parameters.waypoint_probability > 0.0 {
+                self.cache.remember(&points, &mut self.rng);
+            }
+            let goal = search.clearance.ends[1].point;
+            let length_m = search.tree.cost_m(last);
+            if let Some((_, last_m)) = self.last.filter(|&(last_goal, _)| last_goal == goal) {
+                let change = if length_m < last_m { parameters.beta_step } else { -parameters.beta_step };
+                self.beta = (self.beta + change).clamp(0.0, parameters.beta_most);
+            }
+            self.last = Some((goal, length_m));
+            let mut way = Way { points, clearance: search.clearance };
+            if let Some(count) = parameters.shortcuts {
+                way.skip_corners(obstacles);
+                (0..count).for_each(|_| way.cut_short(obstacles, &mut self.rng));
+            }
+            self.progress = Progress::Found(way);
+        } else if search.attempts >= parameters.most_attempts {
+            self.progress = Progress::Exhausted;
+        }
+    }
+
+    /// Remembers the corners of a way as waypoints.
+    pub fn remember(&mut self, way: &Way) {
+        self.cache.remember(&way.points, &mut self.rng);
+    }
+
+    /// How far the search has come.
+    pub fn progress(&self) -> &Progress {
+        &self.progress
+    }
+
+    /// The tree of the last search; none where there is no way.
+    pub fn tree(&self) -> Option<&Tree> {
+        self.search.as_ref().map(|search| &search.tree)
+    }
+
+    /// Attempts of the last search so far.
+    pub fn attempts(&self) -> usize {
+        self.search.as_ref().map_or(0, |search| search.attempts)
+    }
+
+    /// Weight of the cost from the root in choosing the nearest node.
+    pub fn beta(&self) -> f64 {
+        self.beta
+    }
+}
+
+impl Search {
+    /// Where to extend the tree to.
+    fn target(&self, cache: &Cache, obstacles: &Obstacles, rng: &mut ChaCha8Rng) -> Point2<f64> {
+        let p = &self.parameters;
+        let share: f64 = rng.random();
+        if share < p.goal_probability {
+            return self.clearance.ends[1].point;
+        }
+        let is_for_cache = share < p.goal_probability + p.waypoint_probability;
+        if let Some(waypoint) = is_for_cache.then(|| cache.draw(rng)).flatten() {
+            return waypoint;
+        }
+        let mut sample = uniform(obstacles.workspace(), rng);
+        if p.sample_where_clear {
+            for _ in 1..DRAWS {
+                if obstacles.grid().distance_m(sample) >= self.clearance.asked_m {
+                    break;
+                }
+                sample = uniform(obstacles.workspace(), rng);
+            }
+        }
+        sample
+    }
+
+    /// Adds an edge from the nearest node toward `target` if it is clear, and one on to the goal if that is near. Gives
+    /// the goal's node once it is in the tree.
+    fn extend(&mut self, target: Point2<f64>, beta: f64, obstacles: &Obstacles) -> Option<usize> {
+        let nearest = self.tree.nearest(target, beta);
+        let from = self.tree.point(nearest);
+        let span = target - from;
+        let step_m = self.parameters.step_m;
+        let whole = if span.norm() > step_m { from + span.normalize() * step_m } else { target };
+        let part = (nearest == 0).then(|| from + (whole - from) * FIRST_STEP);
+        let is_clear = |&to: &Point2<f64>| to != from && obstacles.is_clear(from, to, &self.clearance);
+        let to = std::iter::once(whole).chain(part).find(is_clear)?;
+        let node = self.tree.push(to, nearest);
+        let goal = self.clearance.ends[1].point;
+        if to == goal {
+            return Some(node);
+        }
+        let is_last = (goal - to).norm() <= step_m && obstacles.is_clear(to, goal, &self.clearance);
+        is_last.then(|| self.tree.push(goal, node))
+    }
+}
+
+fn uniform(workspace: &Rect, rng: &mut ChaCha8Rng) -> Point2<f64> {
+    let size = workspace.size_m();
+    Point2::new(workspace.x_min_m + size.x * rng.random::<f64>(), workspace.y_min_m + size.y * rng.random::<f64>())
+}

@@ -1,0 +1,173 @@
+//! Whether a way exists at all, and how much clearance it leaves, by flood fill on the map's cells.
+//!
+//! A random search cannot tell a wall from bad luck, so this comes first; it is ours, not the publication's. Levels of
+//! clearance are tried from the most to the least, each on the cells that have a third more, so that the random search
+//! has room. Where all fail, every cell that a way with the least clearance could touch is taken: if those do not
+//! lead to the goal either, there is no such way.
+
+use crate::geometry::{Point2, Rect, Vector2};
+use crate::perception::CellRect;
+
+use super::clearance::{Clearance, End, GROWTH, PIECE_M};
+
+/// Levels of clearance, the most and the least among them.
+const LEVELS: usize = 5;
+/// More clearance, by this share of what is asked, leaves room for a random search.
+const ROOM: f64 = 1.0 / 3.0;
+
+/// How far each cell's centre is from walls.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    workspace: Rect,
+    columns: usize,
+    cell_m: Vector2<f64>,
+    /// Row by row from the least y: distance from the centre to the nearest obstacle's edge or to the border, exact
+    /// unless it is more than is ever asked; 0 in an obstacle.
+    distance_m: Vec<f64>,
+}
+
+impl Grid {
+    /// Distances for clearances up to `most_clearance_m`.
+    pub fn new(
+        workspace: Rect,
+        (columns, rows): (usize, usize),
+        obstacles: &[CellRect],
+        most_clearance_m: f64,
+    ) -> Self {
+        let cell_m = workspace.size_m().component_div(&Vector2::new(columns as f64, rows as f64));
+        let distance_m = truncated_distances_m(columns, rows, cell_m, obstacles, most_clearance_m * (1.0 + ROOM));
+        Self { workspace, columns, cell_m, distance_m }
+    }
+
+    /// The clearance to ask for between two ends, from the most down to the least; `None` if no way has the least.
+    pub fn clearance(&self, ends: [End; 2], [most_m, least_m]: [f64; 2]) -> Option<Clearance> {
+        let near_ends = Clearance { asked_m: f64::INFINITY, ends };
+        let leads = |is_free: &dyn Fn(usize) -> bool| {
+            self.connects(self.cell(ends[0].point), self.cell(ends[1].point), is_free)
+        };
+        // From the end itself to the centre of a cell next to its own.
+        let beside_m = self.cell_m.norm();
+        let is_beside = |center: Point2<f64>| ends.iter().any(|end| (end.point - center).norm() <= beside_m);
+        let is_roomy = |cell: usize, asked_m: f64| {
+            let distance_m = self.distance_m[cell];
+            // Most cells need no look at the ends.
+            distance_m >= asked_m * (1.0 + ROOM) || {
+                let center = self.center(cell);
+                distance_m >= near_ends.required_m(center) || is_beside(center)
+            }
+        };
+        let level_m = |level: usize| most_m + (least_m - most_m) * level as f64 / (LEVELS - 1) as f64;
+        let roomy = (0..LEVELS).map(level_m).find(|&asked_m| leads(&|cell| is_roomy(cell, asked_m)));
+        // A point of a way is at most half a diagonal from the centre of its cell, where half a diagonal less may be
+        // kept and GROWTH times as much more be asked.
+        let half_m = 0.5 * self.cell_m.norm();
+        let is_possible = |cell: usize| {
+            let (distance_m, required_m) = (self.distance_m[cell], near_ends.required_m(self.center(cell)));
+            let more_m = GROWTH * (half_m + PIECE_M);
+            distance_m > 0.0 && distance_m >= least_m.min(required_m - more_m) - half_m
+        };
+        let asked_m = roomy.or_else(|| leads(&is_possible).then_some(least_m))?;
+        Some(Clearance { asked_m, ends })
+    }
+
+    /// Distance from walls at the centre of the cell under a point.
+    pub fn distance_m(&self, point: Point2<f64>) -> f64 {
+        self.distance_m[self.cell(point)]
+    }
+
+    /// The nearest centre of a cell that has so much clearance.
+    pub fn nearest(&self, point: Point2<f64>, clearance_m: f64) -> Option<Point2<f64>> {
+        let clear = (0..self.distance_m.len()).filter(|&cell| self.distance_m[cell] >= clearance_m);
+        let away_2 = |center: &Point2<f64>| (center - point).norm_squared();
+        clear.map(|cell| self.center(cell)).min_by(|a, b| away_2(a).total_cmp(&away_2(b)))
+    }
+
+    /// Whether free cells, each beside or at a corner of the next, lead from one cell to another.
+    fn connects(&self, from: usize, to: usize, is_free: impl Fn(usize) -> bool) -> bool {
+        let rows = self.distance_m.len() / self.columns;
+        let mut seen = vec![false; self.distance_m.len()];
+        let mut open = vec![from];
+        seen[from] = true;
+        while let Some(cell) = open.pop() {
+            if cell == to {
+                return true;
+            }
+            let (column, row) = (cell % self.columns, cell / self.columns);
+            for row in row.saturating_sub(1)..=(row + 1).min(rows - 1) {
+                for column in column.saturating_sub(1)..=(column + 1).min(self.columns - 1) {
+                    let next = row * self.columns + column;
+                    if !seen[next] {
+                        seen[next] = true;
+                        if is_free(next) {
+                            open.push(next);
+                        }
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// The cell under a point, or the nearest to it.
+    fn cell(&self, point: Point2<f64>) -> usize {
+        let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
+        let at = (point - corner).component_div(&self.cell_m);
+        // A cast of what is negative is 0.
+        let rows = self.distance_m.len() / self.columns;
+        (at.y as usize).min(rows - 1) * self.columns + (at.x as usize).min(self.columns - 1)
+    }
+
+    fn center(&self, cell: usize) -> Point2<f64> {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        Point2::new(
+            self.workspace.x_min_m + (column as f64 + 0.5) * self.cell_m.x,
+            self.workspace.y_min_m + (row as f64 + 0.5) * self.cell_m.y,
+        )
+    }
+}
+
+/// Distance from each cell's centre to the nearest obstacle's edge or to the border, or any number above `most_m` where
+/// it is more: first along each column, then over the columns that are near enough.
+fn truncated_distances_m(
+    columns: usize,
+    rows: usize,
+    cell_m: Vector2<f64>,
+    obstacles: &[CellRect],
+    most_m: f64,
+) -> Vec<f64> {
+    let mut along_y_m = vec![f64::INFINITY; columns * rows];
+    for rect in obstacles {
+        for row in rect.row..rect.row + rect.rows {
+            along_y_m[row * columns + rect.column..][..rect.columns].fill(0.0);
+        }
+    }
+    // Centre to edge of the next cell is half a cell, then a cell more each.
+    let next_m = |from_m: f64| if from_m > 0.0 { from_m + cell_m.y } else { 0.5 * cell_m.y };
+    for cell in columns..along_y_m.len() {
+        along_y_m[cell] = along_y_m[cell].min(next_m(along_y_m[cell - columns]));
+    }
+    for cell in (0..along_y_m.len() - columns).rev() {
+        along_y_m[cell] = along_y_m[cell].min(next_m(along_y_m[cell + columns]));
+    }
+    let border_m = |index: usize, count: usize, side_m: f64| (index.min(count - 1 - index) as f64 + 0.5) * side_m;
+    let most_columns = (most_m / cell_m.x + 0.5).ceil() as usize;
+    let mut distance_m = vec![0.0; columns * rows];
+    for (row, (found, along_y_m)) in
+        distance_m.chunks_exact_mut(columns).zip(along_y_m.chunks_exact(columns)).enumerate()
+    {
+        let squared: Vec<f64> = along_y_m.iter().map(|along_m| along_m * along_m).collect();
+        found.copy_from_slice(&squared);
+        for offset in 1..=most_columns.min(columns - 1) {
+            let across_m = (offset as f64 - 0.5) * cell_m.x;
+            let across_2 = across_m * across_m;
+            let nearer = |(found, beside): (&mut f64, &f64)| *found = found.min(beside + across_2);
+            found[..columns - offset].iter_mut().zip(&squared[offset..]).for_each(nearer);
+            found[offset..].iter_mut().zip(&squared[..columns - offset]).for_each(nearer);
+        }
+        let border_y_m = border_m(row, rows, cell_m.y);
+        for (column, found) in found.iter_mut().enumerate() {
+            *found = found.sqrt().min(border_y_m).min(border_m(column, columns, cell_m.x));
+        }
+    }
+    distance_m
+}

@@ -1,0 +1,128 @@
+//! The search tree, and its node that is nearest to a point when the way to it costs too.
+
+use std::sync::Arc;
+
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Point2;
+
+/// A tree of straight edges that grows from its first node, the root. Copies share what they have in common until one
+/// of them grows.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "Vec<Stored>", try_from = "Vec<Stored>")]
+pub struct Tree {
+    nodes: Arc<Vec<Node>>,
+    /// Every node's position and number; not serialised, since the nodes say it all.
+    index: Arc<RTree<GeomWithData<[f64; 2], u32>>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Node {
+    point: Point2<f64>,
+    /// The root is its own.
+    parent: u32,
+    /// Length of the way from the root.
+    cost_m: f64,
+}
+
+/// A node as it is serialised: its position and its parent, which comes before it.
+type Stored = (Point2<f64>, u32);
+
+impl PartialEq for Tree {
+    fn eq(&self, other: &Self) -> bool {
+        self.nodes == other.nodes
+    }
+}
+
+impl From<Tree> for Vec<Stored> {
+    fn from(tree: Tree) -> Self {
+        tree.nodes.iter().map(|node| (node.point, node.parent)).collect()
+    }
+}
+
+impl TryFrom<Vec<Stored>> for Tree {
+    type Error = &'static str;
+
+    fn try_from(stored: Vec<Stored>) -> Result<Self, Self::Error> {
+        let (&(root, _), others) = stored.split_first().ok_or("a tree has a root")?;
+        let mut tree = Self::new(root);
+        for &(point, parent) in others {
+            if parent as usize >= tree.len() {
+                return Err("a node's parent comes before it");
+            }
+            tree.push(point, parent as usize);
+        }
+        Ok(tree)
+    }
+}
+
+impl Tree {
+    /// A tree of nothing but its root.
+    pub fn new(root: Point2<f64>) -> Self {
+        let mut tree = Self { nodes: Arc::default(), index: Arc::default() };
+        tree.add(Node { point: root, parent: 0, cost_m: 0.0 });
+        tree
+    }
+
+    fn add(&mut self, node: Node) {
+        Arc::make_mut(&mut self.index).insert(GeomWithData::new(node.point.into(), self.nodes.len() as u32));
+        Arc::make_mut(&mut self.nodes).push(node);
+    }
+
+    /// Adds a node at the end of a straight edge from `parent`, and tells its number.
+    pub fn push(&mut self, point: Point2<f64>, parent: usize) -> usize {
+        let from = &self.nodes[parent];
+        let cost_m = from.cost_m + (point - from.point).norm();
+        self.add(Node { point, parent: parent as u32, cost_m });
+        self.nodes.len() - 1
+    }
+
+    /// Nodes, the root included.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Position of a node.
+    pub fn point(&self, node: usize) -> Point2<f64> {
+        self.nodes[node].point
+    }
+
+    /// Length of the way from the root to a node.
+    pub fn cost_m(&self, node: usize) -> f64 {
+        self.nodes[node].cost_m
+    }
+
+    /// The node with the least distance + `beta` · cost from the root; of equals the first.
+    ///
+    /// Nodes come by growing distance, so the search ends where the distance alone is more than the best sum.
+    pub fn nearest(&self, target: Point2<f64>, beta: f64) -> usize {
+        let mut best = (f64::INFINITY, usize::MAX);
+        for (entry, distance_2) in self.index.nearest_neighbor_iter_with_distance_2(target.into()) {
+            let distance_m = distance_2.sqrt();
+            if distance_m > best.0 {
+                break;
+            }
+            let node = entry.data as usize;
+            let sum = (distance_m + beta * self.nodes[node].cost_m, node);
+            if sum < best {
+                best = sum;
+            }
+        }
+        best.1
+    }
+
+    /// The points from the root to a node.
+    pub fn path(&self, node: usize) -> Vec<Point2<f64>> {
+        let parent = |&node: &usize| (node > 0).then(|| self.nodes[node].parent as usize);
+        let mut points: Vec<_> = std::iter::successors(Some(node), parent).map(|node| self.point(node)).collect();
+        points.reverse();
+        points
+    }
+
+    /// Both ends of every edge, nearer to the root first.
+    pub fn edges(&self) -> impl Iterator<Item = [Point2<f64>; 2]> {
+        self.nodes[1..].iter().map(|node| [self.point(node.parent as usize), node.point])
+    }
+}
