@@ -138,6 +138,7 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/state", get(api::state))
         .route("/api/sessions/{id}/camera.png", get(api::camera))
         .route("/api/sessions/{id}/observation.png", get(api::observation))
+        .route("/api/sessions/{id}/flow", post(api::flow))
         .route("/api/sessions/{id}/live", get(live::live))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))

@@ -15,7 +15,7 @@ use super::body::WholeBody;
 use super::problem::Problem;
 use super::{MAIN_SESSION, SESSION_CAP, Server};
 use crate::map::{Map, MapError};
-use crate::protocol::StateMessage;
+use crate::protocol::{FlowField, FlowQuery, StateMessage};
 use crate::recording;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
@@ -35,6 +35,25 @@ pub async fn map(Path(name): Path<String>) -> Result<Response, Problem> {
         error => Problem::internal(error),
     })?;
     Ok(attachment("image/svg+xml", &format!("{name}.svg"), map.svg().to_owned()))
+}
+
+/// Spacing of a flow field.
+const SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
+
+/// `POST /api/sessions/{id}/flow`: where attractor dynamics would lead.
+pub async fn flow(
+    State(server): State<Arc<Server>>,
+    Path(id): Path<String>,
+    WholeBody(body): WholeBody,
+) -> Result<Json<FlowField>, Problem> {
+    let FlowQuery { spacing_m, .. } = parse(&body)?;
+    if !SPACING_M.contains(&spacing_m) {
+        let message = format!("spacing_m is {spacing_m}, it must be {} to {}", SPACING_M.start(), SPACING_M.end());
+        return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("spacing_m"));
+    }
+    let view = view(&server, &id)?;
+    let field = tokio::task::spawn_blocking(move || FlowField::of(&view, spacing_m)).await;
+    Ok(Json(field.map_err(Problem::internal)?))
 }
 
 #[derive(Serialize)]

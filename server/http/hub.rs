@@ -213,8 +213,8 @@ impl Encoder {
             let before = self.sight.replace(view.sight.clone());
             let (tick, sight) = &*view.sight;
             if !before.is_some_and(|before| before.1.known.shares_cells(&sight.known)) {
-                next.seen = json(&ServerMessage::Seen(SeenMessage::from(&sight.known)));
                 next.seen_version += 1;
+                next.seen = json(&ServerMessage::Seen(SeenMessage::of(&sight.known, next.seen_version)));
             }
             next.overlay = json(&ServerMessage::Overlay(OverlayMessage::from(view)));
             match sight.frame.picture.to_jpeg(JPEG_QUALITY) {

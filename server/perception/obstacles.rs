@@ -1,7 +1,7 @@
 //! Obstacles near the tool, as the attractor senses them: the part of each obstacle that is nearest,
 //! at most 2 cm high and wide (paper, Example 1).
 
-use super::{OBSTACLE_MEAN, Percept};
+use super::{CellState, OBSTACLE_MEAN, ObstacleMap, Percept};
 use crate::geometry::{Point2, Vector2};
 
 /// Pixels a cell of the mask: 0.83 mm of table at the default camera.
@@ -47,14 +47,28 @@ impl ObstacleMask {
                 })
             })
             .collect();
-        let mut mask = Self {
-            columns,
-            label: vec![0; dark.len()],
-            components: 0,
-            center_m: percept.calibration.center_m,
-            cell_m: percept.calibration.m_per_px * CELL_PX as f64,
+        let cell_m = percept.calibration.m_per_px * CELL_PX as f64;
+        Self::of_cells(columns, &dark, percept.calibration.center_m, cell_m)
+    }
+
+    /// The same from what was seen up to now, within `half_m` of a place.
+    pub fn around(known: &ObstacleMap, place: Point2<f64>, half_m: f64) -> Self {
+        let cell_m = known.cell_m().x;
+        let reach = (half_m / cell_m) as i32;
+        let columns = 2 * reach as usize + 1;
+        let offset = |i: usize| (i as i32 - reach) as f64 * cell_m;
+        let is_dark = |cell: usize| {
+            let at = place + Vector2::new(offset(cell % columns), -offset(cell / columns));
+            known.state(at) == CellState::Obstacle
         };
-        mask.flood(&dark);
+        let dark: Vec<bool> = (0..columns * columns).map(is_dark).collect();
+        Self::of_cells(columns, &dark, place, cell_m)
+    }
+
+    /// Rows of `columns` cells around a middle, the top row first.
+    fn of_cells(columns: usize, dark: &[bool], center_m: Point2<f64>, cell_m: f64) -> Self {
+        let mut mask = Self { columns, label: vec![0; dark.len()], components: 0, center_m, cell_m };
+        mask.flood(dark);
         mask
     }
 

@@ -1,11 +1,14 @@
 //! To and from `session`'s types.
 
 use super::{
-    BlocksLayer, ClientMessage, ErrorMessage, EventMessage, OverlayMessage, SceneMessage, SeenMessage, SensedObstacle,
-    StateMessage,
+    BlocksLayer, ClientMessage, ErrorMessage, EventMessage, FlowField, OverlayMessage, PlanLayer, SceneMessage,
+    SeenMessage, SensedObstacle, StateMessage,
 };
 use crate::control::transport::Carrier;
+use crate::control::transport::attractor::Attractor;
+use crate::control::transport::errt::{Errt, Tree};
 use crate::geometry::Point2;
+use crate::geometry::Vector2;
 use crate::image::CameraFrame;
 use crate::magnetics::force;
 use crate::map::Map;
@@ -15,9 +18,12 @@ use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters};
 use crate::session::{Command, CommandError, Scenery, View};
 use crate::trial::{Event, Input, InputError, Motion, Phase, Sight, TrialError};
+use rayon::prelude::*;
 
 /// Instead of the switching law's reason, which no longer matters.
 const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
+/// Edges of a tree that are shown at most; more could not be told apart.
+const MOST_EDGES: usize = 4000;
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;
 
@@ -197,6 +203,10 @@ impl From<&View> for OverlayMessage {
             },
             picture_from_table: picture_from_table(&sight.frame),
             blocks: BlocksLayer::from(sight),
+            plan: match &sight.carrier {
+                Carrier::Errt(errt) => Some(PlanLayer::from(&**errt)),
+                Carrier::Attractor(_) => None,
+            },
         }
     }
 }
@@ -226,8 +236,52 @@ impl From<&Sight> for BlocksLayer {
     }
 }
 
-impl From<&ObstacleMap> for SeenMessage {
-    fn from(known: &ObstacleMap) -> Self {
+impl FlowField {
+    /// Of a session's newest view.
+    pub fn of(view: &View, spacing_m: f64) -> Self {
+        let known = &view.sight.1.known;
+        let area = known.workspace();
+        let size = area.size_m();
+        let [columns, rows] = [size.x, size.y].map(|side_m| (side_m / spacing_m).floor() as usize + 1);
+        // In the middle of what is left over.
+        let margin = (size - Vector2::new((columns - 1) as f64, (rows - 1) as f64) * spacing_m) * 0.5;
+        let origin = Point2::new(area.x_min_m, area.y_min_m) + margin;
+        let goal = view.moment.goal_m;
+        let parameters = &view.scenery.parameters;
+        let velocity = |index: usize| {
+            let place = origin + Vector2::new((index % columns) as f64, (index / columns) as f64) * spacing_m;
+            Attractor::flow_at(place, goal?, known, parameters).map(Into::into)
+        };
+        let places = if goal.is_some() { 0..columns * rows } else { 0..0 };
+        Self {
+            columns: columns as u32,
+            rows: rows as u32,
+            origin_m: origin.coords.into(),
+            spacing_m,
+            velocity_m_s: places.into_par_iter().map(velocity).collect(),
+        }
+    }
+}
+
+impl From<&Errt> for PlanLayer {
+    fn from(errt: &Errt) -> Self {
+        let (planner, way) = (errt.planner(), errt.way());
+        let edges = planner.tree().into_iter().flat_map(Tree::edges).take(MOST_EDGES);
+        Self {
+            tree: edges.map(|[from, to]| [from.x, from.y, to.x, to.y]).collect(),
+            way: way.map(|way| way.points.iter().map(|point| point.coords.into()).collect()).unwrap_or_default(),
+            clearance_m: way.map(|way| way.clearance.asked_m),
+            plans: errt.plans(),
+            attempts: planner.attempts() as u32,
+            beta: planner.beta(),
+            obstacles: errt.rectangles().to_vec(),
+        }
+    }
+}
+
+impl SeenMessage {
+    /// What is known, as message `number`.
+    pub fn of(known: &ObstacleMap, number: u64) -> Self {
         let (columns, rows) = known.shape();
         let state = |state| match state {
             CellState::Unknown => 0,
@@ -235,6 +289,7 @@ impl From<&ObstacleMap> for SeenMessage {
             CellState::Obstacle => 2,
         };
         Self {
+            number,
             workspace: *known.workspace(),
             columns: columns as u32,
             rows: rows as u32,

@@ -46,6 +46,7 @@ fn generated() -> String {
         declaration::<SensedObstacle>(c),
         declaration::<OverlayMessage>(c),
         declaration::<BlocksLayer>(c),
+        declaration::<PlanLayer>(c),
         declaration::<SeenMessage>(c),
         declaration::<ErrorMessage>(c),
         declaration::<PullQuery>(c),
@@ -54,6 +55,8 @@ fn generated() -> String {
         declaration::<ReachCurve>(c),
         declaration::<WorkspaceQuery>(c),
         declaration::<WorkspaceMap>(c),
+        declaration::<FlowQuery>(c),
+        declaration::<FlowField>(c),
     ];
     parts.join("\n")
 }

@@ -43,7 +43,7 @@ y_max_m: number, };
 /**
  * Sub-controller 2, by name.
  */
-export type ControllerName = "attractor";
+export type ControllerName = "errt" | "attractor";
 
 /**
  * Which of the two.
@@ -176,6 +176,46 @@ tracker_latency_ticks: number,
  * Share of the tracker's samples that are lost, 0 to .9.
  */
 tracker_dropout: number, 
+/**
+ * Share of ERRT's extensions that go toward the goal, 0 to .9.
+ */
+errt_goal_probability: number, 
+/**
+ * Share that go toward a waypoint of an earlier way, 0 to .9; at most 1 with the one above.
+ */
+errt_waypoint_probability: number, 
+/**
+ * Waypoints that ERRT keeps, 0 to 1000; 0 is without.
+ */
+errt_waypoints: number, 
+/**
+ * Most that β, the weight of the cost from the root, grows to, 0 to .95; 0 is the plain nearest neighbour.
+ */
+errt_beta_most: number, 
+/**
+ * Longest edge of ERRT's tree, .005 to .1 m.
+ */
+errt_step_m: number, 
+/**
+ * Distance that ERRT's ways keep from walls where there is room, .004 to .03 m.
+ */
+errt_clearance_m: number, 
+/**
+ * Edges that ERRT tries at one control step at most, 10 to 20000; then the arm holds and it goes on at the next.
+ */
+errt_nodes_per_step: number, 
+/**
+ * Ways that ERRT plans before it follows the shortest, 1 to 20; the publication follows the first.
+ */
+errt_ways: number, 
+/**
+ * How many times a length through the unseen counts when ERRT compares ways, 1 to 10.
+ */
+errt_unseen_weight: number, 
+/**
+ * Whether ERRT's ways are cut short.
+ */
+errt_shortcut: boolean, 
 /**
  * Which attractor law runs.
  */
@@ -574,7 +614,11 @@ picture_from_table: [[number, number, number], [number, number, number], [number
 /**
  * What the image is made of.
  */
-blocks: BlocksLayer, };
+blocks: BlocksLayer, 
+/**
+ * What ERRT plans, while it is sub-controller 2.
+ */
+plan: PlanLayer | null, };
 
 /**
  * The camera's image as the planner takes it, seen from straight above.
@@ -602,9 +646,46 @@ free: Array<[number, number, number, number]>,
 rectangles: Array<[number, number, number, number]>, };
 
 /**
+ * ERRT's last search, and the way that is followed.
+ */
+export type PlanLayer = { 
+/**
+ * Both ends of every edge, x, y, x, y in metres; 4000 at most.
+ */
+tree: Array<[number, number, number, number]>, 
+/**
+ * Corners of the way, start and goal included; empty while there is none.
+ */
+way: Array<[number, number]>, 
+/**
+ * Distance that the way keeps from walls away from its ends.
+ */
+clearance_m: number | null, 
+/**
+ * Ways planned since the trial began.
+ */
+plans: number, 
+/**
+ * Edges tried in the last search.
+ */
+attempts: number, 
+/**
+ * Weight of the cost from the root in the choice of the nearest node.
+ */
+beta: number, 
+/**
+ * Obstacles that it plans around, as few rectangles as possible.
+ */
+obstacles: Array<Rect>, };
+
+/**
  * What the camera has shown of the workspace since the trial began.
  */
 export type SeenMessage = { 
+/**
+ * Raised with each of the session's.
+ */
+number: number, 
 /**
  * What the grid covers.
  */
@@ -817,3 +898,43 @@ cell_m: number,
  * where the branch does not reach. `rows × columns` values.
  */
 manipulability_m3: Array<number | null>, };
+
+/**
+ * Body of `POST /api/sessions/{id}/flow`.
+ */
+export type FlowQuery = { 
+/**
+ * Distance between two places, .005 to .05 m.
+ */
+spacing_m: number, 
+/**
+ * Of the session's `seen` messages the one that the page has. Not looked at: it makes the question a new one
+ * when more was seen.
+ */
+seen: number, };
+
+/**
+ * Where attractor dynamics lead from each place of the workspace, for goal, parameters and what was seen up to now.
+ */
+export type FlowField = { 
+/**
+ * Places across.
+ */
+columns: number, 
+/**
+ * Places away from the user.
+ */
+rows: number, 
+/**
+ * The place of least x and y.
+ */
+origin_m: [number, number], 
+/**
+ * Distance between two places.
+ */
+spacing_m: number, 
+/**
+ * Velocities row by row from the least y, each row from the least x; none over a known obstacle. Empty without a
+ * goal.
+ */
+velocity_m_s: Array<[number, number] | null>, };

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Vector2};
-use crate::perception::ObstacleMask;
+use crate::perception::{CellState, ObstacleMap, ObstacleMask, Patch};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{AttractorLaw, Parameters};
 
@@ -147,6 +147,33 @@ impl Attractor {
         (wanted + outward).try_normalize(1e-9).map_or(wanted, |direction| direction * speed)
     }
 
+    /// Where the law leads from a place, as if the tool came there anew: what was seen is sensed as from there.
+    ///
+    /// `None` over a known obstacle.
+    pub fn flow_at(
+        place: Point2<f64>,
+        goal_m: Point2<f64>,
+        known: &ObstacleMap,
+        parameters: &Parameters,
+    ) -> Option<Vector2<f64>> {
+        if known.state(place) == CellState::Obstacle {
+            return None;
+        }
+        let half_m = parameters.camera_height_m * (0.5 * parameters.camera_field_of_view_rad).tan();
+        let mut fresh = Self::default();
+        fresh.sense(&ObstacleMask::around(known, place, half_m), place, parameters);
+        Some(fresh.velocity(place, goal_m, parameters))
+    }
+
+    /// Fits what is near; gives the patches, nearest first.
+    fn sense(&mut self, mask: &ObstacleMask, from: Point2<f64>, parameters: &Parameters) -> Vec<Patch> {
+        let patches = mask.patches(from, SENSED_M);
+        let safety = parameters.attractor_safety_factor;
+        let around = |patch| Superellipse::around(patch, safety, clearance_m(parameters));
+        self.sensed = patches.iter().map(around).collect();
+        patches
+    }
+
     /// Follows the flow at the servo's rate for one control period.
     fn flow(&mut self, input: &TransportInput<'_>) -> Point2<f64> {
         let ticks = (CONTROL_PERIOD_S / SERVO_PERIOD_S).round() as usize;
@@ -157,6 +184,14 @@ impl Attractor {
         // The straight segment may not be longer than the speed allows.
         let reach_m = input.parameters.transport_speed_m_s * CONTROL_PERIOD_S;
         input.tool_m + (point - input.tool_m).cap_magnitude(reach_m)
+    }
+}
+
+/// Distance that the law keeps beyond the superellipse around a patch.
+fn clearance_m(parameters: &Parameters) -> f64 {
+    match parameters.attractor_law {
+        AttractorLaw::Literal => 0.0,
+        AttractorLaw::Improved => parameters.attractor_clearance_m,
     }
 }
 
@@ -179,16 +214,8 @@ impl Transport for Attractor {
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
         let parameters = input.parameters;
-        let clearance_m = match parameters.attractor_law {
-            AttractorLaw::Literal => 0.0,
-            AttractorLaw::Improved => parameters.attractor_clearance_m,
-        };
         let mask = ObstacleMask::of(input.percept);
-        let patches = mask.patches(input.tool_m, SENSED_M);
-        self.sensed = patches
-            .iter()
-            .map(|patch| Superellipse::around(patch, parameters.attractor_safety_factor, clearance_m))
-            .collect();
+        let patches = self.sense(&mask, input.tool_m, parameters);
         self.progress.note(input.tool_m);
         let is_inside = deepest(&self.sensed, input.tool_m).is_some();
         self.trouble = self.progress.trouble().map(|trouble| match trouble {
@@ -199,7 +226,8 @@ impl Transport for Attractor {
         if parameters.attractor_law == AttractorLaw::Improved {
             let reach_m = parameters.transport_speed_m_s * CONTROL_PERIOD_S;
             let blocked = input.percept.obstacle_on_step(input.tool_m, target_m).is_some();
-            let beside = patches.first().is_some_and(|p| (p.nearest_m - input.tool_m).norm() < 0.5 * clearance_m);
+            let beside =
+                patches.first().is_some_and(|p| (p.nearest_m - input.tool_m).norm() < 0.5 * clearance_m(parameters));
             if let (true, Some(way)) = (beside || input.percept.obstacle(), mask.way_off(input.tool_m)) {
                 // After a fetch the tool may stand over or close beside a wall that the bead leans on,
                 // where a superellipse's normal means nothing: off it first.
@@ -217,7 +245,6 @@ impl Transport for Attractor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perception::Patch;
 
     fn flow_to(law: AttractorLaw, start: Point2<f64>, steps: usize) -> Point2<f64> {
         // A flat 2-cm block in the way, sensed whole.

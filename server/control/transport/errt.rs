@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Rect};
 use crate::perception::{CellState, ObstacleMap};
 use crate::scenario::Parameters;
 
@@ -108,6 +108,11 @@ impl Errt {
     /// Ways planned since the trial began.
     pub fn plans(&self) -> u32 {
         self.plans
+    }
+
+    /// Obstacles that it plans around; none before the first plan.
+    pub fn rectangles(&self) -> &[Rect] {
+        self.made.0.as_ref().map(|made| made.rectangles()).unwrap_or_default()
     }
 
     /// The obstacles of a map, made anew when it changed.
