@@ -1,5 +1,7 @@
 //! The paper's experiment: many random trials, counted honestly.
 
+mod figure;
+
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -10,8 +12,11 @@ use serde::{Deserialize, Serialize};
 use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
 use crate::control::switching::Mode;
 use crate::image::CameraFrame;
+use crate::scenario::Parameters;
 use crate::scenario::{ControllerName, Scenario};
-use crate::trial::{Arena, Phase, Source, Trial, TrialError};
+use crate::trial::{Arena, Phase, Source, TickRecord, Trial, TrialError};
+
+pub use figure::{FigureError, Trace};
 
 /// What to evaluate.
 #[derive(Clone, Debug)]
@@ -26,6 +31,8 @@ pub struct Experiment {
     pub disturbances: u32,
     /// Seed of the trials: the same for every controller.
     pub seed: u64,
+    /// Parameters of all trials.
+    pub parameters: Parameters,
 }
 
 /// One trial's result.
@@ -132,8 +139,14 @@ impl Eye for Timed<'_> {
     }
 }
 
-/// Runs one trial to its end.
-pub fn episode(index: u32, scenario: Scenario, arena: &Arc<Arena>, eye: &mut dyn Eye) -> Result<Episode, TrialError> {
+/// Runs one trial to its end; `watch` sees every tick.
+pub fn episode(
+    index: u32,
+    scenario: Scenario,
+    arena: &Arc<Arena>,
+    eye: &mut dyn Eye,
+    watch: &mut dyn FnMut(&TickRecord),
+) -> Result<Episode, TrialError> {
     let mut trial = Trial::new(scenario.clone(), arena.clone())?;
     let (mut sum_m, mut count, mut max_x_m, mut max_y_m) = (0.0, 0u32, 0.0f64, 0.0f64);
     let mut decision_s = Vec::new();
@@ -144,6 +157,7 @@ pub fn episode(index: u32, scenario: Scenario, arena: &Arc<Arena>, eye: &mut dyn
         if timed.looked {
             decision_s.push(started.elapsed().as_secs_f64());
         }
+        watch(&record);
         let moment = &record.moment;
         if moment.switching.mode == Mode::Transport && moment.phase == Phase::Transporting {
             let error = moment.tracking_error_m();
@@ -195,7 +209,7 @@ pub fn run(
                 Some(camera) => camera,
                 None => arena.camera(gpu)?,
             };
-            let scenario = Scenario::random(
+            let mut scenario = Scenario::random(
                 &arena.map,
                 &experiment.map,
                 &arena.space,
@@ -205,7 +219,8 @@ pub fn run(
                 u64::from(index),
             )
             .map_err(TrialError::from)?;
-            let episode = episode(index, scenario, &arena, &mut camera)?;
+            scenario.parameters = experiment.parameters.clone();
+            let episode = episode(index, scenario, &arena, &mut camera, &mut |_| ())?;
             cameras.lock().expect("no holder panics").push(camera);
             progress(&episode);
             Ok(episode)

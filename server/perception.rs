@@ -120,6 +120,17 @@ impl Percept {
         sum as f64 / (TEST_PATCH_PX * TEST_PATCH_PX) as f64
     }
 
+    /// Whether anything dark is seen on the straight line between two places; what is out of view is not seen.
+    pub fn wall_between(&self, from: Point2<f64>, to: Point2<f64>) -> bool {
+        let count = ((to - from).norm() / (0.5 * self.calibration.m_per_px)).ceil().max(1.0) as usize;
+        (0..=count).any(|i| {
+            let place = from + (to - from) * (i as f64 / count as f64);
+            let (column, row) = self.calibration.image_from_table(place);
+            let at = row as usize * self.gray.width_px + column as usize;
+            self.calibration.sees(place) && self.gray.pixels[at] <= OBSTACLE_LEVEL
+        })
+    }
+
     /// The obstacle test along a whole step, so that walls thinner than the step count
     /// (specification §3): the place that fails, or `None` if the way is free.
     ///
@@ -182,6 +193,15 @@ mod tests {
         assert!(!Percept::of(&frame(center, |_| false), center).obstacle());
         assert!(Percept::of(&frame(center, |p| (p - center).norm() < 0.004), center).obstacle());
         assert!(!Percept::of(&frame(center, |p| (p - center).norm() > 0.006), center).obstacle());
+    }
+
+    #[test]
+    fn a_wall_between_two_places_is_seen_however_thin() {
+        let center = Point2::new(0.0, -0.3);
+        let thin = Percept::of(&frame(center, |p| (p.x - 0.01).abs() < 0.0005), center);
+        assert!(thin.wall_between(center, center + Vector2::new(0.02, 0.003)));
+        assert!(!thin.wall_between(center, center + Vector2::new(0.009, 0.05)));
+        assert!(!thin.wall_between(center, center) && !thin.wall_between(center, center - Vector2::new(3.0, 0.0)));
     }
 
     #[test]

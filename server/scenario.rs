@@ -3,6 +3,7 @@
 mod disturbance;
 mod parameters;
 mod random;
+mod shipped;
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -13,6 +14,7 @@ use crate::plant::PositionerKind;
 pub use disturbance::{Disturbance, DisturbanceError, SCRIPT_LIMIT, Scripted, When};
 pub use parameters::{AttractorLaw, ParameterError, Parameters, SwitchingLaw};
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
+pub use shipped::{Shipped, ShippedError};
 
 /// Sub-controller 2, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS)]

@@ -2,12 +2,13 @@
 
 use std::process::ExitCode;
 
+use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::evaluate::{Episode, Experiment, Row, run as run_experiment, summarize};
 use crate::map::Map;
-use crate::scenario::ControllerName;
+use crate::scenario::{ControllerName, Parameters};
 
 /// Arguments of `ferry evaluate`.
 #[derive(clap::Args)]
@@ -27,6 +28,9 @@ pub struct Arguments {
     /// Seed of the trials
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// A parameter that is not to have its default, as in attractor_law=literal; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
@@ -40,6 +44,7 @@ struct Table {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let map = Map::open(&arguments.map)?;
     let gpu = super::open_gpu()?;
+    let parameters = parameters_with(&Parameters::default(), &arguments.set)?;
     let mut rows = Vec::new();
     for &controller in &arguments.controller {
         let experiment = Experiment {
@@ -48,6 +53,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             episodes: arguments.episodes,
             disturbances: arguments.disturbances,
             seed: arguments.seed,
+            parameters: parameters.clone(),
         };
         let bar = ProgressBar::new(u64::from(arguments.episodes))
             .with_style(ProgressStyle::with_template("{msg} {bar:30} {pos}/{len} {eta} left")?)
@@ -63,6 +69,19 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         print_table(&rows, arguments.seed, gpu.adapter_name());
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Parameters with some values of their own.
+pub fn parameters_with(parameters: &Parameters, changes: &[String]) -> anyhow::Result<Parameters> {
+    let mut values = serde_json::to_value(parameters)?;
+    for change in changes {
+        let (name, text) = change.split_once('=').with_context(|| format!("--set {change}: it must be NAME=VALUE"))?;
+        // Numbers and flags are JSON; anything else is the name of a choice.
+        values[name] = serde_json::from_str(text).unwrap_or_else(|_| text.into());
+    }
+    let parameters: Parameters = serde_path_to_error::deserialize(values).context("--set")?;
+    parameters.check().context("--set")?;
+    Ok(parameters)
 }
 
 /// Each failure with what it takes to look at it again.

@@ -7,9 +7,10 @@ use anyhow::Context;
 
 use crate::camera::Subject;
 use crate::control::limits::Limits;
+use crate::evaluate::{self, Trace};
 use crate::geometry::{Point2, Point3};
 use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::nearest_fit};
-use crate::scenario::Parameters;
+use crate::scenario::{ControllerName, Parameters, Shipped};
 use crate::trial::Arena;
 
 /// Arguments of `ferry render`.
@@ -19,12 +20,27 @@ pub struct Arguments {
     #[arg(long, default_value = "posts")]
     map: String,
     /// Where tool and bead are, in metres
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_point)]
-    at: Point2<f64>,
+    #[arg(
+        long,
+        value_name = "X,Y",
+        allow_hyphen_values = true,
+        value_parser = parse_point,
+        required_unless_present = "scenario"
+    )]
+    at: Option<Point2<f64>>,
+    /// Runs a scenario to its end and draws its course as an SVG: a shipped one's name, or the path of a JSON file
+    #[arg(long, conflicts_with_all = ["at", "map", "view"])]
+    scenario: Option<String>,
+    /// Another sub-controller 2 than the scenario's
+    #[arg(long, requires = "scenario")]
+    controller: Option<ControllerName>,
+    /// A parameter that is not to be the scenario's, as in attractor_law=literal; may be repeated
+    #[arg(long, requires = "scenario", value_name = "NAME=VALUE")]
+    set: Vec<String>,
     /// What the controllers see, the whole scene, or the workspace from above
     #[arg(long, value_enum, default_value = "camera")]
     view: View,
-    /// PNG file to write
+    /// File to write: PNG, or SVG for a scenario
     #[arg(long)]
     out: PathBuf,
 }
@@ -43,15 +59,40 @@ fn parse_point(text: &str) -> Result<Point2<f64>, String> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    match (&arguments.scenario, arguments.at) {
+        (Some(name), _) => course(name, arguments),
+        (None, Some(at)) => frame(at, arguments),
+        (None, None) => anyhow::bail!("--at or --scenario is needed"),
+    }
+}
+
+/// Runs a scenario, draws it, and prints what became of it beside the paper's figures.
+fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let mut scenario = Shipped::open(name)?.scenario;
+    scenario.controller = arguments.controller.unwrap_or(scenario.controller);
+    scenario.parameters = super::evaluate::parameters_with(&scenario.parameters, &arguments.set)?;
+    let arena = Arena::open(&scenario.map)?;
+    let mut camera = arena.camera(&super::open_gpu()?)?;
+    let mut trace = Trace::of(&arena.map, &scenario);
+    let episode = evaluate::episode(0, scenario, &arena, &mut camera, &mut |record| trace.add(record))?;
+    std::fs::write(&arguments.out, trace.to_svg()?).with_context(|| arguments.out.display().to_string())?;
+    println!("{name}: {}, {} steps, {} switches", episode.outcome, episode.steps, episode.switches);
+    let [mean_m, x_m, y_m] =
+        [episode.tracking_error_mean_m, episode.tracking_error_max_x_m, episode.tracking_error_max_y_m];
+    println!("tracking error: mean {mean_m:.3} m (paper .02), most {x_m:.3} in x (.08), {y_m:.3} in y (.09)");
+    Ok(ExitCode::SUCCESS)
+}
+
+fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&arguments.map)?;
     let parameters = Parameters::default();
-    let tool_m = Point3::new(arguments.at.x, arguments.at.y, parameters.tool_height_m);
+    let tool_m = Point3::new(at.x, at.y, parameters.tool_height_m);
     let home = Positioner::home(PositionerKind::of(&arena.map), tool_m);
     let limits =
         Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0, tool_orientation: parameters.tool_orientation };
     let positioner = limits.position(tool_m, &home).context("--at")?;
     // The tool may hang over a wall; the bead then lies beside it.
-    let bead = nearest_fit(&arena.map, arguments.at).context("--at: there is no room for the bead within 5 cm")?;
+    let bead = nearest_fit(&arena.map, at).context("--at: there is no room for the bead within 5 cm")?;
     let subject = Subject {
         tick: 0,
         tool_m: tool_m.coords.into(),

@@ -43,6 +43,9 @@ impl Decision {
         let (e_mm, limit_mm) = (self.error_m * 1e3, self.threshold_m * 1e3);
         match (self.mode, self.switched) {
             (Mode::Approach, true) => format!("bead lost: {e_mm:.0} mm away, more than T = {limit_mm:.0} mm"),
+            (Mode::Approach, false) if self.error_m <= self.threshold_m => {
+                format!("fetching: {e_mm:.0} mm away, but a wall is between")
+            }
             (Mode::Approach, false) => format!("fetching: {e_mm:.0} mm away, not yet within {limit_mm:.0} mm"),
             (Mode::Transport, true) => format!("bead fetched: {e_mm:.0} mm away, within {limit_mm:.0} mm"),
             (Mode::Transport, false) => format!("bead held: {e_mm:.0} mm away, within T = {limit_mm:.0} mm"),
@@ -52,12 +55,20 @@ impl Decision {
 
 /// Decides. SL = ½(3 + sgn(T − e)) with sgn(0) = +1; with hysteresis, sub-controller 1 keeps the arm
 /// until e is within the fetch radius, because the literal law ends the fetch T away from the bead,
-/// where the pull hardly beats friction, and chatters.
-pub fn decide(mode: Mode, tool_m: Point2<f64>, bead_m: Point2<f64>, parameters: &Parameters) -> Decision {
+/// where the pull hardly beats friction, and chatters; and until no wall is seen between the two, or the
+/// tool would carry on along the other side of a fold than the bead.
+pub fn decide(
+    mode: Mode,
+    tool_m: Point2<f64>,
+    bead_m: Point2<f64>,
+    parameters: &Parameters,
+    wall_between: impl FnOnce() -> bool,
+) -> Decision {
     let error_m = (tool_m - bead_m).norm();
     let fetching = mode == Mode::Approach && parameters.switching_law == SwitchingLaw::Hysteresis;
     let threshold_m = if fetching { parameters.fetch_radius_m } else { parameters.threshold_m };
-    let next = if error_m <= threshold_m { Mode::Transport } else { Mode::Approach };
+    let is_near = error_m <= threshold_m && !(fetching && wall_between());
+    let next = if is_near { Mode::Transport } else { Mode::Approach };
     Decision { mode: next, switched: next != mode, error_m, threshold_m }
 }
 
@@ -67,7 +78,7 @@ mod tests {
 
     fn at(mode: Mode, error_m: f64, law: SwitchingLaw) -> Mode {
         let parameters = Parameters { switching_law: law, ..Parameters::default() };
-        decide(mode, Point2::origin(), Point2::new(error_m, 0.0), &parameters).mode
+        decide(mode, Point2::origin(), Point2::new(error_m, 0.0), &parameters, || false).mode
     }
 
     #[test]
@@ -76,6 +87,15 @@ mod tests {
             assert_eq!(at(mode, 0.10, SwitchingLaw::Literal), Mode::Transport);
             assert_eq!(at(mode, 0.100001, SwitchingLaw::Literal), Mode::Approach);
         }
+    }
+
+    #[test]
+    fn a_fetch_does_not_end_behind_a_wall_but_a_wall_loses_no_bead() {
+        let parameters = Parameters::default();
+        let at = |mode| decide(mode, Point2::origin(), Point2::new(0.005, 0.0), &parameters, || true);
+        assert_eq!(at(Mode::Approach).mode, Mode::Approach);
+        assert_eq!(at(Mode::Approach).reason(), "fetching: 5 mm away, but a wall is between");
+        assert_eq!(at(Mode::Transport).mode, Mode::Transport);
     }
 
     #[test]

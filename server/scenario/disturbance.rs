@@ -48,14 +48,33 @@ pub enum Disturbance {
     },
 }
 
-/// When a scripted disturbance strikes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+/// When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// Before this tick.
     Tick(#[ts(type = "number")] u64),
     /// At this control step, 1 to 600, of whichever goal first gets so far.
     Step(u32),
+    /// When the bead's x passes this one, in either direction.
+    #[serde(rename = "passes_x_m")]
+    PassesXM(f64),
+    /// When the bead comes so near to a place.
+    Near {
+        /// x.
+        x_m: f64,
+        /// y.
+        y_m: f64,
+        /// 1 mm to 1 m.
+        within_m: f64,
+    },
+}
+
+impl When {
+    /// Whether it waits for the bead.
+    pub fn waits_for_bead(&self) -> bool {
+        matches!(self, Self::PassesXM(_) | Self::Near { .. })
+    }
 }
 
 /// A disturbance and its time.
@@ -83,11 +102,23 @@ pub struct DisturbanceError {
 impl Scripted {
     /// Checks time and numbers.
     pub fn check(&self) -> Result<(), DisturbanceError> {
-        if let When::Step(step) = self.at
-            && !(1..=MOST_STEPS).contains(&step)
-        {
-            let allowed = format!("1 to {MOST_STEPS}");
-            return Err(DisturbanceError { field: "step", value: f64::from(step), allowed });
+        let refuse = |field, value, allowed: String| Err(DisturbanceError { field, value, allowed });
+        match self.at {
+            When::Step(step) if !(1..=MOST_STEPS).contains(&step) => {
+                return refuse("step", f64::from(step), format!("1 to {MOST_STEPS}"));
+            }
+            When::PassesXM(x_m) if !x_m.is_finite() => return refuse("passes_x_m", x_m, "finite".to_owned()),
+            When::Near { x_m, y_m, within_m } => {
+                for (field, value) in [("x_m", x_m), ("y_m", y_m)] {
+                    if !value.is_finite() {
+                        return refuse(field, value, "finite".to_owned());
+                    }
+                }
+                if !(0.001..=1.0).contains(&within_m) {
+                    return refuse("within_m", within_m, "0.001 to 1".to_owned());
+                }
+            }
+            When::Tick(_) | When::Step(_) | When::PassesXM(_) => {}
         }
         self.disturbance.check()
     }
@@ -136,5 +167,9 @@ mod tests {
         Disturbance::Dropout { for_s: 1.0 }.check().unwrap();
         let never = Scripted { at: When::Step(0), disturbance: Disturbance::Dropout { for_s: 1.0 } };
         assert_eq!(never.check().unwrap_err().field, "step");
+        let at = |at| Scripted { at, ..never }.check().unwrap_err().field;
+        assert_eq!(at(When::PassesXM(f64::NAN)), "passes_x_m");
+        assert_eq!(at(When::Near { x_m: 0.0, y_m: f64::INFINITY, within_m: 0.01 }), "y_m");
+        assert_eq!(at(When::Near { x_m: 0.0, y_m: 0.0, within_m: 0.0 }), "within_m");
     }
 }

@@ -20,7 +20,9 @@ impl Trial {
         mind.known.update(&dark, &percept.calibration, spread);
         let tool = self.tool_m();
         let bead = world.tracker.estimate().position_m;
-        let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters);
+        let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters, || {
+            percept.wall_between(tool.xy(), bead)
+        });
         let hold = Decision { switching, motion: Motion::Hold, refusal: None };
         if world.plant.bead.lifted_off || world.phase == Phase::Stopped(StopReason::GoalSteps) {
             return hold;

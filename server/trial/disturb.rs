@@ -22,6 +22,8 @@ pub struct Script {
     pub at_leg_step: Option<u32>,
     /// The scenario's own that have not struck yet.
     pub pending: Vec<Scripted>,
+    /// Where the bead was before the last tick.
+    pub bead_before_m: Option<Point2<f64>>,
     /// Tick at which a drift ends.
     pub drift_until: u64,
     /// Tick at which the tracker sees again.
@@ -37,9 +39,22 @@ impl Trial {
         if world.script.drift_until == tick {
             world.plant.drift_n = Vector2::zeros();
         }
-        let is_due = |scripted: &mut Scripted| match scripted.at {
-            When::Tick(at) => at == tick,
-            When::Step(step) => at_step == Some(step),
+        let bead_m = world.plant.bead.position_m;
+        let before_m = match at_step {
+            None => world.script.bead_before_m.replace(bead_m),
+            Some(_) => None,
+        };
+        let mut is_first = at_step.is_none();
+        let is_due = |scripted: &mut Scripted| {
+            // Of those that wait for the bead only the first may strike.
+            let is_next = !scripted.at.waits_for_bead() || std::mem::take(&mut is_first);
+            is_next
+                && match scripted.at {
+                    When::Tick(at) => at == tick,
+                    When::Step(step) => at_step == Some(step),
+                    When::PassesXM(x_m) => before_m.is_some_and(|before| (before.x < x_m) != (bead_m.x < x_m)),
+                    When::Near { x_m, y_m, within_m } => (bead_m - Point2::new(x_m, y_m)).norm() <= within_m,
+                }
         };
         let due: Vec<Scripted> = world.script.pending.extract_if(.., is_due).collect();
         for scripted in due {
@@ -84,6 +99,8 @@ impl Trial {
                 let Some(to) = contact::nearest_fit(&self.arena.map, Point2::new(x_m, y_m)) else { return };
                 let from = std::mem::replace(bead, Bead::at(to)).position_m;
                 world.plant.hand = None;
+                // It did not pass what lies between.
+                world.script.bead_before_m = Some(to);
                 format!("the bead was lifted {:.0} cm away", (to - from).norm() * 100.0)
             }
             Disturbance::Impulse { x_n_s, y_n_s } => {
