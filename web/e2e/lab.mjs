@@ -9,6 +9,8 @@ const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
 /** A bead trailing its magnet cuts corners; farther from walls than this, it passes. */
 const CLEARANCE_M = 0.025;
 const STEP_M = 0.01;
+const GOAL_RADIUS_M = 0.02;
+const DELIVERY_MS = 90_000;
 
 export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
@@ -85,6 +87,7 @@ export class Lab {
         const message = JSON.parse(payload);
         if (message.type === 'scene') this.scene = message;
         if (message.type === 'state') this.state = message;
+        if (message.type === 'overlay') this.overlay = message;
       });
     });
   }
@@ -127,6 +130,14 @@ export class Lab {
     return (await this.page.screenshot({ clip })).toString('base64');
   }
 
+  /** Shows a layer or hides it, and leaves the menu closed: it covers some of the map. */
+  async layer(name, on = true) {
+    await this.button('Layers').click();
+    await this.page.getByLabel(name, { exact: true }).setChecked(on);
+    await this.page.keyboard.press('Escape');
+    await this.page.getByRole('group', { name: 'Layers' }).waitFor({ state: 'detached' });
+  }
+
   async click(point) {
     await this.page.mouse.click(...(await this.px(point)));
   }
@@ -139,6 +150,17 @@ export class Lab {
     await this.button('Reset').click();
     await until('tick 0', async () => (await this.text('tick')) === 'tick 0');
     await this.page.getByLabel('Speed', { exact: true }).selectOption(speed);
+  }
+
+  /** Waits for the goal that is the `count`th since the reset. */
+  async delivered(count) {
+    await until(
+      `delivery ${count}`,
+      async () => (await this.number('deliveries')) === count,
+      DELIVERY_MS,
+    );
+    const left = distance(await this.point('bead'), await this.point('goal'));
+    check(left <= GOAL_RADIUS_M, `the bead is ${left} m from the goal`);
   }
 
   run() {

@@ -1,22 +1,11 @@
 // What a person does with the dashboard, on a real server.
 
 import { check, until } from './harness.mjs';
+import { carriesAlongAWay, showsWhereTheAttractorLeads } from './controllers.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 
-const GOAL_RADIUS_M = 0.02;
-const DELIVERY_MS = 90_000;
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
-
-async function delivered(lab, count) {
-  await until(
-    `delivery ${count}`,
-    async () => (await lab.number('deliveries')) === count,
-    DELIVERY_MS,
-  );
-  const left = distance(await lab.point('bead'), await lab.point('goal'));
-  check(left <= GOAL_RADIUS_M, `the bead is ${left} m from the goal`);
-}
 
 /** Starts to note every text that the mode badge shows. */
 function watchMode(lab) {
@@ -60,7 +49,7 @@ async function deliversToAClick({ lab }) {
   await until('a goal', () => lab.point('goal'));
   check(distance(await lab.point('goal'), goal) < 0.002, 'the goal is not where the click was');
   await lab.run();
-  await delivered(lab, 1);
+  await lab.delivered(1);
   await lab.screenshot('delivered');
 }
 
@@ -87,7 +76,7 @@ async function recoversFromADisturbance({ lab }) {
   await mouse.up();
 
   await lab.page.getByLabel('Speed', { exact: true }).selectOption('4');
-  await delivered(lab, 2);
+  await lab.delivered(2);
   const seen = (await modes.jsonValue()).join('');
   check(seen.includes('212'), `the mode went ${seen}`);
   check(
@@ -187,13 +176,12 @@ async function showsSingularities({ lab }) {
   const [x, y] = lab.freePoints(await lab.point('bead'), 0.3, 0.5)[0];
   const look = () => lab.look([x + 0.007, y + 0.007]);
   const bare = await look();
-  const layer = lab.page.getByLabel('Singularity');
-  await layer.check();
+  await lab.layer('Singularity');
   await until('the layer', async () => (await look()) !== bare);
   const range = [await lab.number('heat-least'), await lab.number('heat-greatest')];
   check(range[0] >= 2 && range[0] < range[1], `the legend says ${range}`);
   await lab.screenshot('singularity');
-  await layer.uncheck();
+  await lab.layer('Singularity', false);
   await until('the bare floor', async () => (await look()) === bare);
 }
 
@@ -232,14 +220,11 @@ async function showsWhatTheCameraTells({ lab }) {
   const here = lab.state.tool_m;
   const look = () => lab.look([here[0] + 0.25 * (here[0] > 0 ? -1 : 1), here[1]]);
   const bare = await look();
-  await page.getByLabel('Seen so far').check();
+  await lab.layer('Seen so far');
   await until('the unseen in gray', async () => (await look()) !== bare);
-  for (const name of ['Quadtree', 'Rectangles'])
-    await page.getByLabel(name, { exact: true }).check();
+  for (const name of ['Quadtree', 'Rectangles']) await lab.layer(name);
   await lab.screenshot('camera-aside');
-  for (const name of ['Seen so far', 'Quadtree', 'Rectangles']) {
-    await page.getByLabel(name, { exact: true }).uncheck();
-  }
+  for (const name of ['Seen so far', 'Quadtree', 'Rectangles']) await lab.layer(name, false);
   await page.getByLabel('Blocks', { exact: true }).selectOption('none');
   await lab.button('Restore defaults').click();
   await until('the usual view', () => JSON.stringify(lab.scene.camera_sees_m) === seen);
@@ -336,6 +321,8 @@ export const TESTS = [
   ['shows what the magnet can', showsWhatTheMagnetCan],
   ['shows singularities', showsSingularities],
   ['shows what the camera tells', showsWhatTheCameraTells],
+  ['carries the bead along a planned way', carriesAlongAWay],
+  ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['looks right', looksRight],

@@ -9,6 +9,7 @@ function bench() {
   const asker = new Asker<number>(
     (question) => new Promise((yes, no) => asked.set(question, { yes, no })),
     (answer) => told.push(answer),
+    undefined,
     {
       nowMs: () => 0,
       later: (action) => {

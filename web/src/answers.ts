@@ -22,9 +22,10 @@ export class Asker<A> {
   constructor(
     private readonly answerTo: (question: string) => Promise<A>,
     private readonly tell: (answer: Answer<A>) => void,
+    perS = ASKED_PER_S,
     clock: Clock = browserClock,
   ) {
-    this.limiter = new Limiter(1000 / ASKED_PER_S, (question) => void this.send(question), clock);
+    this.limiter = new Limiter(1000 / perS, (question) => void this.send(question), clock);
   }
 
   ask(question: string): void {
@@ -71,19 +72,29 @@ async function post<A>(path: string, body: string): Promise<A> {
   return (await response.json()) as A;
 }
 
+export interface Asking {
+  /** What the answer follows from besides the question: when it changes, the same question is asked again. */
+  readonly key?: Accessor<string>;
+  /** How often a second at most. */
+  readonly perS?: number;
+}
+
 /** The answer to `question` at `path`; while there is no question, the last answer stays. */
 export function createAnswer<Q, A>(
   path: string,
   question: Accessor<Q | undefined>,
+  { key, perS }: Asking = {},
 ): Accessor<Answer<A>> {
   const [answer, setAnswer] = createSignal<Answer<A>>({});
-  const asker = new Asker<A>((body) => post<A>(path, body), setAnswer);
+  const asker = new Asker<A>((body) => post<A>(path, body), setAnswer, perS);
   // As text, because an equal question is no new one.
   const body = createMemo(() => {
     const now = question();
     return now === undefined ? undefined : JSON.stringify(now);
   });
+  const keyNow = createMemo(() => key?.());
   createEffect(() => {
+    keyNow();
     const now = body();
     if (now === undefined) asker.forget();
     else asker.ask(now);

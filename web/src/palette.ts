@@ -21,6 +21,8 @@ const NAMES = [
   'error-x',
   'error-y',
   'danger',
+  'plan',
+  'flow',
   'heat-low',
   'heat-middle',
   'heat-high',

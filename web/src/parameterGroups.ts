@@ -1,17 +1,7 @@
 // Every parameter of the form, in groups.
 
-import type { Group, NumberField, NumberName } from './parameters';
-
-function number(
-  name: NumberName,
-  label: string,
-  [min, max, step]: readonly [number, number, number],
-  unit: string,
-  scale: number,
-  help: string,
-): NumberField {
-  return { kind: 'number', name, label, help, unit, scale, min, max, step };
-}
+import { ERRT_FIELDS } from './errtFields';
+import { number, type Group } from './parameters';
 
 const DEGREES = 180 / Math.PI;
 
@@ -46,7 +36,7 @@ export const GROUPS: readonly Group[] = [
           100,
           'Nearer than this, sub-controller 1 has fetched the bead. Never above T.',
         ),
-        atMost: 'threshold_m',
+        atMost: ({ threshold_m }) => threshold_m,
       },
     ],
   },
@@ -72,7 +62,13 @@ export const GROUPS: readonly Group[] = [
     ],
   },
   {
+    title: 'ERRT',
+    controller: 'errt',
+    fields: ERRT_FIELDS,
+  },
+  {
     title: 'Attractor dynamics',
+    controller: 'attractor',
     fields: [
       {
         kind: 'choice',

@@ -1,6 +1,13 @@
 import { describe, expect, it } from 'vitest';
 import { GROUPS } from './parameterGroups';
-import { digits, shownValue, storedValue, type NumberField } from './parameters';
+import {
+  digits,
+  shownMost,
+  shownValue,
+  storedValue,
+  withFollowers,
+  type NumberField,
+} from './parameters';
 import { sceneOf } from './testing';
 
 const { defaults } = sceneOf('posts');
@@ -37,5 +44,22 @@ describe('the form', () => {
   it('keeps to the range, and the fetch radius below T', () => {
     expect(storedValue(field('tool_height_m'), 5, defaults)).toBe(0.09);
     expect(storedValue(field('fetch_radius_m'), 15, defaults)).toBe(defaults.threshold_m);
+  });
+
+  it('leaves to waypoints what the goal does not take', () => {
+    const parameters = { ...defaults, errt_goal_probability: 0.7 };
+    const waypoints = field('errt_waypoint_probability');
+    expect(shownMost(waypoints, defaults)).toBe(90);
+    expect(shownMost(waypoints, parameters)).toBe(30);
+    const stored = storedValue(waypoints, 80, parameters);
+    expect(stored + parameters.errt_goal_probability).toBeLessThanOrEqual(1);
+  });
+
+  it('takes along what a change leaves no room for', () => {
+    const follow = (change: Partial<typeof defaults>): Partial<typeof defaults> =>
+      withFollowers(GROUPS, defaults, change);
+    expect(follow({ threshold_m: 0.005 })).toEqual({ threshold_m: 0.005, fetch_radius_m: 0.005 });
+    expect(follow({ errt_goal_probability: 0.75 }).errt_waypoint_probability).toBe(0.25);
+    expect(follow({ errt_goal_probability: 0.3 })).toEqual({ errt_goal_probability: 0.3 });
   });
 });

@@ -4,6 +4,7 @@ import type { ControllerName, Parameters } from './protocol.gen';
 
 /** Sub-controllers 2 as the page names them. */
 export const CONTROLLER_LABELS: Readonly<Record<ControllerName, string>> = {
+  errt: 'ERRT',
   attractor: 'Attractor',
 };
 
@@ -27,8 +28,8 @@ export interface NumberField {
   readonly min: number;
   readonly max: number;
   readonly step: number;
-  /** Another parameter that bounds this one from above. */
-  readonly atMost?: NumberName;
+  /** What other parameters leave of the range, from above, in the stored unit. */
+  readonly atMost?: (parameters: Parameters) => number;
 }
 
 export interface ChoiceField {
@@ -50,7 +51,21 @@ export type Field = NumberField | ChoiceField | FlagField;
 
 export interface Group {
   readonly title: string;
+  /** The controller that these are for, if for one alone. */
+  readonly controller?: ControllerName;
   readonly fields: readonly Field[];
+}
+
+/** A field for a number; its range and step are in the shown unit. */
+export function number(
+  name: NumberName,
+  label: string,
+  [min, max, step]: readonly [number, number, number],
+  unit: string,
+  scale: number,
+  help: string,
+): NumberField {
+  return { kind: 'number', name, label, help, unit, scale, min, max, step };
 }
 
 /** Digits after the point that `step` asks for. */
@@ -63,9 +78,32 @@ export function shownValue(field: NumberField, stored: number): number {
   return Number((stored * field.scale).toPrecision(12));
 }
 
+/** Greatest value that may be shown now. */
+export function shownMost(field: NumberField, parameters: Parameters): number {
+  return field.atMost
+    ? Math.min(field.max, shownValue(field, field.atMost(parameters)))
+    : field.max;
+}
+
 /** From the shown unit to the stored one, inside the field's range. */
 export function storedValue(field: NumberField, shown: number, parameters: Parameters): number {
   const inside = Math.min(field.max, Math.max(field.min, shown));
   const stored = Number((inside / field.scale).toPrecision(12));
-  return field.atMost ? Math.min(stored, parameters[field.atMost]) : stored;
+  return field.atMost ? Math.min(stored, field.atMost(parameters)) : stored;
+}
+
+/** `change`, and what it takes along: parameters that would be beyond what it leaves them. */
+export function withFollowers(
+  groups: readonly Group[],
+  parameters: Parameters,
+  change: Partial<Parameters>,
+): Partial<Parameters> {
+  const next = { ...parameters, ...change };
+  const followers: Partial<Parameters> = {};
+  for (const field of groups.flatMap((group) => group.fields)) {
+    if (field.kind !== 'number' || !field.atMost) continue;
+    const most = field.atMost(next);
+    if (next[field.name] > most) followers[field.name] = most;
+  }
+  return { ...change, ...followers };
 }

@@ -6,6 +6,7 @@ import { CONTROLLER_LABELS } from '../parameters';
 import type { ControllerName } from '../protocol.gen';
 import { NoticeBar } from './NoticeBar';
 import { ParameterForm } from './ParameterForm';
+import { PlanFacts } from './PlanFacts';
 import { SwitchingLaw } from './SwitchingLaw';
 
 function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element {
@@ -58,7 +59,14 @@ export function ControllerPanel(props: { lab: Lab }): JSX.Element {
         {(scene) => (
           <>
             <Show when={lab.state()}>
-              {(state) => <SwitchingLaw state={state()} scene={scene()} />}
+              {(state) => (
+                <>
+                  <SwitchingLaw state={state()} scene={scene()} />
+                  <Show when={lab.overlay()?.plan}>
+                    {(plan) => <PlanFacts plan={plan()} state={state()} />}
+                  </Show>
+                </>
+              )}
             </Show>
             <ParameterForm lab={lab} scene={scene()} />
           </>

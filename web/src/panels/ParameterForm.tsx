@@ -16,8 +16,10 @@ import type { Lab } from '../lab';
 import { GROUPS } from '../parameterGroups';
 import {
   digits,
+  shownMost,
   shownValue,
   storedValue,
+  withFollowers,
   type ChoiceField,
   type Field,
   type FlagField,
@@ -48,8 +50,7 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
   const shown = createMemo(() =>
     shownValue(field, form.moving()[field.name] ?? form.values()[field.name]),
   );
-  const max = (): number =>
-    field.atMost ? Math.min(field.max, shownValue(field, form.values()[field.atMost])) : field.max;
+  const max = (): number => shownMost(field, form.values());
   // A memo, so that news of other parameters does not overwrite what is being typed.
   const text = createMemo(() => shown().toFixed(digits(field.step)));
   const stored = (value: number): Partial<Parameters> => ({
@@ -173,7 +174,7 @@ function FieldRow(props: { form: Form; field: Field }): JSX.Element {
   }
 }
 
-function GroupBox(props: { form: Form; group: Group; open: boolean }): JSX.Element {
+function GroupBox(props: { form: Form; group: Group; open: boolean; inUse: boolean }): JSX.Element {
   const { form, group } = props;
   const changed = (): number =>
     group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
@@ -181,6 +182,9 @@ function GroupBox(props: { form: Form; group: Group; open: boolean }): JSX.Eleme
     <details class="group" open={props.open}>
       <summary>
         {group.title}
+        <Show when={props.inUse}>
+          <span class="in-use">in use</span>
+        </Show>
         <Show when={changed() > 0}>
           <span class="changed-count">{changed()} changed</span>
         </Show>
@@ -230,13 +234,10 @@ function createForm(lab: Lab, scene: () => SceneMessage): Form {
     moving,
     move: setMoving,
     edit: (change) => {
-      let parameters: Parameters = { ...values(), ...change };
-      // Lowering T below the fetch radius takes the radius along.
-      if (parameters.fetch_radius_m > parameters.threshold_m) {
-        change = { ...change, fetch_radius_m: parameters.threshold_m };
-        parameters = { ...parameters, ...change };
-      }
-      setEdits({ ...edits(), ...change });
+      const whole = withFollowers(GROUPS, values(), change);
+      // Before the edits, which are part of `values`.
+      const parameters: Parameters = { ...values(), ...whole };
+      setEdits({ ...edits(), ...whole });
       lab.send({ type: 'configure', parameters });
       clearTimeout(timer);
       timer = setTimeout(drop, CONFIRM_MS);
@@ -263,7 +264,14 @@ export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Ele
         </button>
       </div>
       <For each={GROUPS}>
-        {(group, index) => <GroupBox form={form} group={group} open={index() === 0} />}
+        {(group, index) => (
+          <GroupBox
+            form={form}
+            group={group}
+            open={index() === 0}
+            inUse={group.controller !== undefined && group.controller === lab.state()?.controller}
+          />
+        )}
       </For>
     </div>
   );

@@ -4,6 +4,7 @@ import { Show, type JSX } from 'solid-js';
 import { centimetres, fixed, newtons } from '../format';
 import { CONTROLLER_LABELS } from '../parameters';
 import type { Parameters, PositionerKind, SceneMessage, StateMessage } from '../protocol.gen';
+import { Margin } from './Margin';
 
 const GAUGE_WIDTH = 272;
 const GAUGE_LEFT = 4;
@@ -141,17 +142,6 @@ function Gauge(props: Props): JSX.Element {
         d={`M${at(props.state.tracking_error_m)} 8l-5-8h10zM${at(props.state.tracking_error_m)} 14l-5 8h10z`}
       />
     </svg>
-  );
-}
-
-function Margin(props: { name: string; value: string; alarm?: boolean }): JSX.Element {
-  return (
-    <div>
-      <dt>{props.name}</dt>
-      <dd class="number" classList={{ alarm: props.alarm ?? false }}>
-        {props.value}
-      </dd>
-    </div>
   );
 }
 

@@ -32,7 +32,7 @@ function Values(props: { map: WorkspaceMap }): JSX.Element {
 
 export function HeatLegend(props: { answer: Answer<WorkspaceMap> }): JSX.Element {
   return (
-    <div class="heat-legend" role="group" aria-label="Manipulability">
+    <div class="map-legend" role="group" aria-label="Manipulability">
       <span title="|det J| of the arm over the table; 0 is a singularity">Manipulability</span>
       <Show when={props.answer.data} fallback={props.answer.error ? undefined : 'computing…'}>
         {(map) => <Values map={map()} />}

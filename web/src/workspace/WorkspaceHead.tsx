@@ -1,8 +1,9 @@
 // Head of the plan view: what carries the magnet, which layers are shown, what can be done.
 
-import { For, Show, type JSX } from 'solid-js';
+import { Show, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
-import { LAYERS, type Layer } from './paint';
+import { LayerMenu } from './LayerMenu';
+import type { Layer } from './layers';
 
 export function WorkspaceHead(props: {
   lab: Lab;
@@ -28,25 +29,8 @@ export function WorkspaceHead(props: {
           </span>
         </Show>
       </h2>
-      <fieldset class="layers">
-        <legend class="visually-hidden">Layers</legend>
-        <For each={LAYERS}>
-          {([id, label]) => (
-            <label title={reason(id)}>
-              <input
-                type="checkbox"
-                checked={props.layers.has(id) && !reason(id)}
-                disabled={reason(id) !== undefined}
-                onChange={(event) => {
-                  props.onLayer(id, event.currentTarget.checked);
-                }}
-              />
-              {label}
-            </label>
-          )}
-        </For>
-      </fieldset>
       <div class="buttons">
+        <LayerMenu layers={props.layers} onLayer={props.onLayer} reason={reason} />
         <button
           type="button"
           class="small"

@@ -12,12 +12,16 @@ import { fitView, insidePolygon, worldFromPx, type Vec2, type View } from '../tr
 import { DisturbBar } from './DisturbBar';
 import { createHeat } from './drawHeat';
 import { wallPath } from './drawMap';
+import { createPlan } from './drawPlan';
 import { createSeen } from './drawSeen';
+import { FlowLegend } from './FlowLegend';
+import { createFlowLayer } from './flowLayer';
 import { createHand } from './hand';
 import { workspaceQuery } from './heat';
 import { HeatLegend } from './HeatLegend';
 import { attachKeyboard } from './keyboard';
-import { FIRST_LAYERS, paint, type Layer } from './paint';
+import { storeLayers, storedLayers, type Layer } from './layers';
+import { paint } from './paint';
 import { createPalette } from '../palette';
 import { GRAB_MOUSE_PX, attachPointer, type Pointing } from './pointer';
 import { WorkspaceHead } from './WorkspaceHead';
@@ -38,7 +42,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const [cursor, setCursor] = createSignal<Vec2>();
   const [disturbing, setDisturbing] = createSignal(false);
   const [focused, setFocused] = createSignal(false);
-  const [layers, setLayers] = createSignal<ReadonlySet<Layer>>(new Set(FIRST_LAYERS));
+  const [layers, setLayers] = createSignal(storedLayers());
 
   const view = createMemo<View | undefined>(() => {
     const scene = lab.scene();
@@ -71,6 +75,16 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     const message = layers().has('seen') ? lab.seen() : undefined;
     return message && createSeen(message, palette());
   });
+
+  const plan = createMemo(() => {
+    const layer = lab.overlay()?.plan;
+    const now = view();
+    const isShown = layers().has('plan') || layers().has('obstacles');
+    return layer && now && isShown ? createPlan(layer, now) : undefined;
+  });
+
+  const showsFlow = createMemo(() => layers().has('flow'));
+  const flowLayer = createFlowLayer(lab, showsFlow);
 
   const readout = createMemo(() => {
     const now = view();
@@ -116,6 +130,8 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       overlay: lab.overlay(),
       heat: heatQuestion() && heat(),
       seen: seen(),
+      plan: plan(),
+      flow: flowLayer.flow(),
       history: lab.history,
       layers: layers(),
       drag: hand.drag(),
@@ -145,6 +161,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     if (on) next.add(layer);
     else next.delete(layer);
     setLayers(next);
+    storeLayers(next);
   };
   const stale = (): string | undefined => {
     const ended = lab.ended();
@@ -192,6 +209,16 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       </div>
       <Show when={heatQuestion()}>
         <HeatLegend answer={heatAnswer()} />
+      </Show>
+      <Show when={showsFlow() && lab.scene()}>
+        {(scene) => (
+          <FlowLegend
+            answer={flowLayer.answer()}
+            flow={flowLayer.flow()}
+            hasGoal={!!lab.state()?.goal_m}
+            law={scene().parameters.attractor_law}
+          />
+        )}
       </Show>
       <footer class="panel-foot">
         <p id="workspace-help" class="hint">

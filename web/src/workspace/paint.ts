@@ -2,11 +2,14 @@
 
 import type { DragState } from '../drag';
 import type { History } from '../history';
+import type { Palette } from '../palette';
 import type { OverlayMessage, SceneMessage, StateMessage } from '../protocol.gen';
 import { clampToRect, pxFromWorld, worldFromPx, type Vec2, type View } from '../transform';
+import { drawFlow, type Flow } from './drawFlow';
 import { drawCursor, drawSpring } from './drawHand';
 import { drawHeat, type Heat } from './drawHeat';
 import { drawFloor, drawMap } from './drawMap';
+import { drawObstacles, drawPlan, type Plan } from './drawPlan';
 import { drawBlocks, drawRectangles, drawSeen, type Seen } from './drawSeen';
 import {
   drawBead,
@@ -17,21 +20,7 @@ import {
   drawTool,
   drawTrail,
 } from './drawMoving';
-import type { Palette } from '../palette';
-
-export const LAYERS = [
-  ['sensed', 'Sensed'],
-  ['trail', 'Trails'],
-  ['camera', 'Camera field'],
-  ['capture', 'Capture'],
-  ['seen', 'Seen so far'],
-  ['blocks', 'Quadtree'],
-  ['rectangles', 'Rectangles'],
-  ['singularity', 'Singularity'],
-] as const;
-export type Layer = (typeof LAYERS)[number][0];
-/** Those that cover nothing. */
-export const FIRST_LAYERS: readonly Layer[] = ['sensed', 'trail', 'camera', 'capture'];
+import type { Layer } from './layers';
 
 const TRAIL_S = 60;
 
@@ -46,6 +35,10 @@ export interface Picture {
   readonly heat: Heat | undefined;
   /** What the camera has shown, when it is shown. */
   readonly seen: Seen | undefined;
+  /** What ERRT plans, when it does. */
+  readonly plan: Plan | undefined;
+  /** The attractor's flow, when it is shown. */
+  readonly flow: Flow | undefined;
   readonly history: History;
   readonly layers: ReadonlySet<Layer>;
   readonly drag: DragState;
@@ -104,6 +97,10 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
     if (layers.has('rectangles')) drawRectangles(ctx, view, palette, picture.overlay.blocks);
     if (layers.has('sensed')) drawSensed(ctx, view, palette, picture.overlay);
   }
+  if (picture.plan) {
+    if (layers.has('obstacles')) drawObstacles(ctx, palette, picture.plan);
+    if (layers.has('plan')) drawPlan(ctx, palette, picture.plan);
+  }
   if (layers.has('trail')) paintTrails(ctx, picture, state);
   if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_sees_m);
   if (layers.has('capture')) {
@@ -141,6 +138,12 @@ export function paint(
   }
   drawMap(ctx, picture.scene, picture.walls, picture.view, picture.palette);
   if (picture.seen) drawSeen(ctx, picture.view, picture.seen);
+  if (picture.flow) {
+    ctx.save();
+    clipToWorkspace(ctx, picture);
+    drawFlow(ctx, picture.view, picture.palette, picture.flow);
+    ctx.restore();
+  }
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
   if (picture.cursor) drawCursor(ctx, picture.view, picture.palette, picture.cursor);
 }

@@ -1,8 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import type { SeenMessage } from '../protocol.gen';
-import { seenPixels, seenShare, type Rgba } from './seen';
+import { seenAt, seenPixels, seenShare, type Rgba } from './seen';
 
 const SEEN: SeenMessage = {
+  number: 1,
   workspace: { x_min_m: 0, x_max_m: 3, y_min_m: 0, y_max_m: 2 },
   columns: 3,
   rows: 2,
@@ -28,6 +29,13 @@ describe('what was seen', () => {
   it('never leaves its picture', () => {
     const long = { ...SEEN, runs: [[1, 99]] as [number, number][] };
     expect(seenPixels(long, COLORS)).toHaveLength(24);
+  });
+
+  it('is asked of a point', () => {
+    const isSeen = seenAt(SEEN);
+    expect(isSeen([0.5, 0.5])).toBe(true);
+    expect(isSeen([0.5, 2])).toBe(true);
+    expect(isSeen([1.5, 1.5])).toBe(false);
   });
 
   it('counts what is known', () => {

@@ -1,0 +1,20 @@
+// A number with its name, in a list of such.
+
+import type { JSX } from 'solid-js';
+
+export function Margin(props: {
+  name: string;
+  value: string;
+  help?: string;
+  testid?: string;
+  alarm?: boolean;
+}): JSX.Element {
+  return (
+    <div>
+      <dt title={props.help}>{props.name}</dt>
+      <dd class="number" classList={{ alarm: props.alarm ?? false }} data-testid={props.testid}>
+        {props.value}
+      </dd>
+    </div>
+  );
+}
