@@ -389,6 +389,31 @@ async fn a_session_goes_on_when_its_graphics_device_is_lost() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn plans_and_flow_are_told() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let load = json!({"type": "load_scenario", "map": "colon", "controller": "errt", "start_m": [-0.24, -0.27], "goal_m": [0.19, -0.28]});
+    browser.send(load).await;
+    browser.send(json!({"type": "step", "ticks": 40})).await;
+    let overlay = browser.until("a plan", |m| m["type"] == "overlay" && m["tick"] == 33).await;
+    let plan = &overlay["plan"];
+    let way = plan["way"].as_array().unwrap();
+    assert!(way.len() >= 2 && plan["plans"].as_u64() >= Some(1), "{plan}");
+    assert_eq!(way.last().unwrap(), &json!([0.19, -0.28]));
+    assert!(!plan["obstacles"].as_array().unwrap().is_empty());
+    let (status, field) = lab.ask("POST", "/api/sessions/main/flow", r#"{"spacing_m": 0.02, "seen": 1}"#).await;
+    assert_eq!(status, 200, "{field}");
+    let velocities = field["velocity_m_s"].as_array().unwrap();
+    assert_eq!(velocities.len() as u64, field["columns"].as_u64().unwrap() * field["rows"].as_u64().unwrap());
+    let is_wall = velocities.iter().filter(|velocity| velocity.is_null()).count();
+    assert!(is_wall > 5 && is_wall < velocities.len(), "{is_wall} of {}", velocities.len());
+    for (body, status) in [(r#"{"spacing_m": 1e-6, "seen": 1}"#, 422), (r#"{"spacing_m": "x"}"#, 400)] {
+        assert_eq!(lab.ask("POST", "/api/sessions/main/flow", body).await.0, status);
+    }
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_moved_camera_is_obeyed_shown_and_refused_when_absurd() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;

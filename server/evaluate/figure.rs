@@ -35,8 +35,8 @@ struct Sample {
 #[derive(Clone, Debug)]
 pub struct Trace {
     workspace: Rect,
-    /// Outlines of the walls.
-    walls: Vec<Vec<[f64; 2]>>,
+    /// Outlines of walls and of the holes in them, the larger first, and whether it is a wall.
+    outlines: Vec<(Vec<[f64; 2]>, bool)>,
     title: String,
     start_m: Option<Point2<f64>>,
     goal_m: Option<Point2<f64>>,
@@ -49,7 +49,7 @@ impl Trace {
     pub fn of(map: &Map, scenario: &Scenario) -> Self {
         Self {
             workspace: *map.workspace(),
-            walls: map.walls().iter().map(|wall| wall.exterior.clone()).collect(),
+            outlines: outlines(map),
             title: format!("{} on {}, seed {}", scenario.controller.as_str(), scenario.map, scenario.seed),
             start_m: scenario.start_m,
             goal_m: scenario.goal_m,
@@ -110,7 +110,10 @@ impl Trace {
             .y_label_area_size(40)
             .build_cartesian_2d(x_min_m - more_m..x_max_m + more_m, y_min_m..y_max_m)?;
         let points = |ring: &[[f64; 2]]| ring.iter().map(|&[x, y]| (x, y)).collect::<Vec<_>>();
-        chart.draw_series(self.walls.iter().map(|wall| Polygon::new(points(wall), WALL.filled())))?;
+        let filled = |(ring, is_wall): &(Vec<[f64; 2]>, bool)| {
+            Polygon::new(points(ring), if *is_wall { WALL } else { WHITE }.filled())
+        };
+        chart.draw_series(self.outlines.iter().map(filled))?;
         chart.draw_series([Rectangle::new([(x_min_m, y_min_m), (x_max_m, y_max_m)], BLACK.stroke_width(1))])?;
         chart.configure_mesh().disable_mesh().label_style((FONT, 13)).draw()?;
         // Where somebody carries the bead away, it draws no line.
@@ -161,6 +164,19 @@ impl Trace {
         }
         chart.configure_series_labels().label_font((FONT, 12)).background_style(WHITE.mix(0.8)).draw()
     }
+}
+
+fn outlines(map: &Map) -> Vec<(Vec<[f64; 2]>, bool)> {
+    let rings =
+        map.walls().iter().flat_map(|wall| wall.rings().zip(std::iter::once(true).chain(std::iter::repeat(false))));
+    let mut outlines: Vec<_> = rings.map(|(ring, is_wall)| (ring.to_vec(), is_wall)).collect();
+    // What lies within another is the smaller.
+    let area = |ring: &[[f64; 2]]| {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>().abs()
+    };
+    outlines.sort_by(|a, b| area(&b.0).total_cmp(&area(&a.0)));
+    outlines
 }
 
 type DrawingError = DrawingAreaErrorKind<std::io::Error>;

@@ -160,6 +160,9 @@ impl Errt {
             let before = self.planner.attempts();
             match self.planner.advance(obstacles, left) {
                 Progress::WalledOff => return Err(Refusal::WalledOff),
+                // What is left is narrower than the least clearance, or the flood fill would have told where there is
+                // room for a search that never takes so long.
+                Progress::Exhausted if task.ways == 0 => return Err(Refusal::WalledOff),
                 Progress::Found(way) => {
                     task.ways += 1;
                     let cost_m = expected_m(way, input.known, input.parameters.errt_unseen_weight);
@@ -248,8 +251,8 @@ impl Transport for Errt {
     fn trouble(&self) -> Option<Trouble> {
         match self.planner.progress() {
             _ if self.followed.is_some() => None,
-            Progress::WalledOff => Some(Trouble::WalledOff),
-            Progress::Searching | Progress::Exhausted => Some(Trouble::Searching),
+            Progress::WalledOff | Progress::Exhausted => Some(Trouble::WalledOff),
+            Progress::Searching => Some(Trouble::Searching),
             Progress::Idle | Progress::Found(_) => None,
         }
     }

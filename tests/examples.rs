@@ -1,0 +1,108 @@
+//! The paper's examples end at their goals, whoever draws them; and what cannot be reached is said to be so.
+
+use std::sync::Arc;
+
+use ferry::camera::Camera;
+use ferry::evaluate::{Episode, Trace, episode};
+use ferry::map::Map;
+use ferry::scenario::{ControllerName, Scenario, Shipped};
+use ferry::trial::{Arena, Phase, Source, StopReason, Trial};
+
+use crate::determinism::gpu;
+
+fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
+    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut trace = Trace::of(&arena.map, &scenario);
+    let episode = episode(0, scenario, arena, &mut camera, &mut |record| trace.add(record)).unwrap();
+    (episode, trace.to_svg().unwrap())
+}
+
+#[test]
+fn the_papers_examples_end_at_their_goals() {
+    for name in Shipped::names() {
+        let scenario = Shipped::open(&name).unwrap().scenario;
+        let expected = scenario.script.len() as u32;
+        let arena = Arena::open(&scenario.map).unwrap();
+        let (episode, figure) = run(scenario, &arena);
+        assert!(episode.delivered, "{name}: {}", episode.outcome);
+        assert_eq!(episode.disturbances, expected, "{name}");
+        // Gone to fetch it, and back, each time.
+        assert!(episode.switches >= 2 * expected, "{name}: {} switches", episode.switches);
+        assert!(episode.tracking_error_mean_m < 0.04, "{name}: {}", episode.tracking_error_mean_m);
+        assert!(figure.starts_with("<svg") && figure.contains("tracking error"), "{name}");
+    }
+}
+
+/// A room with a goal behind walls, of which one may have a door far off.
+fn room(door: bool) -> Arc<Arena> {
+    let right = if door { 160 } else { 200 };
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 250 400 200">
+            <rect x="-200" y="340" width="{}" height="10"/></svg>"#,
+        right + 200
+    );
+    Arena::of(Map::from_svg("room", &svg).unwrap())
+}
+
+fn across(arena: &Arc<Arena>, camera: &mut Camera) -> (Phase, u32) {
+    let scenario = Scenario {
+        start_m: Some([0.0, -0.30].into()),
+        goal_m: Some([0.0, -0.40].into()),
+        controller: ControllerName::Errt,
+        ..Scenario::idle("room", 1)
+    };
+    let mut trial = Trial::new(scenario, arena.clone()).unwrap();
+    loop {
+        let record = trial.tick(Source::Eye(camera)).unwrap();
+        if record.moment.phase.is_final() {
+            return (record.moment.phase, record.moment.counters.steps);
+        }
+    }
+}
+
+#[test]
+fn a_way_round_is_explored_for_and_a_goal_that_is_walled_off_is_said_to_be() {
+    let open = room(true);
+    assert_eq!(across(&open, &mut open.camera(&gpu()).unwrap()).0, Phase::Delivered);
+    let closed = room(false);
+    let (phase, steps) = across(&closed, &mut closed.camera(&gpu()).unwrap());
+    assert_eq!(phase, Phase::Stopped(StopReason::WalledOff));
+    // Both ends of the wall had to be seen, and no more than that.
+    assert!((10..120).contains(&steps), "{steps}");
+}
+
+#[test]
+fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
+    let arena = Arena::open("colon-folds").unwrap();
+    let mut camera = arena.camera(&gpu()).unwrap();
+    let mut scenario = Scenario {
+        start_m: Some([0.101, -0.255].into()),
+        goal_m: Some([0.085, -0.402].into()),
+        controller: ControllerName::Errt,
+        ..Scenario::idle("colon-folds", 3)
+    };
+    // So few edges a step that a search takes several.
+    scenario.parameters.errt_nodes_per_step = 40;
+    let mut trial = Trial::new(scenario, arena).unwrap();
+    let mut searched = 0;
+    for _ in 0..12 {
+        let kept = trial.snapshot();
+        let bytes = postcard::to_stdvec(&kept).unwrap();
+        let mut course = || -> Vec<u64> {
+            (0..63)
+                .map(|_| {
+                    let record = trial.tick(Source::Eye(&mut camera)).unwrap();
+                    searched += u32::from(record.moment.refusal.is_some_and(|why| why.contains("searches")));
+                    record.mind_hash
+                })
+                .collect()
+        };
+        let first = course();
+        // Through bytes and back, what was derived from the map is lost and made anew.
+        trial.restore(postcard::from_bytes(&bytes).unwrap());
+        let mut again =
+            || -> Vec<u64> { (0..63).map(|_| trial.tick(Source::Eye(&mut camera)).unwrap().mind_hash).collect() };
+        assert_eq!(first, again());
+    }
+    assert!(searched > 20, "{searched}");
+}
