@@ -41,6 +41,11 @@ describe('the form', () => {
     }
   });
 
+  it('rounds what is counted', () => {
+    expect(storedValue(field('errt_ways'), 2.6, defaults)).toBe(3);
+    expect(storedValue(field('friction'), 0.257, defaults)).toBe(0.257);
+  });
+
   it('keeps to the range, and the fetch radius below T', () => {
     expect(storedValue(field('tool_height_m'), 5, defaults)).toBe(0.09);
     expect(storedValue(field('fetch_radius_m'), 15, defaults)).toBe(defaults.threshold_m);

@@ -88,7 +88,9 @@ export function shownMost(field: NumberField, parameters: Parameters): number {
 /** From the shown unit to the stored one, inside the field's range. */
 export function storedValue(field: NumberField, shown: number, parameters: Parameters): number {
   const inside = Math.min(field.max, Math.max(field.min, shown));
-  const stored = Number((inside / field.scale).toPrecision(12));
+  // What counts is whole, whatever is typed.
+  const whole = field.scale === 1 && field.step === 1 ? Math.round(inside) : inside;
+  const stored = Number((whole / field.scale).toPrecision(12));
   return field.atMost ? Math.min(stored, field.atMost(parameters)) : stored;
 }
 
