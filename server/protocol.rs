@@ -126,7 +126,7 @@ pub enum ServerMessage {
     /// Something happened once.
     Event(EventMessage),
     /// What the controller made of the last camera frame.
-    Overlay(OverlayMessage),
+    Overlay(Box<OverlayMessage>),
     /// What the camera has shown up to now, when that changed.
     Seen(SeenMessage),
     /// A message was refused; nothing changed.

@@ -216,7 +216,7 @@ impl Encoder {
                 next.seen_version += 1;
                 next.seen = json(&ServerMessage::Seen(SeenMessage::of(&sight.known, next.seen_version)));
             }
-            next.overlay = json(&ServerMessage::Overlay(OverlayMessage::from(view)));
+            next.overlay = json(&ServerMessage::Overlay(Box::new(OverlayMessage::from(view))));
             match sight.frame.picture.to_jpeg(JPEG_QUALITY) {
                 Ok(jpeg) => next.camera = binary(BINARY_CAMERA_JPEG, *tick, &jpeg),
                 Err(error) => tracing::warn!(%error, "camera frame not encoded"),

@@ -275,9 +275,21 @@ for_s: number, } } | { "dropout": {
 for_s: number, } };
 
 /**
- * When a scripted disturbance strikes.
+ * When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
  */
-export type When = { "tick": number } | { "step": number };
+export type When = { "tick": number } | { "step": number } | { "passes_x_m": number } | { "near": { 
+/**
+ * x.
+ */
+x_m: number, 
+/**
+ * y.
+ */
+y_m: number, 
+/**
+ * 1 mm to 1 m.
+ */
+within_m: number, } };
 
 /**
  * A disturbance and its time.

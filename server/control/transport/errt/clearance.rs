@@ -3,9 +3,9 @@
 //! The bead trails the tool and cuts corners, so an edge must stay `asked_m` away from every rectangle and from the
 //! workspace's border. Ends may lie nearer to a wall: after a fetch the tool stands wherever the bead was, even over a
 //! wall, and cells of the map make walls thicker. Around such an end the clearance asked for begins with the end's own
-//! and grows by a quarter of the distance from the end, so that a way leaves a wall and does not follow it. A tool over
-//! a wall first gets off it: its way begins at the nearest place with the least clearance. All that, like the clearance
-//! itself, is ours and not the publication's, which plans for a point.
+//! and, from 6 mm on, grows by a quarter of the distance from the end, so that a way leaves a wall and does not follow
+//! it. A tool over a wall first gets off it: its way begins at the nearest place with the least clearance. All that, like
+//! the clearance itself, is ours and not the publication's, which plans for a point.
 
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
@@ -16,7 +16,9 @@ use super::reach::Grid;
 use crate::geometry::{Point2, Rect, Vector2};
 use crate::perception::ObstacleMap;
 
-/// How fast the clearance asked for grows with the distance from an end that has less.
+/// Around an end it does not grow yet: walls of cells have steps, and beside one the distance does not grow evenly.
+const GRACE_M: f64 = 0.006;
+/// How fast the clearance asked for grows farther from an end that has less.
 pub(super) const GROWTH: f64 = 0.25;
 /// Around such an end, edges are judged in pieces of this length; each keeps what its nearer end asks for.
 pub(super) const PIECE_M: f64 = 0.0005;
@@ -136,6 +138,11 @@ impl End {
         (distance_m > 0.0).then_some(Self { point, distance_m })
     }
 
+    /// What is asked for so far away from it, on its account.
+    fn required_m(&self, away_m: f64) -> f64 {
+        self.distance_m + GROWTH * (away_m - GRACE_M).max(0.0)
+    }
+
     /// Where a way from a place begins: there, or where a tool over a wall gets off it.
     pub(super) fn near(point: Point2<f64>, obstacles: &Obstacles, least_clearance_m: f64) -> Option<Self> {
         let is_place = point.coords.iter().all(|m| m.is_finite());
@@ -148,7 +155,7 @@ impl Clearance {
     /// What is asked for at a point. Edges near an end are judged in pieces of half a millimetre, so that up to an
     /// eighth of a millimetre less may be kept there.
     pub fn required_m(&self, point: Point2<f64>) -> f64 {
-        let [start_m, goal_m] = self.ends.map(|end| end.distance_m + GROWTH * (point - end.point).norm());
+        let [start_m, goal_m] = self.ends.map(|end| end.required_m((point - end.point).norm()));
         self.asked_m.min(start_m).min(goal_m)
     }
 
@@ -165,8 +172,8 @@ impl Clearance {
             return [self.asked_m; 2];
         }
         let along = Segment::new(from, to);
-        let near = self.ends.map(|end| end.distance_m + GROWTH * along.distance_m(end.point));
-        let far = self.ends.map(|end| end.distance_m + GROWTH * (from - end.point).norm().max((to - end.point).norm()));
+        let near = self.ends.map(|end| end.required_m(along.distance_m(end.point)));
+        let far = self.ends.map(|end| end.required_m((from - end.point).norm().max((to - end.point).norm())));
         [near, far].map(|[start_m, goal_m]| self.asked_m.min(start_m).min(goal_m))
     }
 }

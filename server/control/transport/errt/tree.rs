@@ -49,7 +49,7 @@ impl TryFrom<Vec<Stored>> for Tree {
         let (&(root, _), others) = stored.split_first().ok_or("a tree has a root")?;
         let mut tree = Self::new(root);
         for &(point, parent) in others {
-            if parent as usize >= tree.len() {
+            if parent as usize >= tree.node_count() {
                 return Err("a node's parent comes before it");
             }
             tree.push(point, parent as usize);
@@ -80,7 +80,7 @@ impl Tree {
     }
 
     /// Nodes, the root included.
-    pub fn len(&self) -> usize {
+    pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
