@@ -204,7 +204,7 @@ impl From<&View> for OverlayMessage {
             picture_from_table: picture_from_table(&sight.frame),
             blocks: BlocksLayer::from(sight),
             plan: match &sight.carrier {
-                Carrier::Errt(errt) => Some(PlanLayer::from(&**errt)),
+                Carrier::Errt(errt) => Some(PlanLayer::of(errt, &sight.known)),
                 Carrier::Attractor(_) => None,
             },
         }
@@ -263,8 +263,9 @@ impl FlowField {
     }
 }
 
-impl From<&Errt> for PlanLayer {
-    fn from(errt: &Errt) -> Self {
+impl PlanLayer {
+    /// Of a planner around what is known.
+    pub fn of(errt: &Errt, known: &ObstacleMap) -> Self {
         let (planner, way) = (errt.planner(), errt.way());
         let edges = planner.tree().into_iter().flat_map(Tree::edges).take(MOST_EDGES);
         Self {
@@ -274,7 +275,7 @@ impl From<&Errt> for PlanLayer {
             plans: errt.plans(),
             attempts: planner.attempts() as u32,
             beta: planner.beta(),
-            obstacles: errt.rectangles().to_vec(),
+            obstacles: known.rectangles(),
         }
     }
 }

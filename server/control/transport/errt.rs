@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
-use crate::geometry::{Point2, Rect};
+use crate::geometry::Point2;
 use crate::perception::{CellState, ObstacleMap};
 use crate::scenario::Parameters;
 
@@ -47,9 +47,16 @@ const TOLERANCE_M: f64 = 0.002;
 /// Spacing at which a way is asked whether it was seen.
 const SAMPLE_M: f64 = 0.005;
 
-/// What was made of the map last; not part of the memory, since the map says it all.
-#[derive(Clone, Debug, Default)]
+/// What was made of the map last; not part of the memory, since the map says it all. A copy has none: snapshots are
+/// many, and this is half a megabyte.
+#[derive(Debug, Default)]
 struct Made(Option<Arc<Obstacles>>);
+
+impl Clone for Made {
+    fn clone(&self) -> Self {
+        Self(None)
+    }
+}
 
 impl PartialEq for Made {
     fn eq(&self, _: &Self) -> bool {
@@ -108,11 +115,6 @@ impl Errt {
     /// Ways planned since the trial began.
     pub fn plans(&self) -> u32 {
         self.plans
-    }
-
-    /// Obstacles that it plans around; none before the first plan.
-    pub fn rectangles(&self) -> &[Rect] {
-        self.made.0.as_ref().map(|made| made.rectangles()).unwrap_or_default()
     }
 
     /// The obstacles of a map, made anew when it changed.
