@@ -1,0 +1,88 @@
+//! What the page can lay over its pictures: what the camera tells, what ERRT plans, where the attractor leads.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::geometry::Rect;
+
+/// ERRT's last search, and the way that is followed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct PlanLayer {
+    /// Both ends of every edge, x, y, x, y in metres; 4000 at most.
+    pub tree: Vec<[f64; 4]>,
+    /// Corners of the way, start and goal included; empty while there is none.
+    pub way: Vec<[f64; 2]>,
+    /// Distance that the way keeps from walls away from its ends.
+    pub clearance_m: Option<f64>,
+    /// Ways planned since the trial began.
+    pub plans: u32,
+    /// Edges tried in the last search.
+    pub attempts: u32,
+    /// Weight of the cost from the root in the choice of the nearest node.
+    pub beta: f64,
+    /// Obstacles that it plans around, as few rectangles as possible.
+    pub obstacles: Vec<Rect>,
+}
+
+/// Column, row, width and height in pixels of a square image of the table, rows counted from the top.
+pub type PixelBlock = [u32; 4];
+
+/// The camera's image as the planner takes it, seen from straight above.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct BlocksLayer {
+    /// Upper left corner on the table.
+    pub origin_m: [f64; 2],
+    /// Side of a pixel on the table.
+    pub pixel_m: f64,
+    /// Dark blocks of the quadtree.
+    pub dark: Vec<PixelBlock>,
+    /// Free blocks of the quadtree.
+    pub free: Vec<PixelBlock>,
+    /// The dark blocks merged into as few rectangles as possible.
+    pub rectangles: Vec<PixelBlock>,
+}
+
+/// What the camera has shown of the workspace since the trial began.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct SeenMessage {
+    /// Raised with each of the session's.
+    #[ts(type = "number")]
+    pub number: u64,
+    /// What the grid covers.
+    pub workspace: Rect,
+    /// Cells along x.
+    pub columns: u32,
+    /// Cells along y.
+    pub rows: u32,
+    /// Equal cells in succession, from the least x and y row by row, which may go on in the next row: 0 for
+    /// unknown, 1 for free, 2 for an obstacle; and how many.
+    pub runs: Vec<(u8, u32)>,
+}
+
+/// Body of `POST /api/sessions/{id}/flow`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct FlowQuery {
+    /// Distance between two places, .005 to .05 m.
+    pub spacing_m: f64,
+    /// Of the session's `seen` messages the one that the page has. Not looked at: it makes the question a new one
+    /// when more was seen.
+    #[ts(type = "number")]
+    pub seen: u64,
+}
+
+/// Where attractor dynamics lead from each place of the workspace, for goal, parameters and what was seen up to now.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct FlowField {
+    /// Places across.
+    pub columns: u32,
+    /// Places away from the user.
+    pub rows: u32,
+    /// The place of least x and y.
+    pub origin_m: [f64; 2],
+    /// Distance between two places.
+    pub spacing_m: f64,
+    /// Velocities row by row from the least y, each row from the least x; none over a known obstacle. Empty without a
+    /// goal.
+    pub velocity_m_s: Vec<Option<[f64; 2]>>,
+}
