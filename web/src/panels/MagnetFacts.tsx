@@ -4,23 +4,7 @@ import type { JSX } from 'solid-js';
 import { fixed, millimetres } from '../format';
 import { breakaway, captureWords, rolls, speedWords, weightWords, type Side } from '../magnet';
 import type { Parameters, PullCurve, ReachCurve } from '../protocol.gen';
-
-function Fact(props: {
-  name: string;
-  help: string;
-  value: string;
-  testid: string;
-  alarm?: boolean;
-}): JSX.Element {
-  return (
-    <div>
-      <dt title={props.help}>{props.name}</dt>
-      <dd class="number" classList={{ alarm: props.alarm ?? false }} data-testid={props.testid}>
-        {props.value}
-      </dd>
-    </div>
-  );
-}
+import { Fact } from './Fact';
 
 export function MagnetFacts(props: {
   parameters: Parameters;

@@ -4,7 +4,7 @@ import type { JSX } from 'solid-js';
 import { fixed } from '../format';
 import type { PlanLayer, StateMessage } from '../protocol.gen';
 import { wayWords } from '../workspace/plan';
-import { Margin } from './Margin';
+import { Fact } from './Fact';
 
 /** Edges of the tree that the server tells at most. */
 const MOST_EDGES = 4000;
@@ -17,26 +17,26 @@ export function PlanFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.
   return (
     <section class="plan-facts" aria-label="ERRT's plan">
       <dl class="margins">
-        <Margin
+        <Fact
           name="way"
           value={wayWords(props.plan.way, props.state.phase)}
           help="Length of the way that is followed"
           testid="plan-way"
         />
-        <Margin
+        <Fact
           name="plans"
           value={String(props.plan.plans)}
           help="Ways planned since the trial began"
           testid="plan-plans"
         />
-        <Margin
+        <Fact
           name="tried"
           value={String(props.plan.attempts)}
           help="Edges tried in the last search"
           testid="plan-attempts"
         />
-        <Margin name="tree" value={edges()} help="Edges of its tree" testid="plan-tree" />
-        <Margin
+        <Fact name="tree" value={edges()} help="Edges of its tree" testid="plan-tree" />
+        <Fact
           name="β"
           value={fixed(props.plan.beta, 2)}
           help="Weight of the way from the root in the choice of the nearest node"

@@ -4,7 +4,7 @@ import { Show, type JSX } from 'solid-js';
 import { centimetres, fixed, newtons } from '../format';
 import { CONTROLLER_LABELS } from '../parameters';
 import type { Parameters, PositionerKind, SceneMessage, StateMessage } from '../protocol.gen';
-import { Margin } from './Margin';
+import { Fact } from './Fact';
 
 const GAUGE_WIDTH = 272;
 const GAUGE_LEFT = 4;
@@ -166,15 +166,15 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
       />
       <Gauge state={props.state} parameters={props.scene.parameters} />
       <dl class="margins">
-        <Margin name="e" value={centimetres(props.state.tracking_error_m)} />
-        <Margin name="T" value={centimetres(props.scene.parameters.threshold_m)} />
-        <Margin
+        <Fact name="e" value={centimetres(props.state.tracking_error_m)} />
+        <Fact name="T" value={centimetres(props.scene.parameters.threshold_m)} />
+        <Fact
           name="lift / weight"
           value={fixed(props.state.lift_ratio, 2)}
           alarm={props.state.lift_ratio > LIFT_ALARM}
         />
-        <Margin name="pull" value={newtons(props.state.pull_n)} />
-        <Margin
+        <Fact name="pull" value={newtons(props.state.pull_n)} />
+        <Fact
           name="captures at"
           value={captureText(props.scene.capture_m)}
           alarm={props.scene.capture_m.every((reach) => reach === null)}

@@ -2,7 +2,7 @@
 
 import type { JSX } from 'solid-js';
 
-export function Margin(props: {
+export function Fact(props: {
   name: string;
   value: string;
   help?: string;
