@@ -11,3 +11,4 @@ mod laboratory;
 mod recordings;
 mod reference;
 mod rendering;
+mod sights;

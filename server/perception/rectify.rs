@@ -9,7 +9,7 @@ use crate::image::{GrayImage, Pinhole};
 /// image has. A camera that looks straight down has taken it already.
 ///
 /// Each pixel is the one in whose square its middle lies, so that dark stays dark and bright bright; that
-/// moves an edge by half a pixel at most. The camera sees only table ([`crate::geometry`]'s pinholes are
+/// moves an edge by half a pixel at most. The camera sees only table ([`crate::image`]'s pinholes are
 /// checked by whoever draws).
 pub(super) fn from_above(gray: GrayImage, pinhole: &Pinhole) -> (GrayImage, Calibration) {
     let size_px = gray.width_px;
