@@ -5,12 +5,16 @@ mod map;
 mod render;
 mod serve;
 mod sweep;
+mod train;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use anyhow::Context;
 use clap::{Parser, Subcommand};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::camera::{AdapterChoice, CameraError, Gpu};
 
@@ -37,6 +41,8 @@ enum Command {
     Map(map::Arguments),
     /// Take one camera image a centimetre of a map, as training looks at them
     Sweep(sweep::Arguments),
+    /// Train a Rainbow-IQN policy: progress bar, checkpoints, learning curve
+    Train(train::Arguments),
 }
 
 /// Parses the arguments and runs the command; clap's own exits (help, usage) come back as codes.
@@ -60,6 +66,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Train(arguments) => train::run(&arguments),
     }
 }
 
@@ -70,4 +77,20 @@ fn open_gpu() -> Result<Arc<Gpu>, CameraError> {
         Err(_) => AdapterChoice::default(),
     };
     Gpu::open(choice)
+}
+
+/// A value with some of its fields changed by `NAME=VALUE`; a dot leads into a field's own fields.
+fn with_changes<T: Serialize + DeserializeOwned>(value: &T, changes: &[String]) -> anyhow::Result<T> {
+    let mut values = serde_json::to_value(value)?;
+    for change in changes {
+        let (name, text) = change.split_once('=').with_context(|| format!("--set {change}: it must be NAME=VALUE"))?;
+        // Numbers and flags are JSON; anything else is the name of a choice.
+        let new = serde_json::from_str(text).unwrap_or_else(|_| text.into());
+        let (within, last) = name.rsplit_once('.').unwrap_or(("", name));
+        let pointer =
+            within.split('.').filter(|part| !part.is_empty()).map(|part| format!("/{part}")).collect::<String>();
+        let object = values.pointer_mut(&pointer).and_then(serde_json::Value::as_object_mut);
+        object.with_context(|| format!("--set {change}: there is no {within:?}"))?.insert(last.to_owned(), new);
+    }
+    serde_path_to_error::deserialize(values).context("--set")
 }

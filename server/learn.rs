@@ -1,3 +1,20 @@
-//! Learning from what the camera sees. The network and its training come later; what they look at is here.
+//! Learning from what the camera sees: training's environment over a sweep of images, and Rainbow-IQN.
 
+mod adam;
+mod curve;
+mod environment;
+mod examine;
+mod learner;
+mod loss;
+mod recipe;
+mod replay;
 pub mod sweep;
+mod terrain;
+mod training;
+
+pub use curve::{Curve, FigureError};
+pub use environment::Ending;
+pub use examine::Marks;
+pub use recipe::Recipe;
+pub use terrain::{Terrain, TerrainError};
+pub use training::{Point, Spread, State, TrainingError, WINDOW};

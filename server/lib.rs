@@ -7,12 +7,13 @@
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
 //! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: what is set up, seen and measured.
-//! - floor 5: [`control`]: switching law, sub-controllers 1 and 2, limits.
-//! - floor 6: [`trial`]: one episode as a pure, deterministic loop.
-//! - floor 7: [`learn`], [`evaluate`], [`session`]: images in bulk; trials in bulk; a trial on a real clock.
-//! - floor 8: [`recording`], [`protocol`]: Rerun; every wire type.
-//! - floor 9: [`http`]: axum routes and the WebSocket.
-//! - floor 10: [`cli`]: assembling.
+//! - floor 5: [`policy`]: network, weights, manifest.
+//! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
+//! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
+//! - floor 8: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
+//! - floor 9: [`recording`], [`protocol`]: Rerun; every wire type.
+//! - floor 10: [`http`]: axum routes and the WebSocket.
+//! - floor 11: [`cli`]: assembling.
 
 #![warn(missing_docs)]
 
@@ -28,6 +29,7 @@ pub mod magnetics;
 pub mod map;
 pub mod perception;
 pub mod plant;
+pub mod policy;
 pub mod protocol;
 pub mod recording;
 pub mod robot;

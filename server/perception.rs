@@ -131,6 +131,30 @@ impl Percept {
         })
     }
 
+    /// Distance from a table point to the nearest wall in view; `None` where none is seen within `most_m`. What is out
+    /// of view counts as wall.
+    pub fn wall_distance_m(&self, point: Point2<f64>, most_m: f64) -> Option<f64> {
+        let (column, row) = self.calibration.image_from_table(point);
+        let (m_per_px, size) = (self.calibration.m_per_px, self.gray.width_px as i64);
+        let reach = (most_m / m_per_px).ceil() as i64;
+        let (middle_column, middle_row) = (column.floor() as i64, row.floor() as i64);
+        let mut nearest_m = most_m;
+        let mut found = false;
+        for r in middle_row - reach..=middle_row + reach {
+            for c in middle_column - reach..=middle_column + reach {
+                let seen = (0..size).contains(&r) && (0..size).contains(&c);
+                if seen && f64::from(self.gray.pixels[(r * size + c) as usize]) >= OBSTACLE_MEAN {
+                    continue;
+                }
+                let offset_m = Vector2::new(c as f64 + 0.5 - column, r as f64 + 0.5 - row).norm() * m_per_px;
+                if offset_m <= nearest_m {
+                    (nearest_m, found) = (offset_m, true);
+                }
+            }
+        }
+        found.then_some(nearest_m)
+    }
+
     /// The obstacle test along a whole step, so that walls thinner than the step count
     /// (specification §3): the place that fails, or `None` if the way is free.
     ///
@@ -193,6 +217,17 @@ mod tests {
         assert!(!Percept::of(&frame(center, |_| false), center).obstacle());
         assert!(Percept::of(&frame(center, |p| (p - center).norm() < 0.004), center).obstacle());
         assert!(!Percept::of(&frame(center, |p| (p - center).norm() > 0.006), center).obstacle());
+    }
+
+    #[test]
+    fn the_nearest_wall_is_as_far_as_it_is() {
+        let center = Point2::new(0.0, -0.3);
+        let percept = Percept::of(&frame(center, |p| p.x > 0.013), center);
+        let distance_m = |x_m: f64| percept.wall_distance_m(center + Vector2::new(x_m, 0.0), 0.02);
+        assert!((distance_m(0.0).unwrap() - 0.013).abs() < 0.0005);
+        assert!((distance_m(-0.005).unwrap() - 0.018).abs() < 0.0005);
+        assert_eq!(distance_m(-0.01), None);
+        assert!((distance_m(-0.085).unwrap() - 0.015).abs() < 0.0005, "the image's edge");
     }
 
     #[test]

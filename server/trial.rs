@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use crate::camera::{Camera, CameraError, Eye, Gpu, Stage, Subject, VIEW_PX};
 use crate::control::{approach, limits::Limits, step_is_due};
-use crate::geometry::{Point2, Point3, Rect, Vector2};
+use crate::geometry::{Point2, Point3, Vector2};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::perception::Percept;
 use crate::plant::{Plant, Positioner, PositionerKind};
@@ -99,6 +99,15 @@ impl Arena {
         Arc::new(Self { map, space })
     }
 
+    /// The last gate for every step in this map.
+    pub fn limits(&self, parameters: &Parameters) -> Limits {
+        Limits {
+            workspace: *self.map.workspace(),
+            speed_m_s: parameters.transport_speed_m_s,
+            tool_orientation: parameters.tool_orientation,
+        }
+    }
+
     /// A camera that looks at this map.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let map = &self.map;
@@ -137,7 +146,7 @@ impl Trial {
         };
         input::check_place("start_m", start, &arena.map)?;
         Self::check_script(&scenario.script, &arena.map)?;
-        let limits = limits_for(&scenario.parameters, arena.map.workspace());
+        let limits = arena.limits(&scenario.parameters);
         let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
         let kind = scenario.positioner.unwrap_or_else(|| PositionerKind::of(&arena.map));
         let home = Positioner::home(kind, tool_m);
@@ -240,7 +249,7 @@ impl Trial {
     /// Moves the tool's reference along the motion, and arm and bead after it.
     fn advance_reference(&mut self) {
         let world = &mut self.state.world;
-        let limits = limits_for(&world.parameters, self.arena.map.workspace());
+        let limits = self.arena.limits(&world.parameters);
         let here = world.reference_m.xy();
         let wanted: Point2<f64> = match world.motion {
             Motion::Hold => here,
@@ -274,13 +283,5 @@ impl Trial {
             dropout: if world.tick < world.script.dropout_until { 1.0 } else { world.parameters.tracker_dropout },
         };
         world.tracker.sample(world.plant.bead.position_m, &parameters, &mut world.rng);
-    }
-}
-
-fn limits_for(parameters: &Parameters, workspace: &Rect) -> Limits {
-    Limits {
-        workspace: *workspace,
-        speed_m_s: parameters.transport_speed_m_s,
-        tool_orientation: parameters.tool_orientation,
     }
 }

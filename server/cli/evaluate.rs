@@ -73,13 +73,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 
 /// Parameters with some values of their own.
 pub fn parameters_with(parameters: &Parameters, changes: &[String]) -> anyhow::Result<Parameters> {
-    let mut values = serde_json::to_value(parameters)?;
-    for change in changes {
-        let (name, text) = change.split_once('=').with_context(|| format!("--set {change}: it must be NAME=VALUE"))?;
-        // Numbers and flags are JSON; anything else is the name of a choice.
-        values[name] = serde_json::from_str(text).unwrap_or_else(|_| text.into());
-    }
-    let parameters: Parameters = serde_path_to_error::deserialize(values).context("--set")?;
+    let parameters = super::with_changes(parameters, changes)?;
     parameters.check().context("--set")?;
     Ok(parameters)
 }

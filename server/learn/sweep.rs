@@ -10,10 +10,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
-use crate::geometry::Point2;
+use crate::control::TargetStep;
+use crate::geometry::{Point2, Point3, Rect};
 use crate::image::CameraMount;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
-use crate::plant::BEAD_RADIUS_M;
+use crate::plant::{BEAD_RADIUS_M, Positioner, PositionerKind};
+use crate::policy::Action;
+use crate::scenario::Parameters;
 use crate::trial::Arena;
 
 /// Distance between two places (paper, §IV-A).
@@ -21,7 +24,7 @@ pub const STEP_M: f64 = 0.01;
 /// Bytes of one image.
 pub const IMAGE_BYTES: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
 /// Raised when the same map gives other images: new colours, another observation, another layout of the file.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// A sweep has no bead: it lies where no camera sees it.
 const OUT_OF_SIGHT_M: f64 = 100.0;
 
@@ -50,6 +53,13 @@ pub struct Sweep {
     pub rows: usize,
     /// Whether the obstacle test is true there; row by row from the lower left, as all here.
     pub obstacle: Vec<bool>,
+    /// Which steps of a centimetre the last gate admits from there ([`Limits::step`]), by the image seen there: bit
+    /// `i` for `Action::ALL[i]`.
+    ///
+    /// [`Limits::step`]: crate::control::limits::Limits::step
+    pub steps: Vec<u8>,
+    /// Distance from the tool to the nearest wall in the image, in tenths of a millimetre, 255 where it is more.
+    pub wall_distance: Vec<u8>,
     /// `[rows · columns][84][84]`, flat: channel 0 of the observation.
     pub images: Vec<u8>,
 }
@@ -78,7 +88,7 @@ impl Sweep {
                     };
                     (0..columns)
                         .map(|column| {
-                            let view = look(arena, camera, center(arena, column, row))?;
+                            let view = look(arena, camera, center(arena.map.workspace(), column, row))?;
                             progress();
                             Ok(view)
                         })
@@ -86,8 +96,22 @@ impl Sweep {
                 },
             )
             .collect::<Result<Vec<_>, CameraError>>()?;
-        let (obstacle, images): (Vec<bool>, Vec<Vec<u8>>) = views.into_iter().flatten().unzip();
-        Ok(Self { columns, rows, obstacle, images: images.concat() })
+        let cells = columns * rows;
+        let mut sweep = Self {
+            columns,
+            rows,
+            obstacle: Vec::with_capacity(cells),
+            steps: Vec::with_capacity(cells),
+            wall_distance: Vec::with_capacity(cells),
+            images: Vec::with_capacity(cells * IMAGE_BYTES),
+        };
+        for view in views.into_iter().flatten() {
+            sweep.obstacle.push(view.obstacle);
+            sweep.steps.push(view.steps);
+            sweep.wall_distance.push(view.wall_distance);
+            sweep.images.extend(view.image);
+        }
+        Ok(sweep)
     }
 
     /// The sweep kept in `folder`, or a new one, which is then kept. What is kept is found by a hash of all
@@ -138,7 +162,8 @@ fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
     }
     let sweep: Sweep = postcard::from_bytes(bytes).ok()?;
     let cells = columns * rows;
-    let fits = sweep.obstacle.len() == cells && sweep.images.len() == cells * IMAGE_BYTES;
+    let numbers = [sweep.obstacle.len(), sweep.steps.len(), sweep.wall_distance.len()];
+    let fits = numbers == [cells; 3] && sweep.images.len() == cells * IMAGE_BYTES;
     (fits && (sweep.columns, sweep.rows) == (columns, rows)).then_some(sweep)
 }
 
@@ -168,15 +193,26 @@ fn cells(arena: &Arena) -> (usize, usize) {
     (count(size_m.x), count(size_m.y))
 }
 
-fn center(arena: &Arena, column: usize, row: usize) -> Point2<f64> {
-    let w = arena.map.workspace();
-    Point2::new(w.x_min_m + (column as f64 + 0.5) * STEP_M, w.y_min_m + (row as f64 + 0.5) * STEP_M)
+/// Middle of a cell.
+pub fn center(workspace: &Rect, column: usize, row: usize) -> Point2<f64> {
+    let along = |index: usize| (index as f64 + 0.5) * STEP_M;
+    Point2::new(workspace.x_min_m + along(column), workspace.y_min_m + along(row))
 }
 
-fn look(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<(bool, Vec<u8>), CameraError> {
+/// What one image says.
+struct View {
+    obstacle: bool,
+    steps: u8,
+    wall_distance: u8,
+    image: Vec<u8>,
+}
+
+fn look(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<View, CameraError> {
+    let parameters = Parameters::default();
+    let tool_m = Point3::new(tool.x, tool.y, parameters.tool_height_m);
     let subject = Subject {
         tick: 0,
-        tool_m: [tool.x, tool.y, 0.1],
+        tool_m: tool_m.coords.into(),
         bead_m: [OUT_OF_SIGHT_M, OUT_OF_SIGHT_M, BEAD_RADIUS_M],
         goal_m: None,
         link_frames: None,
@@ -185,7 +221,17 @@ fn look(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<(bool, 
     };
     let percept = Percept::of(&camera.capture(&subject)?, tool);
     let observation = Observation::new(&percept.gray, None, tool, arena.map.workspace());
-    Ok((percept.obstacle(), observation.channel(0).pixels))
+    let limits = arena.limits(&parameters);
+    let positioner = Positioner::home(PositionerKind::of(&arena.map), tool_m);
+    let admits = |action: Action| {
+        let target_m = tool + action.direction() * STEP_M;
+        let step = TargetStep { target_m, speed_m_s: parameters.transport_speed_m_s };
+        limits.step(tool_m, &step, &percept, &positioner).is_ok()
+    };
+    let steps = (0..4).filter(|&index| admits(Action::ALL[index])).map(|index| 1 << index).sum();
+    let wall_distance =
+        percept.wall_distance_m(tool, 0.0255).map_or(255, |distance_m| (distance_m * 1e4).floor() as u8);
+    Ok(View { obstacle: percept.obstacle(), steps, wall_distance, image: observation.channel(0).pixels })
 }
 
 #[cfg(test)]
@@ -215,12 +261,19 @@ mod tests {
         assert_eq!((sweep.columns, sweep.rows, taken.load(Ordering::Relaxed)), (12, 10, 120));
         let mut camera = arena.camera(&gpu).unwrap();
         for (column, row) in [(0, 0), (5, 5), (11, 9)] {
-            let tool = center(&arena, column, row);
-            let (obstacle, image) = look(&arena, &mut camera, tool).unwrap();
+            let tool = center(arena.map.workspace(), column, row);
+            let view = look(&arena, &mut camera, tool).unwrap();
             let cell = row * 12 + column;
-            assert_eq!((sweep.obstacle[cell], sweep.image(cell)), (obstacle, image.as_slice()));
-            assert_eq!(obstacle, !arena.map.is_free(tool));
+            assert_eq!((sweep.obstacle[cell], sweep.image(cell)), (view.obstacle, view.image.as_slice()));
+            assert_eq!((sweep.steps[cell], sweep.wall_distance[cell]), (view.steps, view.wall_distance));
+            assert_eq!(view.obstacle, !arena.map.is_free(tool));
         }
+        // At a border no step leads out; left of the wall, none leads in.
+        assert_eq!(sweep.steps[0] & 0b1010, 0);
+        assert_eq!(sweep.steps[5 * 12 + 3] & 0b0001, 0);
+        assert_ne!(sweep.steps[5 * 12 + 2] & 0b0001, 0);
+        let near = sweep.wall_distance[5 * 12 + 3];
+        assert!((45..=50).contains(&near), "the wall begins 5 mm beside it: {near}");
         assert_eq!(open(), sweep);
         assert_eq!(taken.load(Ordering::Relaxed), 120, "read from the disk");
 

@@ -23,18 +23,35 @@ impl Observation {
         const SIZE: usize = OBSERVATION_SIZE_PX;
         let mut bytes = area_average(gray, SIZE);
         bytes.resize(2 * SIZE * SIZE, 0);
-        let size = workspace.size_m();
-        let scaled = |p: Point2<f64>| {
-            let level =
-                |value: f64, min: f64, extent: f64| (((value - min) / extent).clamp(0.0, 1.0) * 255.0).round() as u8;
-            [level(p.x, workspace.x_min_m, size.x), level(p.y, workspace.y_min_m, size.y)]
-        };
-        let blocks = [goal.map(scaled).unwrap_or_default(), scaled(tool)];
-        for (i, byte) in bytes[SIZE * SIZE..].iter_mut().enumerate() {
+        let mut observation = Self { bytes };
+        let blocks =
+            [goal.map(|goal| Self::scaled(goal, workspace)).unwrap_or_default(), Self::scaled(tool, workspace)];
+        observation.set_places(blocks);
+        observation
+    }
+
+    /// A place as the second channel holds it: x and y over the workspace, 0 to 255.
+    pub fn scaled(place: Point2<f64>, workspace: &Rect) -> [u8; 2] {
+        let size_m = workspace.size_m();
+        let level =
+            |value: f64, min: f64, extent: f64| (((value - min) / extent).clamp(0.0, 1.0) * 255.0).round() as u8;
+        [level(place.x, workspace.x_min_m, size_m.x), level(place.y, workspace.y_min_m, size_m.y)]
+    }
+
+    /// Fills the second channel with goal and tool.
+    fn set_places(&mut self, blocks: [[u8; 2]; 2]) {
+        const SIZE: usize = OBSERVATION_SIZE_PX;
+        for (i, byte) in self.bytes[SIZE * SIZE..].iter_mut().enumerate() {
             let (row, column) = (i / SIZE, i % SIZE);
             *byte = blocks[row / (SIZE / 2)][column / (SIZE / 2)];
         }
-        Self { bytes }
+    }
+
+    /// The four numbers of the second channel, 0 to 1: goal x and y, tool x and y.
+    pub fn places(&self) -> [f32; 4] {
+        const SIZE: usize = OBSERVATION_SIZE_PX;
+        let at = |row: usize, column: usize| f32::from(self.bytes[SIZE * SIZE + row * SIZE + column]) / 255.0;
+        [at(0, 0), at(0, SIZE / 2), at(SIZE / 2, 0), at(SIZE / 2, SIZE / 2)]
     }
 
     /// Channel 0 or 1 as an image.
@@ -115,5 +132,7 @@ mod tests {
         let channel = Observation::new(&gray, Some(goal), tool, &WORKSPACE).channel(1).pixels;
         let at = |row: usize, column: usize| channel[row * 84 + column];
         assert_eq!([at(0, 0), at(41, 83), at(42, 0), at(83, 83)], [255, 0, 0, 255]);
+        let places = Observation::new(&gray, Some(goal), tool, &WORKSPACE).places();
+        assert_eq!(places, [1.0, 0.0, 0.0, 1.0]);
     }
 }

@@ -1,7 +1,7 @@
 //! A control step: what the controllers decide, and what the trial makes of it.
 
 use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
-use super::{Decision, Event, EventKind, Mind, Motion, Trial, World, limits_for};
+use super::{Decision, Event, EventKind, Mind, Motion, Trial, World};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::TransportInput;
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
@@ -46,7 +46,7 @@ impl Trial {
             let input = TransportInput { percept, known, tool_m: tool.xy(), goal_m: goal, parameters };
             carrier.transport().next_step(&input)
         };
-        let limits = limits_for(&world.parameters, self.arena.map.workspace());
+        let limits = self.arena.limits(&world.parameters);
         let seed = &world.reference;
         let admitted = proposed.and_then(|step| limits.step(tool, &step, percept, seed).map(|()| step));
         match admitted {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Event, EventKind, Phase, Trial, limits_for};
+use super::{Event, EventKind, Phase, Trial};
 use crate::control::Refusal;
 use crate::control::transport::Carrier;
 use crate::geometry::{Point2, Point3};
@@ -173,7 +173,8 @@ impl Trial {
         check_place(field, goal, map)?;
         let world = &self.state.world;
         let tool_m = Point3::new(goal.x, goal.y, world.parameters.tool_height_m);
-        limits_for(&world.parameters, map.workspace())
+        self.arena
+            .limits(&world.parameters)
             .position(tool_m, &world.reference)
             .map_err(|refusal| InputError::Reach { field, refusal })?;
         let world = &mut self.state.world;
@@ -259,7 +260,8 @@ impl Trial {
         parameters.check()?;
         let world = &self.state.world;
         let there = Point3::new(world.reference_m.x, world.reference_m.y, parameters.tool_height_m);
-        limits_for(parameters, self.arena.map.workspace())
+        self.arena
+            .limits(parameters)
             .position(there, &world.reference)
             .map_err(|refusal| InputError::Reach { field: "parameters", refusal })?;
         self.plant = Plant::new(parameters.plant());

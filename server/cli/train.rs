@@ -1,0 +1,193 @@
+//! `ferry train`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, ensure};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::learn::sweep::Sweep;
+use crate::learn::{Curve, Marks, Recipe, State, Terrain};
+use crate::trial::Arena;
+
+/// Between two checkpoints.
+const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
+/// Seed of the last examination: no run trains with it.
+const EXAMINATION_SEED: u64 = 0x00FE_77E5;
+
+/// Arguments of `ferry train`.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Maps to learn on, separated by commas: names, or paths of SVGs
+    #[arg(long, value_delimiter = ',', default_value = "colon")]
+    map: Vec<String>,
+    /// Maps that are only for the last examination
+    #[arg(long, value_delimiter = ',')]
+    unseen: Vec<String>,
+    /// The policy's file; checkpoint and curve lie beside it
+    #[arg(long, default_value = "data/policies/colon.safetensors")]
+    out: PathBuf,
+    /// Seed of the run, or of the first of some rounds
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Go on from the checkpoint beside the file
+    #[arg(long)]
+    resume: bool,
+    /// Runs with seeds one after another, for the paper's learning figure
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100))]
+    rounds: u64,
+    /// The paper's own reward, fusion and returns
+    #[arg(long)]
+    paper: bool,
+    /// A number of the recipe that is not to have its default, as in n_step=3 or architecture.dueling=false
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Random starts and goals of the last examination
+    #[arg(long, default_value_t = 2000)]
+    episodes: u32,
+    /// Folder that image sweeps are kept in
+    #[arg(long, default_value = "data/sweeps")]
+    sweeps: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let recipe = if arguments.paper { Recipe::paper() } else { Recipe::default() };
+    let recipe: Recipe = super::with_changes(&recipe, &arguments.set)?;
+    recipe.check().context("--set")?;
+    ensure!(!arguments.map.is_empty(), "--map: name at least one map");
+    let terrains = open(&arguments.map, &recipe, &arguments.sweeps)?;
+    let unseen = open(&arguments.unseen, &recipe, &arguments.sweeps)?;
+    if let Some(folder) = arguments.out.parent() {
+        std::fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
+    }
+    let mut curves = Vec::new();
+    for seed in arguments.seed..arguments.seed + arguments.rounds {
+        let out = match arguments.rounds {
+            1 => arguments.out.clone(),
+            _ => arguments.out.with_extension(format!("{seed}.safetensors")),
+        };
+        let curve = round(arguments, &recipe, seed, &out, &terrains, &unseen)?;
+        curves.push(curve);
+    }
+    let figure = arguments.out.with_extension("svg");
+    std::fs::write(&figure, Curve::figure(&curves)?).with_context(|| format!("{}", figure.display()))?;
+    println!("figure      {}", figure.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// One run from its first step, or from its checkpoint, to its last examination.
+fn round(
+    arguments: &Arguments,
+    recipe: &Recipe,
+    seed: u64,
+    out: &Path,
+    terrains: &[Terrain],
+    unseen: &[Terrain],
+) -> anyhow::Result<Curve> {
+    let checkpoint = out.with_extension("checkpoint");
+    let (mut state, mut curve) = match arguments.resume {
+        true => {
+            let (state, spent_s) = State::read(&checkpoint, recipe, seed, terrains)?;
+            (state, Curve::resumed(spent_s))
+        }
+        false => (State::new(recipe.clone(), seed, terrains)?, Curve::default()),
+    };
+    let bar = ProgressBar::new(recipe.updates)
+        .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} updates, {msg}, {eta} left")?);
+    bar.set_position(state.memory.updates);
+    bar.reset_eta();
+    let begun = (Instant::now(), state.steps, state.memory.updates);
+    let mut kept = Instant::now();
+    let mut failure = None;
+    state.run(terrains, &mut |state| {
+        let elapsed_s = begun.0.elapsed().as_secs_f64();
+        curve.time(elapsed_s);
+        let rate = |now: u64, then: u64| (now - then) as f64 / elapsed_s;
+        bar.set_position(state.memory.updates);
+        bar.set_message(message(state, rate(state.steps, begun.1), rate(state.memory.updates, begun.2)));
+        if kept.elapsed() >= CHECKPOINT_PERIOD || state.is_done() {
+            failure = state.write(&checkpoint, curve.spent_s()).err();
+            kept = Instant::now();
+        }
+        failure.is_none()
+    })?;
+    if let Some(failure) = failure {
+        return Err(failure.into());
+    }
+    bar.finish_and_clear();
+    curve.points.clone_from(&state.curve);
+    std::fs::write(out, state.policy(&revision())?).with_context(|| format!("{}", out.display()))?;
+    let data = out.with_extension("csv");
+    std::fs::write(&data, curve.csv()).with_context(|| format!("{}", data.display()))?;
+    println!(
+        "seed {seed}      {} updates, {} steps, {} episodes in {:.1} min",
+        state.memory.updates,
+        state.steps,
+        state.episodes,
+        curve.spent_s() / 60.0
+    );
+    for (name, group) in [("trained on", terrains), ("never seen", unseen)] {
+        for terrain in group {
+            let marks = state.examine(std::slice::from_ref(terrain), arguments.episodes, EXAMINATION_SEED)?;
+            println!("{name}  {}: {}", terrain.name(), describe(&marks));
+        }
+    }
+    println!("policy      {}", out.display());
+    println!("curve       {}", data.display());
+    Ok(curve)
+}
+
+fn message(state: &State, steps_per_s: f64, updates_per_s: f64) -> String {
+    let mut parts = Vec::new();
+    let recent = state.curve.iter().rev().take(5);
+    let (reached, ended): (u32, u32) =
+        recent.fold((0, 0), |(reached, ended), point| (reached + point.reached, ended + point.reward.count()));
+    parts.push(format!("success {:.0} % exploring", 100.0 * f64::from(reached) / f64::from(ended.max(1))));
+    if let Some(marks) = state.curve.iter().rev().find_map(|point| point.examined) {
+        parts.push(format!("{:.1} % examined", 100.0 * marks.success()));
+    }
+    if let Some(loss) = state.curve.last().and_then(|point| point.loss.mean()) {
+        parts.push(format!("loss {loss:.4}"));
+    }
+    parts.push(format!("{steps_per_s:.0} steps/s, {updates_per_s:.1} updates/s"));
+    parts.join(", ")
+}
+
+fn describe(marks: &Marks) -> String {
+    let [low, high] = crate::evaluate::wilson95(marks.reached, marks.episodes);
+    format!(
+        "{}/{} reached ({:.2} % to {:.2} %), {} collided, {} out of steps, {:.1} steps where {:.1} are the least",
+        marks.reached,
+        marks.episodes,
+        100.0 * low,
+        100.0 * high,
+        marks.collided,
+        marks.timed_out,
+        f64::from(marks.steps) / f64::from(marks.reached.max(1)),
+        f64::from(marks.least_steps) / f64::from(marks.reached.max(1)),
+    )
+}
+
+fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<Terrain>> {
+    let gpu = if names.is_empty() { None } else { Some(super::open_gpu()?) };
+    let mut terrains = Vec::new();
+    for (name, gpu) in names.iter().zip(gpu.iter().cycle()) {
+        let arena = Arena::open(name)?;
+        let bar = ProgressBar::no_length().with_style(ProgressStyle::with_template("{msg}: {pos} images taken")?);
+        bar.set_message(arena.map.name().to_owned());
+        let sweep = Sweep::open(&arena, gpu, sweeps, &|| bar.inc(1))?;
+        bar.finish_and_clear();
+        terrains.push(Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, recipe.clearance_m)?);
+    }
+    Ok(terrains)
+}
+
+/// Git revision of the working tree, marked when it has changes; outside of one, the program's version.
+fn revision() -> String {
+    let git = std::process::Command::new("git").args(["describe", "--always", "--dirty", "--exclude=*"]).output();
+    match git {
+        Ok(said) if said.status.success() => String::from_utf8_lossy(&said.stdout).trim().to_owned(),
+        _ => concat!("version ", env!("CARGO_PKG_VERSION")).to_owned(),
+    }
+}

@@ -1,0 +1,143 @@
+//! The learning curve, as data and as the paper's figure (paper, Figure 5: mean and standard deviation of reward and
+//! loss over the rounds of training).
+
+use std::fmt::Write;
+
+use plotters::prelude::*;
+
+use super::training::{Point, Spread};
+
+/// The curve of one run, with the time that each point came at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Curve {
+    /// The points.
+    pub points: Vec<Point>,
+    /// Seconds that the run had taken at its last points; the first ones of a resumed run have none.
+    times_s: Vec<f64>,
+    /// Seconds before it was resumed.
+    before_s: f64,
+}
+
+/// Why there is no figure.
+#[derive(Debug, thiserror::Error)]
+#[error("figure: {0}")]
+pub struct FigureError(String);
+
+const SIZE_PX: (u32, u32) = (760, 560);
+
+impl Curve {
+    /// Of a run that had taken some seconds before.
+    pub fn resumed(before_s: f64) -> Self {
+        Self { before_s, ..Self::default() }
+    }
+
+    /// A point came, so many seconds after the run began or was resumed.
+    pub fn time(&mut self, elapsed_s: f64) {
+        self.times_s.push(self.before_s + elapsed_s);
+    }
+
+    /// Seconds of the run in all.
+    pub fn spent_s(&self) -> f64 {
+        self.times_s.last().copied().unwrap_or(self.before_s)
+    }
+
+    /// One line a point; `ARCHITECTURE.md` says what each column is.
+    pub fn csv(&self) -> String {
+        let mut text = String::from(
+            "update,steps,episodes,elapsed_s,reward_mean,reward_deviation,loss_mean,loss_deviation,gradient_mean,\
+             reached,collided,ended,examined_reached,examined_episodes\n",
+        );
+        let untimed = self.points.len() - self.times_s.len().min(self.points.len());
+        for (index, point) in self.points.iter().enumerate() {
+            let number = |value: Option<f64>| value.map(|value| format!("{value:.6}")).unwrap_or_default();
+            let time = index.checked_sub(untimed).map(|index| self.times_s[index]);
+            let examined = point.examined.map_or((String::new(), String::new()), |marks| {
+                (marks.reached.to_string(), marks.episodes.to_string())
+            });
+            writeln!(
+                text,
+                "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                point.update,
+                point.steps,
+                point.episodes,
+                time.map(|time_s| format!("{time_s:.1}")).unwrap_or_default(),
+                number(point.reward.mean()),
+                number(point.reward.deviation()),
+                number(point.loss.mean()),
+                number(point.loss.deviation()),
+                number(point.gradient.mean()),
+                point.reached,
+                point.collided,
+                point.reward.count(),
+                examined.0,
+                examined.1,
+            )
+            .expect("writing to a string does not fail");
+        }
+        text
+    }
+
+    /// Mean and deviation over some runs, as SVG: the reward of the episodes above, the loss below.
+    ///
+    /// # Errors
+    /// [`FigureError`] when the drawing fails.
+    pub fn figure(curves: &[Self]) -> Result<String, FigureError> {
+        let mut text = String::new();
+        draw(curves, &mut text).map_err(|error| FigureError(error.to_string()))?;
+        Ok(text)
+    }
+}
+
+/// A line with a band: update, mean, deviation.
+fn band(curves: &[Curve], get: impl Fn(&Point) -> Spread) -> Vec<(f64, f64, f64)> {
+    let count = curves.iter().map(|curve| curve.points.len()).min().unwrap_or(0);
+    let at = |index: usize| {
+        let values: Vec<f64> = curves.iter().filter_map(|curve| get(&curve.points[index]).mean()).collect();
+        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+        let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len().max(1) as f64;
+        // Of one round there is no deviation between rounds: the one between its episodes is shown.
+        let deviation = match curves {
+            [only] => get(&only.points[index]).deviation().unwrap_or(0.0),
+            _ => variance.sqrt(),
+        };
+        (!values.is_empty()).then(|| (curves[0].points[index].update as f64, mean, deviation))
+    };
+    (0..count).filter_map(at).collect()
+}
+
+fn draw(curves: &[Curve], text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    let root = SVGBackend::with_string(text, SIZE_PX).into_drawing_area();
+    root.fill(&WHITE)?;
+    let panels = root.split_evenly((2, 1));
+    let rounds = match curves.len() {
+        1 => "one round".to_owned(),
+        count => format!("{count} rounds"),
+    };
+    let spread = if curves.len() == 1 { "between episodes or updates" } else { "between rounds" };
+    let lines = [
+        ("Reward of an episode", band(curves, |point| point.reward), RGBColor(31, 119, 180)),
+        ("Loss", band(curves, |point| point.loss), RGBColor(214, 39, 40)),
+    ];
+    for (panel, (title, line, color)) in panels.iter().zip(lines) {
+        let most_x = line.last().map_or(1.0, |&(x, _, _)| x);
+        let low = line.iter().map(|&(_, mean, deviation)| mean - deviation).fold(f64::INFINITY, f64::min);
+        let high = line.iter().map(|&(_, mean, deviation)| mean + deviation).fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = if low < high { (low, high) } else { (0.0, 1.0) };
+        let margin = 0.05 * (high - low);
+        let mut chart = ChartBuilder::on(panel)
+            .margin(10)
+            .caption(format!("{title}: mean and deviation {spread}, {rounds}"), ("sans-serif", 16))
+            .x_label_area_size(32)
+            .y_label_area_size(56)
+            .build_cartesian_2d(0.0..most_x, low - margin..high + margin)?;
+        chart.configure_mesh().light_line_style(WHITE).x_desc("updates").y_desc(title).draw()?;
+        let upper = line.iter().map(|&(x, mean, deviation)| (x, mean + deviation));
+        let lower = line.iter().rev().map(|&(x, mean, deviation)| (x, mean - deviation));
+        chart.draw_series(std::iter::once(Polygon::new(upper.chain(lower).collect::<Vec<_>>(), color.mix(0.25))))?;
+        chart.draw_series(LineSeries::new(line.iter().map(|&(x, mean, _)| (x, mean)), color.stroke_width(2)))?;
+    }
+    root.present()?;
+    drop(panels);
+    drop(root);
+    Ok(())
+}

@@ -1,0 +1,186 @@
+//! Training's environment (specification §7): the tool steps from cell to cell of a [`Terrain`], without bead, arm or
+//! camera; those are in the terrain's tables.
+
+use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
+
+use super::recipe::Recipe;
+use super::terrain::{GOAL_JITTER_M, Terrain, UNREACHABLE};
+use crate::geometry::{Point2, Vector2};
+use crate::trial::{GOAL_RADIUS_M, LEG_STEP_LIMIT};
+
+/// A place anywhere in a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Goal {
+    /// The cell.
+    pub cell: u16,
+    /// From its middle, −127 to 127 for half a cell.
+    pub offset: [i8; 2],
+}
+
+impl Goal {
+    /// Anywhere in a cell.
+    pub fn in_cell(cell: u16, rng: &mut impl Rng) -> Self {
+        let mut draw = || rng.random_range(-127..=127);
+        Self { cell, offset: [draw(), draw()] }
+    }
+
+    /// Anywhere that can be reached from a cell.
+    pub fn anywhere(terrain: &Terrain, from: u16, rng: &mut impl Rng) -> Self {
+        loop {
+            let cell = rng.random_range(0..terrain.cells()) as u16;
+            if terrain.distance(from, cell) != UNREACHABLE {
+                return Self::in_cell(cell, rng);
+            }
+        }
+    }
+
+    /// On the table.
+    pub fn place_m(self, terrain: &Terrain) -> Point2<f64> {
+        let [x, y] = self.offset.map(|offset| f64::from(offset) / 127.0 * GOAL_JITTER_M);
+        terrain.center_m(self.cell) + Vector2::new(x, y)
+    }
+
+    /// Whether the tool over a cell is within 2 cm.
+    pub fn is_reached_from(self, terrain: &Terrain, cell: u16) -> bool {
+        (terrain.center_m(cell) - self.place_m(terrain)).norm() <= GOAL_RADIUS_M
+    }
+}
+
+/// What a step is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Reward.
+    pub reward: f32,
+    /// Whether nothing comes after.
+    pub terminal: bool,
+}
+
+impl Recipe {
+    /// A step from one cell to another, or to the end of the episode, on the way to a goal.
+    pub fn outcome(&self, terrain: &Terrain, from: u16, to: Option<u16>, goal: Goal) -> Outcome {
+        let Some(to) = to else { return Outcome { reward: -1.0, terminal: true } };
+        let progress = f64::from(terrain.distance(from, goal.cell)) - f64::from(terrain.distance(to, goal.cell));
+        let shaped = self.progress_reward * progress - self.step_penalty;
+        let terminal = goal.is_reached_from(terrain, to);
+        Outcome { reward: (shaped + f64::from(u8::from(terminal))) as f32, terminal }
+    }
+}
+
+/// How an episode ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Ending {
+    /// Within 2 cm of the goal.
+    Reached,
+    /// The obstacle test, a wall too near, or no joint angles.
+    Collided,
+    /// More than 150 steps.
+    TimedOut,
+}
+
+/// One episode under way.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Episode {
+    /// Which terrain.
+    pub terrain: u8,
+    /// Where the tool is.
+    pub cell: u16,
+    /// Where it should go.
+    pub goal: Goal,
+    /// Steps up to now.
+    pub steps: u32,
+    /// Rewards up to now, undiscounted.
+    pub total: f32,
+}
+
+impl Episode {
+    /// A random start and goal that is not reached yet.
+    pub fn start(terrains: &[Terrain], rng: &mut impl Rng) -> Self {
+        let index = rng.random_range(0..terrains.len());
+        let terrain = &terrains[index];
+        loop {
+            let cell = rng.random_range(0..terrain.cells()) as u16;
+            let goal = Goal::anywhere(terrain, cell, rng);
+            if !goal.is_reached_from(terrain, cell) {
+                return Self { terrain: index as u8, cell, goal, steps: 0, total: 0.0 };
+            }
+        }
+    }
+
+    /// What the observation's second channel says.
+    pub fn places(&self, terrains: &[Terrain]) -> [f32; 4] {
+        let terrain = &terrains[usize::from(self.terrain)];
+        terrain.places(self.goal.place_m(terrain), self.cell)
+    }
+
+    /// Takes a step; where it leads, and how the episode ended if it did.
+    pub fn step(&mut self, terrains: &[Terrain], action: usize, recipe: &Recipe) -> (Option<u16>, Option<Ending>) {
+        let terrain = &terrains[usize::from(self.terrain)];
+        let to = terrain.step(self.cell, action);
+        let outcome = recipe.outcome(terrain, self.cell, to, self.goal);
+        self.total += outcome.reward;
+        self.steps += 1;
+        let ending = match to {
+            None => Some(Ending::Collided),
+            Some(_) if outcome.terminal => Some(Ending::Reached),
+            Some(_) if self.steps >= LEG_STEP_LIMIT => Some(Ending::TimedOut),
+            Some(_) => None,
+        };
+        if let Some(to) = to {
+            self.cell = to;
+        }
+        (to, ending)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::learn::terrain::tests::two_rooms;
+
+    #[test]
+    fn a_step_is_worth_what_the_specification_says() {
+        let terrain = two_rooms();
+        let goal = Goal { cell: 0, offset: [0, 0] };
+        let paper = Recipe { progress_reward: 0.0, ..Recipe::default() };
+        // Cells 0 to 2 are the lower row of the left room, 1 cm apart.
+        assert_eq!(paper.outcome(&terrain, 2, None, goal), Outcome { reward: -1.0, terminal: true });
+        let there = (0..26).find(|&cell| terrain.step(2, 2) == Some(cell));
+        assert_eq!(paper.outcome(&terrain, 2, there, goal), Outcome { reward: 0.0, terminal: false });
+        assert_eq!(paper.outcome(&terrain, 3, Some(2), goal), Outcome { reward: 1.0, terminal: true }, "2 cm off");
+        let off = Goal { cell: 0, offset: [-1, 0] };
+        assert!(!paper.outcome(&terrain, 3, Some(2), off).terminal, "a little more than 2 cm off");
+        let shaped = Recipe { step_penalty: 0.02, ..Recipe::default() };
+        let away = shaped.outcome(&terrain, 2, there, goal);
+        assert!((away.reward + 0.12).abs() < 1e-6 && !away.terminal, "{away:?}");
+    }
+
+    #[test]
+    fn an_episode_ends_in_each_of_the_three_ways() {
+        let terrains = [two_rooms()];
+        let recipe = Recipe::default();
+        let goal = Goal { cell: 25, offset: [0, 0] };
+        let mut episode = Episode { terrain: 0, cell: 0, goal, steps: 0, total: 0.0 };
+        assert_eq!(episode.step(&terrains, 1, &recipe), (None, Some(Ending::Collided)));
+        let mut episode = Episode { steps: 0, total: 0.0, ..episode };
+        let back_and_forth = (0..150).map(|i| episode.step(&terrains, usize::from(i % 2 != 0), &recipe).1);
+        let endings: Vec<_> = back_and_forth.collect();
+        assert_eq!(endings[..149], [None; 149]);
+        assert_eq!(endings[149], Some(Ending::TimedOut));
+        let mut episode = Episode { cell: 0, goal: Goal { cell: 3, offset: [0, 0] }, ..episode };
+        assert!(matches!(episode.step(&terrains, 0, &recipe), (Some(1), Some(Ending::Reached))));
+    }
+
+    #[test]
+    fn starts_are_not_at_their_goals() {
+        let terrains = [two_rooms()];
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        for _ in 0..500 {
+            let episode = Episode::start(&terrains, &mut rng);
+            assert!(!episode.goal.is_reached_from(&terrains[0], episode.cell));
+        }
+    }
+}

@@ -1,0 +1,391 @@
+//! One learner: the networks, their optimiser, and one update (paper, §III; Hessel et al. 2018, "Rainbow"; Dabney et al.
+//! 2018, "Implicit Quantile Networks").
+
+use candle_core::{D, Device, Result, Tensor, Var};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::adam::Adam;
+use super::environment::Goal;
+use super::loss::{huber_mean, quantile_huber};
+use super::recipe::Recipe;
+use super::replay::{Replay, Transition};
+use super::terrain::Terrain;
+use crate::perception::OBSERVATION_SIZE_PX;
+use crate::policy::{Architecture, Fusion, Network, Noise, TensorSpec, acting_fractions, images};
+use crate::trial::LEG_STEP_LIMIT;
+
+/// All weights, in the order of [`Architecture::tensors`].
+pub type Weights = Vec<Vec<f32>>;
+
+/// Cells whose features are made at once: their columns stay in the cache.
+const CHUNK: usize = 32;
+
+/// What a learner must remember.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// The network that learns.
+    pub online: Weights,
+    /// Its older copy, which judges.
+    pub target: Weights,
+    /// The average that is evaluated and shipped.
+    pub average: Weights,
+    /// Moments of the optimiser.
+    pub adam: Adam,
+    /// Updates done.
+    pub updates: u64,
+    /// Everything that is drawn.
+    pub rng: ChaCha8Rng,
+}
+
+/// What one update says of itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Mean loss of the images, before importance weights.
+    pub loss: f64,
+    /// Length of the gradient before it is cut.
+    pub gradient: f64,
+}
+
+/// The learner.
+pub struct Learner<'a> {
+    recipe: &'a Recipe,
+    terrains: &'a [Terrain],
+    memory: Memory,
+    variables: Vec<Var>,
+    /// Over the variables.
+    online: Network,
+    /// Over the same numbers, without a tape.
+    frozen: Network,
+    target: Network,
+    /// Features of all cells by the target network, a terrain each; empty with early fusion.
+    cache: Vec<Tensor>,
+}
+
+/// A network over given weights.
+pub fn network(architecture: Architecture, weights: &Weights) -> Result<Network> {
+    let specs = architecture.tensors();
+    Network::new(architecture, |name| {
+        let index = position(&specs, name);
+        Tensor::from_slice(&weights[index], specs[index].shape.clone(), &Device::Cpu)
+    })
+}
+
+fn position(specs: &[TensorSpec], name: &str) -> usize {
+    specs.iter().position(|spec| spec.name == name).expect("a network asks for its own tensors")
+}
+
+/// Features of every cell of a terrain, `[cells, 128]`; late fusion only.
+pub fn features_of_all(network: &Network, terrain: &Terrain) -> Result<Tensor> {
+    let cells: Vec<u16> = (0..terrain.cells() as u16).collect();
+    let chunks = cells.chunks(CHUNK).map(|chunk| {
+        let views = chunk.iter().map(|&cell| terrain.image(cell));
+        network.features(&images(views, 1)?)
+    });
+    Tensor::cat(&chunks.collect::<Result<Vec<_>>>()?, 0)
+}
+
+/// Features of some cells, `[B, 128]`, seen now; with early fusion each for its places.
+pub fn features_of(
+    network: &Network,
+    terrains: &[Terrain],
+    cells: &[(u8, u16)],
+    places: &[[f32; 4]],
+) -> Result<Tensor> {
+    let view = |&(terrain, cell): &(u8, u16)| terrains[usize::from(terrain)].image(cell);
+    match network.architecture().fusion {
+        Fusion::Late => network.features(&images(cells.iter().map(view), 1)?),
+        Fusion::Early => {
+            let both: Vec<Vec<u8>> =
+                cells.iter().zip(places).map(|(cell, &places)| observation(view(cell), places)).collect();
+            network.features(&images(both.iter().map(Vec::as_slice), 2)?)
+        }
+    }
+}
+
+/// Both channels of an observation.
+fn observation(view: &[u8], places: [f32; 4]) -> Vec<u8> {
+    const SIZE: usize = OBSERVATION_SIZE_PX;
+    let levels = places.map(|place| (place * 255.0).round() as u8);
+    let second = (0..SIZE * SIZE).map(|i| levels[2 * (i / SIZE / (SIZE / 2)) + i % SIZE / (SIZE / 2)]);
+    view.iter().copied().chain(second).collect()
+}
+
+/// The `[B, G, N, 4]` values of one action for each of `[B · G]`: `[B, G, N]`.
+fn of_actions(values: &Tensor, actions: &[u32]) -> Result<Tensor> {
+    let (batch, goals, _, _) = values.dims4()?;
+    let chosen = actions.iter().flat_map(|&action| (0..4).map(move |index| f32::from(u8::from(index == action))));
+    let chosen = Tensor::from_iter(chosen, &Device::Cpu)?.reshape((batch, goals, 1, 4))?;
+    values.broadcast_mul(&chosen)?.sum(D::Minus1)
+}
+
+/// The best action of each of `[B · G]` by the mean over the fractions.
+pub fn best(quantiles: &Tensor) -> Result<Vec<u32>> {
+    quantiles.mean(2)?.argmax(D::Minus1)?.flatten_all()?.to_vec1()
+}
+
+/// One sampled transition with all that it is learned for.
+struct Sample {
+    cell: (u8, u16),
+    action: u32,
+    /// Where the return is continued from.
+    beyond: (u8, u16),
+    goals: Vec<Aim>,
+}
+
+/// One goal of a sample.
+struct Aim {
+    places: [f32; 4],
+    places_beyond: [f32; 4],
+    /// Discounted rewards up to there.
+    reward: f32,
+    /// γⁿ, or 0 where nothing comes after.
+    discount: f32,
+}
+
+impl Memory {
+    /// First weights and an optimiser at rest.
+    pub fn new(recipe: &Recipe, seed: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let specs = recipe.architecture.tensors();
+        let online: Weights = specs.iter().map(|spec| spec.draw(&mut rng)).collect();
+        let adam = Adam::new(online.iter().map(Vec::len));
+        Self { target: online.clone(), average: online.clone(), online, adam, updates: 0, rng }
+    }
+}
+
+impl<'a> Learner<'a> {
+    /// A learner that goes on from what it remembers.
+    ///
+    /// # Errors
+    /// Of candle, when the weights have other shapes than the recipe's network.
+    pub fn new(recipe: &'a Recipe, terrains: &'a [Terrain], memory: Memory) -> Result<Self> {
+        let architecture = recipe.architecture;
+        let specs = architecture.tensors();
+        let variable =
+            |(spec, values): (&TensorSpec, &Vec<f32>)| Var::from_slice(values, spec.shape.clone(), &Device::Cpu);
+        let variables = specs.iter().zip(&memory.online).map(variable).collect::<Result<Vec<_>>>()?;
+        let online = Network::new(architecture, |name| {
+            Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_tensor().clone())
+        })?;
+        let frozen = Network::new(architecture, |name| {
+            Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_detached_tensor())
+        })?;
+        let target = network(architecture, &memory.target)?;
+        let mut learner = Self { recipe, terrains, memory, variables, online, frozen, target, cache: Vec::new() };
+        learner.fill_cache()?;
+        Ok(learner)
+    }
+
+    /// What it must remember.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// The generator of everything drawn.
+    pub fn rng(&mut self) -> &mut ChaCha8Rng {
+        &mut self.memory.rng
+    }
+
+    fn fill_cache(&mut self) -> Result<()> {
+        if self.recipe.architecture.fusion == Fusion::Late {
+            let features = self.terrains.iter().map(|terrain| features_of_all(&self.target, terrain));
+            self.cache = features.collect::<Result<_>>()?;
+        }
+        Ok(())
+    }
+
+    /// What the noisy network does in some places on the way to some goals: `[B]` actions.
+    ///
+    /// # Errors
+    /// Of candle.
+    pub fn act(&mut self, cells: &[(u8, u16)], places: &[[f32; 4]]) -> Result<Vec<u32>> {
+        let batch = cells.len();
+        let features = features_of(&self.frozen, self.terrains, cells, places)?;
+        let noise = Noise::draw(&self.recipe.architecture, &mut self.memory.rng)?;
+        let fractions = acting_fractions(batch, self.recipe.choosing_fractions)?;
+        let places = tensor(places, (batch, 1, 4))?;
+        best(&self.frozen.quantiles(&features, &places, &fractions, noise.as_ref())?)
+    }
+
+    /// Learns from one draw of the replay and sets its losses.
+    ///
+    /// # Errors
+    /// Of candle.
+    pub fn update(&mut self, replay: &mut Replay) -> Result<Report> {
+        let recipe = self.recipe;
+        let progress = self.memory.updates as f64 / recipe.updates as f64;
+        let importance = recipe.importance_start + (1.0 - recipe.importance_start) * progress.min(1.0);
+        let draw = replay.draw(recipe.images, importance, &mut self.memory.rng);
+        let samples: Vec<Sample> = draw.indices.iter().map(|&index| self.sample(replay, index)).collect();
+
+        let (batch, goals) = (samples.len(), samples[0].goals.len());
+        let aims = || samples.iter().flat_map(|sample| &sample.goals);
+        let places: Vec<[f32; 4]> = aims().map(|aim| aim.places).collect();
+        let actions: Vec<u32> = samples.iter().flat_map(|sample| vec![sample.action; goals]).collect();
+        let targets = self.targets(&samples)?;
+
+        let cells: Vec<(u8, u16)> = samples.iter().map(|sample| sample.cell).collect();
+        let features = features_of(&self.online, self.terrains, &cells, &places)?;
+        let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
+        let fractions = self.draw_fractions(batch, recipe.fractions)?;
+        let places = tensor(&places, (batch, goals, 4))?;
+        let quantiles = self.online.quantiles(&features, &places, &fractions, noise.as_ref())?;
+        let count = quantiles.dim(2)?;
+        let chosen = of_actions(&quantiles, &actions)?.reshape((batch * goals, count))?;
+        let each = if recipe.architecture.quantiles {
+            let fractions = fractions.unsqueeze(1)?.repeat((1, goals, 1))?.reshape((batch * goals, count))?;
+            quantile_huber(&chosen, &fractions, &targets)?
+        } else {
+            huber_mean(&chosen, &targets)?
+        };
+        let each = each.reshape((batch, goals))?.mean(1)?;
+        let losses: Vec<f32> = each.to_vec1()?;
+        let weights = Tensor::from_vec(draw.weights, batch, &Device::Cpu)?;
+        let gradients = (each * weights)?.mean_all()?.backward()?;
+
+        let gradients = self.variables.iter().map(|variable| match gradients.get(variable) {
+            Some(gradient) => gradient.flatten_all()?.to_vec1(),
+            None => Ok(vec![0.0; variable.elem_count()]),
+        });
+        let gradients = gradients.collect::<Result<Weights>>()?;
+        let gradient = self.descend(&gradients)?;
+        for (&index, &loss) in draw.indices.iter().zip(&losses) {
+            replay.set_loss(index, f64::from(loss));
+        }
+        let loss = losses.iter().map(|&loss| f64::from(loss)).sum::<f64>() / batch as f64;
+        Ok(Report { loss, gradient })
+    }
+
+    /// One step of the optimiser, of the average and, when it is due, of the target.
+    fn descend(&mut self, gradients: &Weights) -> Result<f64> {
+        let recipe = self.recipe;
+        let memory = &mut self.memory;
+        let progress = memory.updates as f64 / recipe.updates as f64;
+        let fallen = (2.0 * progress - 1.0).clamp(0.0, 1.0);
+        let rate = recipe.learning_rate + (recipe.learning_rate_end - recipe.learning_rate) * fallen;
+        let length = memory.adam.step(&mut memory.online, gradients, rate, recipe.gradient_most);
+        for (variable, values) in self.variables.iter().zip(&memory.online) {
+            variable.set(&Tensor::from_slice(values, variable.shape(), &Device::Cpu)?)?;
+        }
+        let kept = recipe.averaging as f32;
+        for (average, online) in memory.average.iter_mut().zip(&memory.online) {
+            for (average, &online) in average.iter_mut().zip(online) {
+                *average = kept * *average + (1.0 - kept) * online;
+            }
+        }
+        memory.updates += 1;
+        if memory.updates.is_multiple_of(recipe.target_period) {
+            memory.target.clone_from(&memory.online);
+            self.target = network(recipe.architecture, &self.memory.target)?;
+            self.fill_cache()?;
+        }
+        Ok(length)
+    }
+
+    /// What the samples' returns should be, `[B · G, N']`.
+    fn targets(&mut self, samples: &[Sample]) -> Result<Tensor> {
+        let recipe = self.recipe;
+        let (batch, goals) = (samples.len(), samples[0].goals.len());
+        let aims = || samples.iter().flat_map(|sample| &sample.goals);
+        let places: Vec<[f32; 4]> = aims().map(|aim| aim.places_beyond).collect();
+        let beyond: Vec<(u8, u16)> = samples.iter().map(|sample| sample.beyond).collect();
+        let judged = match recipe.architecture.fusion {
+            Fusion::Early => features_of(&self.target, self.terrains, &beyond, &places)?,
+            Fusion::Late => {
+                let rows =
+                    beyond.iter().map(|&(terrain, cell)| self.cache[usize::from(terrain)].get(usize::from(cell)));
+                Tensor::stack(&rows.collect::<Result<Vec<_>>>()?, 0)?
+            }
+        };
+        let place_tensor = tensor(&places, (batch, goals, 4))?;
+        let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
+        let fractions = self.draw_fractions(batch, recipe.fractions)?;
+        let quantiles = self.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?;
+
+        let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
+        let fractions = self.draw_fractions(batch, recipe.choosing_fractions)?;
+        let chosen = if recipe.double {
+            let features = features_of(&self.frozen, self.terrains, &beyond, &places)?;
+            best(&self.frozen.quantiles(&features, &place_tensor, &fractions, noise.as_ref())?)?
+        } else {
+            best(&self.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?)?
+        };
+        let values = of_actions(&quantiles, &chosen)?;
+        let count = values.dim(2)?;
+        let numbers =
+            |get: fn(&Aim) -> f32| Tensor::from_iter(aims().map(get), &Device::Cpu)?.reshape((batch * goals, 1));
+        let discounted = values.reshape((batch * goals, count))?.broadcast_mul(&numbers(|aim| aim.discount)?)?;
+        Ok(discounted.broadcast_add(&numbers(|aim| aim.reward)?)?.detach())
+    }
+
+    fn draw_fractions(&mut self, batch: usize, count: usize) -> Result<Tensor> {
+        let rng = &mut self.memory.rng;
+        Tensor::from_iter((0..batch * count).map(|_| rng.random::<f32>()), &Device::Cpu)?.reshape((batch, count))
+    }
+
+    /// A transition with its goals and returns.
+    fn sample(&mut self, replay: &Replay, index: usize) -> Sample {
+        let recipe = self.recipe;
+        let first = *replay.get(index);
+        let terrain = &self.terrains[usize::from(first.terrain)];
+        let path: Vec<Transition> = replay.following(index, recipe.n_step).copied().collect();
+        let last = path.last().expect("a path begins with its first step");
+        let beyond = last.next.unwrap_or(last.cell);
+        let goals = (0..recipe.goals).map(|_| {
+            let (goal, is_own) = self.choose_goal(replay, index, terrain);
+            let (reward, discount) = self.step_return(terrain, &path, goal, is_own);
+            let places = terrain.places(goal.place_m(terrain), first.cell);
+            Aim { places, places_beyond: terrain.places(goal.place_m(terrain), beyond), reward, discount }
+        });
+        let goals = goals.collect();
+        Sample {
+            cell: (first.terrain, first.cell),
+            action: u32::from(first.action),
+            beyond: (first.terrain, beyond),
+            goals,
+        }
+    }
+
+    /// Rewards along a path on the way to a goal, discounted, and the discount of what comes after.
+    fn step_return(&self, terrain: &Terrain, path: &[Transition], goal: Goal, is_own: bool) -> (f32, f32) {
+        let (mut reward, mut discount) = (0.0, 1.0f32);
+        for step in path {
+            let outcome = self.recipe.outcome(terrain, step.cell, step.next, goal);
+            reward += discount * outcome.reward;
+            discount *= self.recipe.discount as f32;
+            if outcome.terminal {
+                return (reward, 0.0);
+            }
+            if is_own && self.recipe.timeout_fails && step.ending == Some(super::environment::Ending::TimedOut) {
+                return (reward - discount / self.recipe.discount as f32, 0.0);
+            }
+        }
+        (reward, discount)
+    }
+
+    /// A goal to learn a transition for, and whether it is the episode's own.
+    fn choose_goal(&mut self, replay: &Replay, index: usize, terrain: &Terrain) -> (Goal, bool) {
+        let recipe = self.recipe;
+        let first = replay.get(index);
+        let rng = &mut self.memory.rng;
+        let kind: f64 = rng.random();
+        if kind < recipe.uniform_goals {
+            return (Goal::anywhere(terrain, first.cell, rng), false);
+        }
+        if kind < recipe.uniform_goals + recipe.future_goals {
+            let later: Vec<u16> =
+                replay.following(index, LEG_STEP_LIMIT as usize).filter_map(|transition| transition.next).collect();
+            if !later.is_empty() {
+                let cell = later[rng.random_range(0..later.len())];
+                return (Goal::in_cell(cell, rng), false);
+            }
+        }
+        (first.goal, true)
+    }
+}
+
+fn tensor(places: &[[f32; 4]], shape: (usize, usize, usize)) -> Result<Tensor> {
+    Tensor::from_iter(places.iter().flatten().copied(), &Device::Cpu)?.reshape(shape)
+}

@@ -1,0 +1,194 @@
+//! Everything about a training run that can be chosen. The defaults are what Ferry ships; each part of Rainbow-IQN and
+//! each deviation from the paper is a switch.
+
+use serde::{Deserialize, Serialize};
+
+use crate::policy::{Architecture, Fusion};
+
+/// A training run before its first update.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Recipe {
+    /// Parts of the network.
+    pub architecture: Architecture,
+    /// Double Q-learning (van Hasselt et al. 2016): the network that learns chooses, its older copy judges.
+    pub double: bool,
+    /// Prioritised replay (Schaul et al. 2016); 0 is uniform.
+    pub priority_exponent: f64,
+    /// Importance weights' exponent β at the start; it rises to 1.
+    pub importance_start: f64,
+    /// Steps of a return, 1 to 20; Rainbow has 3.
+    pub n_step: usize,
+    /// Discount of a step.
+    pub discount: f64,
+    /// Reward for a step nearer by geodesic distance; the paper has none.
+    pub progress_reward: f64,
+    /// Taken off at each step.
+    pub step_penalty: f64,
+    /// Whether an episode that ran out of steps is a failure for the learner too (the paper), or goes on beyond.
+    pub timeout_fails: bool,
+    /// Wall distance in the image below which an episode ends; 0 is the paper.
+    pub clearance_m: f64,
+    /// Images of an update.
+    pub images: usize,
+    /// Goals that each image is learned for.
+    pub goals: usize,
+    /// Share of these goals that are drawn anywhere.
+    pub uniform_goals: f64,
+    /// Share that the episode came by later (Andrychowicz et al. 2017).
+    pub future_goals: f64,
+    /// Share of actions that are drawn anywhere, beside the noisy layers.
+    pub exploration: f64,
+    /// Decay of the average of the weights that is evaluated and shipped; 0 is without.
+    pub averaging: f64,
+    /// Quantile fractions N and N' of the loss.
+    pub fractions: usize,
+    /// Quantile fractions K that actions are chosen by in training.
+    pub choosing_fractions: usize,
+    /// Learning rate of Adam (Kingma & Ba 2015) in the first half.
+    pub learning_rate: f64,
+    /// Learning rate at the end; it falls in the second half.
+    pub learning_rate_end: f64,
+    /// Gradients longer than this are cut to it.
+    pub gradient_most: f64,
+    /// Updates between copies to the target network.
+    pub target_period: u64,
+    /// Episodes at once.
+    pub lanes: usize,
+    /// Updates for each step of all lanes.
+    pub updates_per_step: usize,
+    /// Transitions that are kept.
+    pub capacity: usize,
+    /// Transitions before the first update.
+    pub warm_up: usize,
+    /// Updates in all.
+    pub updates: u64,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        Self {
+            architecture: Architecture::default(),
+            double: true,
+            priority_exponent: 0.5,
+            importance_start: 0.4,
+            n_step: 1,
+            discount: 0.9,
+            progress_reward: 0.1,
+            step_penalty: 0.0,
+            timeout_fails: false,
+            clearance_m: 0.008,
+            images: 32,
+            goals: 16,
+            uniform_goals: 0.5,
+            future_goals: 0.1,
+            exploration: 0.05,
+            averaging: 0.998,
+            fractions: 8,
+            choosing_fractions: 8,
+            learning_rate: 1e-3,
+            learning_rate_end: 1e-4,
+            gradient_most: 10.0,
+            target_period: 100,
+            lanes: 32,
+            updates_per_step: 2,
+            capacity: 100_000,
+            warm_up: 2000,
+            updates: 8000,
+        }
+    }
+}
+
+/// A number of the recipe that is out of range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field} is {value}, it must be {least} to {most}")]
+pub struct RecipeError {
+    /// The field at fault.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Least value allowed.
+    pub least: f64,
+    /// Greatest value allowed.
+    pub most: f64,
+}
+
+impl Recipe {
+    /// The paper's own reward and fusion: ±1 at the ends and nothing between, both channels into the trunk, three-step
+    /// returns, goals that the episode had, nothing beside the noisy layers, weights as they are.
+    pub fn paper() -> Self {
+        let architecture = Architecture { fusion: Fusion::Early, ..Architecture::default() };
+        Self {
+            architecture,
+            n_step: 3,
+            discount: 0.99,
+            progress_reward: 0.0,
+            timeout_fails: true,
+            clearance_m: 0.0,
+            images: 128,
+            goals: 1,
+            uniform_goals: 0.0,
+            future_goals: 0.0,
+            exploration: 0.0,
+            averaging: 0.0,
+            learning_rate: 1e-4,
+            ..Self::default()
+        }
+    }
+
+    /// Checks every range; the first field at fault is named.
+    ///
+    /// # Errors
+    /// [`RecipeError`].
+    pub fn check(&self) -> Result<(), RecipeError> {
+        // Early fusion makes features for one goal.
+        let goals_most = if self.architecture.fusion == Fusion::Early { 1.0 } else { 256.0 };
+        let ranges = [
+            ("priority_exponent", self.priority_exponent, 0.0, 1.0),
+            ("importance_start", self.importance_start, 0.0, 1.0),
+            ("n_step", self.n_step as f64, 1.0, 20.0),
+            ("discount", self.discount, 0.0, 1.0),
+            ("progress_reward", self.progress_reward, 0.0, 1.0),
+            ("step_penalty", self.step_penalty, 0.0, 1.0),
+            ("clearance_m", self.clearance_m, 0.0, 0.02),
+            ("images", self.images as f64, 1.0, 1024.0),
+            ("goals", self.goals as f64, 1.0, goals_most),
+            ("uniform_goals", self.uniform_goals, 0.0, 1.0),
+            ("future_goals", self.future_goals, 0.0, 1.0 - self.uniform_goals),
+            ("exploration", self.exploration, 0.0, 1.0),
+            ("averaging", self.averaging, 0.0, 0.999_99),
+            ("fractions", self.fractions as f64, 1.0, 64.0),
+            ("choosing_fractions", self.choosing_fractions as f64, 1.0, 64.0),
+            ("learning_rate", self.learning_rate, 0.0, 0.1),
+            ("learning_rate_end", self.learning_rate_end, 0.0, 0.1),
+            ("gradient_most", self.gradient_most, 1e-3, 1e6),
+            ("target_period", self.target_period as f64, 1.0, 1e6),
+            ("lanes", self.lanes as f64, 1.0, 1024.0),
+            ("updates_per_step", self.updates_per_step as f64, 1.0, 64.0),
+            ("capacity", self.capacity as f64, self.warm_up as f64, 1e7),
+            ("warm_up", self.warm_up as f64, self.images as f64, 1e6),
+            ("updates", self.updates as f64, 1.0, 1e8),
+        ];
+        for (field, value, least, most) in ranges {
+            if !(least..=most).contains(&value) {
+                return Err(RecipeError { field, value, least, most });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_recipes_are_in_range_and_what_is_not_is_named() {
+        Recipe::default().check().unwrap();
+        Recipe::paper().check().unwrap();
+        let bad = Recipe { discount: f64::NAN, ..Recipe::default() };
+        assert_eq!(bad.check().unwrap_err().field, "discount");
+        let early = Recipe { goals: 16, ..Recipe::paper() };
+        assert_eq!(early.check().unwrap_err().to_string(), "goals is 16, it must be 1 to 1");
+    }
+}

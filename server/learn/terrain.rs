@@ -1,0 +1,207 @@
+//! A map as training knows it: a graph of the cells where the tool may be, with the image over each.
+
+use std::collections::VecDeque;
+
+use crate::geometry::{Point2, Rect};
+use crate::perception::Observation;
+use crate::policy::Action;
+
+use super::sweep::{IMAGE_BYTES, STEP_M, Sweep, center};
+
+/// No way leads there.
+pub const UNREACHABLE: u16 = u16::MAX;
+
+/// Cells where an episode goes on, numbered from 0, and where each action leads.
+pub struct Terrain {
+    name: String,
+    workspace: Rect,
+    centers_m: Vec<Point2<f64>>,
+    next: Vec<[Option<u16>; 4]>,
+    /// `[cells][cells]`: steps from the row's cell to the column's.
+    distance: Vec<u16>,
+    /// `[cells][84 · 84]`.
+    images: Vec<u8>,
+}
+
+/// Too few cells to learn on.
+#[derive(Debug, thiserror::Error)]
+#[error("map: {map:?} has {cells} cells that keep {clearance_m} m from the walls; training needs 2 to {}", UNREACHABLE)]
+pub struct TerrainError {
+    /// Name of the map.
+    pub map: String,
+    /// Cells that it has.
+    pub cells: usize,
+    /// Distance they keep.
+    pub clearance_m: f64,
+}
+
+impl Terrain {
+    /// The cells of a sweep whose image is free of obstacles and keeps `clearance_m` (0 is the paper), and the steps
+    /// among them that the last gate admits.
+    ///
+    /// # Errors
+    /// [`TerrainError`].
+    pub fn new(name: &str, workspace: &Rect, sweep: &Sweep, clearance_m: f64) -> Result<Self, TerrainError> {
+        let keeps = |cell: usize| f64::from(sweep.wall_distance[cell]) * 1e-4 >= clearance_m;
+        let cells = sweep.columns * sweep.rows;
+        let free: Vec<usize> = (0..cells).filter(|&cell| !sweep.obstacle[cell] && keeps(cell)).collect();
+        if !(2..usize::from(UNREACHABLE)).contains(&free.len()) {
+            return Err(TerrainError { map: name.to_owned(), cells: free.len(), clearance_m });
+        }
+        let mut index = vec![None; cells];
+        for (i, &cell) in free.iter().enumerate() {
+            index[cell] = Some(i as u16);
+        }
+        let step = |cell: usize, action: usize| {
+            if sweep.steps[cell] & (1 << action) == 0 {
+                return None;
+            }
+            let (dx, dy) = Action::ALL[action].offset();
+            let column = (cell % sweep.columns).checked_add_signed(dx).filter(|&c| c < sweep.columns)?;
+            let row = (cell / sweep.columns).checked_add_signed(dy).filter(|&r| r < sweep.rows)?;
+            index[row * sweep.columns + column]
+        };
+        let next: Vec<[Option<u16>; 4]> =
+            free.iter().map(|&cell| std::array::from_fn(|action| step(cell, action))).collect();
+        let at = |&cell: &usize| center(workspace, cell % sweep.columns, cell / sweep.columns);
+        Ok(Self {
+            name: name.to_owned(),
+            workspace: *workspace,
+            centers_m: free.iter().map(at).collect(),
+            distance: distances(&next),
+            next,
+            images: free.iter().flat_map(|&cell| sweep.image(cell)).copied().collect(),
+        })
+    }
+
+    /// Name of the map.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How many cells there are.
+    pub fn cells(&self) -> usize {
+        self.next.len()
+    }
+
+    /// Middle of a cell.
+    pub fn center_m(&self, cell: u16) -> Point2<f64> {
+        self.centers_m[usize::from(cell)]
+    }
+
+    /// Where a step leads, `None` where it ends the episode.
+    pub fn step(&self, cell: u16, action: usize) -> Option<u16> {
+        self.next[usize::from(cell)][action]
+    }
+
+    /// Least number of steps, [`UNREACHABLE`] where there is no way.
+    pub fn distance(&self, from: u16, to: u16) -> u16 {
+        self.distance[usize::from(from) * self.cells() + usize::from(to)]
+    }
+
+    /// `[84 · 84]`, what the camera sees there.
+    pub fn image(&self, cell: u16) -> &[u8] {
+        &self.images[usize::from(cell) * IMAGE_BYTES..(usize::from(cell) + 1) * IMAGE_BYTES]
+    }
+
+    /// What the second channel says of a goal and a tool over a cell.
+    pub fn places(&self, goal_m: Point2<f64>, cell: u16) -> [f32; 4] {
+        let [goal, tool] = [goal_m, self.center_m(cell)].map(|place| Observation::scaled(place, &self.workspace));
+        [goal[0], goal[1], tool[0], tool[1]].map(|level| f32::from(level) / 255.0)
+    }
+}
+
+impl std::fmt::Debug for Terrain {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Terrain of {} with {} cells", self.name, self.cells())
+    }
+}
+
+/// Steps between all pairs, by a search in breadth *toward* each cell: steps are not always allowed both ways.
+fn distances(next: &[[Option<u16>; 4]]) -> Vec<u16> {
+    let cells = next.len();
+    let mut before = vec![Vec::new(); cells];
+    for (cell, ways) in next.iter().enumerate() {
+        for &to in ways.iter().flatten() {
+            before[usize::from(to)].push(cell);
+        }
+    }
+    let mut distance = vec![UNREACHABLE; cells * cells];
+    let mut queue = VecDeque::new();
+    for to in 0..cells {
+        distance[to * cells + to] = 0;
+        queue.push_back(to);
+        while let Some(cell) = queue.pop_front() {
+            let steps = distance[cell * cells + to] + 1;
+            for &earlier in &before[cell] {
+                if distance[earlier * cells + to] == UNREACHABLE {
+                    distance[earlier * cells + to] = steps;
+                    queue.push_back(earlier);
+                }
+            }
+        }
+    }
+    distance
+}
+
+/// How far a goal may lie from the middle of its cell, along each axis: anywhere in the cell.
+pub const GOAL_JITTER_M: f64 = 0.5 * STEP_M;
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub const WORKSPACE: Rect = Rect { x_min_m: 0.0, x_max_m: 0.06, y_min_m: 0.0, y_max_m: 0.05 };
+
+    /// Six by five cells with a wall up the middle that leaves the top row free; the images tell the cells apart.
+    pub fn two_rooms() -> Terrain {
+        let (columns, rows) = (6, 5);
+        let wall = |cell: usize| cell % columns == 3 && cell / columns < rows - 1;
+        let free = |cell: usize, action: usize| {
+            let (dx, dy) = Action::ALL[action].offset();
+            let column = (cell % columns).checked_add_signed(dx).filter(|&c| c < columns);
+            let row = (cell / columns).checked_add_signed(dy).filter(|&r| r < rows);
+            column.zip(row).is_some_and(|(column, row)| !wall(row * columns + column))
+        };
+        let cells = 0..columns * rows;
+        let steps = |cell| (0..4).filter(|&action| free(cell, action)).map(|action| 1 << action).sum();
+        let sweep = Sweep {
+            columns,
+            rows,
+            obstacle: cells.clone().map(wall).collect(),
+            steps: cells.clone().map(steps).collect(),
+            wall_distance: cells.clone().map(|cell| if wall(cell) { 0 } else { 255 }).collect(),
+            images: cells.flat_map(|cell| vec![8 * cell as u8; IMAGE_BYTES]).collect(),
+        };
+        Terrain::new("rooms", &WORKSPACE, &sweep, 0.008).unwrap()
+    }
+
+    #[test]
+    fn ways_go_around_the_wall_and_never_through() {
+        let terrain = two_rooms();
+        assert_eq!(terrain.cells(), 26);
+        let at =
+            |x: f64, y: f64| (0..26).find(|&cell| (terrain.center_m(cell) - Point2::new(x, y)).norm() < 1e-9).unwrap();
+        let (left, right) = (at(0.025, 0.005), at(0.045, 0.005));
+        assert_eq!(terrain.distance(left, right), 10);
+        assert_eq!(terrain.step(left, 0), None, "into the wall");
+        assert_eq!(terrain.step(left, 2), Some(at(0.025, 0.015)));
+        assert_eq!(terrain.step(left, 3), None, "out of the workspace");
+        assert_eq!(terrain.image(right)[0], 32);
+        assert_eq!(terrain.places(Point2::new(0.06, 0.0), left), [1.0, 0.0, 106.0 / 255.0, 26.0 / 255.0]);
+    }
+
+    #[test]
+    fn too_narrow_a_map_is_refused_by_name() {
+        let sweep = Sweep {
+            columns: 2,
+            rows: 1,
+            obstacle: vec![false; 2],
+            steps: vec![0; 2],
+            wall_distance: vec![50, 90],
+            images: vec![0; 2 * IMAGE_BYTES],
+        };
+        let error = Terrain::new("slit", &WORKSPACE, &sweep, 0.008).unwrap_err();
+        assert!(error.to_string().contains("\"slit\" has 1 cells"), "{error}");
+    }
+}

@@ -1,0 +1,327 @@
+//! A training run: lanes act, the replay fills, the learner updates. It can be kept at any step and goes on from there
+//! to the same bits.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+use super::environment::{Ending, Episode};
+use super::examine::{Marks, examine};
+use super::learner::{Learner, Memory, Weights, network};
+use super::recipe::{Recipe, RecipeError};
+use super::replay::{Replay, Transition};
+use super::sweep::STEP_M;
+use super::terrain::Terrain;
+use crate::policy::{Manifest, Policy, PolicyError};
+
+/// Updates that one point of the curve sums up.
+pub const WINDOW: u64 = 100;
+/// Updates between two small examinations.
+const EXAMINED_EVERY: u64 = 1000;
+/// Episodes of a small examination.
+const EXAMINED_EPISODES: u32 = 200;
+/// Layout of a checkpoint.
+const VERSION: u32 = 1;
+
+/// Why a run does not start or go on.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainingError {
+    /// A number of the recipe is out of range.
+    #[error("recipe: {0}")]
+    Recipe(#[from] RecipeError),
+    /// The network gave no answer.
+    #[error("training: {0}")]
+    Network(#[from] candle_core::Error),
+    /// The policy could not be written down.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
+    /// A checkpoint could not be read or written.
+    #[error("checkpoint: {path}: {error}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        error: std::io::Error,
+    },
+    /// A checkpoint is torn, or of another version, recipe, seed or map.
+    #[error("checkpoint: {path}: {reason}")]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The loss or the gradient is not a number any more.
+    #[error("training: at update {update} the loss is {loss} and the gradient {gradient}")]
+    Diverged {
+        /// The update.
+        update: u64,
+        /// Its loss.
+        loss: f64,
+        /// Its gradient's length.
+        gradient: f64,
+    },
+}
+
+/// Mean and standard deviation of what came in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    count: u32,
+    sum: f64,
+    squares: f64,
+}
+
+impl Spread {
+    fn add(&mut self, value: f64) {
+        self.count += 1;
+        self.sum += value;
+        self.squares += value * value;
+    }
+
+    /// How many came in.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Mean, `None` of nothing.
+    pub fn mean(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.sum / f64::from(self.count))
+    }
+
+    /// Standard deviation, `None` of nothing.
+    pub fn deviation(&self) -> Option<f64> {
+        let mean = self.mean()?;
+        Some((self.squares / f64::from(self.count) - mean * mean).max(0.0).sqrt())
+    }
+}
+
+/// [`WINDOW`] updates of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Updates at its end.
+    pub update: u64,
+    /// Steps of the environment up to then.
+    pub steps: u64,
+    /// Episodes that had ended by then.
+    pub episodes: u64,
+    /// Rewards of the episodes that ended meanwhile, undiscounted and with the shaping.
+    pub reward: Spread,
+    /// Loss of the updates.
+    pub loss: Spread,
+    /// Length of the gradient before it is cut.
+    pub gradient: Spread,
+    /// Of the episodes that ended meanwhile, exploring, how many reached their goal.
+    pub reached: u32,
+    /// How many ended in a wall.
+    pub collided: u32,
+    /// A small examination of the averaged weights, on some of the points.
+    pub examined: Option<Marks>,
+}
+
+/// All that a run must remember.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// The recipe.
+    pub recipe: Recipe,
+    /// The seed.
+    pub seed: u64,
+    /// Maps and their cells.
+    pub maps: Vec<(String, u32)>,
+    /// The learner.
+    pub memory: Memory,
+    /// The replay.
+    pub replay: Replay,
+    /// The lanes.
+    pub lanes: Vec<Episode>,
+    /// Steps of the environment.
+    pub steps: u64,
+    /// Episodes that ended.
+    pub episodes: u64,
+    /// The curve up to now.
+    pub curve: Vec<Point>,
+    /// The point under way.
+    pub point: Point,
+}
+
+impl State {
+    /// A run before its first step.
+    ///
+    /// # Errors
+    /// [`TrainingError::Recipe`].
+    pub fn new(recipe: Recipe, seed: u64, terrains: &[Terrain]) -> Result<Self, TrainingError> {
+        recipe.check()?;
+        let mut memory = Memory::new(&recipe, seed);
+        let lanes = (0..recipe.lanes).map(|_| Episode::start(terrains, &mut memory.rng)).collect();
+        Ok(Self {
+            seed,
+            maps: maps(terrains),
+            memory,
+            replay: Replay::new(recipe.capacity, recipe.lanes, recipe.priority_exponent),
+            lanes,
+            steps: 0,
+            episodes: 0,
+            curve: Vec::new(),
+            point: Point::default(),
+            recipe,
+        })
+    }
+
+    /// The weights that are shipped.
+    pub fn weights(&self) -> &Weights {
+        if self.recipe.averaging > 0.0 { &self.memory.average } else { &self.memory.online }
+    }
+
+    /// Whether all updates are done.
+    pub fn is_done(&self) -> bool {
+        self.memory.updates >= self.recipe.updates
+    }
+
+    /// Goes on until all updates are done or `watch`, called at the end of each point of the curve, says no.
+    ///
+    /// # Errors
+    /// [`TrainingError`].
+    pub fn run(&mut self, terrains: &[Terrain], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
+        let recipe = self.recipe.clone();
+        let mut learner = Learner::new(&recipe, terrains, self.memory.clone())?;
+        while learner.memory().updates < recipe.updates {
+            self.act(terrains, &mut learner)?;
+            if self.replay.len() < recipe.warm_up {
+                continue;
+            }
+            let mut ended = false;
+            for _ in 0..recipe.updates_per_step {
+                let report = learner.update(&mut self.replay)?;
+                let update = learner.memory().updates;
+                if !(report.loss.is_finite() && report.gradient.is_finite()) {
+                    let (loss, gradient) = (report.loss, report.gradient);
+                    return Err(TrainingError::Diverged { update, loss, gradient });
+                }
+                self.point.loss.add(report.loss);
+                self.point.gradient.add(report.gradient);
+                ended |= update.is_multiple_of(WINDOW) || update == recipe.updates;
+            }
+            if ended {
+                self.memory = learner.memory().clone();
+                self.end_point(terrains)?;
+                if !watch(self) {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// One step of all lanes.
+    fn act(&mut self, terrains: &[Terrain], learner: &mut Learner<'_>) -> Result<(), TrainingError> {
+        let cells: Vec<(u8, u16)> = self.lanes.iter().map(|lane| (lane.terrain, lane.cell)).collect();
+        let places: Vec<[f32; 4]> = self.lanes.iter().map(|lane| lane.places(terrains)).collect();
+        let actions = learner.act(&cells, &places)?;
+        for (lane, action) in self.lanes.iter_mut().zip(actions) {
+            let rng = learner.rng();
+            let explores = rng.random::<f64>() < self.recipe.exploration;
+            let action = if explores { rng.random_range(0..4) } else { action as usize };
+            let before = *lane;
+            let (next, ending) = lane.step(terrains, action, &self.recipe);
+            let Episode { terrain, cell, goal, .. } = before;
+            self.replay.push(Transition { terrain, cell, action: action as u8, next, goal, ending });
+            if let Some(ending) = ending {
+                let failed = ending == Ending::TimedOut && self.recipe.timeout_fails;
+                self.point.reward.add(f64::from(lane.total) - f64::from(u8::from(failed)));
+                self.point.reached += u32::from(ending == Ending::Reached);
+                self.point.collided += u32::from(ending == Ending::Collided);
+                self.episodes += 1;
+                *lane = Episode::start(terrains, rng);
+            }
+        }
+        self.steps += self.lanes.len() as u64;
+        Ok(())
+    }
+
+    fn end_point(&mut self, terrains: &[Terrain]) -> Result<(), TrainingError> {
+        let update = self.memory.updates;
+        let examined = match update.is_multiple_of(EXAMINED_EVERY) {
+            true => Some(self.examine(terrains, EXAMINED_EPISODES, self.seed)?),
+            false => None,
+        };
+        let (steps, episodes) = (self.steps, self.episodes);
+        self.curve.push(Point { update, steps, episodes, examined, ..std::mem::take(&mut self.point) });
+        Ok(())
+    }
+
+    /// What the weights are worth on some terrains.
+    ///
+    /// # Errors
+    /// [`TrainingError::Network`].
+    pub fn examine(&self, terrains: &[Terrain], episodes: u32, seed: u64) -> Result<Marks, TrainingError> {
+        let network = network(self.recipe.architecture, self.weights())?;
+        Ok(examine(&network, &self.recipe, terrains, episodes, seed)?)
+    }
+
+    /// The bytes of the policy as it is now, trained by a program of some git revision.
+    ///
+    /// # Errors
+    /// [`TrainingError::Policy`].
+    pub fn policy(&self, revision: &str) -> Result<Vec<u8>, TrainingError> {
+        let (version, observation) = Manifest::current();
+        let manifest = Manifest {
+            version,
+            maps: self.maps.iter().map(|(name, _)| name.clone()).collect(),
+            step_m: STEP_M,
+            observation,
+            architecture: self.recipe.architecture,
+            clearance_m: self.recipe.clearance_m,
+            seed: self.seed,
+            revision: revision.to_owned(),
+            updates: self.memory.updates,
+        };
+        let weights = self.recipe.architecture.tensors().into_iter().zip(self.weights().iter().cloned());
+        Ok(Policy::to_bytes(&manifest, &weights.collect::<Vec<_>>())?)
+    }
+
+    /// Keeps the run in a file, under another name first, so that nobody finds half of one; with it the seconds that
+    /// it took, which are no part of the run.
+    ///
+    /// # Errors
+    /// [`TrainingError::Io`].
+    pub fn write(&self, path: &Path, spent_s: f64) -> Result<(), TrainingError> {
+        let io = |error| TrainingError::Io { path: path.to_owned(), error };
+        let bytes = postcard::to_stdvec(&(VERSION, spent_s, self)).map_err(std::io::Error::other).map_err(io)?;
+        let part = path.with_extension("part");
+        let mut file = File::create(&part).map_err(io)?;
+        file.write_all(&xxhash_rust::xxh3::xxh3_64(&bytes).to_le_bytes()).map_err(io)?;
+        file.write_all(&bytes).map_err(io)?;
+        file.sync_all().map_err(io)?;
+        std::fs::rename(part, path).map_err(io)
+    }
+
+    /// A kept run of the same recipe, seed and maps, and the seconds that it took.
+    ///
+    /// # Errors
+    /// [`TrainingError::Io`] or [`TrainingError::Checkpoint`].
+    pub fn read(path: &Path, recipe: &Recipe, seed: u64, terrains: &[Terrain]) -> Result<(Self, f64), TrainingError> {
+        let bytes = std::fs::read(path).map_err(|error| TrainingError::Io { path: path.to_owned(), error })?;
+        let refuse = |reason: &str| TrainingError::Checkpoint { path: path.to_owned(), reason: reason.to_owned() };
+        let (hash, bytes) = bytes.split_at_checked(8).ok_or_else(|| refuse("it is torn"))?;
+        if xxhash_rust::xxh3::xxh3_64(bytes).to_le_bytes() != hash {
+            return Err(refuse("it is torn or edited"));
+        }
+        let (version, rest): (u32, _) = postcard::take_from_bytes(bytes).map_err(|_| refuse("it is torn"))?;
+        if version != VERSION {
+            return Err(refuse(&format!("its version is {version}, this program reads {VERSION}")));
+        }
+        let (spent_s, state): (f64, Self) = postcard::from_bytes(rest).map_err(|error| refuse(&error.to_string()))?;
+        match () {
+            () if state.recipe != *recipe => Err(refuse("it was made by another recipe")),
+            () if state.seed != seed => Err(refuse(&format!("its seed is {}, not {seed}", state.seed))),
+            () if state.maps != maps(terrains) => Err(refuse(&format!("its maps are {:?}", state.maps))),
+            () => Ok((state, spent_s)),
+        }
+    }
+}
+
+fn maps(terrains: &[Terrain]) -> Vec<(String, u32)> {
+    terrains.iter().map(|terrain| (terrain.name().to_owned(), terrain.cells() as u32)).collect()
+}

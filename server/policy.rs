@@ -1,0 +1,159 @@
+//! The Rainbow-IQN policy: network, weights and manifest (paper, §III and §IV-A; specification §7).
+
+mod convolution;
+mod file;
+mod network;
+
+use std::sync::Arc;
+
+use candle_core::{Device, Tensor};
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Vector2;
+use crate::perception::{OBSERVATION_SIZE_PX, Observation};
+
+pub use file::{Manifest, PolicyError};
+pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, Noise, TensorSpec};
+
+/// Quantile fractions at acting (Dabney et al. 2018, K = 32).
+pub const ACTING_FRACTIONS: usize = 32;
+
+/// One step of the tool along an axis of the table (paper, §IV-A).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Action {
+    /// +x.
+    PlusX,
+    /// −x.
+    MinusX,
+    /// +y.
+    PlusY,
+    /// −y.
+    MinusY,
+}
+
+impl Action {
+    /// All, in the order of the network's outputs.
+    pub const ALL: [Self; 4] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY];
+
+    /// Columns and rows of the lattice that it goes.
+    pub fn offset(self) -> (isize, isize) {
+        match self {
+            Self::PlusX => (1, 0),
+            Self::MinusX => (-1, 0),
+            Self::PlusY => (0, 1),
+            Self::MinusY => (0, -1),
+        }
+    }
+
+    /// Unit vector on the table.
+    pub fn direction(self) -> Vector2<f64> {
+        let (x, y) = self.offset();
+        Vector2::new(x as f64, y as f64)
+    }
+}
+
+/// What the network makes of an observation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// `[4][K]`: the return's quantiles of each action, at the fractions (k + ½) / K.
+    pub quantiles: [Vec<f32>; 4],
+}
+
+impl Judgement {
+    /// Mean of the quantiles: the action's value.
+    pub fn values(&self) -> [f32; 4] {
+        self.quantiles.each_ref().map(|row| row.iter().sum::<f32>() / row.len() as f32)
+    }
+
+    /// Actions, the best first; of equal values, the first of [`Action::ALL`].
+    pub fn ranking(&self) -> [Action; 4] {
+        let values = self.values();
+        let mut order = [0, 1, 2, 3];
+        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+        order.map(|index| Action::ALL[index])
+    }
+}
+
+/// A trained network with its manifest; does not change and is shared.
+#[derive(Clone, Debug)]
+pub struct Policy {
+    manifest: Manifest,
+    network: Arc<Network>,
+    /// Of the bytes it was read from.
+    hash: u64,
+}
+
+impl PartialEq for Policy {
+    fn eq(&self, other: &Self) -> bool {
+        self.hash == other.hash
+    }
+}
+
+impl Policy {
+    /// Where it comes from and what it fits.
+    pub fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+
+    /// Hash of the file that it was read from.
+    pub fn hash(&self) -> u64 {
+        self.hash
+    }
+
+    /// The return's quantiles of all four actions, without exploration.
+    ///
+    /// # Errors
+    /// [`PolicyError::Network`], which only a network that [`Policy`] should have refused gives.
+    pub fn judge(&self, observation: &Observation) -> Result<Judgement, PolicyError> {
+        let features = self.features(&[&observation.bytes])?;
+        Ok(self.judge_from(&features, &[observation.places()])?.remove(0))
+    }
+
+    /// What the trunk makes of images: `[B]` observations of 2×84×84 bytes → `[B, 128]`. With late fusion the places
+    /// on channel 1 do not matter.
+    ///
+    /// # Errors
+    /// [`PolicyError::Network`].
+    pub fn features(&self, observations: &[&[u8]]) -> Result<Tensor, PolicyError> {
+        let channels = self.network.architecture().channels();
+        Ok(self.network.features(&images(observations.iter().copied(), channels)?)?)
+    }
+
+    /// Quantiles from features `[B, 128]` and the `[B]` places of goal and tool.
+    ///
+    /// # Errors
+    /// [`PolicyError::Network`].
+    pub fn judge_from(&self, features: &Tensor, places: &[[f32; 4]]) -> Result<Vec<Judgement>, PolicyError> {
+        let batch = places.len();
+        let places = Tensor::from_iter(places.iter().flatten().copied(), &Device::Cpu)?.reshape((batch, 1, 4))?;
+        let fractions = acting_fractions(batch, ACTING_FRACTIONS)?;
+        let quantiles = self.network.quantiles(features, &places, &fractions, None)?;
+        let count = quantiles.dim(2)?;
+        let flat: Vec<f32> = quantiles.flatten_all()?.to_vec1()?;
+        let judgement = |row: &[f32]| Judgement {
+            quantiles: std::array::from_fn(|action| row.iter().skip(action).step_by(4).copied().collect()),
+        };
+        Ok(flat.chunks_exact(4 * count).map(judgement).collect())
+    }
+}
+
+/// The middles of `count` equal parts of [0, 1], for each of a batch: `[B, K]`.
+pub fn acting_fractions(batch: usize, count: usize) -> candle_core::Result<Tensor> {
+    let one = (0..count).map(|k| (k as f32 + 0.5) / count as f32);
+    Tensor::from_iter(one, &Device::Cpu)?.unsqueeze(0)?.repeat((batch, 1))
+}
+
+/// Images for a trunk of `channels` channels, `[B, 84, 84, channels]` from 0 to 1, of observations' bytes `[2][84][84]`;
+/// with one channel, the second may be missing.
+pub fn images<'a>(observations: impl Iterator<Item = &'a [u8]>, channels: usize) -> candle_core::Result<Tensor> {
+    const AREA: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
+    let mut values = Vec::new();
+    for bytes in observations {
+        match channels {
+            1 => values.extend(bytes[..AREA].iter().map(|&byte| f32::from(byte) / 255.0)),
+            _ => values.extend((0..AREA).flat_map(|i| [bytes[i], bytes[AREA + i]]).map(|byte| f32::from(byte) / 255.0)),
+        }
+    }
+    let batch = values.len() / (AREA * channels);
+    Tensor::from_vec(values, (batch, OBSERVATION_SIZE_PX, OBSERVATION_SIZE_PX, channels), &Device::Cpu)
+}

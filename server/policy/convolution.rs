@@ -1,0 +1,654 @@
+//! A 2-D convolution for the CPU that candle can differentiate.
+//!
+//! Candle's own `conv2d` works on NCHW tensors and its backward pass is far slower than its forward pass. This one
+//! keeps channels last, so that one pixel's channels lie together: im2col then copies whole runs of memory, and the
+//! bias and the ReLU that precedes the convolution in a residual block cost no pass over memory of their own.
+
+use std::cell::RefCell;
+use std::ops::Range;
+
+use candle_core::{CpuStorage, CustomOp3, Error, Layout, Result, Shape, Storage, Tensor};
+use rayon::prelude::*;
+
+/// Into how many parts a batch is cut at most. It bounds the number of threads that help, and it decides the order in
+/// which weight gradients are summed: it must not depend on the number of threads.
+const BATCH_PARTS: usize = 16;
+
+/// Below this many multiply-adds (some 50 µs on one core), waking the thread pool costs more than it saves.
+const PARALLEL_THRESHOLD: usize = 2_000_000;
+
+/// A 2-D convolution with a square kernel: its shape, not its weights.
+///
+/// `y[b,i,j,o] = bias[o] + Σ r(x)[b, i·stride+di−padding, j·stride+dj−padding, c] · weight[di,dj,c,o]`, where `x` is
+/// zero outside the image and `r` is the ReLU if `rectify_input` is set, else the identity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Convolution {
+    /// Height and width of the kernel, at least 1.
+    pub kernel: usize,
+    /// Step between neighbouring windows, at least 1.
+    pub stride: usize,
+    /// Rows and columns of zeros added on each side of the image.
+    pub padding: usize,
+    /// Whether negative inputs are taken as zero. Their gradient is then zero too, also at exactly 0.
+    pub rectify_input: bool,
+}
+
+impl Convolution {
+    /// Convolves `x` of shape `[batch, height, width, channels_in]` with `weight` of shape
+    /// `[kernel·kernel·channels_in, channels_out]`, whose rows are ordered by kernel row, kernel column and input
+    /// channel, and adds `bias` of shape `[channels_out]`. All are f32 on the CPU and need not be contiguous.
+    ///
+    /// Returns `[batch, height_out, width_out, channels_out]`, where a side of `n` pixels becomes one of
+    /// `(n + 2·padding − kernel) / stride + 1`, rounded down. The values and all gradients are the same to the bit for
+    /// any number of threads. An argument that candle does not track gets no gradient, and the work for it is saved.
+    ///
+    /// # Errors
+    ///
+    /// An error that names the shape if the shapes do not fit together, if the kernel is larger than the padded image,
+    /// or if `kernel` or `stride` is 0; candle's usual errors for another type or device.
+    pub fn forward(&self, x: &Tensor, weight: &Tensor, bias: &Tensor) -> Result<Tensor> {
+        Geometry::new(*self, x.shape(), weight.shape(), bias.shape())?;
+        x.contiguous()?.apply_op3(&weight.contiguous()?, &bias.contiguous()?, *self)
+    }
+}
+
+impl CustomOp3 for Convolution {
+    fn name(&self) -> &'static str {
+        "convolution"
+    }
+
+    fn cpu_fwd(
+        &self,
+        x: &CpuStorage,
+        x_layout: &Layout,
+        weight: &CpuStorage,
+        weight_layout: &Layout,
+        bias: &CpuStorage,
+        bias_layout: &Layout,
+    ) -> Result<(CpuStorage, Shape)> {
+        let geometry = Geometry::new(*self, x_layout.shape(), weight_layout.shape(), bias_layout.shape())?;
+        let x = contiguous_slice(x, x_layout)?;
+        let weight = contiguous_slice(weight, weight_layout)?;
+        let bias = contiguous_slice(bias, bias_layout)?;
+        let y = geometry.forward(x, weight, bias);
+        Ok((CpuStorage::F32(y), geometry.output_shape()))
+    }
+
+    fn bwd(
+        &self,
+        x: &Tensor,
+        weight: &Tensor,
+        bias: &Tensor,
+        _y: &Tensor,
+        y_gradient: &Tensor,
+    ) -> Result<(Option<Tensor>, Option<Tensor>, Option<Tensor>)> {
+        let geometry = Geometry::new(*self, x.shape(), weight.shape(), bias.shape())?;
+        let y_gradient = y_gradient.contiguous()?;
+        let gradients = {
+            let (x_storage, x_layout) = x.storage_and_layout();
+            let (weight_storage, weight_layout) = weight.storage_and_layout();
+            let (y_storage, y_layout) = y_gradient.storage_and_layout();
+            geometry.backward(
+                contiguous_slice(cpu_storage(&x_storage)?, x_layout)?,
+                contiguous_slice(cpu_storage(&weight_storage)?, weight_layout)?,
+                contiguous_slice(cpu_storage(&y_storage)?, y_layout)?,
+                x.track_op(),
+                weight.track_op() || bias.track_op(),
+            )
+        };
+        let tensor = |gradient: Option<Vec<f32>>, like: &Tensor| {
+            let wanted = gradient.filter(|_| like.track_op());
+            wanted.map(|gradient| Tensor::from_vec(gradient, like.shape(), like.device())).transpose()
+        };
+        Ok((tensor(gradients.x, x)?, tensor(gradients.weight, weight)?, tensor(gradients.bias, bias)?))
+    }
+}
+
+fn cpu_storage(storage: &Storage) -> Result<&CpuStorage> {
+    match storage {
+        Storage::Cpu(storage) => Ok(storage),
+        _ => candle_core::bail!("convolution is implemented for the CPU only"),
+    }
+}
+
+fn contiguous_slice<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
+    let (start, end) =
+        layout.contiguous_offsets().ok_or_else(|| Error::RequiresContiguous { op: "convolution" }.bt())?;
+    Ok(&storage.as_slice::<f32>()?[start..end])
+}
+
+/// The sizes that belong to one call, with shapes that were found to fit together.
+#[derive(Clone, Copy)]
+struct Geometry {
+    convolution: Convolution,
+    batch: usize,
+    height: usize,
+    width: usize,
+    channels_in: usize,
+    height_out: usize,
+    width_out: usize,
+    channels_out: usize,
+}
+
+struct Gradients {
+    x: Option<Vec<f32>>,
+    weight: Option<Vec<f32>>,
+    bias: Option<Vec<f32>>,
+}
+
+/// Buffers for one image, kept per thread: allocating them anew for each call costs page faults.
+#[derive(Default)]
+struct Scratch {
+    /// An image with its padding, `[height + 2·padding, width + 2·padding, channels_in]`.
+    padded: Vec<f32>,
+    /// im2col's matrix, `[height_out·width_out, kernel·kernel·channels_in]`.
+    columns: Vec<f32>,
+}
+
+thread_local! {
+    static SCRATCH: RefCell<Scratch> = RefCell::default();
+}
+
+impl Geometry {
+    fn new(convolution: Convolution, x: &Shape, weight: &Shape, bias: &Shape) -> Result<Self> {
+        let Convolution { kernel, stride, padding, .. } = convolution;
+        if kernel == 0 || stride == 0 {
+            candle_core::bail!("convolution: kernel {kernel} and stride {stride} must be positive");
+        }
+        let (batch, height, width, channels_in) = x.dims4()?;
+        let (_, channels_out) = weight.dims2()?;
+        let expect = |name: &str, shape: &Shape, expected: Shape| {
+            if *shape == expected {
+                return Ok(());
+            }
+            let msg = format!("convolution: {name} does not fit the input {x:?} and {convolution:?}");
+            Err(Error::UnexpectedShape { msg, expected, got: shape.clone() }.bt())
+        };
+        expect("weight", weight, Shape::from((kernel * kernel * channels_in, channels_out)))?;
+        expect("bias", bias, Shape::from(channels_out))?;
+        let side_out = |side: usize| (side + 2 * padding).checked_sub(kernel).map(|rest| rest / stride + 1);
+        let (Some(height_out), Some(width_out)) = (side_out(height), side_out(width)) else {
+            candle_core::bail!("convolution: the input {x:?} is smaller than the kernel of {convolution:?}");
+        };
+        Ok(Self { convolution, batch, height, width, channels_in, height_out, width_out, channels_out })
+    }
+
+    fn output_shape(&self) -> Shape {
+        Shape::from((self.batch, self.height_out, self.width_out, self.channels_out))
+    }
+
+    fn padded_width(&self) -> usize {
+        self.width + 2 * self.convolution.padding
+    }
+
+    fn padded_len(&self) -> usize {
+        (self.height + 2 * self.convolution.padding) * self.padded_width() * self.channels_in
+    }
+
+    fn image_len(&self) -> usize {
+        self.height * self.width * self.channels_in
+    }
+
+    fn pixels_out(&self) -> usize {
+        self.height_out * self.width_out
+    }
+
+    /// Number of inputs to one output: the rows of the weight matrix.
+    fn window_len(&self) -> usize {
+        self.convolution.kernel * self.convolution.kernel * self.channels_in
+    }
+
+    /// Whether a tensor without elements makes the work (and chunks of length zero) pointless.
+    fn is_empty(&self) -> bool {
+        self.batch * self.image_len() * self.channels_out == 0
+    }
+
+    fn multiply_adds(&self) -> usize {
+        self.batch * self.pixels_out() * self.window_len() * self.channels_out
+    }
+
+    /// Images in each part of the batch but the last.
+    fn images_per_part(&self) -> usize {
+        self.batch.div_ceil(BATCH_PARTS).max(1)
+    }
+
+    fn forward(&self, x: &[f32], weight: &[f32], bias: &[f32]) -> Vec<f32> {
+        let mut y = bias.repeat(self.batch * self.pixels_out());
+        if self.is_empty() {
+            return y;
+        }
+        let images_per_part = self.images_per_part();
+        let x_parts = x.chunks(images_per_part * self.image_len());
+        let y_parts = y.chunks_mut(images_per_part * self.pixels_out() * self.channels_out);
+        for_each_part(x_parts.zip(y_parts).collect(), self.multiply_adds(), |(x, y), scratch| {
+            let y_images = y.chunks_exact_mut(self.pixels_out() * self.channels_out);
+            for (x, y) in x.chunks_exact(self.image_len()).zip(y_images) {
+                self.im2col(x, scratch);
+                let columns = Matrix::new(&scratch.columns, self.pixels_out(), self.window_len());
+                multiply(y, true, columns, Matrix::new(weight, self.window_len(), self.channels_out));
+            }
+        });
+        y
+    }
+
+    /// The gradients of a loss whose gradient with respect to the output is `y_gradient`; that of `x` and those of the
+    /// parameters only where wanted.
+    fn backward(
+        &self,
+        x: &[f32],
+        weight: &[f32],
+        y_gradient: &[f32],
+        x_wanted: bool,
+        parameters_wanted: bool,
+    ) -> Gradients {
+        let (window_len, channels_out) = (self.window_len(), self.channels_out);
+        let weight_len = window_len * channels_out;
+        let mut x_gradient = vec![0.0; if x_wanted { x.len() } else { 0 }];
+        // One row per part of the batch: its sum of weight gradients, then of bias gradients.
+        let part_len = if parameters_wanted { weight_len + channels_out } else { 0 };
+        let images_per_part = self.images_per_part();
+        let parts = if self.is_empty() { 0 } else { self.batch.div_ceil(images_per_part) };
+        let mut part_sums = vec![0.0; parts.max(1) * part_len];
+        if parts > 0 {
+            let transposed_weight = if x_wanted { transpose(weight, window_len, channels_out) } else { Vec::new() };
+            let transposed_weight = &transposed_weight[..];
+            // Both yield nothing where no gradient is wanted, as their vectors are empty.
+            let mut x_gradients = x_gradient.chunks_mut(images_per_part * self.image_len());
+            let mut sums = part_sums.chunks_mut(part_len.max(1));
+            let tasks = x
+                .chunks(images_per_part * self.image_len())
+                .zip(y_gradient.chunks(images_per_part * self.pixels_out() * channels_out))
+                .map(|(x, y_gradient)| BackwardPart {
+                    x,
+                    y_gradient,
+                    x_gradient: x_gradients.next(),
+                    sums: sums.next(),
+                })
+                .collect();
+            for_each_part(tasks, 2 * self.multiply_adds(), |part, scratch| {
+                self.backward_part(part, transposed_weight, scratch);
+            });
+        }
+        let parameters = parameters_wanted.then(|| {
+            let mut sums = part_sums.chunks_exact(part_len.max(1));
+            let mut total = sums.next().unwrap_or_default().to_vec();
+            sums.for_each(|part| add_to(&mut total, part));
+            let bias = total.split_off(weight_len);
+            (total, bias)
+        });
+        let (weight, bias) = parameters.unzip();
+        Gradients { x: x_wanted.then_some(x_gradient), weight, bias }
+    }
+
+    fn backward_part(&self, part: BackwardPart, transposed_weight: &[f32], scratch: &mut Scratch) {
+        let BackwardPart { x, y_gradient, mut x_gradient, mut sums } = part;
+        let (window_len, channels_out) = (self.window_len(), self.channels_out);
+        let images = x.chunks_exact(self.image_len()).zip(y_gradient.chunks_exact(self.pixels_out() * channels_out));
+        for (index, (x, y_gradient)) in images.enumerate() {
+            let y_matrix = Matrix::new(y_gradient, self.pixels_out(), channels_out);
+            if let Some(sums) = &mut sums {
+                let (weight_sum, bias_sum) = sums.split_at_mut(window_len * channels_out);
+                y_gradient.chunks_exact(channels_out).for_each(|pixel| add_to(bias_sum, pixel));
+                self.im2col(x, scratch);
+                let columns = Matrix::new(&scratch.columns, self.pixels_out(), window_len);
+                multiply(weight_sum, true, columns.transposed(), y_matrix);
+            }
+            if let Some(x_gradient) = &mut x_gradient {
+                scratch.columns.resize(self.pixels_out() * window_len, 0.0);
+                let transposed_weight = Matrix::new(transposed_weight, channels_out, window_len);
+                multiply(&mut scratch.columns, false, y_matrix, transposed_weight);
+                let image = index * self.image_len()..(index + 1) * self.image_len();
+                self.col2im(x, &mut x_gradient[image], scratch);
+            }
+        }
+    }
+
+    /// The part of the padded image that window `(i, j)` covers in its row `di`.
+    fn window_row(&self, i: usize, j: usize, di: usize) -> Range<usize> {
+        let Convolution { kernel, stride, .. } = self.convolution;
+        let start = ((i * stride + di) * self.padded_width() + j * stride) * self.channels_in;
+        start..start + kernel * self.channels_in
+    }
+
+    /// The part of the padded image that holds row `i` of the image.
+    fn inner_row(&self, i: usize) -> Range<usize> {
+        let padding = self.convolution.padding;
+        let start = ((i + padding) * self.padded_width() + padding) * self.channels_in;
+        start..start + self.width * self.channels_in
+    }
+
+    /// Fills `scratch.columns` with the windows of the image `x`, rectified if asked for, one window a row.
+    fn im2col(&self, x: &[f32], scratch: &mut Scratch) {
+        let Convolution { kernel, padding, rectify_input, .. } = self.convolution;
+        // A padded and rectified copy (in L1) lets the windows, which overlap, be plain copies without a branch.
+        let padded = if padding == 0 && !rectify_input {
+            x
+        } else {
+            scratch.padded.clear();
+            scratch.padded.resize(self.padded_len(), 0.0);
+            for (i, row) in x.chunks_exact(self.width * self.channels_in).enumerate() {
+                let padded_row = &mut scratch.padded[self.inner_row(i)];
+                if rectify_input {
+                    // Written so that a NaN stays a NaN, which `max` would hide.
+                    padded_row.iter_mut().zip(row).for_each(|(to, &from)| *to = if from < 0.0 { 0.0 } else { from });
+                } else {
+                    padded_row.copy_from_slice(row);
+                }
+            }
+            &scratch.padded
+        };
+        scratch.columns.resize(self.pixels_out() * self.window_len(), 0.0);
+        let mut runs = scratch.columns.chunks_exact_mut(kernel * self.channels_in);
+        for i in 0..self.height_out {
+            for j in 0..self.width_out {
+                for (di, run) in (0..kernel).zip(&mut runs) {
+                    run.copy_from_slice(&padded[self.window_row(i, j, di)]);
+                }
+            }
+        }
+    }
+
+    /// Adds up the gradients of windows in `scratch.columns` to the gradient of the image `x`.
+    fn col2im(&self, x: &[f32], x_gradient: &mut [f32], scratch: &mut Scratch) {
+        let Convolution { kernel, rectify_input, .. } = self.convolution;
+        scratch.padded.clear();
+        scratch.padded.resize(self.padded_len(), 0.0);
+        let mut runs = scratch.columns.chunks_exact(kernel * self.channels_in);
+        for i in 0..self.height_out {
+            for j in 0..self.width_out {
+                for (di, run) in (0..kernel).zip(&mut runs) {
+                    add_to(&mut scratch.padded[self.window_row(i, j, di)], run);
+                }
+            }
+        }
+        let row_len = self.width * self.channels_in;
+        for (i, (x, x_gradient)) in x.chunks_exact(row_len).zip(x_gradient.chunks_exact_mut(row_len)).enumerate() {
+            let sums = &scratch.padded[self.inner_row(i)];
+            if rectify_input {
+                for ((to, &sum), &x) in x_gradient.iter_mut().zip(sums).zip(x) {
+                    *to = if x <= 0.0 { 0.0 } else { sum };
+                }
+            } else {
+                x_gradient.copy_from_slice(sums);
+            }
+        }
+    }
+}
+
+/// What the backward pass reads and writes for some images of the batch.
+struct BackwardPart<'a> {
+    x: &'a [f32],
+    y_gradient: &'a [f32],
+    x_gradient: Option<&'a mut [f32]>,
+    sums: Option<&'a mut [f32]>,
+}
+
+/// Runs `task` on each part with the thread's scratch buffers, on the current rayon pool if the work is worth it.
+fn for_each_part<T: Send>(parts: Vec<T>, multiply_adds: usize, task: impl Fn(T, &mut Scratch) + Sync) {
+    let task = |part| SCRATCH.with_borrow_mut(|scratch| task(part, scratch));
+    if parts.len() < 2 || multiply_adds < PARALLEL_THRESHOLD {
+        parts.into_iter().for_each(task);
+    } else {
+        parts.into_par_iter().for_each(task);
+    }
+}
+
+fn add_to(sum: &mut [f32], term: &[f32]) {
+    sum.iter_mut().zip(term).for_each(|(sum, term)| *sum += term);
+}
+
+fn transpose(matrix: &[f32], rows: usize, columns: usize) -> Vec<f32> {
+    (0..columns).flat_map(|column| (0..rows).map(move |row| matrix[row * columns + column])).collect()
+}
+
+/// A dense matrix, as it lies in memory or transposed.
+#[derive(Clone, Copy)]
+struct Matrix<'a> {
+    data: &'a [f32],
+    rows: usize,
+    columns: usize,
+    row_stride: usize,
+    column_stride: usize,
+}
+
+impl<'a> Matrix<'a> {
+    fn new(data: &'a [f32], rows: usize, columns: usize) -> Self {
+        assert_eq!(data.len(), rows * columns);
+        Self { data, rows, columns, row_stride: columns, column_stride: 1 }
+    }
+
+    fn transposed(self) -> Self {
+        Self {
+            data: self.data,
+            rows: self.columns,
+            columns: self.rows,
+            row_stride: self.column_stride,
+            column_stride: self.row_stride,
+        }
+    }
+}
+
+/// Sets the row-major matrix `product` to `left · right`, or with `add` adds that to it, on the calling thread.
+fn multiply(product: &mut [f32], add: bool, left: Matrix, right: Matrix) {
+    assert_eq!(left.columns, right.rows);
+    assert_eq!(product.len(), left.rows * right.columns);
+    // SAFETY: a `Matrix` has `rows · columns` elements at its strides, and `product` has as many as were just checked.
+    unsafe {
+        gemm::gemm(
+            left.rows,
+            right.columns,
+            left.columns,
+            product.as_mut_ptr(),
+            1,
+            right.columns as isize,
+            add,
+            left.data.as_ptr(),
+            left.column_stride as isize,
+            left.row_stride as isize,
+            right.data.as_ptr(),
+            right.column_stride as isize,
+            right.row_stride as isize,
+            1.0,
+            1.0,
+            false,
+            false,
+            false,
+            gemm::Parallelism::None,
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use candle_core::{Device, Var};
+
+    use super::*;
+
+    const CASES: [(Convolution, [usize; 4], usize); 9] = [
+        (convolution(7, 7, 0, false), [3, 84, 84, 1], 32),
+        (convolution(7, 7, 0, false), [2, 84, 84, 2], 32),
+        (convolution(3, 1, 1, true), [5, 12, 12, 32], 32),
+        (convolution(3, 2, 1, false), [35, 12, 12, 32], 32),
+        (convolution(3, 1, 1, true), [35, 6, 6, 32], 32),
+        (convolution(3, 2, 0, true), [4, 8, 9, 3], 5),
+        (convolution(1, 1, 0, false), [2, 5, 4, 3], 1),
+        (convolution(2, 1, 3, true), [1, 4, 5, 2], 7),
+        (convolution(4, 3, 2, false), [17, 7, 10, 3], 4),
+    ];
+
+    const fn convolution(kernel: usize, stride: usize, padding: usize, rectify_input: bool) -> Convolution {
+        Convolution { kernel, stride, padding, rectify_input }
+    }
+
+    fn arguments(convolution: Convolution, shape: [usize; 4], channels_out: usize) -> Result<[Var; 3]> {
+        let window_len = convolution.kernel * convolution.kernel * shape[3];
+        let scale = 1.0 / (window_len as f32).sqrt();
+        Ok([
+            Var::randn(0f32, 1.0, &shape, &Device::Cpu)?,
+            Var::randn(0f32, scale, (window_len, channels_out), &Device::Cpu)?,
+            Var::randn(0f32, 1.0, channels_out, &Device::Cpu)?,
+        ])
+    }
+
+    /// The same convolution from candle's own operations.
+    fn reference(convolution: Convolution, x: &Tensor, weight: &Tensor, bias: &Tensor) -> Result<Tensor> {
+        let Convolution { kernel, stride, padding, rectify_input } = convolution;
+        let (channels_in, channels_out) = (x.dim(3)?, weight.dim(1)?);
+        let x = if rectify_input { x.relu()? } else { x.clone() };
+        // Candle's backward pass needs as many unused rows as columns; without padding there need be none.
+        let used = |side: usize| if padding == 0 { (side - kernel) / stride * stride + kernel } else { side };
+        let x = x.narrow(1, 0, used(x.dim(1)?))?.narrow(2, 0, used(x.dim(2)?))?;
+        let weight =
+            weight.reshape((kernel, kernel, channels_in, channels_out))?.permute((3, 2, 0, 1))?.contiguous()?;
+        let y = x.permute((0, 3, 1, 2))?.contiguous()?.conv2d(&weight, padding, stride, 1, 1)?;
+        y.permute((0, 2, 3, 1))?.contiguous()?.broadcast_add(bias)
+    }
+
+    fn assert_close(actual: &Tensor, expected: &Tensor) -> Result<()> {
+        assert_eq!(actual.dims(), expected.dims());
+        let difference = (actual - expected)?.abs()?.flatten_all()?.max(0)?.to_scalar::<f32>()?;
+        let magnitude = expected.abs()?.flatten_all()?.max(0)?.to_scalar::<f32>()?;
+        assert!(difference <= 2e-5 * magnitude.max(1.0), "differs by {difference} where the largest is {magnitude}");
+        Ok(())
+    }
+
+    fn bits(tensor: &Tensor) -> Result<Vec<u32>> {
+        Ok(tensor.flatten_all()?.to_vec1::<f32>()?.into_iter().map(f32::to_bits).collect())
+    }
+
+    /// A loss whose gradient with respect to `y` is not constant.
+    fn loss(y: &Tensor) -> Result<Tensor> {
+        (y.sqr()? + y)?.sum_all()
+    }
+
+    #[test]
+    fn agrees_with_candle() -> Result<()> {
+        for (convolution, shape, channels_out) in CASES {
+            let [x, weight, bias] = arguments(convolution, shape, channels_out)?;
+            let actual = convolution.forward(&x, &weight, &bias)?;
+            let expected = reference(convolution, &x, &weight, &bias)?;
+            assert_close(&actual, &expected)?;
+            let actual = loss(&actual)?.backward()?;
+            let expected = loss(&expected)?.backward()?;
+            for argument in [&x, &weight, &bias] {
+                assert_close(actual.get(argument).unwrap(), expected.get(argument).unwrap())?;
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn accepts_strided_arguments() -> Result<()> {
+        let convolution = convolution(3, 1, 1, true);
+        let x = Var::randn(0f32, 1.0, (2, 4, 6, 5), &Device::Cpu)?;
+        let weight = Var::randn(0f32, 1.0, (3, 36), &Device::Cpu)?;
+        let bias = Var::randn(0f32, 1.0, 6, &Device::Cpu)?;
+        let [x_view, weight_view, bias_view] = [x.permute((0, 2, 3, 1))?, weight.t()?, bias.narrow(0, 2, 3)?];
+        let actual = convolution.forward(&x_view, &weight_view, &bias_view)?;
+        let expected = reference(convolution, &x_view, &weight_view, &bias_view)?;
+        assert_close(&actual, &expected)?;
+        let actual = loss(&actual)?.backward()?;
+        let expected = loss(&expected)?.backward()?;
+        for argument in [&x, &weight, &bias] {
+            assert_close(actual.get(argument).unwrap(), expected.get(argument).unwrap())?;
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn is_the_same_to_the_bit_for_any_number_of_threads() -> Result<()> {
+        for (convolution, shape, channels_out) in CASES {
+            let arguments = arguments(convolution, shape, channels_out)?;
+            let run = |threads: usize| -> Result<Vec<Vec<u32>>> {
+                let [x, weight, bias] = &arguments;
+                rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+                    let y = convolution.forward(x, weight, bias)?;
+                    let gradients = loss(&y)?.backward()?;
+                    let gradients = arguments.iter().map(|argument| bits(gradients.get(argument).unwrap()));
+                    std::iter::once(bits(&y)).chain(gradients).collect()
+                })
+            };
+            let expected = run(1)?;
+            assert!((0..4).all(|_| run(2).unwrap() == expected), "{convolution:?} on {shape:?}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_batch_is_the_same_to_the_bit_as_its_images() -> Result<()> {
+        for (convolution, shape, channels_out) in CASES {
+            let [x, weight, bias] = arguments(convolution, shape, channels_out)?;
+            let together = convolution.forward(&x, &weight, &bias)?;
+            for image in 0..shape[0] {
+                let alone = convolution.forward(&x.narrow(0, image, 1)?, &weight, &bias)?;
+                assert_eq!(bits(&alone)?, bits(&together.narrow(0, image, 1)?)?);
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn only_tracked_arguments_get_a_gradient() -> Result<()> {
+        let convolution = convolution(3, 1, 1, true);
+        let [x, weight, bias] = arguments(convolution, [2, 5, 5, 3], 4)?;
+        let expected = loss(&convolution.forward(&x, &weight, &bias)?)?.backward()?;
+        for tracked in [[false, true, true], [true, false, false], [false, false, true]] {
+            let arguments = [&x, &weight, &bias].map(|argument| argument.as_tensor());
+            let detached =
+                std::array::from_fn(|i| if tracked[i] { arguments[i].clone() } else { arguments[i].detach() });
+            let [x, weight, bias]: [Tensor; 3] = detached;
+            let gradients = loss(&convolution.forward(&x, &weight, &bias)?)?.backward()?;
+            for (i, argument) in [x, weight, bias].iter().enumerate() {
+                let expected = tracked[i].then(|| bits(expected.get(arguments[i]).unwrap()).unwrap());
+                assert_eq!(gradients.get(argument).map(|gradient| bits(gradient).unwrap()), expected);
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn an_empty_batch_is_no_error() -> Result<()> {
+        let convolution = convolution(3, 1, 1, false);
+        let [_, weight, bias] = arguments(convolution, [1, 5, 5, 3], 4)?;
+        let x = Var::zeros((0, 5, 5, 3), candle_core::DType::F32, &Device::Cpu)?;
+        let y = convolution.forward(&x, &weight, &bias)?;
+        assert_eq!(y.dims(), [0, 5, 5, 4]);
+        let gradients = y.sum_all()?.backward()?;
+        assert_eq!(bits(gradients.get(&bias).unwrap())?, [0; 4]);
+        assert_eq!(bits(gradients.get(&weight).unwrap())?, [0; 108]);
+        Ok(())
+    }
+
+    #[test]
+    fn keeps_not_a_number() -> Result<()> {
+        let convolution = convolution(1, 1, 0, true);
+        let x = Tensor::new(&[f32::NAN, -1.0, 2.0], &Device::Cpu)?.reshape((1, 1, 3, 1))?;
+        let one = Tensor::ones((1, 1), candle_core::DType::F32, &Device::Cpu)?;
+        let y = convolution.forward(&x, &one, &one.flatten_all()?)?.flatten_all()?.to_vec1::<f32>()?;
+        assert!(y[0].is_nan());
+        assert_eq!(y[1..], [1.0, 3.0]);
+        Ok(())
+    }
+
+    #[test]
+    fn refuses_shapes_that_do_not_fit() -> Result<()> {
+        let zeros = |shape: &[usize]| Tensor::zeros(shape, candle_core::DType::F32, &Device::Cpu);
+        let three = convolution(3, 1, 0, false);
+        let cases = [
+            (three, &[5, 5, 2][..], &[18, 4][..], &[4], "[5, 5, 2]"),
+            (three, &[1, 5, 5, 2], &[17, 4], &[4], "[17, 4]"),
+            (three, &[1, 5, 5, 2], &[18], &[4], "[18]"),
+            (three, &[1, 5, 5, 2], &[18, 4], &[3], "[3]"),
+            (three, &[1, 5, 2, 2], &[18, 4], &[4], "[1, 5, 2, 2]"),
+            (convolution(3, 0, 0, false), &[1, 5, 5, 2], &[18, 4], &[4], "stride 0"),
+            (convolution(0, 1, 0, false), &[1, 5, 5, 2], &[0, 4], &[4], "kernel 0"),
+        ];
+        for (convolution, x, weight, bias, named) in cases {
+            let error = convolution.forward(&zeros(x)?, &zeros(weight)?, &zeros(bias)?).unwrap_err().to_string();
+            assert!(error.contains(named), "{error:?} does not name {named}");
+        }
+        let double = |shape: &[usize]| Tensor::zeros(shape, candle_core::DType::F64, &Device::Cpu);
+        assert!(three.forward(&double(&[1, 5, 5, 2])?, &double(&[18, 4])?, &double(&[4])?).is_err());
+        Ok(())
+    }
+}

@@ -1,0 +1,230 @@
+//! A policy's file: safetensors whose metadata hold the manifest.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use candle_core::{Device, Tensor};
+use rust_embed::RustEmbed;
+use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use serde::{Deserialize, Serialize};
+
+use super::network::{Architecture, Network, TensorSpec};
+use super::{OBSERVATION_SIZE_PX, Policy};
+
+/// Key of the manifest in the metadata.
+const KEY: &str = "ferry";
+/// Layout of the manifest and meaning of the outputs.
+const VERSION: u32 = 1;
+/// A larger file is no policy.
+const BYTES_MOST: u64 = 16 << 20;
+
+#[derive(RustEmbed)]
+#[folder = "assets/policies"]
+#[include = "*.safetensors"]
+struct Assets;
+
+/// Where a policy comes from and what it fits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Layout of this manifest, 1.
+    pub version: u32,
+    /// Maps that it was trained on.
+    pub maps: Vec<String>,
+    /// Length of a step.
+    pub step_m: f64,
+    /// Shape of the observation, 2 × 84 × 84.
+    pub observation: [usize; 3],
+    /// Parts of the network.
+    pub architecture: Architecture,
+    /// Distance from walls at which training ended an episode.
+    pub clearance_m: f64,
+    /// Training's seed.
+    pub seed: u64,
+    /// Git revision of the program that trained it.
+    pub revision: String,
+    /// Updates of the weights.
+    pub updates: u64,
+}
+
+impl Manifest {
+    /// A manifest of this version's layout.
+    pub fn current() -> (u32, [usize; 3]) {
+        (VERSION, [2, OBSERVATION_SIZE_PX, OBSERVATION_SIZE_PX])
+    }
+}
+
+/// Why a policy is refused, or gives no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum PolicyError {
+    /// No policy of that name.
+    #[error("policy: there is no policy named {name:?}; there are {}", known.join(", "))]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// Those that exist.
+        known: Vec<String>,
+    },
+    /// The file could not be read.
+    #[error("policy: {path}: {error}")]
+    Io {
+        /// The file.
+        path: String,
+        /// What the system said.
+        error: std::io::Error,
+    },
+    /// Larger than a policy can be.
+    #[error("policy: the file has {bytes} bytes, the limit is {BYTES_MOST}")]
+    TooLarge {
+        /// Bytes of the file.
+        bytes: u64,
+    },
+    /// Not safetensors.
+    #[error("policy: not a safetensors file: {0}")]
+    Format(#[from] safetensors::SafeTensorError),
+    /// The manifest is missing or wrong.
+    #[error("policy: manifest: {0}")]
+    Manifest(String),
+    /// A tensor is missing.
+    #[error("policy: tensor {name:?} is missing")]
+    Missing {
+        /// Its name.
+        name: String,
+    },
+    /// A tensor does not fit the observation or the network.
+    #[error("policy: tensor {name:?} is {found:?}, the observation and the network need {needed:?} of f32")]
+    Shape {
+        /// Its name.
+        name: String,
+        /// Shape and type found.
+        found: String,
+        /// Shape needed.
+        needed: Vec<usize>,
+    },
+    /// A tensor that the network does not have.
+    #[error("policy: tensor {name:?} belongs to no part of the network")]
+    Stray {
+        /// Its name.
+        name: String,
+    },
+    /// A number in a tensor is not finite.
+    #[error("policy: tensor {name:?} holds {value}")]
+    NotFinite {
+        /// Its name.
+        name: String,
+        /// The number.
+        value: f32,
+    },
+    /// The network gave no answer.
+    #[error("policy: {0}")]
+    Network(#[from] candle_core::Error),
+}
+
+impl Policy {
+    /// Names of the shipped policies.
+    pub fn shipped_names() -> Vec<String> {
+        let names = Assets::iter().filter_map(|file| file.strip_suffix(".safetensors").map(str::to_owned));
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    /// A shipped policy; each is read once.
+    ///
+    /// # Errors
+    /// [`PolicyError::Unknown`].
+    pub fn shipped(name: &str) -> Result<Arc<Self>, PolicyError> {
+        static READ: OnceLock<HashMap<String, Arc<Policy>>> = OnceLock::new();
+        let read = READ.get_or_init(|| {
+            let read = |name: String| {
+                let file = Assets::get(&format!("{name}.safetensors")).expect("a listed asset exists");
+                let policy = Self::from_bytes(&file.data).expect("shipped policies are whole: a test reads them");
+                (name, Arc::new(policy))
+            };
+            Self::shipped_names().into_iter().map(read).collect()
+        });
+        let found = read.get(name).cloned();
+        found.ok_or_else(|| PolicyError::Unknown { name: name.to_owned(), known: Self::shipped_names() })
+    }
+
+    /// Reads a policy's file.
+    ///
+    /// # Errors
+    /// [`PolicyError`]; nothing of a file over 16 MiB is read.
+    pub fn open(path: &Path) -> Result<Self, PolicyError> {
+        let io = |error| PolicyError::Io { path: path.display().to_string(), error };
+        let bytes = std::fs::metadata(path).map_err(io)?.len();
+        if bytes > BYTES_MOST {
+            return Err(PolicyError::TooLarge { bytes });
+        }
+        Self::from_bytes(&std::fs::read(path).map_err(io)?)
+    }
+
+    /// Reads a policy; what does not fit is refused with the tensor named.
+    ///
+    /// # Errors
+    /// [`PolicyError`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, PolicyError> {
+        let file = SafeTensors::deserialize(bytes)?;
+        let (_, metadata) = SafeTensors::read_metadata(bytes)?;
+        let text = metadata.metadata().as_ref().and_then(|entries| entries.get(KEY));
+        let text = text.ok_or_else(|| PolicyError::Manifest(format!("the metadata have no {KEY:?}")))?;
+        let manifest: Manifest =
+            serde_json::from_str(text).map_err(|error| PolicyError::Manifest(error.to_string()))?;
+        let (version, observation) = Manifest::current();
+        if manifest.version != version {
+            let found = manifest.version;
+            return Err(PolicyError::Manifest(format!("version is {found}, this program reads {version}")));
+        }
+        if manifest.observation != observation {
+            let found = manifest.observation;
+            return Err(PolicyError::Manifest(format!("observation is {found:?}, this program has {observation:?}")));
+        }
+        if !(0.001..=0.1).contains(&manifest.step_m) {
+            return Err(PolicyError::Manifest(format!("step_m is {}, it must be .001 to .1", manifest.step_m)));
+        }
+        let specs = manifest.architecture.tensors();
+        if let Some(name) = file.names().into_iter().find(|name| specs.iter().all(|spec| spec.name != **name)) {
+            return Err(PolicyError::Stray { name: name.to_owned() });
+        }
+        let weights = specs.iter().map(|spec| Ok((spec.name.as_str(), read(&file, spec)?)));
+        let weights = weights.collect::<Result<HashMap<_, _>, PolicyError>>()?;
+        let network = Network::new(manifest.architecture, |name| Ok::<_, PolicyError>(weights[name].clone()))?;
+        Ok(Self { manifest, network: Arc::new(network), hash: xxhash_rust::xxh3::xxh3_64(bytes) })
+    }
+
+    /// The bytes of a policy's file. Of noisy layers only the means are kept: acting needs no more.
+    ///
+    /// # Errors
+    /// [`PolicyError::Format`].
+    pub fn to_bytes(manifest: &Manifest, weights: &[(TensorSpec, Vec<f32>)]) -> Result<Vec<u8>, PolicyError> {
+        let architecture = Architecture { noisy: false, ..manifest.architecture };
+        let kept: Vec<TensorSpec> = architecture.tensors();
+        let manifest = Manifest { architecture, ..manifest.clone() };
+        let text = serde_json::to_string(&manifest).map_err(|error| PolicyError::Manifest(error.to_string()))?;
+        let bytes_of = |values: &Vec<f32>| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
+        let wanted = weights.iter().filter(|(spec, _)| kept.iter().any(|known| known.name == spec.name));
+        let data: Vec<(&TensorSpec, Vec<u8>)> = wanted.map(|(spec, values)| (spec, bytes_of(values))).collect();
+        let views = data
+            .iter()
+            .map(|(spec, bytes)| Ok((&spec.name, TensorView::new(Dtype::F32, spec.shape.clone(), bytes)?)))
+            .collect::<Result<Vec<_>, safetensors::SafeTensorError>>()?;
+        Ok(safetensors::serialize(views, Some(HashMap::from([(KEY.to_owned(), text)])))?)
+    }
+}
+
+/// One weight of the file, checked.
+fn read(file: &SafeTensors<'_>, spec: &TensorSpec) -> Result<Tensor, PolicyError> {
+    let name = spec.name.clone();
+    let Ok(view) = file.tensor(&name) else { return Err(PolicyError::Missing { name }) };
+    if view.shape() != spec.shape || view.dtype() != Dtype::F32 {
+        let found = format!("{:?} of {:?}", view.shape(), view.dtype());
+        return Err(PolicyError::Shape { name, found, needed: spec.shape.clone() });
+    }
+    let values: Vec<f32> = view.data().chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+        return Err(PolicyError::NotFinite { name, value });
+    }
+    Ok(Tensor::from_vec(values, spec.shape.clone(), &Device::Cpu)?)
+}
