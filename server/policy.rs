@@ -2,6 +2,7 @@
 
 mod convolution;
 mod file;
+mod modulation;
 mod network;
 
 use std::sync::Arc;

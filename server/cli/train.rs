@@ -100,7 +100,7 @@ fn round(
     let begun = (Instant::now(), state.steps, state.memory.updates);
     let mut kept = Instant::now();
     let mut failure = None;
-    state.run(terrains, &mut |state| {
+    let mut watch = |state: &State| {
         let elapsed_s = begun.0.elapsed().as_secs_f64();
         curve.time(elapsed_s);
         let rate = |now: u64, then: u64| (now - then) as f64 / elapsed_s;
@@ -111,7 +111,8 @@ fn round(
             kept = Instant::now();
         }
         failure.is_none()
-    })?;
+    };
+    state.run(terrains, &mut watch)?;
     if let Some(failure) = failure {
         return Err(failure.into());
     }

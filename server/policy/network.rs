@@ -9,6 +9,7 @@ use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
 use super::convolution::Convolution;
+use super::modulation::modulate;
 
 /// Width of every fully connected layer.
 pub const HIDDEN: usize = 128;
@@ -20,6 +21,8 @@ const LAST_SIDE: usize = 6;
 const COSINES: usize = 64;
 /// Octaves that a place is embedded by.
 const OCTAVES: usize = 4;
+/// Parts that the rows of a large product are cut into.
+const ROW_PARTS: usize = 16;
 /// A place's embedding: the four numbers, and their sines and cosines.
 const PLACE: usize = 4 * (1 + 2 * OCTAVES);
 /// σ0 of the noisy layers (Fortunato et al. 2018, §3.2).
@@ -158,17 +161,36 @@ struct Linear {
     sigma: Option<(Tensor, Tensor)>,
 }
 
+/// Whether a layer takes negative inputs as zero: the ReLU before it costs no pass of its own.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Input {
+    AsItIs,
+    Rectified,
+}
+
 impl Linear {
-    fn forward(&self, x: &Tensor, noise: Option<&LayerNoise>) -> Result<Tensor> {
+    /// `[M, inputs]` → `[M, outputs]`.
+    fn forward(&self, x: &Tensor, input: Input, noise: Option<&LayerNoise>) -> Result<Tensor> {
         match (&self.sigma, noise) {
             (Some((weight_sigma, bias_sigma)), Some(noise)) => {
                 let weight = (&self.weight + (weight_sigma * &noise.weight)?)?;
                 let bias = (&self.bias + (bias_sigma * &noise.bias)?)?;
-                x.matmul(&weight)?.broadcast_add(&bias)
+                pointwise(x, &weight, &bias, input)
             }
-            _ => x.matmul(&self.weight)?.broadcast_add(&self.bias),
+            _ => pointwise(x, &self.weight, &self.bias, input),
         }
     }
+}
+
+/// A linear layer as a convolution over single pixels, whose bias and ReLU and their gradients cost nothing: candle's
+/// own sum over the rows takes longer than the product.
+fn pointwise(x: &Tensor, weight: &Tensor, bias: &Tensor, input: Input) -> Result<Tensor> {
+    let (rows, inputs) = x.dims2()?;
+    // Rows in parts, which the thread pool shares.
+    let parts = if rows.is_multiple_of(ROW_PARTS) { ROW_PARTS } else { 1 };
+    let layer = Convolution { kernel: 1, stride: 1, padding: 0, rectify_input: input == Input::Rectified };
+    let y = layer.forward(&x.reshape((parts, rows / parts, 1, inputs))?, weight, bias)?;
+    y.reshape((rows, bias.elem_count()))
 }
 
 /// ε of one noisy layer.
@@ -285,9 +307,8 @@ impl Network {
         let x = block(&self.block1, &x)?;
         let x = conv(&self.reduce, &x, 3, 2, true)?;
         let x = block(&self.block2, &x)?;
-        let x = x.relu()?.flatten_from(1)?;
-        let x = self.features.forward(&x, None)?.relu()?;
-        self.join_features.forward(&x, None)
+        let x = self.features.forward(&x.flatten_from(1)?, Input::Rectified, None)?;
+        self.join_features.forward(&x, Input::Rectified, None)
     }
 
     /// Quantiles of the return: features `[B, 128]`, places `[B, G, 4]` of `G` goals (and tools) for each image, from 0
@@ -306,25 +327,24 @@ impl Network {
         let (batch, goals, _) = places.dims3()?;
         let mut state = features.unsqueeze(1)?;
         if let Some([embed, join]) = &self.place {
-            let embedded = embed.forward(&octaves(&places.reshape((batch * goals, 4))?)?, None)?.relu()?;
-            let joined = join.forward(&embedded, None)?.reshape((batch, goals, HIDDEN))?;
+            let octaves = octaves(&places.reshape((batch * goals, 4))?)?;
+            let embedded = embed.forward(&octaves, Input::AsItIs, None)?;
+            let joined = join.forward(&embedded, Input::Rectified, None)?.reshape((batch, goals, HIDDEN))?;
             state = joined.broadcast_add(&state)?;
         }
-        let state = state.relu()?;
         let (state, count) = match &self.fraction {
             Some(layer) => {
                 let count = fractions.dim(1)?;
-                let embedded = layer.forward(&cosines(&fractions.flatten_all()?)?, None)?.relu()?;
-                let embedded = embedded.reshape((batch, 1, count, HIDDEN))?;
-                (state.unsqueeze(2)?.broadcast_mul(&embedded)?, count)
+                let embedded = layer.forward(&cosines(&fractions.flatten_all()?)?, Input::AsItIs, None)?;
+                (modulate(&state, &embedded.reshape((batch, count, HIDDEN))?)?, count)
             }
-            None => (state, 1),
+            None => (state.relu()?, 1),
         };
         let flat = state.reshape((batch * goals * count, HIDDEN))?;
         let noise = |index: usize| noise.map(|Noise(layers)| &layers[index]);
         let stream = |layers: &[Linear; 2], first: usize| {
-            let hidden = layers[0].forward(&flat, noise(first))?.relu()?;
-            layers[1].forward(&hidden, noise(first + 1))
+            let hidden = layers[0].forward(&flat, Input::AsItIs, noise(first))?;
+            layers[1].forward(&hidden, Input::Rectified, noise(first + 1))
         };
         let advantage = stream(&self.advantage, 0)?;
         let out = match &self.value {
