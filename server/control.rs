@@ -77,6 +77,9 @@ pub enum Refusal {
         /// The limit.
         limit_m_s: f64,
     },
+    /// The policy gives no answer.
+    #[error("no policy: {0}")]
+    Policy(String),
     /// The planner searches; it goes on at the next control step.
     #[error("the planner searches: {attempts} edges tried")]
     Searching {

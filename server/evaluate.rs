@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
 use crate::control::switching::Mode;
 use crate::image::CameraFrame;
-use crate::scenario::Parameters;
-use crate::scenario::{ControllerName, Scenario};
+use crate::policy::Policy;
+use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{Arena, Phase, Source, TickRecord, Trial, TrialError};
 
 pub use figure::{FigureError, Trace};
@@ -33,6 +33,8 @@ pub struct Experiment {
     pub seed: u64,
     /// Parameters of all trials.
     pub parameters: Parameters,
+    /// A policy to use in place of the shipped ones.
+    pub policy: Option<Policy>,
 }
 
 /// One trial's result.
@@ -198,7 +200,10 @@ pub fn run(
     if !(1..=100_000).contains(&experiment.episodes) {
         return Err(EvaluateError::Episodes(experiment.episodes));
     }
-    let arena = Arena::open(&experiment.map)?;
+    let mut arena = Arena::open(&experiment.map)?;
+    if let Some(policy) = &experiment.policy {
+        arena = arena.with_policy(policy.clone());
+    }
     // A camera a worker: they are cheap beside the trials, and none waits for another.
     let cameras: Mutex<Vec<Camera>> = Mutex::new(Vec::new());
     (0..experiment.episodes)

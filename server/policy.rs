@@ -54,7 +54,7 @@ impl Action {
 }
 
 /// What the network makes of an observation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// `[4][K]`: the return's quantiles of each action, at the fractions (k + ½) / K.
     pub quantiles: [Vec<f32>; 4],

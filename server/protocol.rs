@@ -23,7 +23,7 @@ mod typescript;
 pub use layers::{BlocksLayer, FlowField, FlowQuery, PixelBlock, PlanLayer, SeenMessage};
 
 /// Raised when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 3;
+pub const PROTOCOL_VERSION: u32 = 4;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.

@@ -12,7 +12,7 @@ use crate::geometry::Point2;
 use crate::plant::PositionerKind;
 
 pub use disturbance::{Disturbance, DisturbanceError, SCRIPT_LIMIT, Scripted, When};
-pub use parameters::{AttractorLaw, ParameterError, Parameters, SwitchingLaw};
+pub use parameters::{AttractorLaw, ParameterError, Parameters, RlPolicy, SwitchingLaw};
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};
 
@@ -20,6 +20,8 @@ pub use shipped::{Shipped, ShippedError};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerName {
+    /// A trained Rainbow-IQN policy (paper, §IV-A).
+    Rl,
     /// Execution-extended rapidly exploring random trees (paper, §IV-C).
     Errt,
     /// Attractor dynamics (paper, §IV-B).
@@ -28,11 +30,12 @@ pub enum ControllerName {
 
 impl ControllerName {
     /// All that exist.
-    pub const ALL: [Self; 2] = [Self::Errt, Self::Attractor];
+    pub const ALL: [Self; 3] = [Self::Rl, Self::Errt, Self::Attractor];
 
     /// The name in files and commands.
     pub fn as_str(self) -> &'static str {
         match self {
+            Self::Rl => "rl",
             Self::Errt => "errt",
             Self::Attractor => "attractor",
         }

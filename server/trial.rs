@@ -21,8 +21,9 @@ use crate::geometry::{Point2, Point3, Vector2};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::perception::Percept;
 use crate::plant::{Plant, Positioner, PositionerKind};
+use crate::policy::{Policy, PolicyError};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, Scenario, start_point};
+use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, RlPolicy, Scenario, start_point};
 use crate::tracking::TrackerParameters;
 
 pub use disturb::Script;
@@ -79,12 +80,14 @@ pub enum TrialError {
 }
 
 /// A map made ready for trials; many trials share one.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Arena {
     /// Walls.
     pub map: Map,
     /// Free space that keeps [`CLEARANCE_M`].
     pub space: FreeSpace,
+    /// A policy to use in place of any shipped one.
+    pub policy: Option<Arc<Policy>>,
 }
 
 impl Arena {
@@ -96,7 +99,27 @@ impl Arena {
     /// Makes a map ready.
     pub fn of(map: Map) -> Arc<Self> {
         let space = FreeSpace::new(&map, CLEARANCE_M);
-        Arc::new(Self { map, space })
+        Arc::new(Self { map, space, policy: None })
+    }
+
+    /// The same with a policy of one's own.
+    pub fn with_policy(self: Arc<Self>, policy: Policy) -> Arc<Self> {
+        let mut arena = Arc::unwrap_or_clone(self);
+        arena.policy = Some(Arc::new(policy));
+        Arc::new(arena)
+    }
+
+    /// The policy in use: one's own, or the shipped one that is asked for.
+    pub fn policy(&self, asked: RlPolicy) -> Result<Arc<Policy>, PolicyError> {
+        if let Some(own) = &self.policy {
+            return Ok(own.clone());
+        }
+        let name = match asked {
+            RlPolicy::Auto if self.map.name() == "colon" => "colon",
+            RlPolicy::Colon => "colon",
+            RlPolicy::Auto | RlPolicy::General => "general",
+        };
+        Policy::shipped(name)
     }
 
     /// The last gate for every step in this map.

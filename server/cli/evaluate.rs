@@ -1,5 +1,6 @@
 //! `ferry evaluate`.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Context;
@@ -8,6 +9,7 @@ use serde::Serialize;
 
 use crate::evaluate::{Episode, Experiment, Row, run as run_experiment, summarize};
 use crate::map::Map;
+use crate::policy::Policy;
 use crate::scenario::{ControllerName, Parameters};
 
 /// Arguments of `ferry evaluate`.
@@ -31,6 +33,9 @@ pub struct Arguments {
     /// A parameter that is not to have its default, as in attractor_law=literal; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// A policy's file, in place of the shipped ones
+    #[arg(long)]
+    policy: Option<PathBuf>,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
@@ -45,6 +50,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let map = Map::open(&arguments.map)?;
     let gpu = super::open_gpu()?;
     let parameters = parameters_with(&Parameters::default(), &arguments.set)?;
+    let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
     let mut rows = Vec::new();
     for &controller in &arguments.controller {
         let experiment = Experiment {
@@ -54,6 +60,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             disturbances: arguments.disturbances,
             seed: arguments.seed,
             parameters: parameters.clone(),
+            policy: policy.clone(),
         };
         let bar = ProgressBar::new(u64::from(arguments.episodes))
             .with_style(ProgressStyle::with_template("{msg} {bar:30} {pos}/{len} {eta} left")?)

@@ -52,6 +52,14 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    // Candle's own threads wait by spinning, for operations that are not worth it, and take the cores from the others.
+    // SAFETY: a command's first act; no other thread runs yet that could read the environment.
+    unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
+    // Inside of the pool, sharing work out costs no change of threads.
+    rayon::ThreadPoolBuilder::new().build()?.install(|| train(arguments))
+}
+
+fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let recipe = if arguments.paper { Recipe::paper() } else { Recipe::default() };
     let recipe: Recipe = super::with_changes(&recipe, &arguments.set)?;
     recipe.check().context("--set")?;

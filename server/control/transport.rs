@@ -2,12 +2,15 @@
 
 pub mod attractor;
 pub mod errt;
+mod progress;
+pub mod rl;
 
 use serde::{Deserialize, Serialize};
 
 use super::{Refusal, TargetStep};
 use crate::geometry::Point2;
 use crate::perception::{ObstacleMap, Percept};
+use crate::policy::Policy;
 use crate::scenario::{ControllerName, Parameters};
 
 /// All that a transport may know at a control step.
@@ -23,6 +26,8 @@ pub struct TransportInput<'a> {
     pub goal_m: Point2<f64>,
     /// Parameters in force.
     pub parameters: &'a Parameters,
+    /// The policy in use; only [`rl::Rl`] asks for one.
+    pub policy: Option<&'a Policy>,
 }
 
 /// What keeps a transport from its goal, for the page and for the table of failures.
@@ -34,6 +39,8 @@ pub enum Trouble {
     Circling,
     /// The tool is inside of what it takes for an obstacle.
     InsideObstacle,
+    /// The step that is wanted is refused, again and again.
+    Refused,
     /// No way was found yet.
     Searching,
     /// No way leads to the goal.
@@ -46,6 +53,7 @@ impl std::fmt::Display for Trouble {
             Self::Saddle => "trapped where the flow stands still",
             Self::Circling => "moving without getting nearer",
             Self::InsideObstacle => "inside an obstacle",
+            Self::Refused => "standing before a step that is refused",
             Self::Searching => "no way found yet",
             Self::WalledOff => "walled off",
         })
@@ -67,6 +75,8 @@ pub trait Transport {
 /// A transport with its memory, so that a snapshot can hold it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Carrier {
+    /// Rainbow-IQN.
+    Rl(Box<rl::Rl>),
     /// ERRT.
     Errt(Box<errt::Errt>),
     /// Attractor dynamics.
@@ -77,6 +87,7 @@ impl Carrier {
     /// A fresh transport of this name; what it draws at random comes from the seed.
     pub fn new(name: ControllerName, seed: u64) -> Self {
         match name {
+            ControllerName::Rl => Self::Rl(Box::default()),
             ControllerName::Errt => Self::Errt(Box::new(errt::Errt::new(seed))),
             ControllerName::Attractor => Self::Attractor(attractor::Attractor::default()),
         }
@@ -85,6 +96,7 @@ impl Carrier {
     /// See [`Transport::trouble`].
     pub fn trouble(&self) -> Option<Trouble> {
         match self {
+            Self::Rl(rl) => rl.trouble(),
             Self::Errt(errt) => errt.trouble(),
             Self::Attractor(attractor) => attractor.trouble(),
         }
@@ -93,6 +105,7 @@ impl Carrier {
     /// The transport inside.
     pub fn transport(&mut self) -> &mut dyn Transport {
         match self {
+            Self::Rl(rl) => rl.as_mut(),
             Self::Errt(errt) => errt.as_mut(),
             Self::Attractor(attractor) => attractor,
         }

@@ -184,7 +184,7 @@ impl From<&View> for OverlayMessage {
         let (tick, sight) = &*view.sight;
         let sensed = match &sight.carrier {
             Carrier::Attractor(attractor) => attractor.sensed(),
-            Carrier::Errt(_) => &[],
+            Carrier::Rl(_) | Carrier::Errt(_) => &[],
         };
         let obstacles = sensed.iter().map(|o| SensedObstacle {
             center_m: o.center_m.coords.into(),
@@ -205,7 +205,7 @@ impl From<&View> for OverlayMessage {
             blocks: BlocksLayer::from(sight),
             plan: match &sight.carrier {
                 Carrier::Errt(errt) => Some(PlanLayer::of(errt, &sight.known)),
-                Carrier::Attractor(_) => None,
+                Carrier::Rl(_) | Carrier::Attractor(_) => None,
             },
         }
     }

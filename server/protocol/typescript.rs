@@ -5,7 +5,7 @@ use ts_rs::{Config, TS};
 use super::*;
 use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
 use crate::plant::{BeadMotion, BlockOrientation};
-use crate::scenario::{AttractorLaw, SwitchingLaw, When};
+use crate::scenario::{AttractorLaw, RlPolicy, SwitchingLaw, When};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/protocol.gen.ts");
 
@@ -31,6 +31,7 @@ fn generated() -> String {
         declaration::<BeadMotion>(c),
         declaration::<SwitchingLaw>(c),
         declaration::<AttractorLaw>(c),
+        declaration::<RlPolicy>(c),
         declaration::<Parameters>(c),
         declaration::<Disturbance>(c),
         declaration::<When>(c),

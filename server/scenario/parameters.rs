@@ -26,6 +26,18 @@ pub enum AttractorLaw {
     Improved,
 }
 
+/// Which trained policy runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum RlPolicy {
+    /// The one trained on the map, else the general one.
+    Auto,
+    /// Trained on the colon alone.
+    Colon,
+    /// Trained on several maps.
+    General,
+}
+
 /// Everything an operator can tune. Ranges are in [`Parameters::check`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields, default)]
@@ -79,6 +91,11 @@ pub struct Parameters {
     pub tracker_latency_ticks: u32,
     /// Share of the tracker's samples that are lost, 0 to .9.
     pub tracker_dropout: f64,
+    /// Which trained policy runs.
+    pub rl_policy: RlPolicy,
+    /// Whether the policy's best action gives way to the next best where its step comes near a wall in view; without,
+    /// such a step is refused and the arm holds.
+    pub rl_shield: bool,
     /// Share of ERRT's extensions that go toward the goal, 0 to .9.
     pub errt_goal_probability: f64,
     /// Share that go toward a waypoint of an earlier way, 0 to .9; at most 1 with the one above.
@@ -139,6 +156,8 @@ impl Default for Parameters {
             tracker_noise_m: 0.001,
             tracker_latency_ticks: 2,
             tracker_dropout: 0.0,
+            rl_policy: RlPolicy::Auto,
+            rl_shield: true,
             errt_goal_probability: 0.1,
             errt_waypoint_probability: 0.6,
             errt_waypoints: 200,

@@ -3,7 +3,7 @@
 use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
 use super::{Decision, Event, EventKind, Mind, Motion, Trial, World};
 use crate::control::switching::{self, Mode};
-use crate::control::transport::TransportInput;
+use crate::control::transport::{Carrier, TransportInput};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Vector2};
 use crate::map::WALL_HEIGHT_M;
@@ -43,8 +43,18 @@ impl Trial {
         } else {
             let Mind { carrier, known, .. } = &mut self.state.mind;
             let parameters = &world.parameters;
-            let input = TransportInput { percept, known, tool_m: tool.xy(), goal_m: goal, parameters };
-            carrier.transport().next_step(&input)
+            let policy = match carrier {
+                Carrier::Rl(_) => Some(self.arena.policy(parameters.rl_policy)),
+                Carrier::Errt(_) | Carrier::Attractor(_) => None,
+            };
+            match policy.transpose() {
+                Ok(policy) => {
+                    let policy = policy.as_deref();
+                    let input = TransportInput { percept, known, tool_m: tool.xy(), goal_m: goal, parameters, policy };
+                    carrier.transport().next_step(&input)
+                }
+                Err(error) => Err(Refusal::Policy(error.to_string())),
+            }
         };
         let limits = self.arena.limits(&world.parameters);
         let seed = &world.reference;

@@ -10,7 +10,7 @@ use super::{Decision, Input, TickRecord};
 use crate::scenario::Scenario;
 
 /// Raised when an old reader would misunderstand a file.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const FORMAT: &str = "ferry input log";
 
 /// Why a log could not be read or written.

@@ -11,6 +11,7 @@ mod modulation;
 
 use serde::{Deserialize, Serialize};
 
+use super::progress::{Progress, Standstill};
 use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Vector2};
@@ -29,13 +30,6 @@ const CONTOUR_GAMMA: f64 = 2.0;
 const CONTOUR_SHARE: f64 = 0.5;
 /// Γ at which a contour is followed.
 const CONTOUR_TRACK_GAMMA: f64 = 1.15;
-
-/// A tool that stays within the first of these for so many control steps stands still, one within the second
-/// gets nowhere.
-const STILL_M: f64 = 0.003;
-const STILL_STEPS: u32 = 8;
-const AROUND_M: f64 = 0.03;
-const AROUND_STEPS: u32 = 40;
 
 /// Side on which a contour is followed, along the tangent (−n_y, n_x).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,34 +62,6 @@ pub struct Attractor {
     sensed: Vec<Superellipse>,
     progress: Progress,
     trouble: Option<Trouble>,
-}
-
-/// Where the tool was when it last got anywhere, and how many control steps ago.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Progress {
-    still: Option<(Point2<f64>, u32)>,
-    around: Option<(Point2<f64>, u32)>,
-}
-
-impl Progress {
-    /// Takes note of a step.
-    fn note(&mut self, tool_m: Point2<f64>) {
-        for (since, radius_m) in [(&mut self.still, STILL_M), (&mut self.around, AROUND_M)] {
-            *since = match *since {
-                Some((at, steps)) if (tool_m - at).norm() <= radius_m => Some((at, steps + 1)),
-                _ => Some((tool_m, 0)),
-            };
-        }
-    }
-
-    fn trouble(&self) -> Option<Trouble> {
-        let lasts = |since: Option<(Point2<f64>, u32)>, steps| since.is_some_and(|(_, count)| count >= steps);
-        if lasts(self.still, STILL_STEPS) {
-            Some(Trouble::Saddle)
-        } else {
-            lasts(self.around, AROUND_STEPS).then_some(Trouble::Circling)
-        }
-    }
 }
 
 impl Attractor {
@@ -218,9 +184,10 @@ impl Transport for Attractor {
         let patches = self.sense(&mask, input.tool_m, parameters);
         self.progress.note(input.tool_m);
         let is_inside = deepest(&self.sensed, input.tool_m).is_some();
-        self.trouble = self.progress.trouble().map(|trouble| match trouble {
-            Trouble::Saddle if is_inside => Trouble::InsideObstacle,
-            other => other,
+        self.trouble = self.progress.standstill().map(|standstill| match standstill {
+            Standstill::Still if is_inside => Trouble::InsideObstacle,
+            Standstill::Still => Trouble::Saddle,
+            Standstill::Around => Trouble::Circling,
         });
         let mut target_m = self.flow(input);
         if parameters.attractor_law == AttractorLaw::Improved {

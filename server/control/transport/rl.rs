@@ -1,0 +1,169 @@
+//! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis for each look of the camera, greedy.
+//!
+//! Training knew the tool only over the middles of the sweep's cells, so the tool first goes to a cell near by that
+//! keeps training's distance from the walls, and from then on from cell to cell. Between two cells no image is judged:
+//! a slow tool takes several control steps for one action.
+
+use serde::{Deserialize, Serialize};
+
+use super::progress::{Progress, Standstill};
+use super::{Transport, TransportInput, Trouble};
+use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
+use crate::geometry::{Point2, Rect, Vector2};
+use crate::perception::{Observation, Percept};
+use crate::policy::{Action, Judgement, Policy};
+
+/// Share of a step within which the tool is over a cell.
+const OVER: f64 = 0.35;
+/// Cells around the tool that it may enter the lattice by.
+const ENTRY_CELLS: i64 = 2;
+
+/// The places that training knew.
+#[derive(Clone, Copy, Debug)]
+struct Lattice {
+    workspace: Rect,
+    step_m: f64,
+}
+
+/// Column and row of a cell.
+type Cell = [i64; 2];
+
+impl Lattice {
+    fn center_m(&self, [column, row]: Cell) -> Point2<f64> {
+        let along = |index: i64| (index as f64 + 0.5) * self.step_m;
+        Point2::new(self.workspace.x_min_m + along(column), self.workspace.y_min_m + along(row))
+    }
+
+    fn cell_at(&self, place: Point2<f64>) -> Cell {
+        let index = |value: f64, least: f64| ((value - least) / self.step_m).floor() as i64;
+        [index(place.x, self.workspace.x_min_m), index(place.y, self.workspace.y_min_m)]
+    }
+
+    fn is_over(&self, place: Point2<f64>, cell: Cell) -> bool {
+        (self.center_m(cell) - place).norm() <= OVER * self.step_m
+    }
+}
+
+/// The transport and its memory.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rl {
+    /// The cell that the tool is over, or on its way to.
+    cell: Option<Cell>,
+    /// What the network made of the last image, and which action was taken.
+    judged: Option<(Judgement, Action)>,
+    progress: Progress,
+}
+
+impl Rl {
+    /// What the network made of the last image that it judged, and what was done.
+    pub fn judged(&self) -> Option<&(Judgement, Action)> {
+        self.judged.as_ref()
+    }
+
+    /// The nearest cell that keeps the clearance and that nothing lies before; where none keeps it, the one that has
+    /// most.
+    fn entry(lattice: &Lattice, input: &TransportInput<'_>, clearance_m: f64) -> Option<Cell> {
+        let [column, row] = lattice.cell_at(input.tool_m);
+        let around = |middle: i64| middle - ENTRY_CELLS..=middle + ENTRY_CELLS;
+        let mut best: Option<((f64, f64), Cell)> = None;
+        for cell in around(row).flat_map(|row| around(column).map(move |column| [column, row])) {
+            let center_m = lattice.center_m(cell);
+            let percept = input.percept;
+            let blocked =
+                percept.wall_between(input.tool_m, center_m) && !percept.obstacle() || is_blocked(input, center_m);
+            if blocked || !lattice.workspace.contains(center_m) {
+                continue;
+            }
+            let lacking_m = clearance_m - wall_distance_m(percept, center_m, clearance_m);
+            let rank = (lacking_m, (center_m - input.tool_m).norm());
+            if best.is_none_or(|(least, _)| rank < least) {
+                best = Some((rank, cell));
+            }
+        }
+        best.map(|(_, cell)| cell)
+    }
+
+    /// A control step toward the middle of a cell.
+    fn toward(lattice: &Lattice, input: &TransportInput<'_>, cell: Cell) -> TargetStep {
+        let limit_m_s = input.parameters.transport_speed_m_s;
+        let way: Vector2<f64> = (lattice.center_m(cell) - input.tool_m).cap_magnitude(limit_m_s * CONTROL_PERIOD_S);
+        let speed_m_s = (way.norm() / CONTROL_PERIOD_S).min(limit_m_s);
+        TargetStep { target_m: input.tool_m + way, speed_m_s }
+    }
+}
+
+/// Distance to the nearest wall in view, at most `most_m`.
+fn wall_distance_m(percept: &Percept, place: Point2<f64>, most_m: f64) -> f64 {
+    percept.wall_distance_m(place, most_m).unwrap_or(most_m)
+}
+
+fn is_blocked(input: &TransportInput<'_>, target_m: Point2<f64>) -> bool {
+    input.percept.obstacle_on_step(input.tool_m, target_m).is_some()
+}
+
+/// The best action; with the shield, the best of those whose step keeps training's distance from the walls in view,
+/// or failing that, is free of obstacles.
+fn choose(lattice: &Lattice, input: &TransportInput<'_>, policy: &Policy, ranking: [Action; 4], here: Cell) -> Action {
+    let clearance_m = policy.manifest().clearance_m;
+    let target_m = |action: &Action| lattice.center_m(beside(here, *action));
+    let is_free =
+        |action: &Action| lattice.workspace.contains(target_m(action)) && !is_blocked(input, target_m(action));
+    let keeps = |action: &Action| wall_distance_m(input.percept, target_m(action), clearance_m) >= clearance_m;
+    let best = ranking[0];
+    if !input.parameters.rl_shield {
+        return best;
+    }
+    let free = || ranking.into_iter().filter(is_free);
+    free().find(keeps).or_else(|| free().next()).unwrap_or(best)
+}
+
+fn beside([column, row]: Cell, action: Action) -> Cell {
+    let (x, y) = action.offset();
+    [column + x as i64, row + y as i64]
+}
+
+impl Transport for Rl {
+    fn start_leg(&mut self) {
+        *self = Self::default();
+    }
+
+    fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
+        let Some(policy) = input.policy else { return Err(Refusal::Policy("there is none".to_owned())) };
+        let lattice = Lattice { workspace: *input.known.workspace(), step_m: policy.manifest().step_m };
+        self.progress.note(input.tool_m);
+        let here = match self.cell {
+            Some(cell) if lattice.is_over(input.tool_m, cell) => cell,
+            // Still on its way.
+            Some(cell) => return Ok(Self::toward(&lattice, input, cell)),
+            None => {
+                let near = lattice.cell_at(input.tool_m);
+                let clearance_m = policy.manifest().clearance_m;
+                let cell = Self::entry(&lattice, input, clearance_m).unwrap_or(near);
+                self.cell = Some(cell);
+                if !lattice.is_over(input.tool_m, cell) {
+                    return Ok(Self::toward(&lattice, input, cell));
+                }
+                cell
+            }
+        };
+        let percept = input.percept;
+        let observation = Observation::new(&percept.gray, Some(input.goal_m), input.tool_m, &lattice.workspace);
+        let judgement = policy.judge(&observation).map_err(|error| Refusal::Policy(error.to_string()))?;
+        let action = choose(&lattice, input, policy, judgement.ranking(), here);
+        self.judged = Some((judgement, action));
+        let cell = beside(here, action);
+        let step = Self::toward(&lattice, input, cell);
+        // A step that the last gate refuses is no step: the next image is judged from here.
+        if lattice.workspace.contains(lattice.center_m(cell)) && !is_blocked(input, step.target_m) {
+            self.cell = Some(cell);
+        }
+        Ok(step)
+    }
+
+    fn trouble(&self) -> Option<Trouble> {
+        self.progress.standstill().map(|standstill| match standstill {
+            Standstill::Still => Trouble::Refused,
+            Standstill::Around => Trouble::Circling,
+        })
+    }
+}
