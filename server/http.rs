@@ -9,6 +9,7 @@ mod hub;
 mod live;
 mod metrics;
 mod problem;
+mod values;
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
@@ -70,6 +71,8 @@ pub struct Server {
     gpu: Arc<Gpu>,
     /// Folder of the recordings.
     recordings: PathBuf,
+    /// Maps as policies see them.
+    atlases: values::Atlases,
     /// Sessions by id. Written by `POST` and `DELETE`, read by all.
     sessions: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// A place a session, [`SESSION_CAP`] in all.
@@ -86,6 +89,7 @@ impl Server {
         let server = Arc::new(Self {
             gpu,
             recordings: data.join("recordings"),
+            atlases: values::Atlases::in_folder(data.join("sweeps")),
             sessions: RwLock::default(),
             places: Arc::new(Semaphore::new(SESSION_CAP)),
             made: AtomicU64::new(0),
@@ -139,6 +143,7 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/camera.png", get(api::camera))
         .route("/api/sessions/{id}/observation.png", get(api::observation))
         .route("/api/sessions/{id}/flow", post(api::flow))
+        .route("/api/sessions/{id}/values", post(values::values))
         .route("/api/sessions/{id}/live", get(live::live))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))

@@ -1,6 +1,7 @@
 //! Learning from what the camera sees: training's environment over a sweep of images, and Rainbow-IQN.
 
 mod adam;
+mod atlas;
 mod curve;
 mod environment;
 mod examine;
@@ -12,6 +13,7 @@ pub mod sweep;
 mod terrain;
 mod training;
 
+pub use atlas::{Atlas, AtlasError};
 pub use curve::{Curve, FigureError};
 pub use environment::Ending;
 pub use examine::Marks;

@@ -36,6 +36,11 @@ impl Action {
     /// All, in the order of the network's outputs.
     pub const ALL: [Self; 4] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY];
 
+    /// Place in [`Self::ALL`].
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
     /// Columns and rows of the lattice that it goes.
     pub fn offset(self) -> (isize, isize) {
         match self {
@@ -94,6 +99,11 @@ impl Policy {
     /// Where it comes from and what it fits.
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
+    }
+
+    /// The network over its weights.
+    pub fn network(&self) -> &Network {
+        &self.network
     }
 
     /// Hash of the file that it was read from.

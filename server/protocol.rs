@@ -20,7 +20,10 @@ mod parse;
 #[cfg(test)]
 mod typescript;
 
-pub use layers::{BlocksLayer, FlowField, FlowQuery, PixelBlock, PlanLayer, SeenMessage};
+pub use layers::{
+    BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
+    ValueQuery,
+};
 
 /// Raised when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 4;
@@ -311,6 +314,8 @@ pub struct OverlayMessage {
     pub blocks: BlocksLayer,
     /// What ERRT plans, while it is sub-controller 2.
     pub plan: Option<PlanLayer>,
+    /// What the policy thinks, while it is sub-controller 2.
+    pub judgement: Option<JudgementLayer>,
 }
 
 /// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.

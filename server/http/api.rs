@@ -182,7 +182,7 @@ pub async fn recording(State(server): State<Arc<Server>>, Path(file): Path<Strin
     Ok(attachment("application/octet-stream", &name, Body::from_stream(ReaderStream::new(opened))))
 }
 
-fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
+pub fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
     let hub = server.find(id).ok_or_else(|| Problem::not_found("session", id))?;
     Ok(hub.session.watch().borrow().clone())
 }

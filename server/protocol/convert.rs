@@ -1,19 +1,21 @@
 //! To and from `session`'s types.
 
 use super::{
-    BlocksLayer, ClientMessage, ErrorMessage, EventMessage, FlowField, OverlayMessage, PlanLayer, SceneMessage,
-    SeenMessage, SensedObstacle, StateMessage,
+    BlocksLayer, ClientMessage, ErrorMessage, EventMessage, FlowField, JudgementLayer, OverlayMessage, PlanLayer,
+    SceneMessage, SeenMessage, SensedObstacle, StateMessage, ValueCell, ValueMap,
 };
 use crate::control::transport::Carrier;
 use crate::control::transport::attractor::Attractor;
 use crate::control::transport::errt::{Errt, Tree};
-use crate::geometry::Point2;
-use crate::geometry::Vector2;
+use crate::control::transport::rl::Rl;
+use crate::geometry::{Point2, Vector2};
 use crate::image::CameraFrame;
+use crate::learn::{Atlas, AtlasError};
 use crate::magnetics::force;
 use crate::map::Map;
 use crate::perception::{CellState, ObstacleMap, PixelRect};
 use crate::plant::BEAD_RADIUS_M;
+use crate::policy::Judgement;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters};
 use crate::session::{Command, CommandError, Scenery, View};
@@ -207,6 +209,10 @@ impl From<&View> for OverlayMessage {
                 Carrier::Errt(errt) => Some(PlanLayer::of(errt, &sight.known)),
                 Carrier::Rl(_) | Carrier::Attractor(_) => None,
             },
+            judgement: match &sight.carrier {
+                Carrier::Rl(rl) => JudgementLayer::of(rl, &view.scenery),
+                Carrier::Errt(_) | Carrier::Attractor(_) => None,
+            },
         }
     }
 }
@@ -260,6 +266,35 @@ impl FlowField {
             spacing_m,
             velocity_m_s: places.into_par_iter().map(velocity).collect(),
         }
+    }
+}
+
+impl JudgementLayer {
+    /// Of a policy in a session; `None` before the first image that it judged.
+    pub fn of(rl: &Rl, scenery: &Scenery) -> Option<Self> {
+        let (judgement, taken) = rl.judged()?;
+        let policy = scenery.arena.policy(scenery.parameters.rl_policy).ok()?;
+        Some(Self {
+            quantiles: judgement.quantiles.clone(),
+            values: judgement.values(),
+            taken: taken.index() as u8,
+            trained_on: policy.manifest().maps.clone(),
+        })
+    }
+}
+
+impl ValueMap {
+    /// On the way to a goal.
+    pub fn of(atlas: &Atlas, goal_m: Point2<f64>) -> Result<Self, AtlasError> {
+        let cell = |(center_m, judgement): (Point2<f64>, Judgement)| {
+            let best = judgement.ranking()[0].index();
+            ValueCell { center_m: center_m.coords.into(), value: judgement.values()[best], action: best as u8 }
+        };
+        Ok(Self {
+            spacing_m: atlas.spacing_m(),
+            cells: atlas.judge(goal_m)?.into_iter().map(cell).collect(),
+            trained_on: atlas.policy().manifest().maps.clone(),
+        })
     }
 }
 

@@ -59,6 +59,49 @@ pub struct SeenMessage {
     pub runs: Vec<(u8, u32)>,
 }
 
+/// What the policy made of the last image that it judged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct JudgementLayer {
+    /// Quantiles of the return for +x, −x, +y and −y, at the fractions (k + ½) / K.
+    pub quantiles: [Vec<f32>; 4],
+    /// Their means.
+    pub values: [f32; 4],
+    /// Index of the action that was taken; the best one, unless the shield chose the next best.
+    pub taken: u8,
+    /// Maps that the policy was trained on.
+    pub trained_on: Vec<String>,
+}
+
+/// Body of `POST /api/sessions/{id}/values`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ValueQuery {
+    /// The goal to judge for.
+    pub goal_m: [f64; 2],
+}
+
+/// What the session's policy thinks of every place of the map on the way to a goal, by the default camera's images.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct ValueMap {
+    /// Side of a cell.
+    pub spacing_m: f64,
+    /// Cells that keep the policy's distance from the walls.
+    pub cells: Vec<ValueCell>,
+    /// Maps that the policy was trained on.
+    pub trained_on: Vec<String>,
+}
+
+/// One cell of a [`ValueMap`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, TS)]
+pub struct ValueCell {
+    /// Its middle.
+    pub center_m: [f64; 2],
+    /// Value of the best action.
+    pub value: f32,
+    /// Index of the best action: +x, −x, +y, −y.
+    pub action: u8,
+}
+
 /// Body of `POST /api/sessions/{id}/flow`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]

@@ -56,6 +56,10 @@ fn generated() -> String {
         declaration::<ReachCurve>(c),
         declaration::<WorkspaceQuery>(c),
         declaration::<WorkspaceMap>(c),
+        declaration::<JudgementLayer>(c),
+        declaration::<ValueQuery>(c),
+        declaration::<ValueCell>(c),
+        declaration::<ValueMap>(c),
         declaration::<FlowQuery>(c),
         declaration::<FlowField>(c),
     ];

@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-export const PROTOCOL_VERSION = 3;
+export const PROTOCOL_VERSION = 4;
 export const BINARY_CAMERA_JPEG = 1;
 export const BINARY_OBSERVATION = 2;
 
@@ -43,7 +43,7 @@ y_max_m: number, };
 /**
  * Sub-controller 2, by name.
  */
-export type ControllerName = "errt" | "attractor";
+export type ControllerName = "rl" | "errt" | "attractor";
 
 /**
  * Which of the two.
@@ -74,6 +74,11 @@ export type SwitchingLaw = "hysteresis" | "literal";
  * Which attractor law runs.
  */
 export type AttractorLaw = "literal" | "improved";
+
+/**
+ * Which trained policy runs.
+ */
+export type RlPolicy = "auto" | "colon" | "general";
 
 /**
  * Everything an operator can tune. Ranges are in [`Parameters::check`].
@@ -176,6 +181,15 @@ tracker_latency_ticks: number,
  * Share of the tracker's samples that are lost, 0 to .9.
  */
 tracker_dropout: number, 
+/**
+ * Which trained policy runs.
+ */
+rl_policy: RlPolicy, 
+/**
+ * Whether the policy's best action gives way to the next best where its step comes near a wall in view; without,
+ * such a step is refused and the arm holds.
+ */
+rl_shield: boolean, 
 /**
  * Share of ERRT's extensions that go toward the goal, 0 to .9.
  */
@@ -630,7 +644,11 @@ blocks: BlocksLayer,
 /**
  * What ERRT plans, while it is sub-controller 2.
  */
-plan: PlanLayer | null, };
+plan: PlanLayer | null, 
+/**
+ * What the policy thinks, while it is sub-controller 2.
+ */
+judgement: JudgementLayer | null, };
 
 /**
  * The camera's image as the planner takes it, seen from straight above.
@@ -910,6 +928,70 @@ cell_m: number,
  * where the branch does not reach. `rows × columns` values.
  */
 manipulability_m3: Array<number | null>, };
+
+/**
+ * What the policy made of the last image that it judged.
+ */
+export type JudgementLayer = { 
+/**
+ * Quantiles of the return for +x, −x, +y and −y, at the fractions (k + ½) / K.
+ */
+quantiles: [Array<number>, Array<number>, Array<number>, Array<number>], 
+/**
+ * Their means.
+ */
+values: [number, number, number, number], 
+/**
+ * Index of the action that was taken; the best one, unless the shield chose the next best.
+ */
+taken: number, 
+/**
+ * Maps that the policy was trained on.
+ */
+trained_on: Array<string>, };
+
+/**
+ * Body of `POST /api/sessions/{id}/values`.
+ */
+export type ValueQuery = { 
+/**
+ * The goal to judge for.
+ */
+goal_m: [number, number], };
+
+/**
+ * One cell of a [`ValueMap`].
+ */
+export type ValueCell = { 
+/**
+ * Its middle.
+ */
+center_m: [number, number], 
+/**
+ * Value of the best action.
+ */
+value: number, 
+/**
+ * Index of the best action: +x, −x, +y, −y.
+ */
+action: number, };
+
+/**
+ * What the session's policy thinks of every place of the map on the way to a goal, by the default camera's images.
+ */
+export type ValueMap = { 
+/**
+ * Side of a cell.
+ */
+spacing_m: number, 
+/**
+ * Cells that keep the policy's distance from the walls.
+ */
+cells: Array<ValueCell>, 
+/**
+ * Maps that the policy was trained on.
+ */
+trained_on: Array<string>, };
 
 /**
  * Body of `POST /api/sessions/{id}/flow`.
