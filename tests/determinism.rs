@@ -26,7 +26,8 @@ fn camera() -> Camera {
 
 fn scenario(seed: u64) -> Scenario {
     let arena = posts();
-    let random = Scenario::random(&arena.map, "posts", &arena.space, ControllerName::Attractor, 2, seed, 0).unwrap();
+    let controller = ControllerName::ALL[seed as usize % ControllerName::ALL.len()];
+    let random = Scenario::random(&arena.map, "posts", &arena.space, controller, 2, seed, 0).unwrap();
     // Half of them without an arm, all with a script.
     let positioner = seed.is_multiple_of(2).then_some(PositionerKind::PlanarStage);
     let script = vec![
@@ -61,6 +62,7 @@ fn input() -> impl Strategy<Value = Input> {
         (place(), any::<bool>()).prop_map(|((x_m, y_m), lift)| Input::Drag { x_m, y_m, lift }),
         Just(Input::Release),
         Just(Input::ClearGoal),
+        (0..ControllerName::ALL.len()).prop_map(|index| Input::SelectController(ControllerName::ALL[index])),
         place().prop_map(|(x_m, y_m)| Input::Place { x_m, y_m }),
         disturbance().prop_map(Input::Disturb),
         (any::<bool>(), any::<bool>()).prop_map(|(rolls, tilted)| Input::Configure(Box::new(Parameters {

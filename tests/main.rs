@@ -8,6 +8,7 @@ mod examples;
 mod golden;
 mod house;
 mod laboratory;
+mod learned;
 mod recordings;
 mod reference;
 mod rendering;

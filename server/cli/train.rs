@@ -78,7 +78,7 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let curve = round(arguments, &recipe, seed, &out, &terrains, &unseen)?;
         curves.push(curve);
     }
-    let figure = arguments.out.with_extension("svg");
+    let figure = arguments.out.with_extension("curve.svg");
     std::fs::write(&figure, Curve::figure(&curves)?).with_context(|| format!("{}", figure.display()))?;
     println!("figure      {}", figure.display());
     Ok(ExitCode::SUCCESS)
@@ -127,7 +127,7 @@ fn round(
     bar.finish_and_clear();
     curve.points.clone_from(&state.curve);
     std::fs::write(out, state.policy(&revision())?).with_context(|| format!("{}", out.display()))?;
-    let data = out.with_extension("csv");
+    let data = out.with_extension("curve.csv");
     std::fs::write(&data, curve.csv()).with_context(|| format!("{}", data.display()))?;
     println!(
         "seed {seed}      {} updates, {} steps, {} episodes in {:.1} min",

@@ -94,7 +94,7 @@ impl Default for Recipe {
             updates_per_step: 2,
             capacity: 100_000,
             warm_up: 2000,
-            updates: 8000,
+            updates: 12_000,
         }
     }
 }

@@ -6,6 +6,7 @@ mod kinematics;
 mod magnetics;
 mod perception;
 mod plant;
+mod policy;
 
 use criterion::{criterion_group, criterion_main};
 
@@ -16,6 +17,7 @@ criterion_group!(
     plant::benches,
     camera::benches,
     perception::benches,
-    errt::benches
+    errt::benches,
+    policy::benches
 );
 criterion_main!(speed);

@@ -167,3 +167,6 @@ impl Transport for Rl {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,102 @@
+//! The trained policies, and training from the command line.
+
+use std::process::Command;
+
+use ferry::evaluate::{Experiment, run};
+use ferry::policy::Policy;
+use ferry::scenario::{ControllerName, Parameters};
+
+use crate::determinism::gpu;
+
+#[test]
+fn every_shipped_policy_is_whole_and_says_where_it_comes_from() {
+    assert_eq!(Policy::shipped_names(), ["colon", "general"]);
+    for name in Policy::shipped_names() {
+        let policy = Policy::shipped(&name).unwrap();
+        let manifest = policy.manifest();
+        assert_eq!((manifest.step_m, manifest.clearance_m), (0.01, 0.008), "{name}");
+        assert!(manifest.updates > 0 && !manifest.revision.is_empty(), "{name}: {manifest:?}");
+        assert_eq!(manifest.maps == ["colon"], name == "colon");
+    }
+    let error = Policy::shipped("rectum").unwrap_err().to_string();
+    assert_eq!(error, "policy: there is no policy named \"rectum\"; there are colon, general");
+}
+
+#[test]
+fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
+    for (disturbances, least) in [(0, 39), (3, 38)] {
+        let experiment = Experiment {
+            map: "colon".to_owned(),
+            controller: ControllerName::Rl,
+            episodes: 40,
+            disturbances,
+            seed: 7,
+            parameters: Parameters::default(),
+            policy: None,
+        };
+        let episodes = run(&experiment, &gpu(), &|_| ()).unwrap();
+        let delivered = episodes.iter().filter(|episode| episode.delivered).count();
+        assert!(delivered >= least, "{delivered} of 40 with {disturbances} disturbances");
+        let struck: u32 = episodes.iter().map(|episode| episode.disturbances).sum();
+        assert!(struck >= disturbances * 35, "{struck}");
+    }
+}
+
+fn ferry(arguments: &[&str], folder: &std::path::Path) -> std::process::Output {
+    Command::new(env!("CARGO_BIN_EXE_ferry")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// A room small enough to be learned in seconds.
+const ROOM: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 250 200 100">
+    <rect x="-10" y="250" width="20" height="60"/></svg>"#;
+
+#[test]
+fn training_writes_a_policy_that_acts_and_goes_on_where_it_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("room.svg"), ROOM).unwrap();
+    let train = |out: &str, more: &[&str]| {
+        let arguments = ["train", "--map", "room.svg", "--episodes", "200", "--set", "warm_up=500", "--out", out];
+        let said = ferry(&[&arguments, more].concat(), folder.path());
+        assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
+        String::from_utf8(said.stdout).unwrap()
+    };
+    let said = train("room.safetensors", &["--set", "updates=300", "--set", "images=16"]);
+    let reached: u32 = said.split("room: ").nth(1).unwrap().split('/').next().unwrap().parse().unwrap();
+    assert!(reached >= 60, "a random walker reaches some 30 of 200: {said}");
+    let policy = Policy::open(&folder.path().join("room.safetensors")).unwrap();
+    assert_eq!((policy.manifest().updates, policy.manifest().seed), (300, 1));
+    for ending in ["curve.csv", "curve.svg", "checkpoint"] {
+        assert!(folder.path().join("room").with_extension(ending).exists(), "{ending}");
+    }
+    // A finished run is resumed without another update, and ends as it ended.
+    let bytes = std::fs::read(folder.path().join("room.safetensors")).unwrap();
+    train("room.safetensors", &["--resume", "--set", "updates=300", "--set", "images=16"]);
+    assert_eq!(std::fs::read(folder.path().join("room.safetensors")).unwrap(), bytes);
+    // Of another recipe, nothing is resumed.
+    let refused = ferry(&["train", "--map", "room.svg", "--out", "room.safetensors", "--resume"], folder.path());
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && said.contains("another recipe"), "{said}");
+    // The policy acts live, on the map that it was trained on.
+    let arguments = ["evaluate", "--map", "room.svg", "--controller", "rl", "--policy", "room.safetensors", "--json"];
+    let live = ferry(&[&arguments[..], &["--episodes", "4"]].concat(), folder.path());
+    let table: serde_json::Value = serde_json::from_slice(&live.stdout).unwrap();
+    assert_eq!(table["rows"][0]["controller"], "rl");
+    assert_eq!(table["rows"][0]["episodes"], 4);
+}
+
+#[test]
+fn a_bad_recipe_or_policy_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("torn.safetensors"), b"torn").unwrap();
+    let last = |arguments: &[&str]| {
+        let said = ferry(arguments, folder.path());
+        assert!(!said.status.success());
+        String::from_utf8(said.stderr).unwrap().lines().last().unwrap_or_default().to_owned()
+    };
+    assert!(last(&["train", "--set", "discount=2"]).contains("discount is 2"));
+    assert!(last(&["train", "--set", "architecture.duelling=false"]).contains("duelling"));
+    assert!(last(&["train", "--set", "nothing"]).contains("NAME=VALUE"));
+    assert!(last(&["train", "--map", "rectum"]).contains("rectum"));
+    let torn = last(&["evaluate", "--controller", "rl", "--policy", "torn.safetensors"]);
+    assert!(torn.contains("not a safetensors file"), "{torn}");
+}
