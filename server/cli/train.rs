@@ -55,8 +55,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     // Candle's own threads wait by spinning, for operations that are not worth it, and take the cores from the others.
     // SAFETY: a command's first act; no other thread runs yet that could read the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
-    // Inside of the pool, sharing work out costs no change of threads.
-    rayon::ThreadPoolBuilder::new().build()?.install(|| train(arguments))
+    // Inside of the pool, sharing work out costs no change of threads. The pool is the one that lasts: threads that end
+    // while the process does would meet the graphics driver's own clearing up.
+    rayon::scope(|_| train(arguments))
 }
 
 fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
