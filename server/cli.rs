@@ -94,3 +94,52 @@ fn with_changes<T: Serialize + DeserializeOwned>(value: &T, changes: &[String]) 
     }
     serde_path_to_error::deserialize(values).context("--set")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learn::Recipe;
+    use crate::policy::{Architecture, Fusion};
+
+    fn changed(changes: &[&str]) -> anyhow::Result<Recipe> {
+        let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
+        with_changes(&Recipe::default(), &changes)
+    }
+
+    #[test]
+    fn fields_and_fields_of_fields_are_set_and_no_others() {
+        assert_eq!(changed(&[]).unwrap(), Recipe::default());
+        let architecture = Architecture { fusion: Fusion::Early, dueling: false, ..Architecture::default() };
+        let expected = Recipe { architecture, n_step: 3, discount: 0.99, timeout_fails: true, ..Recipe::default() };
+        let changes = [
+            "n_step=3",
+            "architecture.dueling=false",
+            "discount=.5",
+            "architecture.fusion=early",
+            "timeout_fails=true",
+            "discount=0.99",
+        ];
+        // The later of two is meant; .5 is no JSON, but replaced before anyone reads it.
+        assert_eq!(changed(&changes).unwrap(), expected);
+    }
+
+    #[test]
+    fn what_cannot_be_set_is_refused_by_name() {
+        for (change, parts) in [
+            ("wings=2", &["unknown field `wings`"][..]),
+            ("architecture.wings=2", &["architecture", "unknown field `wings`"]),
+            ("wings.length=2", &["--set wings.length=2", "there is no \"wings\""]),
+            ("n_step.length=2", &["--set n_step.length=2", "there is no \"n_step\""]),
+            ("discount=high", &["discount", "\"high\"", "expected f64"]),
+            ("n_step=-1", &["n_step", "`-1`"]),
+            ("n_step=2.5", &["n_step", "`2.5`"]),
+            ("architecture.fusion=none", &["architecture.fusion", "`none`", "`early`"]),
+            ("architecture.dueling=1", &["architecture.dueling", "`1`", "a boolean"]),
+            ("discount", &["--set discount", "NAME=VALUE"]),
+            ("=1", &["unknown field ``"]),
+        ] {
+            let error = format!("{:#}", changed(&[change]).unwrap_err());
+            assert!(parts.iter().all(|part| error.contains(part)), "{change}: {error}");
+        }
+    }
+}

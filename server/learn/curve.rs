@@ -141,3 +141,77 @@ fn draw(curves: &[Curve], text: &mut String) -> Result<(), Box<dyn std::error::E
     drop(root);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use usvg::roxmltree::Document;
+
+    use super::*;
+    use crate::learn::Marks;
+
+    fn curve(seed: u64) -> Curve {
+        let spread = |first: f64| {
+            let mut spread = Spread::default();
+            (0..3).for_each(|index| spread.add(first + f64::from(index)));
+            spread
+        };
+        let point = |index: u64| Point {
+            update: 100 * index,
+            steps: 1600 * index,
+            episodes: 3 * index,
+            reward: if index == 2 { Spread::default() } else { spread((seed + index) as f64 * 0.1) },
+            loss: spread(1.0 / (seed + index) as f64),
+            gradient: spread(2.0),
+            reached: 2,
+            collided: 1,
+            examined: (index == 4).then_some(Marks { episodes: 200, reached: 150, ..Marks::default() }),
+        };
+        let mut curve = Curve { points: (1..=4).map(point).collect(), ..Curve::resumed(20.0) };
+        // Resumed after the second point.
+        curve.time(5.0);
+        curve.time(10.0);
+        curve
+    }
+
+    #[test]
+    fn the_table_has_a_line_a_point_and_a_column_a_name() {
+        let curve = curve(1);
+        let text = curve.csv();
+        let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+        assert_eq!(lines.len(), 1 + curve.points.len());
+        assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{text}");
+        let column = |name: &str| {
+            let index = lines[0].iter().position(|&found| found == name).unwrap();
+            lines[1..].iter().map(|line| line[index]).collect::<Vec<_>>()
+        };
+        assert_eq!(column("update"), ["100", "200", "300", "400"]);
+        assert_eq!(column("elapsed_s"), ["", "", "25.0", "30.0"]);
+        assert_eq!(column("reward_mean"), ["1.200000", "", "1.400000", "1.500000"], "of no episode there is none");
+        assert_eq!(column("reward_deviation")[0], "0.816497", "of three numbers one apart");
+        assert_eq!(column("ended"), ["3", "0", "3", "3"]);
+        assert_eq!(column("examined_reached"), ["", "", "", "150"]);
+        assert_eq!(column("examined_episodes"), ["", "", "", "200"]);
+        assert_eq!(Curve::default().csv().lines().count(), 1);
+        assert_eq!((curve.spent_s(), Curve::resumed(20.0).spent_s()), (30.0, 20.0));
+    }
+
+    #[test]
+    fn the_figure_is_an_image_with_both_titles() {
+        for (curves, rounds) in
+            [(vec![curve(1)], "one round"), ((1..4).map(curve).collect(), "3 rounds"), (vec![], "0 rounds")]
+        {
+            let svg = Curve::figure(&curves).unwrap();
+            let size = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap().size();
+            assert_eq!((size.width(), size.height()), (SIZE_PX.0 as f32, SIZE_PX.1 as f32));
+            let document = Document::parse(&svg).unwrap();
+            let texts: Vec<&str> = document.descendants().filter_map(|node| node.text().map(str::trim)).collect();
+            for title in ["Reward of an episode", "Loss"] {
+                let is_title = |text: &&str| text.starts_with(&format!("{title}: ")) && text.ends_with(rounds);
+                assert!(texts.iter().any(|text| is_title(text)), "{title} {texts:?}");
+            }
+            assert!(!svg.contains("NaN") && !svg.contains("inf"));
+            let bands = document.descendants().filter(|node| node.tag_name().name() == "polygon").count();
+            assert!(curves.is_empty() || bands == 2, "{bands}");
+        }
+    }
+}

@@ -60,7 +60,12 @@ impl Recipe {
     /// A step from one cell to another, or to the end of the episode, on the way to a goal.
     pub fn outcome(&self, terrain: &Terrain, from: u16, to: Option<u16>, goal: Goal) -> Outcome {
         let Some(to) = to else { return Outcome { reward: -1.0, terminal: true } };
-        let progress = f64::from(terrain.distance(from, goal.cell)) - f64::from(terrain.distance(to, goal.cell));
+        let progress = match [from, to].map(|cell| terrain.distance(cell, goal.cell)) {
+            // Some steps have no way back. What they lose is told as a step, not as a number for "never".
+            [UNREACHABLE, UNREACHABLE] => 0.0,
+            [_, UNREACHABLE] => -1.0,
+            [before, after] => f64::from(before) - f64::from(after),
+        };
         let shaped = self.progress_reward * progress - self.step_penalty;
         let terminal = goal.is_reached_from(terrain, to);
         Outcome { reward: (shaped + f64::from(u8::from(terminal))) as f32, terminal }
@@ -139,7 +144,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::learn::terrain::tests::two_rooms;
+    use crate::learn::terrain::tests::{corridor, two_rooms};
 
     #[test]
     fn a_step_is_worth_what_the_specification_says() {
@@ -159,6 +164,18 @@ mod tests {
     }
 
     #[test]
+    fn a_step_with_no_way_back_loses_one_step() {
+        // Six cells; from the fourth none leads back to the third.
+        let terrain = corridor(&[1, 3, 3, 1, 3, 2]).unwrap();
+        let goal = Goal { cell: 0, offset: [-127, 0] };
+        assert_eq!((terrain.distance(2, 0), terrain.distance(3, 0)), (2, UNREACHABLE));
+        let rewards =
+            [(3, 4), (2, 3), (4, 3)].map(|(from, to)| Recipe::default().outcome(&terrain, from, Some(to), goal));
+        assert_eq!(rewards.map(|outcome| outcome.reward), [0.0, -0.1, 0.0]);
+        assert!(rewards.iter().all(|outcome| !outcome.terminal));
+    }
+
+    #[test]
     fn an_episode_ends_in_each_of_the_three_ways() {
         let terrains = [two_rooms()];
         let recipe = Recipe::default();
@@ -170,7 +187,8 @@ mod tests {
         let endings: Vec<_> = back_and_forth.collect();
         assert_eq!(endings[..149], [None; 149]);
         assert_eq!(endings[149], Some(Ending::TimedOut));
-        let mut episode = Episode { cell: 0, goal: Goal { cell: 3, offset: [0, 0] }, ..episode };
+        // Also with the steps spent: within 2 cm counts first.
+        let mut episode = Episode { cell: 0, goal: Goal { cell: 2, offset: [0, 0] }, ..episode };
         assert!(matches!(episode.step(&terrains, 0, &recipe), (Some(1), Some(Ending::Reached))));
     }
 

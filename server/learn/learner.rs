@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use super::environment::Goal;
+use super::environment::{Ending, Goal};
 use super::loss::{huber_mean, quantile_huber};
 use super::recipe::Recipe;
 use super::replay::{Replay, Transition};
@@ -353,14 +353,12 @@ impl<'a> Learner<'a> {
         let (mut reward, mut discount) = (0.0, 1.0f32);
         for step in path {
             let outcome = self.recipe.outcome(terrain, step.cell, step.next, goal);
-            reward += discount * outcome.reward;
-            discount *= self.recipe.discount as f32;
-            if outcome.terminal {
+            let ran_out = step.ending == Some(Ending::TimedOut) && is_own && self.recipe.timeout_fails;
+            reward += discount * (outcome.reward - f32::from(u8::from(ran_out)));
+            if outcome.terminal || ran_out {
                 return (reward, 0.0);
             }
-            if is_own && self.recipe.timeout_fails && step.ending == Some(super::environment::Ending::TimedOut) {
-                return (reward - discount / self.recipe.discount as f32, 0.0);
-            }
+            discount *= self.recipe.discount as f32;
         }
         (reward, discount)
     }
@@ -389,3 +387,6 @@ impl<'a> Learner<'a> {
 fn tensor(places: &[[f32; 4]], shape: (usize, usize, usize)) -> Result<Tensor> {
     Tensor::from_iter(places.iter().flatten().copied(), &Device::Cpu)?.reshape(shape)
 }
+
+#[cfg(test)]
+mod tests;

@@ -273,7 +273,8 @@ mod tests {
         assert_eq!(sweep.steps[5 * 12 + 3] & 0b0001, 0);
         assert_ne!(sweep.steps[5 * 12 + 2] & 0b0001, 0);
         let near = sweep.wall_distance[5 * 12 + 3];
-        assert!((45..=50).contains(&near), "the wall begins 5 mm beside it: {near}");
+        // To the middle of the wall's first pixel, of some .4 mm.
+        assert!((48..=55).contains(&near), "the wall begins 5 mm beside it: {near}");
         assert_eq!(open(), sweep);
         assert_eq!(taken.load(Ordering::Relaxed), 120, "read from the disk");
 

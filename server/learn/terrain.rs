@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use crate::geometry::{Point2, Rect};
 use crate::perception::Observation;
 use crate::policy::Action;
+use crate::trial::GOAL_RADIUS_M;
 
 use super::sweep::{IMAGE_BYTES, STEP_M, Sweep, center};
 
@@ -23,9 +24,13 @@ pub struct Terrain {
     images: Vec<u8>,
 }
 
-/// Too few cells to learn on.
+/// Too few cells to learn on, or none that leads anywhere.
 #[derive(Debug, thiserror::Error)]
-#[error("map: {map:?} has {cells} cells that keep {clearance_m} m from the walls; training needs 2 to {}", UNREACHABLE)]
+#[error(
+    "map: {map:?} has {cells} cells that keep {clearance_m} m from the walls; training needs 2 to {}, and among them a \
+     way to one more than {GOAL_RADIUS_M} m off",
+    UNREACHABLE
+)]
 pub struct TerrainError {
     /// Name of the map.
     pub map: String,
@@ -45,8 +50,9 @@ impl Terrain {
         let keeps = |cell: usize| f64::from(sweep.wall_distance[cell]) * 1e-4 >= clearance_m;
         let cells = sweep.columns * sweep.rows;
         let free: Vec<usize> = (0..cells).filter(|&cell| !sweep.obstacle[cell] && keeps(cell)).collect();
+        let refusal = || TerrainError { map: name.to_owned(), cells: free.len(), clearance_m };
         if !(2..usize::from(UNREACHABLE)).contains(&free.len()) {
-            return Err(TerrainError { map: name.to_owned(), cells: free.len(), clearance_m });
+            return Err(refusal());
         }
         let mut index = vec![None; cells];
         for (i, &cell) in free.iter().enumerate() {
@@ -64,14 +70,24 @@ impl Terrain {
         let next: Vec<[Option<u16>; 4]> =
             free.iter().map(|&cell| std::array::from_fn(|action| step(cell, action))).collect();
         let at = |&cell: &usize| center(workspace, cell % sweep.columns, cell / sweep.columns);
-        Ok(Self {
+        let terrain = Self {
             name: name.to_owned(),
             workspace: *workspace,
             centers_m: free.iter().map(at).collect(),
             distance: distances(&next),
             next,
             images: free.iter().flat_map(|&cell| sweep.image(cell)).copied().collect(),
-        })
+        };
+        if terrain.has_a_way() { Ok(terrain) } else { Err(refusal()) }
+    }
+
+    /// Whether some cell can be reached that is not reached from the start: else no episode begins.
+    fn has_a_way(&self) -> bool {
+        let cells = 0..self.cells() as u16;
+        let is_way = |from: u16, to: u16| {
+            self.distance(from, to) != UNREACHABLE && (self.center_m(from) - self.center_m(to)).norm() > GOAL_RADIUS_M
+        };
+        cells.clone().any(|from| cells.clone().any(|to| is_way(from, to)))
     }
 
     /// Name of the map.
@@ -188,7 +204,32 @@ pub(super) mod tests {
         assert_eq!(terrain.step(left, 2), Some(at(0.025, 0.015)));
         assert_eq!(terrain.step(left, 3), None, "out of the workspace");
         assert_eq!(terrain.image(right)[0], 32);
-        assert_eq!(terrain.places(Point2::new(0.06, 0.0), left), [1.0, 0.0, 106.0 / 255.0, 26.0 / 255.0]);
+        // The last is 25.5 levels, a little less after rounding.
+        assert_eq!(terrain.places(Point2::new(0.06, 0.0), left), [1.0, 0.0, 106.0 / 255.0, 25.0 / 255.0]);
+    }
+
+    /// One row of cells in the open, each with the steps that lead on from it.
+    pub fn corridor(steps: &[u8]) -> Result<Terrain, TerrainError> {
+        let columns = steps.len();
+        let sweep = Sweep {
+            columns,
+            rows: 1,
+            obstacle: vec![false; columns],
+            steps: steps.to_vec(),
+            wall_distance: vec![255; columns],
+            images: vec![0; columns * IMAGE_BYTES],
+        };
+        Terrain::new("corridor", &WORKSPACE, &sweep, 0.008)
+    }
+
+    #[test]
+    fn a_map_without_a_way_is_refused_before_an_episode_looks_for_one() {
+        assert!(corridor(&[1, 3, 3, 2]).is_ok());
+        // Three cells are within 2 cm of each other; four may lie apart.
+        for steps in [&[1, 3, 2][..], &[0; 4], &[1, 2, 1, 2]] {
+            let error = corridor(steps).unwrap_err();
+            assert!(error.to_string().contains("a way to one more than 0.02 m off"), "{error}");
+        }
     }
 
     #[test]

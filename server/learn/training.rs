@@ -75,7 +75,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    fn add(&mut self, value: f64) {
+    pub(super) fn add(&mut self, value: f64) {
         self.count += 1;
         self.sum += value;
         self.squares += value * value;
@@ -325,3 +325,6 @@ impl State {
 fn maps(terrains: &[Terrain]) -> Vec<(String, u32)> {
     terrains.iter().map(|terrain| (terrain.name().to_owned(), terrain.cells() as u32)).collect()
 }
+
+#[cfg(test)]
+mod tests;

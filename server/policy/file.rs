@@ -1,6 +1,8 @@
 //! A policy's file: safetensors whose metadata hold the manifest.
 
 use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -93,7 +95,7 @@ pub enum PolicyError {
         name: String,
     },
     /// A tensor does not fit the observation or the network.
-    #[error("policy: tensor {name:?} is {found:?}, the observation and the network need {needed:?} of f32")]
+    #[error("policy: tensor {name:?} is {found}, the observation and the network need {needed:?} of f32")]
     Shape {
         /// Its name.
         name: String,
@@ -154,11 +156,18 @@ impl Policy {
     /// [`PolicyError`]; nothing of a file over 16 MiB is read.
     pub fn open(path: &Path) -> Result<Self, PolicyError> {
         let io = |error| PolicyError::Io { path: path.display().to_string(), error };
-        let bytes = std::fs::metadata(path).map_err(io)?.len();
+        let file = File::open(path).map_err(io)?;
+        let bytes = file.metadata().map_err(io)?.len();
         if bytes > BYTES_MOST {
             return Err(PolicyError::TooLarge { bytes });
         }
-        Self::from_bytes(&std::fs::read(path).map_err(io)?)
+        // A device or a pipe says nothing of its length, and a file may grow.
+        let mut read = Vec::with_capacity(bytes as usize);
+        file.take(BYTES_MOST + 1).read_to_end(&mut read).map_err(io)?;
+        match read.len() as u64 {
+            bytes if bytes > BYTES_MOST => Err(PolicyError::TooLarge { bytes }),
+            _ => Self::from_bytes(&read),
+        }
     }
 
     /// Reads a policy; what does not fit is refused with the tensor named.
@@ -228,3 +237,6 @@ fn read(file: &SafeTensors<'_>, spec: &TensorSpec) -> Result<Tensor, PolicyError
     }
     Ok(Tensor::from_vec(values, spec.shape.clone(), &Device::Cpu)?)
 }
+
+#[cfg(test)]
+mod tests;

@@ -152,15 +152,22 @@ impl CustomOp2 for Modulation {
 #[cfg(test)]
 mod tests {
     use candle_core::{Device, Var};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::StandardNormal;
 
     use super::*;
 
     #[test]
     fn it_is_the_product_of_both_with_the_gradients_of_candle() {
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
         // The second case is large enough for the thread pool.
         for (batch, goals, count, width) in [(3, 2, 5, 7), (9, 13, 8, 128)] {
-            let draw =
-                |shape: &[usize]| Var::from_tensor(&Tensor::randn(0f32, 1.0, shape, &Device::Cpu).unwrap()).unwrap();
+            let mut draw = |shape: &[usize]| {
+                let values: Vec<f32> =
+                    (0..shape.iter().product()).map(|_| rng.sample::<f32, _>(StandardNormal)).collect();
+                Var::from_slice(&values, shape, &Device::Cpu).unwrap()
+            };
             let (states, fractions) = (draw(&[batch, goals, width]), draw(&[batch, count, width]));
             let weights = draw(&[batch, goals, count, width]);
             let ours = modulate(&states, &fractions).unwrap();

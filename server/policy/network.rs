@@ -373,3 +373,6 @@ fn octaves(places: &Tensor) -> Result<Tensor> {
     }
     Tensor::cat(&parts, 1)
 }
+
+#[cfg(test)]
+mod tests;

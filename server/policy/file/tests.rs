@@ -1,0 +1,223 @@
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+use crate::geometry::{Point2, Rect};
+use crate::image::GrayImage;
+use crate::perception::Observation;
+use crate::policy::{ACTING_FRACTIONS, Fusion, acting_fractions, images};
+
+type Tensors = Vec<(TensorSpec, Vec<f32>)>;
+
+fn manifest(architecture: Architecture) -> Manifest {
+    let (version, observation) = Manifest::current();
+    Manifest {
+        version,
+        maps: vec!["colon".to_owned()],
+        step_m: 0.01,
+        observation,
+        architecture,
+        clearance_m: 0.008,
+        seed: 7,
+        revision: "abc".to_owned(),
+        updates: 100,
+    }
+}
+
+fn draw(architecture: &Architecture, seed: u64) -> Tensors {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    architecture.tensors().into_iter().map(|spec| (spec.clone(), spec.draw(&mut rng))).collect()
+}
+
+/// The tensors of a file without noise.
+fn kept() -> Tensors {
+    draw(&Architecture { noisy: false, ..Architecture::default() }, 1)
+}
+
+/// A file of anything, as another program could write it.
+fn file(manifest: &str, tensors: &Tensors) -> Vec<u8> {
+    let bytes = |values: &Vec<f32>| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
+    let data: Vec<_> = tensors.iter().map(|(spec, values)| (spec, bytes(values))).collect();
+    let views = data.iter().map(|(spec, bytes)| {
+        (&spec.name, TensorView::new(Dtype::F32, spec.shape.clone(), bytes).expect("as many values as the shape says"))
+    });
+    safetensors::serialize(views, Some(HashMap::from([(KEY.to_owned(), manifest.to_owned())]))).unwrap()
+}
+
+fn file_of(manifest: &Manifest, tensors: &Tensors) -> Vec<u8> {
+    file(&serde_json::to_string(manifest).unwrap(), tensors)
+}
+
+fn plain() -> Manifest {
+    manifest(Architecture { noisy: false, ..Architecture::default() })
+}
+
+fn refusal(bytes: &[u8]) -> String {
+    Policy::from_bytes(bytes).unwrap_err().to_string()
+}
+
+fn observation() -> Observation {
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    let gray = GrayImage { width_px: 480, height_px: 480, pixels: (0..480 * 480).map(|_| rng.random()).collect() };
+    let workspace = Rect { x_min_m: 0.0, x_max_m: 0.6, y_min_m: 0.0, y_max_m: 0.4 };
+    Observation::new(&gray, Some(Point2::new(0.5, 0.1)), Point2::new(0.1, 0.3), &workspace)
+}
+
+#[test]
+fn what_is_written_judges_as_what_was_trained() {
+    let full = Architecture::default();
+    for architecture in
+        [full, Architecture { fusion: Fusion::Early, ..full }, Architecture { quantiles: false, ..full }]
+    {
+        let weights = draw(&architecture, 3);
+        let bytes = Policy::to_bytes(&manifest(architecture), &weights).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.safetensors");
+        std::fs::write(&path, &bytes).unwrap();
+        let policy = Policy::open(&path).unwrap();
+        assert_eq!(policy, Policy::from_bytes(&bytes).unwrap());
+        let expected = manifest(Architecture { noisy: false, ..architecture });
+        assert_eq!(policy.manifest(), &expected, "acting needs no noise");
+
+        let network = Network::new(architecture, |name| {
+            let (spec, values) = weights.iter().find(|(spec, _)| spec.name == name).unwrap();
+            Tensor::from_slice(values, spec.shape.clone(), &Device::Cpu)
+        });
+        let (network, seen) = (network.unwrap(), observation());
+        let features = network.features(&images([&seen.bytes[..]].into_iter(), architecture.channels()).unwrap());
+        let places = Tensor::from_slice(&seen.places(), (1, 1, 4), &Device::Cpu).unwrap();
+        let fractions = acting_fractions(1, ACTING_FRACTIONS).unwrap();
+        let quantiles = network.quantiles(&features.unwrap(), &places, &fractions, None).unwrap();
+        let quantiles: Vec<Vec<f32>> = quantiles.squeeze(0).unwrap().squeeze(0).unwrap().to_vec2().unwrap();
+        let judged = policy.judge(&seen).unwrap();
+        assert_eq!(quantiles.len(), if architecture.quantiles { ACTING_FRACTIONS } else { 1 });
+        for (action, row) in judged.quantiles.iter().enumerate() {
+            assert_eq!(*row, quantiles.iter().map(|values| values[action]).collect::<Vec<_>>());
+        }
+        assert!(judged.values().windows(2).any(|pair| pair[0] != pair[1]));
+    }
+}
+
+#[test]
+fn a_tensor_that_does_not_fit_is_refused_by_name() {
+    assert!(Policy::from_bytes(&file_of(&plain(), &kept())).is_ok());
+
+    // Two channels in the first convolution, where the manifest says that the trunk looks at one.
+    let mut tensors = kept();
+    tensors[0] = draw(&Architecture { fusion: Fusion::Early, ..plain().architecture }, 1).remove(0);
+    let text = refusal(&file_of(&plain(), &tensors));
+    assert!(
+        text.contains(
+            "\"trunk.patches.weight\" is [98, 32] of F32, the observation and the network need [49, 32] of f32"
+        ),
+        "{text}"
+    );
+
+    for index in 0..kept().len() {
+        let mut tensors = kept();
+        let name = tensors.remove(index).0.name;
+        assert_eq!(refusal(&file_of(&plain(), &tensors)), format!("policy: tensor {name:?} is missing"));
+    }
+
+    let mut tensors = kept();
+    let spec = TensorSpec { name: "trunk.extra".to_owned(), ..tensors[1].0.clone() };
+    tensors.push((spec, tensors[1].1.clone()));
+    assert_eq!(
+        refusal(&file_of(&plain(), &tensors)),
+        "policy: tensor \"trunk.extra\" belongs to no part of the network"
+    );
+    // What a manifest switches off is stray too.
+    let no_duel = manifest(Architecture { dueling: false, ..plain().architecture });
+    assert!(refusal(&file_of(&no_duel, &kept())).contains("\"value."));
+
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut tensors = kept();
+        *tensors[5].1.last_mut().unwrap() = value;
+        let expected = format!("policy: tensor {:?} holds {value}", tensors[5].0.name);
+        assert_eq!(refusal(&file_of(&plain(), &tensors)), expected);
+    }
+
+    // Integers, of as many bytes.
+    let data: Vec<u8> = vec![0; 4 * 49 * 32];
+    let integers = TensorView::new(Dtype::I32, vec![49, 32], &data).unwrap();
+    let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&plain()).unwrap())]);
+    let text = refusal(&safetensors::serialize([("trunk.patches.weight", integers)], Some(metadata)).unwrap());
+    assert!(text.contains("\"trunk.patches.weight\" is [49, 32] of I32"), "{text}");
+}
+
+#[test]
+fn a_manifest_that_does_not_fit_is_refused_with_the_reason() {
+    let (version, [channels, height, width]) = Manifest::current();
+    let cases = [
+        (Manifest { version: version + 1, ..plain() }, "version is 2, this program reads 1"),
+        (Manifest { observation: [channels + 1, height, width], ..plain() }, "observation is [3, 84, 84]"),
+        (Manifest { observation: [channels, height, 96], ..plain() }, "observation is [2, 84, 96]"),
+        (Manifest { step_m: 0.0, ..plain() }, "step_m is 0"),
+        (Manifest { step_m: 1.0, ..plain() }, "step_m is 1"),
+    ];
+    for (manifest, reason) in cases {
+        let text = refusal(&file_of(&manifest, &kept()));
+        assert!(text.starts_with("policy: manifest: ") && text.contains(reason), "{text}");
+    }
+    for (text, reason) in [("", "EOF"), ("{}", "missing field `version`"), ("[1]", "invalid length")] {
+        let found = refusal(&file(text, &kept()));
+        assert!(found.starts_with("policy: manifest: ") && found.contains(reason), "{found}");
+    }
+    let stray = serde_json::to_string(&plain()).unwrap().replace("\"seed\"", "\"sead\"");
+    assert!(refusal(&file(&stray, &kept())).contains("unknown field `sead`"));
+    // No manifest at all, as other programs write weights.
+    let data = [0; 4];
+    let view = TensorView::new(Dtype::F32, vec![1], &data).unwrap();
+    let text = refusal(&safetensors::serialize([("x", view)], None).unwrap());
+    assert!(text.contains("the metadata have no \"ferry\""), "{text}");
+}
+
+#[test]
+fn a_file_too_large_is_refused_unread() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large");
+    // Holes: more than the memory of this machine could be read.
+    for bytes in [BYTES_MOST + 1, 1 << 42] {
+        std::fs::File::create(&path).unwrap().set_len(bytes).unwrap();
+        match Policy::open(&path) {
+            Err(PolicyError::TooLarge { bytes: found }) => assert_eq!(found, bytes),
+            other => panic!("{other:?}"),
+        }
+    }
+    std::fs::File::create(&path).unwrap().set_len(BYTES_MOST).unwrap();
+    assert!(matches!(Policy::open(&path), Err(PolicyError::Format(_))), "read, and nothing in it");
+    let missing = Policy::open(&folder.path().join("none")).unwrap_err().to_string();
+    assert!(missing.contains("none"), "{missing}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_that_never_ends_is_refused_too() {
+    let error = Policy::open(Path::new("/dev/zero")).unwrap_err();
+    assert!(matches!(error, PolicyError::TooLarge { .. }), "{error}");
+}
+
+#[test]
+fn torn_and_damaged_files_are_read_or_refused_and_nothing_else() {
+    let bytes = file_of(&plain(), &kept());
+    let header = 8 + u64::from_le_bytes(*bytes.first_chunk().unwrap()) as usize;
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    for length in (0..20).chain((0..200).map(|_| rng.random_range(0..bytes.len()))).chain([header, bytes.len() - 1]) {
+        assert!(matches!(Policy::from_bytes(&bytes[..length]), Err(PolicyError::Format(_))), "{length} bytes");
+    }
+    assert!(Policy::from_bytes(&[&bytes[..], &[0]].concat()).is_err(), "one byte more");
+    let (seen, mut whole) = (observation(), 0);
+    for round in 0..600 {
+        let mut damaged = bytes.clone();
+        for _ in 0..rng.random_range(1..4) {
+            // Most of the damage to the header: numbers are only numbers.
+            let at = if round % 4 > 0 { rng.random_range(0..header) } else { rng.random_range(header..bytes.len()) };
+            damaged[at] = if rng.random() { rng.random() } else { damaged[at] ^ (1 << rng.random_range(0..8)) };
+        }
+        if let Ok(policy) = Policy::from_bytes(&damaged) {
+            whole += 1;
+            policy.judge(&seen).unwrap();
+        }
+    }
+    assert!((50..400).contains(&whole), "{whole}");
+}
