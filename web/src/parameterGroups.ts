@@ -62,6 +62,29 @@ export const GROUPS: readonly Group[] = [
     ],
   },
   {
+    title: 'RL',
+    controller: 'rl',
+    fields: [
+      {
+        kind: 'choice',
+        name: 'rl_policy',
+        label: 'Policy',
+        help: 'Which trained policy runs. Auto takes the one trained on this map, else the general one.',
+        options: [
+          ['auto', 'Auto: by map'],
+          ['colon', 'Colon'],
+          ['general', 'General'],
+        ],
+      },
+      {
+        kind: 'flag',
+        name: 'rl_shield',
+        label: 'Shield',
+        help: 'Where the best step comes near a wall in view, the next best is taken. Without, such a step is refused and the arm holds.',
+      },
+    ],
+  },
+  {
     title: 'ERRT',
     controller: 'errt',
     fields: ERRT_FIELDS,

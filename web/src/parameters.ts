@@ -4,6 +4,7 @@ import type { ControllerName, Parameters } from './protocol.gen';
 
 /** Sub-controllers 2 as the page names them. */
 export const CONTROLLER_LABELS: Readonly<Record<ControllerName, string>> = {
+  rl: 'RL',
   errt: 'ERRT',
   attractor: 'Attractor',
 };
