@@ -7,63 +7,9 @@ const DEGREES = 180 / Math.PI;
 
 export const GROUPS: readonly Group[] = [
   {
-    title: 'Switching',
-    fields: [
-      {
-        kind: 'choice',
-        name: 'switching_law',
-        label: 'Switching law',
-        help: 'With hysteresis, sub-controller 1 keeps control until the bead is fetched; the paper has one threshold both ways.',
-        options: [
-          ['hysteresis', 'Hysteresis'],
-          ['literal', 'Literal (paper)'],
-        ],
-      },
-      number(
-        'threshold_m',
-        'Threshold T',
-        [2, 20, 0.1],
-        'cm',
-        100,
-        'Farther than this from the tool, the bead is lost and sub-controller 1 takes over.',
-      ),
-      {
-        ...number(
-          'fetch_radius_m',
-          'Fetch radius',
-          [0.2, 20, 0.1],
-          'cm',
-          100,
-          'Nearer than this, sub-controller 1 has fetched the bead. Never above T.',
-        ),
-        atMost: ({ threshold_m }) => threshold_m,
-      },
-    ],
-  },
-  {
-    title: 'Speeds',
-    fields: [
-      number(
-        'approach_speed_m_s',
-        'Approach',
-        [20, 250, 1],
-        'mm/s',
-        1000,
-        'Speed of the tool while it goes to the bead.',
-      ),
-      number(
-        'transport_speed_m_s',
-        'Transport',
-        [10, 79, 1],
-        'mm/s',
-        1000,
-        'Speed of the tool while it carries the bead.',
-      ),
-    ],
-  },
-  {
     title: 'RL',
     controller: 'rl',
+    open: true,
     fields: [
       {
         kind: 'choice',
@@ -127,6 +73,62 @@ export const GROUPS: readonly Group[] = [
         'mm',
         1000,
         'Distance that the improved law keeps from walls.',
+      ),
+    ],
+  },
+  {
+    title: 'Switching',
+    open: true,
+    fields: [
+      {
+        kind: 'choice',
+        name: 'switching_law',
+        label: 'Switching law',
+        help: 'With hysteresis, sub-controller 1 keeps control until the bead is fetched; the paper has one threshold both ways.',
+        options: [
+          ['hysteresis', 'Hysteresis'],
+          ['literal', 'Literal (paper)'],
+        ],
+      },
+      number(
+        'threshold_m',
+        'Threshold T',
+        [2, 20, 0.1],
+        'cm',
+        100,
+        'Farther than this from the tool, the bead is lost and sub-controller 1 takes over.',
+      ),
+      {
+        ...number(
+          'fetch_radius_m',
+          'Fetch radius',
+          [0.2, 20, 0.1],
+          'cm',
+          100,
+          'Nearer than this, sub-controller 1 has fetched the bead. Never above T.',
+        ),
+        atMost: ({ threshold_m }) => threshold_m,
+      },
+    ],
+  },
+  {
+    title: 'Speeds',
+    fields: [
+      number(
+        'approach_speed_m_s',
+        'Approach',
+        [20, 250, 1],
+        'mm/s',
+        1000,
+        'Speed of the tool while it goes to the bead.',
+      ),
+      number(
+        'transport_speed_m_s',
+        'Transport',
+        [10, 79, 1],
+        'mm/s',
+        1000,
+        'Speed of the tool while it carries the bead.',
       ),
     ],
   },

@@ -54,6 +54,8 @@ export interface Group {
   readonly title: string;
   /** The controller that these are for, if for one alone. */
   readonly controller?: ControllerName;
+  /** Whether it is open at first. */
+  readonly open?: boolean;
   readonly fields: readonly Field[];
 }
 

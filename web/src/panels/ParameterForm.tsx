@@ -174,12 +174,12 @@ function FieldRow(props: { form: Form; field: Field }): JSX.Element {
   }
 }
 
-function GroupBox(props: { form: Form; group: Group; open: boolean }): JSX.Element {
+function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   const { form, group } = props;
   const changed = (): number =>
     group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
   return (
-    <details class="group" open={props.open}>
+    <details class="group" open={group.open}>
       <summary>
         {group.title}
         <Show when={changed() > 0}>
@@ -265,9 +265,7 @@ export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Ele
           Restore defaults
         </button>
       </div>
-      <For each={groups()}>
-        {(group, index) => <GroupBox form={form} group={group} open={index() === 0} />}
-      </For>
+      <For each={groups()}>{(group) => <GroupBox form={form} group={group} />}</For>
     </div>
   );
 }
