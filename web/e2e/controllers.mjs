@@ -1,6 +1,14 @@
-// What is particular to each of the controllers: ERRT's plan, the attractor's flow.
+// What is particular to each of the controllers: the policy's quantiles, ERRT's plan, the attractor's flow.
 
 import { check, until } from './harness.mjs';
+
+/** The server looks at a map from every free centimetre before it first tells values. */
+const FIRST_LOOK_MS = 60_000;
+
+/** A number of the page with its true minus sign. */
+async function signed(lab, testid) {
+  return Number((await lab.text(testid)).replace('−', '-'));
+}
 
 async function select(lab, name) {
   await lab.page.getByRole('radio', { name, exact: true }).check();
@@ -21,6 +29,78 @@ async function shows(lab, layer, points) {
   await lab.layer(layer, false);
   await until(`no layer ${layer}`, async () => (await look()) === bare);
   await lab.layer(layer);
+}
+
+export async function decidesByQuantiles({ lab }) {
+  const { page } = lab;
+  await lab.reset({ map: 'colon', speed: '8' });
+  await select(lab, 'RL');
+  const questions = [];
+  page.on('request', (request) => {
+    if (request.url().endsWith('/values')) questions.push(request.postData());
+  });
+
+  // The legend is as high without values as with them: the map does not move under the points.
+  const legend = page.getByRole('group', { name: 'Values' });
+  await lab.layer('Value');
+  await until('a wish', async () => (await legend.textContent()).includes('Place a goal'));
+  const bead = await lab.point('bead');
+  const goal = lab.freePoints(bead, 0.25, 0.4).at(-1);
+  const places = lab.freePoints(bead, 0.06, 0.2).slice(0, 5);
+  const look = async () => {
+    const looks = [];
+    for (const place of places) looks.push(await lab.look(place));
+    return looks.join(' ');
+  };
+  const bare = await until('a picture that stands still', async () => {
+    const first = await look();
+    return first === (await look()) && first;
+  });
+  await lab.click(goal);
+  const least = page.getByTestId('value-least');
+  await until('values', async () => (await least.count()) === 1, FIRST_LOOK_MS);
+  const range = [await signed(lab, 'value-least'), await signed(lab, 'value-greatest')];
+  check(range[0] < range[1], `the legend says ${range}`);
+  await until('the layer Value', async () => (await look()) !== bare);
+
+  await lab.run();
+  await until('a judgement', () => lab.overlay?.judgement);
+  await lab.button('Pause').click();
+  await until('paused', () => !lab.state.running);
+  const names = ['plus-x', 'minus-x', 'plus-y', 'minus-y'];
+  const shown = () => Promise.all(names.map((name) => signed(lab, `rl-value-${name}`)));
+  // What is shown may be a frame behind what came.
+  const values = await until('the values that came', async () => {
+    const now = await shown();
+    const { values: told } = lab.overlay.judgement;
+    return now.every((value, index) => Math.abs(value - told[index]) < 0.001) && now;
+  });
+  check(values.every(Number.isFinite), `the fans say ${values}`);
+  const { taken, trained_on } = lab.overlay.judgement;
+  const best = values.indexOf(Math.max(...values));
+  const words = await page.getByText('Taken:').innerText();
+  check(words.includes(['+x', '−x', '+y', '−y'][taken]), `the panel says ${words}`);
+  check((best !== taken) === words.includes('next best'), `${values}, but ${words}`);
+  check((await lab.text('rl-trained-on')) === trained_on.join(', '), 'trained on something else');
+  await lab.screenshot('quantiles');
+
+  const parameters = () => lab.scene.parameters;
+  await page.getByLabel('Shield', { exact: true }).uncheck();
+  await until('no shield', () => parameters().rl_shield === false);
+  check(questions.length === 1, `asked ${questions.length} times for one goal`);
+  await page.getByLabel('Policy', { exact: true }).selectOption('Colon');
+  await until('the policy', () => parameters().rl_policy === 'colon');
+  await until('values by that policy', () => questions.length === 2);
+  await lab.button('Restore defaults').click();
+  await until('the defaults', () => parameters().rl_shield && parameters().rl_policy === 'auto');
+
+  await lab.run();
+  await lab.delivered(1);
+  await lab.button('Pause').click();
+  await lab.layer('Value', false);
+  await legend.waitFor({ state: 'detached' });
+  await select(lab, 'Attractor');
+  await until('no fans', async () => (await page.getByTestId('rl-taken').count()) === 0);
 }
 
 export async function carriesAlongAWay({ lab }) {

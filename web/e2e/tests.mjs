@@ -1,7 +1,11 @@
 // What a person does with the dashboard, on a real server.
 
 import { check, until } from './harness.mjs';
-import { carriesAlongAWay, showsWhereTheAttractorLeads } from './controllers.mjs';
+import {
+  carriesAlongAWay,
+  decidesByQuantiles,
+  showsWhereTheAttractorLeads,
+} from './controllers.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
@@ -321,6 +325,7 @@ export const TESTS = [
   ['shows what the magnet can', showsWhatTheMagnetCan],
   ['shows singularities', showsSingularities],
   ['shows what the camera tells', showsWhatTheCameraTells],
+  ['decides by quantiles', decidesByQuantiles],
   ['carries the bead along a planned way', carriesAlongAWay],
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],

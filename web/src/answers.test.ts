@@ -63,6 +63,19 @@ describe('the asker', () => {
     expect(told.at(-1)).toEqual({ data: 3 });
   });
 
+  it('says with which key the question was asked that it has an answer to', async () => {
+    const { asker, asked, told, next, settle } = bench();
+    asker.ask('same', 'colon');
+    asked.get('same')?.yes(1);
+    await settle();
+    expect(told.at(-1)).toEqual({ data: 1, key: 'colon' });
+    asker.ask('same', 'posts');
+    next();
+    asked.get('same')?.no(new Error('no room'));
+    await settle();
+    expect(told.at(-1)).toEqual({ data: 1, error: 'no room', key: 'posts' });
+  });
+
   it('says nothing to those who are gone', async () => {
     const { asker, asked, told, settle } = bench();
     asker.ask('late');

@@ -8,13 +8,15 @@ export interface Answer<A> {
   readonly data?: A;
   /** Why the newest question has no answer. */
   readonly error?: string;
+  /** The key with which the newest question was asked that was answered or refused. */
+  readonly key?: string | undefined;
 }
 
 const ASKED_PER_S = 12;
 
 /** Asks the newest question, so often a second at most; an answer overtaken by a later one is dropped. */
 export class Asker<A> {
-  private readonly limiter: Limiter<string>;
+  private readonly limiter: Limiter<readonly [question: string, key?: string]>;
   private asked = 0;
   private answered = 0;
   private newest: Answer<A> = {};
@@ -25,11 +27,15 @@ export class Asker<A> {
     perS = ASKED_PER_S,
     clock: Clock = browserClock,
   ) {
-    this.limiter = new Limiter(1000 / perS, (question) => void this.send(question), clock);
+    this.limiter = new Limiter(
+      1000 / perS,
+      ([question, key]) => void this.send(question, key),
+      clock,
+    );
   }
 
-  ask(question: string): void {
-    this.limiter.offer(question);
+  ask(question: string, key?: string): void {
+    this.limiter.offer(key === undefined ? [question] : [question, key]);
   }
 
   /** Whoever asked is not interested any more. */
@@ -37,14 +43,14 @@ export class Asker<A> {
     this.answered = this.asked;
   }
 
-  private async send(question: string): Promise<void> {
+  private async send(question: string, key?: string): Promise<void> {
     this.asked += 1;
     const number = this.asked;
     let answer: Answer<A>;
     try {
-      answer = { data: await this.answerTo(question) };
+      answer = { data: await this.answerTo(question), key };
     } catch (reason) {
-      answer = { error: reason instanceof Error ? reason.message : String(reason) };
+      answer = { error: reason instanceof Error ? reason.message : String(reason), key };
     }
     if (number <= this.answered) return;
     this.answered = number;
@@ -94,10 +100,10 @@ export function createAnswer<Q, A>(
   });
   const keyNow = createMemo(() => key?.());
   createEffect(() => {
-    keyNow();
     const now = body();
+    const key = keyNow();
     if (now === undefined) asker.forget();
-    else asker.ask(now);
+    else asker.ask(now, key);
   });
   onCleanup(() => {
     asker.forget();

@@ -7,7 +7,78 @@ const DEGREES = 180 / Math.PI;
 
 export const GROUPS: readonly Group[] = [
   {
+    title: 'RL',
+    controller: 'rl',
+    open: true,
+    fields: [
+      {
+        kind: 'choice',
+        name: 'rl_policy',
+        label: 'Policy',
+        help: 'Which trained policy runs. Auto takes the one trained on this map, else the general one.',
+        options: [
+          ['auto', 'Auto: by map'],
+          ['colon', 'Colon'],
+          ['general', 'General'],
+        ],
+      },
+      {
+        kind: 'flag',
+        name: 'rl_shield',
+        label: 'Shield',
+        help: 'Where the best step comes near a wall in view, the next best is taken. Without, such a step is refused and the arm holds.',
+      },
+    ],
+  },
+  {
+    title: 'ERRT',
+    controller: 'errt',
+    fields: ERRT_FIELDS,
+  },
+  {
+    title: 'Attractor dynamics',
+    controller: 'attractor',
+    fields: [
+      {
+        kind: 'choice',
+        name: 'attractor_law',
+        label: 'Attractor law',
+        help: 'The literal law can stick behind a flat face; the improved one follows contours and keeps clear.',
+        options: [
+          ['improved', 'Improved'],
+          ['literal', 'Literal (paper)'],
+        ],
+      },
+      number('attractor_gain', 'Gain K', [1.05, 10, 0.05], '', 1, 'K = k·I; stable above 1.'),
+      number(
+        'attractor_safety_factor',
+        'Safety factor',
+        [1, 2, 0.05],
+        '',
+        1,
+        'Scales the half sides of the superellipse around an obstacle.',
+      ),
+      number(
+        'attractor_reactivity',
+        'Reactivity ρ',
+        [0.2, 5, 0.1],
+        '',
+        1,
+        'How early the motion bends around an obstacle.',
+      ),
+      number(
+        'attractor_clearance_m',
+        'Clearance',
+        [0, 30, 1],
+        'mm',
+        1000,
+        'Distance that the improved law keeps from walls.',
+      ),
+    ],
+  },
+  {
     title: 'Switching',
+    open: true,
     fields: [
       {
         kind: 'choice',
@@ -58,52 +129,6 @@ export const GROUPS: readonly Group[] = [
         'mm/s',
         1000,
         'Speed of the tool while it carries the bead.',
-      ),
-    ],
-  },
-  {
-    title: 'ERRT',
-    controller: 'errt',
-    fields: ERRT_FIELDS,
-  },
-  {
-    title: 'Attractor dynamics',
-    controller: 'attractor',
-    fields: [
-      {
-        kind: 'choice',
-        name: 'attractor_law',
-        label: 'Attractor law',
-        help: 'The literal law can stick behind a flat face; the improved one follows contours and keeps clear.',
-        options: [
-          ['improved', 'Improved'],
-          ['literal', 'Literal (paper)'],
-        ],
-      },
-      number('attractor_gain', 'Gain K', [1.05, 10, 0.05], '', 1, 'K = k·I; stable above 1.'),
-      number(
-        'attractor_safety_factor',
-        'Safety factor',
-        [1, 2, 0.05],
-        '',
-        1,
-        'Scales the half sides of the superellipse around an obstacle.',
-      ),
-      number(
-        'attractor_reactivity',
-        'Reactivity ρ',
-        [0.2, 5, 0.1],
-        '',
-        1,
-        'How early the motion bends around an obstacle.',
-      ),
-      number(
-        'attractor_clearance_m',
-        'Clearance',
-        [0, 30, 1],
-        'mm',
-        1000,
-        'Distance that the improved law keeps from walls.',
       ),
     ],
   },

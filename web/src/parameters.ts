@@ -4,6 +4,7 @@ import type { ControllerName, Parameters } from './protocol.gen';
 
 /** Sub-controllers 2 as the page names them. */
 export const CONTROLLER_LABELS: Readonly<Record<ControllerName, string>> = {
+  rl: 'RL',
   errt: 'ERRT',
   attractor: 'Attractor',
 };
@@ -53,6 +54,8 @@ export interface Group {
   readonly title: string;
   /** The controller that these are for, if for one alone. */
   readonly controller?: ControllerName;
+  /** Whether it is open at first. */
+  readonly open?: boolean;
   readonly fields: readonly Field[];
 }
 

@@ -8,6 +8,7 @@ import { NoticeBar } from './NoticeBar';
 import { ParameterForm } from './ParameterForm';
 import { PlanFacts } from './PlanFacts';
 import { SwitchingLaw } from './SwitchingLaw';
+import { ValueFans } from './ValueFans';
 
 function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element {
   const { lab } = props;
@@ -64,6 +65,9 @@ export function ControllerPanel(props: { lab: Lab }): JSX.Element {
                   <SwitchingLaw state={state()} scene={scene()} />
                   <Show when={lab.overlay()?.plan}>
                     {(plan) => <PlanFacts plan={plan()} state={state()} />}
+                  </Show>
+                  <Show when={lab.overlay()?.judgement}>
+                    {(judgement) => <ValueFans judgement={judgement()} />}
                   </Show>
                 </>
               )}

@@ -174,17 +174,14 @@ function FieldRow(props: { form: Form; field: Field }): JSX.Element {
   }
 }
 
-function GroupBox(props: { form: Form; group: Group; open: boolean; inUse: boolean }): JSX.Element {
+function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   const { form, group } = props;
   const changed = (): number =>
     group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
   return (
-    <details class="group" open={props.open}>
+    <details class="group" open={group.open}>
       <summary>
         {group.title}
-        <Show when={props.inUse}>
-          <span class="in-use">in use</span>
-        </Show>
         <Show when={changed() > 0}>
           <span class="changed-count">{changed()} changed</span>
         </Show>
@@ -248,6 +245,11 @@ function createForm(lab: Lab, scene: () => SceneMessage): Form {
 export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
   const { lab } = props;
   const form = createForm(lab, () => props.scene);
+  const controller = createMemo(() => lab.state()?.controller);
+  // Those of other controllers have no effect now.
+  const groups = createMemo(() =>
+    GROUPS.filter((group) => !group.controller || group.controller === controller()),
+  );
   return (
     <div class="parameters">
       <div class="parameters-head">
@@ -263,16 +265,7 @@ export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Ele
           Restore defaults
         </button>
       </div>
-      <For each={GROUPS}>
-        {(group, index) => (
-          <GroupBox
-            form={form}
-            group={group}
-            open={index() === 0}
-            inUse={group.controller !== undefined && group.controller === lab.state()?.controller}
-          />
-        )}
-      </For>
+      <For each={groups()}>{(group) => <GroupBox form={form} group={group} />}</For>
     </div>
   );
 }

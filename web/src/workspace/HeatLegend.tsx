@@ -22,7 +22,7 @@ function Values(props: { map: WorkspaceMap }): JSX.Element {
           </>
         )}
       </Show>
-      <span class="heat-refused">
+      <span class="aside">
         <span class="heat-hatch" aria-hidden="true" />
         singular (below {heatWords(props.map.least_m3)}) or out of reach: {refusedWords(props.map)}
       </span>

@@ -14,8 +14,10 @@ import { createHeat } from './drawHeat';
 import { wallPath } from './drawMap';
 import { createPlan } from './drawPlan';
 import { createSeen } from './drawSeen';
+import { createValues } from './drawValue';
 import { FlowLegend } from './FlowLegend';
 import { createFlowLayer } from './flowLayer';
+import { createGoal } from './goal';
 import { createHand } from './hand';
 import { workspaceQuery } from './heat';
 import { HeatLegend } from './HeatLegend';
@@ -24,6 +26,8 @@ import { storeLayers, storedLayers, type Layer } from './layers';
 import { paint } from './paint';
 import { createPalette } from '../palette';
 import { GRAB_MOUSE_PX, attachPointer, type Pointing } from './pointer';
+import { ValueLegend } from './ValueLegend';
+import { createValueLayer } from './valueLayer';
 import { WorkspaceHead } from './WorkspaceHead';
 
 /** Room for the numbers of the axes. */
@@ -83,8 +87,17 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     return layer && now && isShown ? createPlan(layer, now) : undefined;
   });
 
+  const goal = createGoal(lab);
   const showsFlow = createMemo(() => layers().has('flow'));
-  const flowLayer = createFlowLayer(lab, showsFlow);
+  const flowLayer = createFlowLayer(lab, goal, showsFlow);
+
+  const showsValue = createMemo(() => layers().has('value'));
+  const valueLayer = createValueLayer(lab, goal, showsValue);
+  const values = createMemo(() => {
+    const map = valueLayer.map();
+    const now = view();
+    return map && now ? createValues(map, palette(), now) : undefined;
+  });
 
   const readout = createMemo(() => {
     const now = view();
@@ -129,6 +142,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       state: lab.state(),
       overlay: lab.overlay(),
       heat: heatQuestion() && heat(),
+      values: values(),
       seen: seen(),
       plan: plan(),
       flow: flowLayer.flow(),
@@ -215,10 +229,17 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
           <FlowLegend
             answer={flowLayer.answer()}
             flow={flowLayer.flow()}
-            hasGoal={!!lab.state()?.goal_m}
+            hasGoal={goal() !== undefined}
             law={scene().parameters.attractor_law}
           />
         )}
+      </Show>
+      <Show when={showsValue()}>
+        <ValueLegend
+          map={valueLayer.map()}
+          error={valueLayer.error()}
+          hasGoal={goal() !== undefined}
+        />
       </Show>
       <footer class="panel-foot">
         <p id="workspace-help" class="hint">

@@ -22,7 +22,7 @@ export function createFlow(field: FlowField, goal_m: Vec2, seen: SeenMessage): F
   return { arrows: flowArrows(field, isSeen), traps: flowTraps(field, goal_m, isSeen) };
 }
 
-function arrowPath(view: View, arrows: readonly Arrow[]): Path2D {
+export function arrowPath(view: View, arrows: readonly Arrow[]): Path2D {
   const path = new Path2D();
   for (const { from_m, to_m } of arrows) {
     const [from, [x, y]] = [pxFromWorld(view, from_m), pxFromWorld(view, to_m)];

@@ -3,7 +3,7 @@
 import type { Palette } from '../palette';
 import type { WorkspaceMap } from '../protocol.gen';
 import { pxFromWorld, type View } from '../transform';
-import { heatPixels, refusedRuns, type Run } from './heat';
+import { heatPixels, refusedRuns, type Ramp, type Run } from './heat';
 
 const HATCH_PX = 7;
 
@@ -16,12 +16,15 @@ export interface Heat {
   readonly refused: readonly Run[];
 }
 
+export function heatRamp(palette: Palette): Ramp {
+  return [palette['heat-low'], palette['heat-middle'], palette['heat-high']];
+}
+
 export function createHeat(map: WorkspaceMap, palette: Palette): Heat {
   const image = document.createElement('canvas');
   image.width = map.columns;
   image.height = map.rows;
-  const ramp = [palette['heat-low'], palette['heat-middle'], palette['heat-high']] as const;
-  const pixels = new ImageData(heatPixels(map, ramp), map.columns, map.rows);
+  const pixels = new ImageData(heatPixels(map, heatRamp(palette)), map.columns, map.rows);
   image.getContext('2d')?.putImageData(pixels, 0, 0);
   return { map, image, refused: refusedRuns(map) };
 }

@@ -17,16 +17,11 @@ export interface FlowLayer {
   readonly flow: Accessor<Flow | undefined>;
 }
 
-export function createFlowLayer(lab: Lab, shown: Accessor<boolean>): FlowLayer {
-  // A state comes every frame, another goal seldom.
-  const goal = createMemo<Vec2 | undefined>(
-    () => {
-      const goal_m = lab.state()?.goal_m;
-      return goal_m ? [goal_m[0], goal_m[1]] : undefined;
-    },
-    undefined,
-    { equals: (a, b) => a?.[0] === b?.[0] && a?.[1] === b?.[1] },
-  );
+export function createFlowLayer(
+  lab: Lab,
+  goal: Accessor<Vec2 | undefined>,
+  shown: Accessor<boolean>,
+): FlowLayer {
   const asks = createMemo(() => shown() && goal() !== undefined && lab.link().kind === 'live');
   const answer = createAnswer<FlowQuery, FlowField>(
     '/api/sessions/main/flow',

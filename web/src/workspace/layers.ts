@@ -18,6 +18,7 @@ export const LAYER_GROUPS = [
       ['rectangles', 'Rectangles'],
     ],
   },
+  { title: 'RL', layers: [['value', 'Value']] },
   {
     title: 'ERRT',
     layers: [

@@ -10,6 +10,7 @@ import { drawCursor, drawSpring } from './drawHand';
 import { drawHeat, type Heat } from './drawHeat';
 import { drawFloor, drawMap } from './drawMap';
 import { drawObstacles, drawPlan, type Plan } from './drawPlan';
+import { drawValues, type Values } from './drawValue';
 import { drawBlocks, drawRectangles, drawSeen, type Seen } from './drawSeen';
 import {
   drawBead,
@@ -33,6 +34,8 @@ export interface Picture {
   readonly overlay: OverlayMessage | undefined;
   /** The layer of singularities, when it is shown. */
   readonly heat: Heat | undefined;
+  /** What the policy thinks of each place, when it is shown. */
+  readonly values: Values | undefined;
   /** What the camera has shown, when it is shown. */
   readonly seen: Seen | undefined;
   /** What ERRT plans, when it does. */
@@ -134,6 +137,12 @@ export function paint(
     ctx.save();
     clipToWorkspace(ctx, picture);
     drawHeat(ctx, picture.view, picture.palette, picture.heat);
+    ctx.restore();
+  }
+  if (picture.values) {
+    ctx.save();
+    clipToWorkspace(ctx, picture);
+    drawValues(ctx, picture.view, picture.palette, picture.values);
     ctx.restore();
   }
   drawMap(ctx, picture.scene, picture.walls, picture.view, picture.palette);
