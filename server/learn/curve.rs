@@ -207,7 +207,7 @@ mod tests {
             let texts: Vec<&str> = document.descendants().filter_map(|node| node.text().map(str::trim)).collect();
             for title in ["Reward of an episode", "Loss"] {
                 let is_title = |text: &&str| text.starts_with(&format!("{title}: ")) && text.ends_with(rounds);
-                assert!(texts.iter().any(|text| is_title(text)), "{title} {texts:?}");
+                assert!(texts.iter().any(is_title), "{title} {texts:?}");
             }
             assert!(!svg.contains("NaN") && !svg.contains("inf"));
             let bands = document.descendants().filter(|node| node.tag_name().name() == "polygon").count();

@@ -40,14 +40,11 @@ impl Marks {
     }
 }
 
-/// Where the best action of each episode leads, by the tables: `act` maps cells and places to actions.
-pub fn examine_by(
-    recipe: &Recipe,
-    terrains: &[Terrain],
-    episodes: u32,
-    seed: u64,
-    act: &mut dyn FnMut(&[(u8, u16)], &[[f32; 4]]) -> Result<Vec<u32>>,
-) -> Result<Marks> {
+/// Maps cells and places to actions.
+pub type Act<'a> = dyn FnMut(&[(u8, u16)], &[[f32; 4]]) -> Result<Vec<u32>> + 'a;
+
+/// Where the chosen action of each episode leads, by the tables.
+pub fn examine_by(recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u64, act: &mut Act<'_>) -> Result<Marks> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
     let mut marks = Marks { episodes, ..Marks::default() };

@@ -7,9 +7,9 @@
 mod matrix;
 #[cfg(test)]
 mod tests;
+mod windows;
 
 use std::cell::RefCell;
-use std::ops::Range;
 
 use candle_core::{CpuStorage, CustomOp3, Error, Layout, Result, Shape, Storage, Tensor};
 use matrix::{Matrix, add_to, multiply, transpose};
@@ -228,8 +228,7 @@ impl Geometry {
         for_each_part(x_parts.zip(y_parts).collect(), self.multiply_adds(), |(x, y), scratch| {
             let y_images = y.chunks_exact_mut(self.pixels_out() * self.channels_out);
             for (x, y) in x.chunks_exact(self.image_len()).zip(y_images) {
-                self.im2col(x, scratch);
-                let columns = Matrix::new(&scratch.columns, self.pixels_out(), self.window_len());
+                let columns = Matrix::new(self.im2col(x, scratch), self.pixels_out(), self.window_len());
                 multiply(y, true, columns, Matrix::new(weight, self.window_len(), self.channels_out));
             }
         });
@@ -294,87 +293,20 @@ impl Geometry {
             if let Some(sums) = &mut sums {
                 let (weight_sum, bias_sum) = sums.split_at_mut(window_len * channels_out);
                 y_gradient.chunks_exact(channels_out).for_each(|pixel| add_to(bias_sum, pixel));
-                self.im2col(x, scratch);
-                let columns = Matrix::new(&scratch.columns, self.pixels_out(), window_len);
+                let columns = Matrix::new(self.im2col(x, scratch), self.pixels_out(), window_len);
                 multiply(weight_sum, true, columns.transposed(), y_matrix);
             }
             if let Some(x_gradient) = &mut x_gradient {
-                scratch.columns.resize(self.pixels_out() * window_len, 0.0);
                 let transposed_weight = Matrix::new(transposed_weight, channels_out, window_len);
+                let x_gradient = &mut x_gradient[index * self.image_len()..(index + 1) * self.image_len()];
+                if self.is_pointwise() {
+                    multiply(x_gradient, false, y_matrix, transposed_weight);
+                    self.rectify_gradient(x, x_gradient);
+                    continue;
+                }
+                scratch.columns.resize(self.pixels_out() * window_len, 0.0);
                 multiply(&mut scratch.columns, false, y_matrix, transposed_weight);
-                let image = index * self.image_len()..(index + 1) * self.image_len();
-                self.col2im(x, &mut x_gradient[image], scratch);
-            }
-        }
-    }
-
-    /// The part of the padded image that window `(i, j)` covers in its row `di`.
-    fn window_row(&self, i: usize, j: usize, di: usize) -> Range<usize> {
-        let Convolution { kernel, stride, .. } = self.convolution;
-        let start = ((i * stride + di) * self.padded_width() + j * stride) * self.channels_in;
-        start..start + kernel * self.channels_in
-    }
-
-    /// The part of the padded image that holds row `i` of the image.
-    fn inner_row(&self, i: usize) -> Range<usize> {
-        let padding = self.convolution.padding;
-        let start = ((i + padding) * self.padded_width() + padding) * self.channels_in;
-        start..start + self.width * self.channels_in
-    }
-
-    /// Fills `scratch.columns` with the windows of the image `x`, rectified if asked for, one window a row.
-    fn im2col(&self, x: &[f32], scratch: &mut Scratch) {
-        let Convolution { kernel, padding, rectify_input, .. } = self.convolution;
-        // A padded and rectified copy (in L1) lets the windows, which overlap, be plain copies without a branch.
-        let padded = if padding == 0 && !rectify_input {
-            x
-        } else {
-            scratch.padded.clear();
-            scratch.padded.resize(self.padded_len(), 0.0);
-            for (i, row) in x.chunks_exact(self.width * self.channels_in).enumerate() {
-                let padded_row = &mut scratch.padded[self.inner_row(i)];
-                if rectify_input {
-                    // Written so that a NaN stays a NaN, which `max` would hide.
-                    padded_row.iter_mut().zip(row).for_each(|(to, &from)| *to = if from < 0.0 { 0.0 } else { from });
-                } else {
-                    padded_row.copy_from_slice(row);
-                }
-            }
-            &scratch.padded
-        };
-        scratch.columns.resize(self.pixels_out() * self.window_len(), 0.0);
-        let mut runs = scratch.columns.chunks_exact_mut(kernel * self.channels_in);
-        for i in 0..self.height_out {
-            for j in 0..self.width_out {
-                for (di, run) in (0..kernel).zip(&mut runs) {
-                    run.copy_from_slice(&padded[self.window_row(i, j, di)]);
-                }
-            }
-        }
-    }
-
-    /// Adds up the gradients of windows in `scratch.columns` to the gradient of the image `x`.
-    fn col2im(&self, x: &[f32], x_gradient: &mut [f32], scratch: &mut Scratch) {
-        let Convolution { kernel, rectify_input, .. } = self.convolution;
-        scratch.padded.clear();
-        scratch.padded.resize(self.padded_len(), 0.0);
-        let mut runs = scratch.columns.chunks_exact(kernel * self.channels_in);
-        for i in 0..self.height_out {
-            for j in 0..self.width_out {
-                for (di, run) in (0..kernel).zip(&mut runs) {
-                    add_to(&mut scratch.padded[self.window_row(i, j, di)], run);
-                }
-            }
-        }
-        let row_len = self.width * self.channels_in;
-        for (i, (x, x_gradient)) in x.chunks_exact(row_len).zip(x_gradient.chunks_exact_mut(row_len)).enumerate() {
-            let sums = &scratch.padded[self.inner_row(i)];
-            if rectify_input {
-                for ((to, &sum), &x) in x_gradient.iter_mut().zip(sums).zip(x) {
-                    *to = if x <= 0.0 { 0.0 } else { sum };
-                }
-            } else {
-                x_gradient.copy_from_slice(sums);
+                self.col2im(x, x_gradient, scratch);
             }
         }
     }

@@ -23,6 +23,9 @@ pub fn modulate(states: &Tensor, fractions: &Tensor) -> Result<Tensor> {
 
 struct Modulation;
 
+/// States, fractions and the gradient of their product, of one batch entry.
+type Given<'a> = ((&'a [f32], &'a [f32]), &'a [f32]);
+
 /// Sizes of one batch entry.
 #[derive(Clone, Copy)]
 struct Sizes {
@@ -137,10 +140,9 @@ impl CustomOp2 for Modulation {
                 .zip(ds.chunks_exact_mut(goals * width).zip(df.chunks_exact_mut(count * width)))
                 .collect();
             let is_small = dy.len() < PARALLEL_THRESHOLD;
-            let one =
-                |(((states, fractions), dy), (ds, df)): (((&[f32], &[f32]), &[f32]), (&mut [f32], &mut [f32]))| {
-                    sizes.backward(states, fractions, dy, ds, df);
-                };
+            let one = |(((states, fractions), dy), (ds, df)): (Given<'_>, (&mut [f32], &mut [f32]))| {
+                sizes.backward(states, fractions, dy, ds, df);
+            };
             if is_small { parts.into_iter().for_each(one) } else { parts.into_par_iter().for_each(one) }
         }
         let ds = Tensor::from_vec(ds, states.shape(), states.device())?;
