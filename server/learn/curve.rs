@@ -126,11 +126,14 @@ fn draw(curves: &[Curve], text: &mut String) -> Result<(), Box<dyn std::error::E
         let margin = 0.05 * (high - low);
         let mut chart = ChartBuilder::on(panel)
             .margin(10)
+            .margin_right(30)
             .caption(format!("{title}: mean and deviation {spread}, {rounds}"), ("sans-serif", 16))
             .x_label_area_size(32)
             .y_label_area_size(56)
             .build_cartesian_2d(0.0..most_x, low - margin..high + margin)?;
-        chart.configure_mesh().light_line_style(WHITE).x_desc("updates").y_desc(title).draw()?;
+        let whole = |update: &f64| format!("{update:.0}");
+        let mut mesh = chart.configure_mesh();
+        mesh.light_line_style(WHITE).x_label_formatter(&whole).x_desc("updates").y_desc(title).draw()?;
         let upper = line.iter().map(|&(x, mean, deviation)| (x, mean + deviation));
         let lower = line.iter().rev().map(|&(x, mean, deviation)| (x, mean - deviation));
         chart.draw_series(std::iter::once(Polygon::new(upper.chain(lower).collect::<Vec<_>>(), color.mix(0.25))))?;
