@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;
-use ferry::camera::{AdapterChoice, Eye, Gpu, Subject};
+use ferry::camera::{AdapterChoice, Gpu, Subject};
 use ferry::control::transport::rl::Rl;
 use ferry::control::transport::{Transport, TransportInput};
 use ferry::geometry::Point2;
