@@ -17,6 +17,6 @@ pub use atlas::{Atlas, AtlasError};
 pub use curve::{Curve, FigureError};
 pub use environment::Ending;
 pub use examine::Marks;
-pub use recipe::Recipe;
+pub use recipe::{Recipe, RecipeError};
 pub use terrain::{Terrain, TerrainError};
 pub use training::{Point, Spread, State, TrainingError, WINDOW};

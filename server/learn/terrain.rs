@@ -110,7 +110,7 @@ impl Terrain {
         self.next[usize::from(cell)][action]
     }
 
-    /// Least number of steps, [`UNREACHABLE`] where there is no way.
+    /// Least number of steps, `u16::MAX` where there is no way.
     pub fn distance(&self, from: u16, to: u16) -> u16 {
         self.distance[usize::from(from) * self.cells() + usize::from(to)]
     }
