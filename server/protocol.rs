@@ -11,7 +11,7 @@ use ts_rs::TS;
 use crate::geometry::{Polygon, Rect};
 use crate::plant::{PositionerKind, ToolOrientation};
 use crate::robot::workspace::ManipulabilityMap;
-use crate::scenario::{ControllerName, Disturbance, Parameters, Scripted};
+use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
 use crate::trial::EventKind;
 
 mod convert;
@@ -26,7 +26,7 @@ pub use layers::{
 };
 
 /// Raised when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 4;
+pub const PROTOCOL_VERSION: u32 = 5;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
@@ -71,7 +71,7 @@ pub enum ClientMessage {
         seed: Option<u64>,
     },
     /// Another map. Controller, seed and parameters stay as they are where they are left out; the positioner is
-    /// then what the map is made for, the start is random, and there is neither goal nor script.
+    /// then what the map is made for, the start is random, and there is neither goal nor disturbance.
     LoadScenario {
         map: String,
         #[serde(default)]
@@ -92,6 +92,9 @@ pub enum ClientMessage {
         #[serde(default)]
         #[ts(optional)]
         parameters: Option<Parameters>,
+        #[serde(default)]
+        #[ts(optional, as = "Option<u32>")]
+        disturbances: u32,
         #[serde(default)]
         #[ts(optional, as = "Option<Vec<Scripted>>")]
         script: Vec<Scripted>,
@@ -163,6 +166,8 @@ pub struct SceneMessage {
     pub map: String,
     /// Maps that `load_scenario` knows.
     pub maps: Vec<String>,
+    /// How the trial was set up; controller, goal and parameters may have changed since.
+    pub scenario: Scenario,
     /// What carries the magnet in this trial.
     pub positioner: PositionerKind,
     /// Controllers that `select_controller` knows.

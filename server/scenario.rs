@@ -60,7 +60,7 @@ pub struct UnknownController {
 }
 
 /// A trial before its first tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// Name of the map, or path of an SVG.
@@ -71,15 +71,18 @@ pub struct Scenario {
     #[serde(default)]
     pub positioner: Option<PositionerKind>,
     /// Seed of everything random in the trial.
+    #[ts(type = "number")]
     pub seed: u64,
     /// Parameters at the start.
     #[serde(default)]
     pub parameters: Parameters,
     /// Bead at the start, the tool above it; left out, a random free point.
     #[serde(default)]
+    #[ts(type = "[number, number] | null")]
     pub start_m: Option<Point2<f64>>,
     /// Goal at the start; left out, none: the arm holds.
     #[serde(default)]
+    #[ts(type = "[number, number] | null")]
     pub goal_m: Option<Point2<f64>>,
     /// How often the bead is lifted away at random during transport (specification §2).
     #[serde(default)]

@@ -60,6 +60,8 @@ pub enum Command {
         goal_m: Option<Point2<f64>>,
         /// Parameters, or the present ones.
         parameters: Option<Box<Parameters>>,
+        /// Disturbances at random.
+        disturbances: u32,
         /// Disturbances at set times.
         script: Vec<Scripted>,
     },

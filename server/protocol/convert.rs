@@ -45,18 +45,27 @@ impl ClientMessage {
             Self::Step { ticks } => Command::Step(ticks),
             Self::SetSpeed { factor } => Command::SetSpeed(factor),
             Self::Reset { seed } => Command::Reset(seed),
-            Self::LoadScenario { map, controller, positioner, seed, start_m, goal_m, parameters, script } => {
-                Command::Load {
-                    map,
-                    controller,
-                    positioner,
-                    seed,
-                    start_m: start_m.map(point),
-                    goal_m: goal_m.map(point),
-                    parameters: parameters.map(Box::new),
-                    script,
-                }
-            }
+            Self::LoadScenario {
+                map,
+                controller,
+                positioner,
+                seed,
+                start_m,
+                goal_m,
+                parameters,
+                disturbances,
+                script,
+            } => Command::Load {
+                map,
+                controller,
+                positioner,
+                seed,
+                start_m: start_m.map(point),
+                goal_m: goal_m.map(point),
+                parameters: parameters.map(Box::new),
+                disturbances,
+                script,
+            },
             Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
             Self::TakeControl {} | Self::ReleaseControl {} => return None,
@@ -106,6 +115,7 @@ impl From<&Scenery> for SceneMessage {
         Self {
             map: map.name().to_owned(),
             maps: Map::shipped_names(),
+            scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
             controllers: ControllerName::ALL.to_vec(),
             workspace: *map.workspace(),

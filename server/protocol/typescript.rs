@@ -36,6 +36,7 @@ fn generated() -> String {
         declaration::<Disturbance>(c),
         declaration::<When>(c),
         declaration::<Scripted>(c),
+        declaration::<Scenario>(c),
         declaration::<ClientMessage>(c),
         declaration::<Role>(c),
         declaration::<ServerMessage>(c),

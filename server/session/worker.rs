@@ -179,7 +179,7 @@ impl Worker {
                 };
                 self.set_up(scenario, self.trial.arena().clone())?;
             }
-            Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, script } => {
+            Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, disturbances, script } => {
                 // A name only: no client path touches the file system.
                 let arena = Arena::of(crate::map::Map::shipped(&map)?);
                 let present = self.trial.state();
@@ -191,7 +191,7 @@ impl Worker {
                     parameters: parameters.map_or_else(|| present.world.parameters.clone(), |p| *p),
                     start_m,
                     goal_m,
-                    disturbances: 0,
+                    disturbances,
                     script,
                 };
                 let camera = arena.camera(&self.gpu).map_err(TrialError::from)?;

@@ -1,31 +1,45 @@
 // Assembles the page: one laboratory, its panels around it.
 
-import type { JSX } from 'solid-js';
+import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { createLab } from './lab';
+import { AsidePanel } from './panels/AsidePanel';
 import { CameraPanel } from './panels/CameraPanel';
 import { ControllerPanel } from './panels/ControllerPanel';
+import { EvaluateView } from './panels/EvaluateView';
 import { Header } from './panels/Header';
-import { LogPanel } from './panels/LogPanel';
 import { LowerPanel } from './panels/LowerPanel';
+import { RecordingsView } from './panels/RecordingsView';
 import { Transport } from './panels/Transport';
 import { createTheme } from './theme';
+import type { View } from './views';
 import { WorkspacePanel } from './workspace/WorkspacePanel';
 
 function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window.location);
+  const [view, setView] = createSignal<View>('laboratory');
   return (
     <>
-      <Header lab={lab} theme={theme} onTheme={toggle} />
-      <main>
-        <WorkspacePanel lab={lab} theme={theme} />
-        <CameraPanel lab={lab} />
-        <ControllerPanel lab={lab} />
-        <LowerPanel lab={lab} theme={theme} />
-        <LogPanel lab={lab} />
-      </main>
-      <Transport lab={lab} />
+      <Header lab={lab} theme={theme} onTheme={toggle} view={view()} onView={setView} />
+      <Switch>
+        <Match when={view() === 'laboratory'}>
+          <main>
+            <WorkspacePanel lab={lab} theme={theme} />
+            <CameraPanel lab={lab} />
+            <ControllerPanel lab={lab} />
+            <LowerPanel lab={lab} theme={theme} />
+            <AsidePanel lab={lab} theme={theme} />
+          </main>
+          <Transport lab={lab} />
+        </Match>
+        <Match when={view() === 'recordings'}>
+          <RecordingsView />
+        </Match>
+        <Match when={view() === 'evaluate'}>
+          <EvaluateView />
+        </Match>
+      </Switch>
     </>
   );
 }

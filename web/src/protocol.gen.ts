@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-export const PROTOCOL_VERSION = 4;
+export const PROTOCOL_VERSION = 5;
 export const BINARY_CAMERA_JPEG = 1;
 export const BINARY_OBSERVATION = 2;
 
@@ -319,9 +319,50 @@ at: When,
 disturbance: Disturbance, };
 
 /**
+ * A trial before its first tick.
+ */
+export type Scenario = { 
+/**
+ * Name of the map, or path of an SVG.
+ */
+map: string, 
+/**
+ * Sub-controller 2.
+ */
+controller: ControllerName, 
+/**
+ * What carries the magnet; left out, what the map is made for.
+ */
+positioner: PositionerKind | null, 
+/**
+ * Seed of everything random in the trial.
+ */
+seed: number, 
+/**
+ * Parameters at the start.
+ */
+parameters: Parameters, 
+/**
+ * Bead at the start, the tool above it; left out, a random free point.
+ */
+start_m: [number, number] | null, 
+/**
+ * Goal at the start; left out, none: the arm holds.
+ */
+goal_m: [number, number] | null, 
+/**
+ * How often the bead is lifted away at random during transport (specification §2).
+ */
+disturbances: number, 
+/**
+ * Disturbances at set times, [`SCRIPT_LIMIT`] at most.
+ */
+script: Array<Scripted>, };
+
+/**
  * What a browser may send. Fields are named and measured as everywhere: metres in `base`.
  */
-export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "take_control", } | { "type": "release_control", };
+export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Who this browser is.
@@ -374,6 +415,10 @@ map: string,
  * Maps that `load_scenario` knows.
  */
 maps: Array<string>, 
+/**
+ * How the trial was set up; controller, goal and parameters may have changed since.
+ */
+scenario: Scenario, 
 /**
  * What carries the magnet in this trial.
  */

@@ -87,6 +87,17 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
   };
   return {
     map,
+    scenario: {
+      map,
+      controller: 'attractor',
+      positioner: null,
+      seed: 1,
+      parameters,
+      start_m: null,
+      goal_m: null,
+      disturbances: 0,
+      script: [],
+    },
     maps: [map],
     positioner: 'arm',
     controllers: ['rl', 'errt', 'attractor'],

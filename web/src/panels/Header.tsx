@@ -1,9 +1,10 @@
 // Who, what, and how it stands: connection, role, mode, counters.
 
-import { Show, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import type { Link } from '../model';
 import type { Theme } from '../theme';
+import { VIEWS, type View } from '../views';
 import { NoticeBar } from './NoticeBar';
 
 function linkText(link: Link): string {
@@ -69,11 +70,35 @@ function RoleBox(props: { lab: Lab }): JSX.Element {
   );
 }
 
-export function Header(props: { lab: Lab; theme: () => Theme; onTheme: () => void }): JSX.Element {
+interface HeaderProps {
+  readonly lab: Lab;
+  readonly theme: () => Theme;
+  readonly onTheme: () => void;
+  readonly view: View;
+  readonly onView: (view: View) => void;
+}
+
+export function Header(props: HeaderProps): JSX.Element {
   const { lab } = props;
   return (
     <header class="bar top">
       <h1>Ferry</h1>
+      <nav class="views" aria-label="Views">
+        <For each={VIEWS}>
+          {([id, title]) => (
+            <button
+              type="button"
+              class="small"
+              aria-current={props.view === id ? 'page' : undefined}
+              onClick={() => {
+                props.onView(id);
+              }}
+            >
+              {title}
+            </button>
+          )}
+        </For>
+      </nav>
       <div class="session">
         <span
           class="link"

@@ -16,38 +16,33 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
     if (following) box.scrollTop = box.scrollHeight;
   });
   return (
-    <section class="panel log" aria-labelledby="log-title">
-      <header class="panel-head">
-        <h2 id="log-title">Events</h2>
-      </header>
-      <div
-        ref={box}
-        class="log-lines"
-        role="log"
-        aria-live="polite"
-        aria-labelledby="log-title"
-        tabindex="0"
-        onScroll={() => {
-          following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
-        }}
-      >
-        <Show when={lab.log().length === 0}>
-          <p class="placeholder">Nothing has happened yet.</p>
-        </Show>
-        <For each={lab.log()}>
-          {(line) => (
-            <p class="log-line" data-kind={line.kind}>
-              <span class="when number">
-                {line.sim_time_s === undefined ? '' : clock(line.sim_time_s)}
-              </span>
-              <span class="what">
-                {line.text}
-                <Show when={line.count > 1}> (×{line.count})</Show>
-              </span>
-            </p>
-          )}
-        </For>
-      </div>
-    </section>
+    <div
+      ref={box}
+      class="log-lines"
+      role="log"
+      aria-live="polite"
+      aria-label="Events"
+      tabindex="0"
+      onScroll={() => {
+        following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
+      }}
+    >
+      <Show when={lab.log().length === 0}>
+        <p class="placeholder">Nothing has happened yet.</p>
+      </Show>
+      <For each={lab.log()}>
+        {(line) => (
+          <p class="log-line" data-kind={line.kind}>
+            <span class="when number">
+              {line.sim_time_s === undefined ? '' : clock(line.sim_time_s)}
+            </span>
+            <span class="what">
+              {line.text}
+              <Show when={line.count > 1}> (×{line.count})</Show>
+            </span>
+          </p>
+        )}
+      </For>
+    </div>
   );
 }

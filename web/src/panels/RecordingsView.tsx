@@ -1,0 +1,7 @@
+// Recordings.
+
+import type { JSX } from 'solid-js';
+
+export function RecordingsView(): JSX.Element {
+  return <main class="view">Recordings</main>;
+}

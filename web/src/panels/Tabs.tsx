@@ -1,0 +1,68 @@
+// Panels that share a place: tabs to choose one, arrow keys to go along them.
+
+import { For, createSignal, type Component, type JSX } from 'solid-js';
+import { Dynamic } from 'solid-js/web';
+import type { Lab } from '../lab';
+import type { Theme } from '../theme';
+
+export interface TabProps {
+  readonly lab: Lab;
+  readonly theme: () => Theme;
+}
+
+export interface Tab {
+  readonly id: string;
+  readonly title: string;
+  readonly panel: Component<TabProps>;
+}
+
+/** How far a key moves along the tabs. */
+const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
+
+export function Tabs(
+  props: TabProps & { area: string; label: string; tabs: readonly [Tab, ...Tab[]] },
+): JSX.Element {
+  const [index, setIndex] = createSignal(0);
+  const tab = () => props.tabs[index()] ?? props.tabs[0];
+  const buttons: HTMLButtonElement[] = [];
+  const onKey = (event: KeyboardEvent): void => {
+    const move = MOVES[event.key];
+    if (move === undefined) return;
+    event.preventDefault();
+    const next = (index() + move + props.tabs.length) % props.tabs.length;
+    setIndex(next);
+    buttons[next]?.focus();
+  };
+  return (
+    <section class={`panel ${props.area}`}>
+      <div class="tabs" role="tablist" aria-label={props.label} onKeyDown={onKey}>
+        <For each={props.tabs}>
+          {({ id, title }, at) => (
+            <button
+              ref={(button) => (buttons[at()] = button)}
+              type="button"
+              role="tab"
+              id={`tab-${id}`}
+              aria-controls={`${props.area}-panel`}
+              aria-selected={index() === at()}
+              tabindex={index() === at() ? 0 : -1}
+              onClick={() => {
+                setIndex(at());
+              }}
+            >
+              {title}
+            </button>
+          )}
+        </For>
+      </div>
+      <div
+        id={`${props.area}-panel`}
+        class="tab-content"
+        role="tabpanel"
+        aria-labelledby={`tab-${tab().id}`}
+      >
+        <Dynamic component={tab().panel} lab={props.lab} theme={props.theme} />
+      </div>
+    </section>
+  );
+}
