@@ -7,6 +7,7 @@ import {
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { comparesControllers, tellsWhy } from './past.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -330,6 +331,8 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['tells why a switch came', tellsWhy],
+  ['compares controllers from a moment on', comparesControllers],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
