@@ -6,6 +6,14 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
+import {
+  aViewerMayPredict,
+  everyLessonShowsWhatItClaims,
+  learnsByKeyboard,
+  loadsAPreset,
+  refusesABrokenLink,
+  sharesAnExperiment,
+} from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
@@ -330,6 +338,12 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['shares an experiment', sharesAnExperiment],
+  ['refuses a broken link', refusesABrokenLink],
+  ['loads a preset', loadsAPreset],
+  ['learns by keyboard', learnsByKeyboard],
+  ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
+  ['a viewer may predict', aViewerMayPredict],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
