@@ -95,7 +95,7 @@ export async function sharesAnExperiment({ lab, browser }) {
 
 export async function refusesABrokenLink({ lab }) {
   await lab.reset();
-  const { trial } = lab.scene;
+  const before = await sharedLink(lab);
   const bar = lab.page.getByRole('alert', { name: 'Link' });
   await visit(lab, '#v=1&map=liver&controller=errt&seed=1');
   await bar.getByText('map is “liver”').waitFor();
@@ -106,7 +106,7 @@ export async function refusesABrokenLink({ lab }) {
   // What only the server can know.
   await visit(lab, '#v=1&map=posts&controller=errt&seed=1&friction=7');
   await lab.notice('controller').getByText('friction is 7').waitFor();
-  check(lab.scene.trial === trial, 'something was loaded');
+  check((await sharedLink(lab)) === before, 'something was loaded');
   await visit(lab, '');
 }
 

@@ -8,7 +8,7 @@ export interface Preset {
 export const PRESETS: readonly Preset[] = [
   {
     name: 'Colon, by RL',
-    link: '#v=1&map=colon&controller=rl&seed=1&start=-0.24,-0.27&goal=0.19,-0.28',
+    link: '#v=1&map=colon&controller=rl&seed=1&start=0.19,-0.28&goal=-0.24,-0.27',
   },
   {
     name: 'The paper’s Example 3: colon, by ERRT, disturbed',

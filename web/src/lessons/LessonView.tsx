@@ -4,6 +4,7 @@ import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import type { Lesson, Run } from './lesson';
 import type { Lessons } from './store';
+import type { Track } from './track';
 
 interface Props {
   readonly lab: Lab;
@@ -132,6 +133,7 @@ function Explain(props: Props): JSX.Element {
     return all.length === lesson.runs.length ? all : undefined;
   };
   const chosen = (): string | undefined => store.progress().choices[lesson.id];
+  const isRight = (measured: readonly Track[]): boolean => lesson.outcome(measured) === chosen();
   return (
     <Show
       when={tracks()}
@@ -141,13 +143,15 @@ function Explain(props: Props): JSX.Element {
     >
       {(measured) => (
         <>
-          <dl class="lesson-verdict" data-right={lesson.outcome(measured()) === chosen()}>
+          <dl class="lesson-verdict" data-right={isRight(measured())}>
+            <Show when={!isRight(measured())}>
+              <div>
+                <dt>You said</dt>
+                <dd>{text(chosen()) ?? 'nothing'}</dd>
+              </div>
+            </Show>
             <div>
-              <dt>You said</dt>
-              <dd>{text(chosen()) ?? 'nothing'}</dd>
-            </div>
-            <div>
-              <dt>It was</dt>
+              <dt>{isRight(measured()) ? 'You were right' : 'It was'}</dt>
               <dd data-testid="lesson-outcome">{text(lesson.outcome(measured()))}</dd>
             </div>
           </dl>

@@ -1,6 +1,6 @@
 // The lessons: a list, or the open one.
 
-import { For, Show, type JSX } from 'solid-js';
+import { For, Show, onMount, untrack, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import { LessonView } from './LessonView';
 import { LESSONS } from './lessons';
@@ -8,6 +8,12 @@ import { lessonsOf, type Lessons } from './store';
 
 function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;
+  const cards = new Map<string, HTMLButtonElement>();
+  onMount(() => {
+    // The keyboard goes on where it left the list.
+    const left = untrack(store.left);
+    if (left) cards.get(left.id)?.focus();
+  });
   const done = (): number => store.progress().done.length;
   const isFresh = (): boolean => done() === 0 && Object.keys(store.progress().choices).length === 0;
   return (
@@ -25,6 +31,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
             return (
               <li>
                 <button
+                  ref={(card) => cards.set(lesson.id, card)}
                   type="button"
                   class="lesson-card"
                   classList={{ done: isDone() }}

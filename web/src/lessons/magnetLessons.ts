@@ -25,7 +25,7 @@ export const MEET_THE_MAGNET: Lesson = {
       speed: 1,
       layers: ['capture', 'trail'],
       words: [
-        'The table is empty, the goal is 30 cm to the right. The two rings around the tool, the layer Capture, show where the pull beats friction.',
+        'The table is empty, the goal is 30 cm to the right. The blue ring around the tool, the layer Capture, shows how far the pull beats friction.',
         'Let time run and look at e, at the right: the distance from tool to bead.',
       ],
       tasks: [
@@ -126,7 +126,7 @@ export const LIFT_OFF: Lesson = {
   why: [
     'The lift grows steeply: 0.81 of the weight at 100 mm, 0.90 at 97 mm, and all of it at 94.4 mm. From there on the bead rises, the pull grows further, and it hits the magnet.',
     'Ten centimetres are a compromise: higher, the sideways pull is soon too weak to beat friction; lower, the bead is gone.',
-    'On edge (B) the block’s field at the bead is weaker. It would lift the bead only with its lower face at 74 mm, and it also pulls less to the side.',
+    'On edge (B) the block’s field at the bead is weaker. It would lift the bead only with its lower face at 74 mm; but to the side it hardly pulls any more, as the layer Capture shows: two patches are left of the ring.',
   ],
   paper: `Section V: the arm moves in a plane ${centimetres(0.1, 0)} above the table.`,
 };

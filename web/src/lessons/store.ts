@@ -22,6 +22,8 @@ type Tracks = readonly (Track | undefined)[];
 export interface Lessons {
   readonly progress: Accessor<Progress>;
   readonly lesson: Accessor<Lesson | undefined>;
+  /** The one that was open before. */
+  readonly left: Accessor<Lesson | undefined>;
   /** 0 predict, then the runs, then explain. */
   readonly step: Accessor<number>;
   readonly run: Accessor<Run | undefined>;
@@ -46,6 +48,7 @@ export interface Lessons {
 function createLessons(lab: Lab): Lessons {
   const [progress, setProgress] = createSignal(storedProgress(LESSONS));
   const [lesson, setLesson] = createSignal<Lesson>();
+  const [left, setLeft] = createSignal<Lesson>();
   const [step, setStep] = createSignal(0);
   const [tracks, setTracks] = createSignal<Tracks>([]);
   /** Layers that a lesson has switched on and is to switch off again. */
@@ -79,12 +82,14 @@ function createLessons(lab: Lab): Lessons {
     });
   });
 
-  const giveBackLayers = (): void => {
-    for (const layer of lent) lab.showLayer(layer, false);
-    lent = [];
+  /** Those that `still` needs stay. */
+  const giveBackLayers = (still: readonly Layer[] = []): void => {
+    for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
+    lent = lent.filter((layer) => still.includes(layer));
   };
   const leave = (): void => {
     giveBackLayers();
+    setLeft(lesson());
     setLesson(undefined);
     setStep(0);
     setTracks([]);
@@ -93,6 +98,7 @@ function createLessons(lab: Lab): Lessons {
   return {
     progress,
     lesson,
+    left,
     step,
     run,
     tracks,
@@ -113,10 +119,7 @@ function createLessons(lab: Lab): Lessons {
       setLesson(next);
     },
     close: leave,
-    go(next) {
-      giveBackLayers();
-      setStep(next);
-    },
+    go: setStep,
     choose(choice) {
       const now = lesson();
       if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
@@ -129,6 +132,7 @@ function createLessons(lab: Lab): Lessons {
       setTracks(tracks().map((old, index) => (index === step() - 1 ? undefined : old)));
       lab.send(loadMessage(read.experiment, scene.defaults));
       lab.send({ type: 'set_speed', factor: here.speed });
+      giveBackLayers(here.layers);
       const off = here.layers.filter((layer) => !lab.layers().has(layer));
       for (const layer of off) lab.showLayer(layer, true);
       lent = [...lent, ...off];
