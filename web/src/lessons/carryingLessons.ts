@@ -177,9 +177,10 @@ export const POLICY: Lesson = {
     ['left to the goal', centimetres(moved?.goalDistance_m ?? 0)],
   ],
   why: [
-    'The policy has learnt one picture for each place of its map, with the walls where a centred camera shows them. A picture that does not fit the place is like none it knows; it steps to and fro.',
-    'ERRT, with the same shifted camera, delivers: it works out where each pixel lies on the table. It knows the geometry; the policy knows the map.',
-    'That also shows on a map that it never saw: of 200 random goals on colon-folds the policy reaches 18, ERRT 199.',
+    'The policy takes the middle of the picture for what is under the tool. At the first fold it gives a step down −0.69 and goes around. With the camera aside the fold has left the middle: the same step is worth 0.99, and it wants nothing else.',
+    'The shield knows where the camera sits. It refuses that step and takes the next best, to the left or the right: to and fro. With the shield off, the arm just stands.',
+    'ERRT delivers with the same shifted camera: it works out where each pixel lies on the table. It knows the geometry; the policy knows its pictures.',
+    'And it knows only those of its maps: of 200 random goals on colon-folds, which it never saw, the policy reaches 18, ERRT 199.',
   ],
   paper:
     'Section IV-A, sub-controller 2: observations of 2 × 84 × 84, four actions, 2 cm to the goal.',
