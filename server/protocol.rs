@@ -17,6 +17,7 @@ use crate::trial::EventKind;
 mod convert;
 mod layers;
 mod parse;
+mod recordings;
 #[cfg(test)]
 mod typescript;
 
@@ -24,6 +25,7 @@ pub use layers::{
     BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
     ValueQuery,
 };
+pub use recordings::{RecordingFile, RecordingList};
 
 /// Raised when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 5;

@@ -13,3 +13,4 @@ mod recordings;
 mod reference;
 mod rendering;
 mod sights;
+mod viewer;

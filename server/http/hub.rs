@@ -50,6 +50,8 @@ pub struct Seats {
 pub struct Hub {
     pub id: String,
     pub session: Session,
+    /// Id of the recording that its session writes, if it could begin.
+    pub recording: Option<String>,
     adapter: String,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
@@ -62,7 +64,13 @@ pub struct Hub {
 
 impl Hub {
     /// Starts encoding a session's views.
-    pub fn start(id: &str, session: Session, adapter: &str, place: OwnedSemaphorePermit) -> Arc<Self> {
+    pub fn start(
+        id: &str,
+        session: Session,
+        recording: Option<String>,
+        adapter: &str,
+        place: OwnedSemaphorePermit,
+    ) -> Arc<Self> {
         let views = session.watch();
         let first = Encoder::default().encode(&views.borrow(), true);
         let (publish, encoded) = watch::channel(first);
@@ -70,6 +78,7 @@ impl Hub {
         Arc::new(Self {
             id: id.to_owned(),
             session,
+            recording,
             adapter: adapter.to_owned(),
             encoded,
             seats: watch::Sender::new(Seats::default()),

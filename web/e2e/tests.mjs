@@ -7,6 +7,7 @@ import {
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { listsRecordings, opensARecording } from './recordings.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -331,6 +332,8 @@ export const TESTS = [
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['looks right', looksRight],
+  ['lists recordings', listsRecordings],
+  ['opens a recording', opensARecording],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],

@@ -34,7 +34,7 @@ function Page(): JSX.Element {
           <Transport lab={lab} />
         </Match>
         <Match when={view() === 'recordings'}>
-          <RecordingsView />
+          <RecordingsView theme={theme} />
         </Match>
         <Match when={view() === 'evaluate'}>
           <EvaluateView />
