@@ -46,6 +46,8 @@ async function look(lab) {
   return (await lab.page.screenshot({ clip })).toString('base64');
 }
 
+const isFocused = (locator) => locator.evaluate((element) => element === document.activeElement);
+
 export async function opensARecording({ server }) {
   const browser = await startBrowser({ webgl: true });
   try {
@@ -57,7 +59,8 @@ export async function opensARecording({ server }) {
     });
     // By keyboard alone.
     await lab.button('Recordings').press('Enter');
-    await rowOf(lab).getByRole('button', { name: 'Open main' }).press('Enter');
+    const opener = rowOf(lab).getByRole('button', { name: 'Open main' });
+    await opener.press('Enter');
     const body = page.frameLocator('iframe[title="Rerun viewer"]').locator('body');
     await until(
       'the recording in the viewer',
@@ -76,13 +79,21 @@ export async function opensARecording({ server }) {
     await lab.button('Use dark colours').click();
     await until('a dark viewer', async () => (await look(lab)) === dark, VIEWER_MS);
 
-    await lab.button('Close').press('Enter');
+    await page.locator('iframe').focus();
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('F6');
+    check(await isFocused(lab.button('Close')), 'F6 does not lead out of the viewer');
+    await page.keyboard.press('Enter');
     await page.locator('iframe').waitFor({ state: 'detached' });
+    check(await isFocused(opener), 'the focus did not return to where it came from');
     check(lab.strangers.length === 0, `requests left the server: ${lab.strangers.join(' ')}`);
     check(violations.length === 0, violations.join(' | '));
     // The viewer warns of what it lacks here, a graphics card; it must have no errors.
     const errors = lab.complaints.filter((text) => !/^\s*WARN /.test(text));
     check(errors.length === 0, `the console says: ${errors.join(' | ')}`);
+
+    await page.goto(`${server.url}/viewer/?recording=none&theme=light`);
+    await page.getByText('there is no recording "none').waitFor({ timeout: 5000 });
   } finally {
     await browser.close();
   }

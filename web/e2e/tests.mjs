@@ -7,6 +7,7 @@ import {
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { comparesControllers, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
@@ -331,6 +332,8 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['tells why a switch came', tellsWhy],
+  ['compares controllers from a moment on', comparesControllers],
   ['looks right', looksRight],
   ['lists recordings', listsRecordings],
   ['opens a recording', opensARecording],

@@ -2,12 +2,14 @@
 
 import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
 import { connect, liveAddress, type Picture } from './connection';
+import { createGhosts, type Ghosts } from './ghosts';
 import { History } from './history';
 import { EMPTY, reduce, type Input, type Model, type Place } from './model';
 import {
   BINARY_CAMERA_JPEG,
   BINARY_OBSERVATION,
   type ClientMessage,
+  type EventMessage,
   type Parameters,
 } from './protocol.gen';
 
@@ -22,6 +24,11 @@ export interface Lab {
   readonly seen: Accessor<Model['seen']>;
   readonly log: Accessor<Model['log']>;
   readonly marks: Accessor<Model['marks']>;
+  readonly ghosts: Ghosts;
+  /** The event whose story is open. */
+  readonly inspected: Accessor<EventMessage | undefined>;
+  /** The tab that was asked to open last, wherever it is. */
+  readonly opened: Accessor<{ readonly tab: string } | undefined>;
   readonly notices: Accessor<Model['notices']>;
   readonly refusals: Accessor<number>;
   readonly camera: Accessor<Picture | undefined>;
@@ -32,6 +39,8 @@ export interface Lab {
   readonly canOperate: Accessor<boolean>;
   readonly history: History;
   send(message: ClientMessage): void;
+  inspect(event: EventMessage | undefined): void;
+  openTab(tab: string): void;
   /** What the form is about to change. */
   draft(change: Partial<Parameters>): void;
   notify(place: Place, text: string): void;
@@ -84,6 +93,8 @@ export function createLab(page: Location): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
+  const [inspected, inspect] = createSignal<EventMessage>();
+  const [opened, setOpened] = createSignal<{ readonly tab: string }>();
   const [draft, setDraft] = createSignal<Partial<Parameters>>({});
   const history = new History();
   let queue: Input[] = [];
@@ -153,6 +164,9 @@ export function createLab(page: Location): Lab {
     seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
     marks: createMemo(() => model().marks),
+    ghosts: createGhosts(createMemo(() => model().comparison)),
+    inspected,
+    opened,
     notices: createMemo(() => model().notices),
     refusals: createMemo(() => model().refusals),
     camera,
@@ -165,6 +179,12 @@ export function createLab(page: Location): Lab {
     send: (message) => {
       // `release` is sent blindly when a hold ends; a lost socket has released it already.
       if (connection.send(message)) take({ type: 'sent', command: message.type });
+    },
+    inspect: (event) => {
+      inspect(event);
+    },
+    openTab: (tab) => {
+      setOpened({ tab });
     },
     draft: (change) => {
       setDraft(change);

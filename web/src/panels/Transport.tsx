@@ -6,6 +6,7 @@ import type { Lab } from '../lab';
 import { NoticeBar } from './NoticeBar';
 import { Timeline } from './Timeline';
 import { TruthSelect } from './TruthSelect';
+import { WhyCard } from './WhyCard';
 
 const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4, 8, 64];
 const FASTEST = 64;
@@ -184,6 +185,7 @@ export function Transport(props: { lab: Lab }): JSX.Element {
         </div>
       </div>
       <Timeline lab={lab} />
+      <WhyCard lab={lab} />
       <NoticeBar lab={lab} place="transport" />
     </footer>
   );
