@@ -5,6 +5,7 @@ mod api;
 mod assets;
 mod body;
 mod calculator;
+mod evaluations;
 mod hub;
 mod live;
 mod metrics;
@@ -25,6 +26,7 @@ use tokio::net::TcpListener;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::camera::Gpu;
+use crate::evaluate::Queue;
 use crate::recording::{Recorder, Unrecorded};
 use crate::scenario::Scenario;
 use crate::session::{Session, Sink};
@@ -73,6 +75,8 @@ pub struct Server {
     recordings: PathBuf,
     /// Maps as policies see them.
     atlases: values::Atlases,
+    /// Evaluations in the background.
+    evaluations: Queue,
     /// Sessions by id. Written by `POST` and `DELETE`, read by all.
     sessions: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// A place a session, [`SESSION_CAP`] in all.
@@ -87,6 +91,7 @@ impl Server {
     /// A server with the session `main`.
     pub fn new(gpu: Arc<Gpu>, data: PathBuf, stopping: watch::Receiver<bool>) -> Result<Arc<Self>, ServeError> {
         let server = Arc::new(Self {
+            evaluations: Queue::start(gpu.clone())?,
             gpu,
             recordings: data.join("recordings"),
             atlases: values::Atlases::in_folder(data.join("sweeps")),
@@ -145,6 +150,8 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/flow", post(api::flow))
         .route("/api/sessions/{id}/values", post(values::values))
         .route("/api/sessions/{id}/live", get(live::live))
+        .route("/api/evaluations", get(evaluations::list).post(evaluations::create))
+        .route("/api/evaluations/{id}", get(evaluations::report).delete(evaluations::cancel))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))
         .layer(DefaultBodyLimit::max(BODY_LIMIT))
@@ -162,12 +169,14 @@ pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
     TcpListener::bind(address).await.map_err(|error| ServeError::Bind { address, error })
 }
 
-/// Serves until `stopping` turns true, then closes every session and recording.
+/// Serves until `stopping` turns true, then closes every session and recording, and breaks off what is evaluated.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     let mut stopping = server.stopping.clone();
+    let stopped_server = server.clone();
     let stopped = async move {
         // An error means that nobody can ask to stop any more, which is as good as asking.
         let _ = stopping.wait_for(|&stop| stop).await;
+        stopped_server.evaluations.stop();
     };
     let listener = listener.tap_io(|stream| {
         // State messages are small and must not wait for each other.
@@ -177,6 +186,10 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     });
     axum::serve(listener, router(server.clone())).with_graceful_shutdown(stopped).await?;
     let sessions = std::mem::take(&mut *server.sessions.write().expect("no holder panics"));
-    // Joining the sessions' threads and closing files blocks.
-    tokio::task::spawn_blocking(move || drop(sessions)).await.map_err(|error| std::io::Error::other(error).into())
+    // Joining threads and closing files blocks.
+    let closing = move || {
+        drop(sessions);
+        server.evaluations.close();
+    };
+    tokio::task::spawn_blocking(closing).await.map_err(|error| std::io::Error::other(error).into())
 }
