@@ -6,9 +6,11 @@ mod assets;
 mod body;
 mod calculator;
 mod evaluations;
+mod fork;
 mod hub;
 mod live;
 mod metrics;
+mod moments;
 mod problem;
 mod values;
 
@@ -117,7 +119,7 @@ impl Server {
             }
         };
         let session = Session::start(id, scenario, self.gpu.clone(), sink)?;
-        let hub = Hub::start(id, session, self.gpu.adapter_name(), place);
+        let hub = Hub::start(id, session, self.gpu.clone(), place);
         self.sessions.write().expect("no holder panics").insert(id.to_owned(), hub.clone());
         Ok(hub)
     }
@@ -149,6 +151,9 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/observation.png", get(api::observation))
         .route("/api/sessions/{id}/flow", post(api::flow))
         .route("/api/sessions/{id}/values", post(values::values))
+        .route("/api/sessions/{id}/moments/{tick}", get(moments::moment))
+        .route("/api/sessions/{id}/moments/{tick}/camera.png", get(moments::camera))
+        .route("/api/sessions/{id}/moments/{tick}/observation.png", get(moments::observation))
         .route("/api/sessions/{id}/live", get(live::live))
         .route("/api/evaluations", get(evaluations::list).post(evaluations::create))
         .route("/api/evaluations/{id}", get(evaluations::report).delete(evaluations::cancel))
@@ -186,6 +191,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     });
     axum::serve(listener, router(server.clone())).with_graceful_shutdown(stopped).await?;
     let sessions = std::mem::take(&mut *server.sessions.write().expect("no holder panics"));
+    sessions.values().for_each(|hub| hub.close());
     // Joining threads and closing files blocks.
     let closing = move || {
         drop(sessions);

@@ -6,6 +6,7 @@ mod determinism;
 mod disturbances;
 mod evaluations;
 mod examples;
+mod forks;
 mod golden;
 mod house;
 mod laboratory;
