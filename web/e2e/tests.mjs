@@ -6,6 +6,7 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
+import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
@@ -331,6 +332,9 @@ export const TESTS = [
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['looks right', looksRight],
+  ['evaluates what is asked for by keyboard', evaluates],
+  ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
+  ['sets a failure up again', setsAFailureUpAgain],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],

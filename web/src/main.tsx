@@ -37,7 +37,12 @@ function Page(): JSX.Element {
           <RecordingsView />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <EvaluateView />
+          <EvaluateView
+            lab={lab}
+            onLaboratory={() => {
+              setView('laboratory');
+            }}
+          />
         </Match>
       </Switch>
     </>
