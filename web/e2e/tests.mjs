@@ -14,6 +14,7 @@ import {
   refusesABrokenLink,
   sharesAnExperiment,
 } from './lessons.mjs';
+import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
@@ -351,6 +352,9 @@ export const TESTS = [
   ['looks right', looksRight],
   ['lists recordings', listsRecordings],
   ['opens a recording', opensARecording],
+  ['evaluates what is asked for by keyboard', evaluates],
+  ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
+  ['sets a failure up again', setsAFailureUpAgain],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],
