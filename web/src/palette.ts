@@ -26,6 +26,13 @@ const NAMES = [
   'heat-low',
   'heat-middle',
   'heat-high',
+  'table',
+  'arm',
+  'arm-lid',
+  'arm-seam',
+  'gripper',
+  'pole-north',
+  'pole-south',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;
