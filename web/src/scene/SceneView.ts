@@ -13,11 +13,12 @@ import type { History } from '../history';
 import type { Palette } from '../palette';
 import type { SceneMessage, StateMessage } from '../protocol.gen';
 import type { TableView, Vec2 } from '../transform';
+import type { GroundPicture } from '../workspace/groundPicture';
 import type { Layer } from '../workspace/layers';
-import { Arm } from './arm';
+import { Arm, HIDING } from './arm';
 import { Bead, type Pull } from './bead';
 import { Eye } from './eye';
-import { Floor, type GroundPicture } from './floor';
+import { Floor } from './floor';
 import type { LookName } from './looks';
 import { Marks } from './marks';
 import { Paints } from './paints';
@@ -35,7 +36,8 @@ const LIGHT_STRENGTH = 1.9;
 /** From the middle of the table toward the light: over the user's left shoulder. */
 const TOWARD_LIGHT = new Vector3(-0.3, -0.55, 1.1);
 const SHADOW_PX = 1024;
-/** Half of what the light's own picture shows around the middle of the table. */
+const SHADOW_STRENGTH = 0.65;
+/** Half of what the light's own picture shows around the middle of the table: the arm, or a larger table. */
 const SHADOWED_M = 0.62;
 
 /** This browser draws no 3-D. */
@@ -92,19 +94,13 @@ export class SceneView {
     this.arm.group.visible = false;
     this.world.add(new HemisphereLight(SKY, BELOW, SKY_STRENGTH), this.light, this.light.target);
     this.world.add(this.arm.group);
+    this.light.castShadow = true;
     const { shadow } = this.light;
     shadow.mapSize.set(SHADOW_PX, SHADOW_PX);
-    Object.assign(shadow.camera, {
-      left: -SHADOWED_M,
-      right: SHADOWED_M,
-      top: SHADOWED_M,
-      bottom: -SHADOWED_M,
-      near: 0.2,
-      far: 3,
-    });
+    shadow.camera.near = 0.05;
+    shadow.camera.far = 4;
     shadow.normalBias = 2e-3;
-    // The turned light looks along z, and z must not be its upper side.
-    shadow.camera.up.set(0, 1, 0);
+    shadow.intensity = SHADOW_STRENGTH;
     this.eye = new Eye(canvas, () => {
       this.seeAnew();
     });
@@ -133,6 +129,7 @@ export class SceneView {
     this.clear();
     const group = new Group();
     const { paints, palette } = this;
+    paints.clipTo(scene.workspace);
     const hasArm = scene.positioner === 'arm';
     const table = new Table(paints, palette, scene);
     const tool = new Tool(
@@ -148,6 +145,13 @@ export class SceneView {
     const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
     this.light.target.position.set((x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2, 0);
     this.light.position.copy(this.light.target.position).add(TOWARD_LIGHT);
+    const half_m = Math.max(SHADOWED_M, 0.55 * Math.hypot(x_max_m - x_min_m, y_max_m - y_min_m));
+    Object.assign(this.light.shadow.camera, {
+      left: -half_m,
+      right: half_m,
+      top: half_m,
+      bottom: -half_m,
+    }).updateProjectionMatrix();
     this.eye.lookAt(scene.workspace);
     this.place();
   }
@@ -159,7 +163,7 @@ export class SceneView {
     } else {
       this.removeFloor();
       const most = Math.min(ANISOTROPY, this.renderer.capabilities.getMaxAnisotropy());
-      this.floor = new Floor(picture, most);
+      this.floor = new Floor(picture, this.paints, most);
       this.world.add(this.floor.group);
     }
     this.request();
@@ -248,6 +252,7 @@ export class SceneView {
   private draw(): void {
     const { setting, now, eye } = this;
     if (!setting || !now) return;
+    this.paints.fade(HIDING, eye.hiding());
     setting.bead.fit(eye.camera, this.height_px);
     this.renderer.render(this.world, eye.camera);
     this.tell(now.state);

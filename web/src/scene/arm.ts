@@ -114,12 +114,16 @@ function links(): Solids[] {
   return all;
 }
 
+/** What hides the table when one looks from above, and fades then. */
+export const HIDING = ['arm', 'arm-lid', 'arm-seam', 'gripper'] as const;
+
 export class Arm {
   readonly group = new Group();
   private readonly frames: Matrix4[] = [];
 
   constructor(paints: Paints) {
     this.group.add(foot().group(paints));
+
     for (const solids of links()) {
       const link = solids.group(paints);
       link.matrixAutoUpdate = false;

@@ -5,14 +5,14 @@ import type { PerspectiveCamera } from 'three';
 import type { Palette } from '../palette';
 import type { StateMessage } from '../protocol.gen';
 import type { Vec2 } from '../transform';
-import type { Paints } from './paints';
+import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';
 
 /** The bead is 5 mm: from afar it is drawn larger than life, or nobody finds it. */
-const LEAST_RADIUS_PX = 4.5;
+const LEAST_RADIUS_PX = 5;
 const HALO_PX = 13;
-const HALO_OPACITY = 0.3;
+const HALO_OPACITY = 0.4;
 /** The halo of a bead that a press would take. */
 const GRAB_OPACITY = 0.85;
 const SPRITE_PX = 64;
@@ -70,7 +70,7 @@ export class Bead {
     palette: Palette,
     private readonly radius_m: number,
   ) {
-    this.ball = new Mesh(new SphereGeometry(1, 28, 18), paints.lit('bead'));
+    this.ball = new Mesh(new SphereGeometry(1, 28, 18), paints.glowing('bead'));
     this.ball.castShadow = true;
     // Found behind the arm and the walls as well.
     this.halo = new Sprite(
@@ -86,8 +86,12 @@ export class Bead {
       width_px: 2,
       through: true,
     });
-    this.grip = new Mesh(new SphereGeometry(0.004, 18, 12), paints.lit('hand'));
-    this.group.add(this.ball, this.halo, this.spring.object, this.grip);
+    this.grip = new Mesh(new SphereGeometry(0.004, 18, 12), paints.glowing('hand'));
+    this.group.renderOrder = ORDER.solids;
+    const air = new Group();
+    air.renderOrder = ORDER.air;
+    air.add(this.halo, this.spring.object);
+    this.group.add(this.ball, this.grip, air);
     this.recolor(palette);
     this.pull(undefined);
   }

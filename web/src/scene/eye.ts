@@ -4,7 +4,7 @@ import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Rect } from '../protocol.gen';
 import type { TableView, Vec2 } from '../transform';
-import { distanceFor, lookOf, turnedArrow, type LookName } from './looks';
+import { distanceFor, hidingAt, lookOf, turnedArrow, type LookName } from './looks';
 import { perspectiveView, pxFromTable } from './perspective';
 
 const FIELD_OF_VIEW_DEG = 36;
@@ -110,6 +110,11 @@ export class Eye {
   /** An arrow of the screen, along the table. */
   turned(arrow: Vec2): Vec2 {
     return turnedArrow(arrow, this.controls.getAzimuthalAngle());
+  }
+
+  /** How much what stands over the table may hide of it, from 0 to 1: little when seen from above. */
+  hiding(): number {
+    return hidingAt(this.controls.getPolarAngle());
   }
 
   /** The table as it is seen now, and the matrix of the mapping for whoever reads the page. */

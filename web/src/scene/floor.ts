@@ -9,33 +9,31 @@ import {
   SRGBColorSpace,
   ShadowMaterial,
 } from 'three';
-import type { Rect } from '../protocol.gen';
-import type { View } from '../transform';
+import type { GroundPicture } from '../workspace/groundPicture';
+import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 
-/** A picture of the ground in pixels of `view`, each `ratio` of the canvas. */
-export interface GroundPicture {
-  readonly canvas: HTMLCanvasElement;
-  readonly view: View;
-  readonly ratio: number;
-  readonly workspace: Rect;
-}
-
 /** Shadows lie this much over the floor, or else the two would flicker. */
-const SHADOW_UP_M = 2e-4;
-const SHADOW_OPACITY = 0.3;
+const SHADOW_UP_M = 3e-4;
+const SHADOW_OPACITY = 0.4;
+/** A floor of pure white or black would show neither light nor shadow. */
+const HAZE_UP_M = 1e-4;
+const HAZE_OPACITY = 0.09;
 
 export class Floor {
   readonly group = new Group();
   private readonly texture: CanvasTexture;
   private readonly picture: MeshBasicMaterial;
+  private readonly haze: MeshBasicMaterial;
   private readonly shadow = new ShadowMaterial({ opacity: SHADOW_OPACITY, depthWrite: false });
 
   constructor(
     readonly of: GroundPicture,
+    paints: Paints,
     anisotropy: number,
   ) {
     const { canvas, view, ratio, workspace } = of;
+    this.haze = paints.flat('muted', { opacity: HAZE_OPACITY });
     this.texture = new CanvasTexture(canvas);
     this.texture.colorSpace = SRGBColorSpace;
     this.texture.anisotropy = anisotropy;
@@ -49,15 +47,17 @@ export class Floor {
     const left_m = -view.originX / view.pxPerM;
     const top_m = view.originY / view.pxPerM;
     floor.position.set(left_m + width_m / 2, top_m - height_m / 2, 0);
-    // Before all else that one can see through.
-    floor.renderOrder = -2;
 
     const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
     const shadow = new Mesh(new PlaneGeometry(x_max_m - x_min_m, y_max_m - y_min_m), this.shadow);
     shadow.position.set((x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2, SHADOW_UP_M);
-    shadow.renderOrder = -1;
     shadow.receiveShadow = true;
-    this.group.add(floor, shadow);
+    const haze = new Mesh(shadow.geometry, this.haze);
+    haze.position.copy(shadow.position).setZ(HAZE_UP_M);
+    floor.renderOrder = -2;
+    haze.renderOrder = -1;
+    this.group.renderOrder = ORDER.floor;
+    this.group.add(floor, haze, shadow);
   }
 
   /** The picture has been drawn anew. */

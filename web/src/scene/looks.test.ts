@@ -1,6 +1,6 @@
 import { PerspectiveCamera, Vector3 } from 'three';
 import { expect, test } from 'vitest';
-import { LOOKS, distanceFor, lookOf, turnedArrow } from './looks';
+import { LOOKS, distanceFor, hidingAt, lookOf, turnedArrow } from './looks';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
@@ -36,4 +36,10 @@ test('an arrow key moves the cursor as it points on the screen', () => {
   expect(turnedArrow(right, quarter).map((n) => n + 0)).toEqual([0, 1]);
   expect(turnedArrow(right, -quarter).map((n) => n + 0)).toEqual([0, -1]);
   expect(turnedArrow(up, 2 * quarter).map((n) => n + 0)).toEqual([0, -1]);
+});
+
+test('the arm hides less from above, and all it can from the side', () => {
+  expect(hidingAt(0)).toBeLessThan(0.25);
+  expect(hidingAt(0.45)).toBeGreaterThan(hidingAt(0.35));
+  expect(hidingAt(Math.PI / 3)).toBe(1);
 });

@@ -2,6 +2,7 @@
 
 import { Vector3 } from 'three';
 import type { Rect } from '../protocol.gen';
+import { groundMargins } from '../workspace/groundPicture';
 import type { Point } from './solids';
 
 export const LOOKS = ['Home', 'Top', 'Front', 'Side'] as const;
@@ -18,8 +19,10 @@ export interface Look {
 
 /** Straight from above the picture would have no upper side. */
 const ALMOST = 1e-3;
+/** The picture is this much wider than its bounds. */
+const ROOM = 1.06;
 /** How high over the table the picture reaches when it is not from above: the magnet and its holder. */
-const SHOWN_UP_M = 0.22;
+const SHOWN_UP_M = 0.26;
 
 function corners(rect: Rect, z: number): Point[] {
   return [
@@ -33,7 +36,16 @@ function corners(rect: Rect, z: number): Point[] {
 export function lookOf(name: LookName, workspace: Rect): Look {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
   const [x, y] = [(x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2];
-  const low = corners(workspace, 0);
+  const { left, right, bottom } = groundMargins(workspace);
+  const low = corners(
+    {
+      x_min_m: x_min_m - left,
+      x_max_m: x_max_m + right,
+      y_min_m: y_min_m - bottom,
+      y_max_m,
+    },
+    0,
+  );
   const inset = (x_max_m - x_min_m) / 5;
   const narrow = { ...workspace, x_min_m: x_min_m + inset, x_max_m: x_max_m - inset };
   const both = [...low, ...corners(narrow, SHOWN_UP_M)];
@@ -64,9 +76,6 @@ export function distanceFor(look: Look, fieldOfView_rad: number, aspect: number)
   }, 0);
 }
 
-/** Share of the picture that stays free around the bounds, over 1. */
-const ROOM = 1.06;
-
 /** The axis of the table that an arrow key means, seen from an eye at `azimuth_rad` about the vertical. */
 export function turnedArrow(
   arrow: readonly [number, number],
@@ -82,4 +91,14 @@ export function turnedArrow(
     ] as const
   )[((quarters % 4) + 4) % 4] ?? [1, 0];
   return [cos * arrow[0] - sin * arrow[1], sin * arrow[0] + cos * arrow[1]];
+}
+
+/** Between these angles from the vertical the arm fades: from above it would hide what one looks for. */
+const FADED_RAD = 0.3;
+const SOLID_RAD = 0.62;
+const LEAST_HIDING = 0.16;
+
+export function hidingAt(polar_rad: number): number {
+  const share = Math.min(1, Math.max(0, (polar_rad - FADED_RAD) / (SOLID_RAD - FADED_RAD)));
+  return LEAST_HIDING + (1 - LEAST_HIDING) * share;
 }

@@ -1,21 +1,13 @@
 // What is drawn on the table and over it rather than there: goal, capture, the camera's field, trails, cursor.
 
-import {
-  BufferGeometry,
-  CircleGeometry,
-  Float32BufferAttribute,
-  Group,
-  Mesh,
-  Plane,
-  Vector3,
-} from 'three';
+import { BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, Mesh } from 'three';
 import type { History } from '../history';
-import type { Parameters, Rect, SceneMessage, StateMessage } from '../protocol.gen';
+import type { Parameters, SceneMessage, StateMessage } from '../protocol.gen';
 import type { Vec2 } from '../transform';
 import { GOAL_RADIUS_M } from '../workspace/drawMoving';
 import type { Layer } from '../workspace/layers';
 import { TRAIL_S } from '../workspace/paint';
-import type { Paints } from './paints';
+import { ORDER, type Paints } from './paints';
 import { disposeGeometries, type Point } from './solids';
 import { Strokes } from './strokes';
 
@@ -32,16 +24,6 @@ const CURSOR_M = [0.004, 0.014] as const;
 const TRACKED_M = 0.005;
 const CROSS_M = 0.006;
 
-/** Four planes that keep what is drawn over the workspace. */
-function borders(rect: Rect): Plane[] {
-  return [
-    new Plane(new Vector3(1, 0, 0), -rect.x_min_m),
-    new Plane(new Vector3(-1, 0, 0), rect.x_max_m),
-    new Plane(new Vector3(0, 1, 0), -rect.y_min_m),
-    new Plane(new Vector3(0, -1, 0), rect.y_max_m),
-  ];
-}
-
 function triangles(corners: readonly Point[]): BufferGeometry {
   return new BufferGeometry().setAttribute(
     'position',
@@ -50,7 +32,7 @@ function triangles(corners: readonly Point[]): BufferGeometry {
 }
 
 /** A ring of sectors around the tool, since a turned block does not pull alike all round. */
-function capture(paints: Paints, capture_m: SceneMessage['capture_m'], clip: Plane[]): Group {
+function capture(paints: Paints, capture_m: SceneMessage['capture_m']): Group {
   const sector = (2 * Math.PI) / capture_m.length;
   const at = (k: number, distance_m: number): Point => [
     distance_m * Math.cos(k * sector),
@@ -61,7 +43,8 @@ function capture(paints: Paints, capture_m: SceneMessage['capture_m'], clip: Pla
   const edge = new Strokes(paints, 'tool', 2 * capture_m.length, {
     width_px: 1.25,
     opacity: 0.8,
-    clip,
+    through: true,
+    clipped: true,
   });
   capture_m.forEach((reach, k) => {
     const next = capture_m[(k + 1) % capture_m.length];
@@ -73,7 +56,10 @@ function capture(paints: Paints, capture_m: SceneMessage['capture_m'], clip: Pla
     edge.move(...innerA).line(...innerB);
   });
   edge.done();
-  return new Group().add(new Mesh(triangles(fill), paints.flat('tool', 0.08, clip)), edge.object);
+  return new Group().add(
+    new Mesh(triangles(fill), paints.flat('tool', { opacity: 0.08, through: true, clipped: true })),
+    edge.object,
+  );
 }
 
 /** From the camera's eye to the table that it sees, around the tool. */
@@ -93,17 +79,23 @@ function frustum(
     corner,
     corners[(k + 1) % corners.length] ?? corner,
   ]);
-  const rays = new Strokes(paints, 'tool', corners.length, { width_px: 1, opacity: 0.3 });
-  const foot = new Strokes(paints, 'tool', corners.length, { width_px: 1.5, opacity: 0.55 });
+  const rays = new Strokes(paints, 'tool', corners.length, { width_px: 1, opacity: 0.4 });
+  const foot = new Strokes(paints, 'tool', corners.length, {
+    width_px: 1.5,
+    opacity: 0.55,
+    through: true,
+  });
   corners.forEach((corner, k) => {
     rays.move(...eye).line(...corner);
     foot.move(...corner).line(...(corners[(k + 1) % corners.length] ?? corner));
   });
   rays.done();
   foot.done();
-  const group = new Group();
-  group.add(new Mesh(triangles(sides), paints.flat('tool', 0.045)), rays.object, foot.object);
-  return group;
+  // Among the solids it is as near as it is; on the floor it is a mark.
+  const air = new Group();
+  air.renderOrder = ORDER.air;
+  air.add(new Mesh(triangles(sides), paints.flat('tool', { opacity: 0.045 })), rays.object);
+  return new Group().add(air, foot.object);
 }
 
 export class Marks {
@@ -114,27 +106,35 @@ export class Marks {
   private readonly trails: readonly [tool: Strokes, bead: Strokes];
   private readonly tracked: Strokes;
   private readonly cursor: Strokes;
-  private readonly drop: Strokes;
+  private readonly spot: Strokes;
+  private readonly plumb: Strokes;
 
   constructor(paints: Paints, scene: SceneMessage) {
-    const clip = borders(scene.workspace);
-    this.capture = capture(paints, scene.capture_m, clip);
+    this.capture = capture(paints, scene.capture_m);
     this.frustum = frustum(paints, scene.parameters, scene.camera_sees_m);
-    const trail = { width_px: 1.75, opacity: 0.6 };
+    const trail = { width_px: 1.75, opacity: 0.6, through: true };
     this.trails = [
       new Strokes(paints, 'tool', TRAIL_POINTS + 1, trail),
       new Strokes(paints, 'bead', TRAIL_POINTS + 1, trail),
     ];
-    this.tracked = new Strokes(paints, 'text', 2, { width_px: 1, opacity: 0.8 });
-    this.cursor = new Strokes(paints, 'focus', 4, { width_px: 2 });
-    this.drop = new Strokes(paints, 'tool', 2 + 24, { width_px: 1.25, opacity: 0.85 });
+    this.tracked = new Strokes(paints, 'text', 2, { width_px: 1, opacity: 0.8, through: true });
+    this.cursor = new Strokes(paints, 'focus', 4, { width_px: 2, through: true });
+    this.plumb = new Strokes(paints, 'tool', 1, { width_px: 1.25, opacity: 0.8 });
+    this.spot = new Strokes(paints, 'tool', 24, { width_px: 1.5, opacity: 0.9, through: true });
 
-    const ring = new Strokes(paints, 'goal', 66, { width_px: 2.5 });
+    const ring = new Strokes(paints, 'goal', 66, { width_px: 2.5, through: true });
     ring.circle(0, 0, 0, GOAL_RADIUS_M).cross(0, 0, 0, CROSS_M).done();
-    const disc = new Mesh(new CircleGeometry(GOAL_RADIUS_M, 48), paints.flat('goal', 0.2));
+    const disc = new Mesh(
+      new CircleGeometry(GOAL_RADIUS_M, 48),
+      paints.flat('goal', { opacity: 0.2, through: true }),
+    );
     this.goal.add(disc, ring.object);
-    this.group.add(this.capture, this.frustum, this.goal);
-    for (const { object } of [...this.trails, this.tracked, this.cursor, this.drop]) {
+    const air = new Group();
+    air.renderOrder = ORDER.air;
+    air.add(this.plumb.object);
+    this.group.renderOrder = ORDER.marks;
+    this.group.add(this.capture, this.frustum, this.goal, air);
+    for (const { object } of [...this.trails, this.tracked, this.cursor, this.spot]) {
       this.group.add(object);
     }
   }
@@ -153,8 +153,8 @@ export class Marks {
       .cross(...state.bead_tracked_m, TRAIL_UP_M, TRACKED_M)
       .done();
     // Where on the table the tool is: in perspective its height hides that.
-    this.drop.clear().move(x, y, z).line(x, y, TRAIL_UP_M);
-    this.drop.circle(x, y, TRAIL_UP_M, CROSS_M, 24).done();
+    this.spot.clear().circle(x, y, TRAIL_UP_M, CROSS_M, 24).done();
+    this.plumb.clear().move(x, y, z).line(x, y, TRAIL_UP_M).done();
     this.drawTrails(state, history, layers.has('trail'));
   }
 

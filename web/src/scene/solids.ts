@@ -12,7 +12,7 @@ import {
   type Object3D,
 } from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
-import type { PaintName, Paints } from './paints';
+import { ORDER, type PaintName, type Paints } from './paints';
 
 const ROUND = 28;
 
@@ -61,8 +61,9 @@ export class Solids {
 
   group(paints: Paints): Group {
     const group = new Group();
+    group.renderOrder = ORDER.solids;
     for (const [name, pieces] of this.pieces) {
-      const mesh = new Mesh(mergeGeometries(pieces), paints.lit(name));
+      const mesh = new Mesh(mergeGeometries(pieces), paints.over(name));
       for (const piece of pieces) piece.dispose();
       mesh.castShadow = true;
       mesh.receiveShadow = true;

@@ -15,12 +15,13 @@ import {
 } from 'three';
 import type { Palette } from '../palette';
 import type { Polygon, Rect, SceneMessage } from '../protocol.gen';
+import { groundMargins } from '../workspace/groundPicture';
 import type { Paints } from './paints';
 import { disposeGeometries } from './solids';
 
 export const WALL_M = 0.005;
-/** Around the workspace, where the numbers of the axes lie. */
-export const MARGIN_M = { left: 0.046, right: 0.02, top: 0.02, bottom: 0.03 };
+/** Of the table, around the numbers of the axes: a portal's rails lie there. */
+export const EDGE_M = 0.022;
 const THICKNESS_M = 0.018;
 /** Room for the robot's foot. */
 const FOOT_M = 0.115;
@@ -73,11 +74,13 @@ function rimGeometry(rect: Rect, width_m: number): ExtrudeGeometry {
 
 /** Of the table: under floor and numbers, and under the robot's foot where there is one. */
 export function tableOf(workspace: Rect, hasArm: boolean): Rect {
+  const { left, right, bottom, top } = groundMargins(workspace);
+  const side_m = Math.max(left, right) + EDGE_M;
   const rect = {
-    x_min_m: workspace.x_min_m - MARGIN_M.left - 0.014,
-    x_max_m: workspace.x_max_m + MARGIN_M.left + 0.014,
-    y_min_m: workspace.y_min_m - MARGIN_M.bottom - 0.022,
-    y_max_m: workspace.y_max_m + MARGIN_M.bottom + 0.022,
+    x_min_m: workspace.x_min_m - side_m,
+    x_max_m: workspace.x_max_m + side_m,
+    y_min_m: workspace.y_min_m - bottom - EDGE_M,
+    y_max_m: workspace.y_max_m + top + EDGE_M,
   };
   if (!hasArm) return rect;
   return {

@@ -2,8 +2,10 @@
 
 import { Group } from 'three';
 import type { Orientation, Rect } from '../protocol.gen';
+import { groundMargins } from '../workspace/groundPicture';
 import type { Paints } from './paints';
 import { Solids, disposeGeometries, type Point } from './solids';
+import { EDGE_M } from './table';
 
 /** Of the tool point, the middle of the block's lower face. */
 type At = Point;
@@ -70,8 +72,6 @@ function fingers(solids: Solids, [x, y, z]: Point): void {
 }
 
 const RAIL_M = 0.012;
-/** From the workspace to the portal's rails. */
-const RAIL_ASIDE_M = 0.034;
 /** From the table to the middle of the portal's beam. */
 const BEAM_UP_M = 0.235;
 /** Of the column, above the tool point. */
@@ -86,7 +86,11 @@ class Portal {
 
   constructor(paints: Paints, workspace: Rect, block_m: number) {
     const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
-    const rails_m = [y_min_m - RAIL_ASIDE_M, y_max_m + RAIL_ASIDE_M] as const;
+    const margins = groundMargins(workspace);
+    const rails_m = [
+      y_min_m - margins.bottom - EDGE_M / 2,
+      y_max_m + margins.top + EDGE_M / 2,
+    ] as const;
     const middle_m = (rails_m[0] + rails_m[1]) / 2;
     const span_m = rails_m[1] - rails_m[0];
     const length_m = x_max_m - x_min_m + 0.03;

@@ -12,30 +12,16 @@ import {
   type JSX,
 } from 'solid-js';
 import { centimetres, newtons } from '../format';
-import type { GroundPicture } from '../scene/floor';
 import type { LookName } from '../scene/looks';
 import type { SceneView } from '../scene/SceneView';
-import { distance, fitView } from '../transform';
+import { distance } from '../transform';
 import { createGround } from './ground';
-import { handOf, paintGround, remarkOf } from './paint';
+import { createGroundPicture, repaintGround, type GroundPicture } from './groundPicture';
+import { handOf, remarkOf } from './paint';
 import type { StageProps } from './PlanStage';
 import { StageCanvas, type Size } from './StageCanvas';
 
-/** The picture on the floor is as fine as a plan of this width on a screen of so many pixels each. */
-const GROUND_PX = 640;
-const GROUND_RATIO = 2;
-/** Room for the numbers of the axes. */
-const GROUND_INSETS = { left: 40, right: 12, top: 12, bottom: 26 };
 const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
-
-/** Clears the picture on the floor and draws the ground on it. */
-function repaint(picture: GroundPicture, ground: Parameters<typeof paintGround>[1]): void {
-  const ctx = picture.canvas.getContext('2d');
-  if (!ctx) return;
-  ctx.setTransform(picture.ratio, 0, 0, picture.ratio, 0, 0);
-  ctx.clearRect(0, 0, picture.canvas.width, picture.canvas.height);
-  paintGround(ctx, ground);
-}
 
 export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Element {
   const { lab, stage, layers, palette } = props;
@@ -97,18 +83,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
   const picture = createMemo<GroundPicture | undefined>(
     () => {
       const workspace = lab.scene()?.workspace;
-      if (!workspace) return undefined;
-      const width_m = workspace.x_max_m - workspace.x_min_m;
-      const height_m = workspace.y_max_m - workspace.y_min_m;
-      const perM = GROUND_PX / Math.max(width_m, height_m);
-      const { left, right, top, bottom } = GROUND_INSETS;
-      const width_px = Math.ceil(width_m * perM) + left + right;
-      const height_px = Math.ceil(height_m * perM) + top + bottom;
-      const canvas = document.createElement('canvas');
-      canvas.width = GROUND_RATIO * width_px;
-      canvas.height = GROUND_RATIO * height_px;
-      const view = fitView(workspace, width_px, height_px, GROUND_INSETS);
-      return { canvas, view, ratio: GROUND_RATIO, workspace };
+      return workspace && createGroundPicture(workspace);
     },
     undefined,
     // The same table keeps its picture.
@@ -119,7 +94,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
     const [onto, now] = [picture(), ground()];
     const view = drawing();
     if (!onto || !now || !view) return;
-    repaint(onto, now);
+    repaintGround(onto, now);
     view.lay(onto);
   });
 

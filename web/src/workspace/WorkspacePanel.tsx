@@ -115,8 +115,12 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
             when={mode() === 'scene'}
             fallback="Click: goal · drag the bead: disturb, Shift lifts it over walls · keys: arrows, Enter, D"
           >
-            Click: goal · drag the bead: disturb, Shift lifts it · drag: turn, wheel: zoom, right
-            drag: move · keys: arrows, Enter, D, [ ] turn, + − zoom, Home
+            Click: goal · drag the bead: disturb, Shift lifts · drag, wheel: view · keys: arrows,
+            Enter, D, [ ]
+            <span class="visually-hidden">
+              turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home resets it. The
+              right mouse button moves it.
+            </span>
           </Show>
         </p>
         <output class="readout" aria-live="off">
