@@ -7,6 +7,14 @@ import {
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import {
+  disturbsInSpace,
+  frees,
+  goesBackToThePlan,
+  obeysTheKeyboardInSpace,
+  placesAGoalInSpace,
+  turnsTheScene,
+} from './scene.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -330,6 +338,12 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['places a goal in space', placesAGoalInSpace],
+  ['disturbs in space', disturbsInSpace],
+  ['turns the scene', turnsTheScene],
+  ['obeys the keyboard in space', obeysTheKeyboardInSpace],
+  ['frees what the scene held', frees],
+  ['goes back to the plan', goesBackToThePlan],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],

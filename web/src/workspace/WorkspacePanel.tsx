@@ -115,11 +115,10 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
             when={mode() === 'scene'}
             fallback="Click: goal · drag the bead: disturb, Shift lifts it over walls · keys: arrows, Enter, D"
           >
-            Click: goal · drag the bead: disturb, Shift lifts · drag, wheel: view · keys: arrows,
-            Enter, D, [ ]
+            Click: goal · drag the bead: disturb, Shift lifts · drag, wheel: view · arrows, Enter, D
             <span class="visually-hidden">
-              turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home resets it. The
-              right mouse button moves it.
+              · brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home
+              resets it · the right mouse button moves it
             </span>
           </Show>
         </p>
