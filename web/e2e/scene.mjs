@@ -214,3 +214,24 @@ export async function goesBackToThePlan({ lab }) {
   await lab.click(goal);
   await until('a goal', () => lab.state.goal_m);
 }
+
+export async function saysWhatIsMissing({ lab }) {
+  // As in a browser that has no 3-D, or where it is switched off.
+  const restore = await lab.page.evaluateHandle(() => {
+    const { prototype } = document.createElement('canvas').constructor;
+    const { getContext } = prototype;
+    prototype.getContext = function (kind, ...rest) {
+      return kind === 'webgl2' ? null : getContext.call(this, kind, ...rest);
+    };
+    return () => {
+      prototype.getContext = getContext;
+    };
+  });
+  await radio(lab, '3-D').check();
+  await lab.page.getByText('it has no WebGL 2').waitFor({ timeout: OPEN_MS });
+  await lab.screenshot('scene-missing');
+  await lab.button('Back to the plan').click();
+  await lab.canvas.waitFor({ timeout: 5000 });
+  check(await radio(lab, 'Plan').isChecked(), 'the switch says something else');
+  await restore.evaluate((undo) => undo());
+}

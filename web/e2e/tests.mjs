@@ -13,6 +13,7 @@ import {
   goesBackToThePlan,
   obeysTheKeyboardInSpace,
   placesAGoalInSpace,
+  saysWhatIsMissing,
   turnsTheScene,
 } from './scene.mjs';
 
@@ -344,6 +345,7 @@ export const TESTS = [
   ['obeys the keyboard in space', obeysTheKeyboardInSpace],
   ['frees what the scene held', frees],
   ['goes back to the plan', goesBackToThePlan],
+  ['says that there is no 3-D', saysWhatIsMissing],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],

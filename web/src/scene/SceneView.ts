@@ -27,7 +27,6 @@ import { Table } from './table';
 import { Tool } from './tool';
 
 const MOST_PIXEL_RATIO = 2;
-const ANISOTROPY = 8;
 const SKY = '#ffffff';
 const SKY_STRENGTH = 1.75;
 /** What the table throws back from below. */
@@ -72,6 +71,7 @@ export class SceneView {
   private setting: Setting | undefined;
   private floor: Floor | undefined;
   private now: Now | undefined;
+  private view: TableView | undefined;
   private frame: number | undefined;
   private height_px = 1;
 
@@ -162,8 +162,7 @@ export class SceneView {
       this.floor.refresh();
     } else {
       this.removeFloor();
-      const most = Math.min(ANISOTROPY, this.renderer.capabilities.getMaxAnisotropy());
-      this.floor = new Floor(picture, this.paints, most);
+      this.floor = new Floor(picture, this.paints);
       this.world.add(this.floor.group);
     }
     this.request();
@@ -237,6 +236,7 @@ export class SceneView {
 
   private seeAnew(): void {
     const { view, pxFromTable } = this.eye.view();
+    this.view = view;
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
     this.onView(view);
     this.request();
@@ -262,7 +262,7 @@ export class SceneView {
   private tell(state: StateMessage): void {
     const [x, y, z] = state.bead_m;
     const { dataset } = this.canvas;
-    dataset.beadPx = this.eye.view().view.toPx([x, y], z)?.join(',') ?? '';
+    dataset.beadPx = this.view?.toPx([x, y], z)?.join(',') ?? '';
     const { memory, render } = this.renderer.info;
     dataset.frames = String(render.frame);
     dataset.geometries = String(memory.geometries);

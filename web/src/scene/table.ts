@@ -16,6 +16,7 @@ import {
 import type { Palette } from '../palette';
 import type { Polygon, Rect, SceneMessage } from '../protocol.gen';
 import { groundMargins } from '../workspace/groundPicture';
+import { Numbers } from './floor';
 import type { Paints } from './paints';
 import { disposeGeometries } from './solids';
 
@@ -96,6 +97,7 @@ const RIM_M = 0.004;
 export class Table {
   readonly group = new Group();
   private readonly edge = new LineBasicMaterial();
+  private readonly numbers: Numbers;
 
   constructor(paints: Paints, palette: Palette, scene: SceneMessage) {
     const table = tableOf(scene.workspace, scene.positioner === 'arm');
@@ -116,15 +118,19 @@ export class Table {
     }
     this.group.add(slab, walls, rim);
     this.group.add(new LineSegments(edgeGeometry(scene.walls, scene.workspace), this.edge));
-    this.recolor(palette);
+    this.numbers = new Numbers(palette, scene.workspace);
+    this.group.add(this.numbers.group);
+    this.edge.color.set(palette['wall-edge']);
   }
 
   recolor(palette: Palette): void {
+    this.numbers.recolor(palette);
     this.edge.color.set(palette['wall-edge']);
   }
 
   dispose(): void {
     disposeGeometries(this.group);
+    this.numbers.dispose();
     this.edge.dispose();
   }
 }
