@@ -12,7 +12,6 @@ import { DisturbBar } from './DisturbBar';
 import { createFields } from './fields';
 import { FlowLegend } from './FlowLegend';
 import { HeatLegend } from './HeatLegend';
-import { storeLayers, storedLayers, type Layer } from './layers';
 import { PlanStage } from './PlanStage';
 import { SceneStage } from './SceneStage';
 import { createStage } from './stage';
@@ -26,7 +25,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const { lab } = props;
   const [mode, setMode] = createSignal(storedViewMode());
   const [disturbing, setDisturbing] = createSignal(false);
-  const [layers, setLayers] = createSignal(storedLayers());
+  const { layers } = lab;
   const palette = createPalette(() => props.theme());
   const stage = createStage(lab);
   const fields = createFields(lab, layers, palette);
@@ -42,13 +41,6 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     return stage.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
   });
 
-  const toggle = (layer: Layer, on: boolean): void => {
-    const next = new Set(layers());
-    if (on) next.add(layer);
-    else next.delete(layer);
-    setLayers(next);
-    storeLayers(next);
-  };
   const choose = (next: ViewMode): void => {
     setMode(next);
     storeViewMode(next);
@@ -69,7 +61,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         mode={mode()}
         onMode={choose}
         layers={layers()}
-        onLayer={toggle}
+        onLayer={(layer, on) => {
+          lab.showLayer(layer, on);
+        }}
         disturbId="disturb"
         disturbing={disturbing()}
         onDisturbing={setDisturbing}

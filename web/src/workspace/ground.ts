@@ -4,7 +4,7 @@
 import { createMemo, type Accessor } from 'solid-js';
 import type { Lab } from '../lab';
 import type { Palette } from '../palette';
-import type { OverlayMessage, SceneMessage } from '../protocol.gen';
+import type { ComparisonMessage, OverlayMessage, SceneMessage } from '../protocol.gen';
 import type { View } from '../transform';
 import type { Flow } from './drawFlow';
 import type { Heat } from './drawHeat';
@@ -32,6 +32,8 @@ export interface Ground {
   readonly plan: Plan | undefined;
   /** The attractor's flow, when it is shown. */
   readonly flow: Flow | undefined;
+  /** A fork, and the tick at which its branches are shown. */
+  readonly ghosts: { readonly comparison: ComparisonMessage; readonly tick: number } | undefined;
   readonly layers: ReadonlySet<Layer>;
 }
 
@@ -60,6 +62,12 @@ export function createGround(
     const now = view();
     return map && now ? createValues(map, palette(), now) : undefined;
   });
+  const ghosts = createMemo(() => {
+    const comparison = lab.ghosts.comparison();
+    return comparison && layers().has('ghosts')
+      ? { comparison, tick: lab.ghosts.tick() }
+      : undefined;
+  });
   return createMemo(() => {
     const scene = lab.scene();
     const now = view();
@@ -76,6 +84,7 @@ export function createGround(
       seen: fields.seen(),
       plan: plan(),
       flow: fields.flow.flow(),
+      ghosts: ghosts(),
       layers: layers(),
     };
   });

@@ -5,6 +5,7 @@ import type { History } from '../history';
 import type { SceneMessage, StateMessage } from '../protocol.gen';
 import { clampToRect, planView, pxFromWorld, type TableView, type Vec2 } from '../transform';
 import { drawFlow } from './drawFlow';
+import { drawGhosts } from './drawGhosts';
 import { drawCursor, drawSpring } from './drawHand';
 import { drawHeat } from './drawHeat';
 import { drawFloor, drawMap } from './drawMap';
@@ -95,7 +96,7 @@ function clipped(ctx: Ctx, { view, scene }: Ground, draw: () => void): void {
 
 /** Everything that lies on the table, from the floor up. */
 export function paintGround(ctx: Ctx, ground: Ground): void {
-  const { view, palette, scene, layers, overlay, heat, values, seen, plan, flow } = ground;
+  const { view, palette, scene, layers, overlay, heat, values, seen, plan, flow, ghosts } = ground;
   drawFloor(ctx, scene.workspace, view, palette);
   clipped(ctx, ground, () => {
     if (heat) drawHeat(ctx, view, palette, heat);
@@ -115,6 +116,7 @@ export function paintGround(ctx: Ctx, ground: Ground): void {
       if (layers.has('plan')) drawPlan(ctx, palette, plan);
     }
   });
+  if (ghosts) drawGhosts(ctx, view, palette, ghosts.comparison, ghosts.tick);
 }
 
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
