@@ -10,6 +10,8 @@ export default defineConfig({
     // The page's policy is `default-src 'self'`: a `data:` address would be refused.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    // The renderer of the 3-D view, which is loaded when that is opened.
+    chunkSizeWarningLimit: 700,
   },
   test: {
     // Only pure modules are unit-tested; the page itself is tested in a browser (e2e).
