@@ -16,6 +16,7 @@ import {
 } from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
+import { listsRecordings, opensARecording } from './recordings.mjs';
 import {
   disturbsInSpace,
   frees,
@@ -364,6 +365,8 @@ export const TESTS = [
   ['goes back to the plan', goesBackToThePlan],
   ['says that there is no 3-D', saysWhatIsMissing],
   ['looks right', looksRight],
+  ['lists recordings', listsRecordings],
+  ['opens a recording', opensARecording],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],
