@@ -2,6 +2,7 @@
 
 import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
 import { connect, liveAddress, type Picture } from './connection';
+import { createEdits, type Edits } from './edits';
 import { History } from './history';
 import { EMPTY, reduce, type Input, type Model, type Place } from './model';
 import {
@@ -15,7 +16,7 @@ export interface Lab {
   readonly link: Accessor<Model['link']>;
   readonly hello: Accessor<Model['hello']>;
   readonly scene: Accessor<Model['scene']>;
-  /** The parameters in force, with what the form is about to change on top. */
+  /** The parameters in force, with what some panel is about to change on top. */
   readonly tuning: Accessor<Parameters | undefined>;
   readonly state: Accessor<Model['state']>;
   readonly overlay: Accessor<Model['overlay']>;
@@ -31,9 +32,9 @@ export interface Lab {
   /** Connected to a session that goes on, and its operator. */
   readonly canOperate: Accessor<boolean>;
   readonly history: History;
+  /** Changes of the parameters, from whichever panel. */
+  readonly edits: Edits;
   send(message: ClientMessage): void;
-  /** What the form is about to change. */
-  draft(change: Partial<Parameters>): void;
   notify(place: Place, text: string): void;
   dismiss(place: Place, id: number): void;
 }
@@ -84,7 +85,6 @@ export function createLab(page: Location): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
-  const [draft, setDraft] = createSignal<Partial<Parameters>>({});
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -140,35 +140,34 @@ export function createLab(page: Location): Lab {
   const hello = createMemo(() => model().hello);
   const scene = createMemo(() => model().scene);
   const ended = createMemo(() => model().state?.ended ?? undefined);
+  const refusals = createMemo(() => model().refusals);
+  const canOperate = createMemo(
+    () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
+  );
+  const send = (message: ClientMessage): void => {
+    // `release` is sent blindly when a hold ends; a lost socket has released it already.
+    if (connection.send(message)) take({ type: 'sent', command: message.type });
+  };
+  const edits = createEdits({ scene, refusals, canOperate, send });
   return {
     link,
     hello,
     scene,
-    tuning: createMemo(() => {
-      const truth = scene()?.parameters;
-      return truth && { ...truth, ...draft() };
-    }),
+    tuning: edits.shown,
     state: createMemo(() => model().state),
     overlay: createMemo(() => model().overlay),
     seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
     marks: createMemo(() => model().marks),
     notices: createMemo(() => model().notices),
-    refusals: createMemo(() => model().refusals),
+    refusals,
     camera,
     observation,
     ended,
-    canOperate: createMemo(
-      () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
-    ),
+    canOperate,
     history,
-    send: (message) => {
-      // `release` is sent blindly when a hold ends; a lost socket has released it already.
-      if (connection.send(message)) take({ type: 'sent', command: message.type });
-    },
-    draft: (change) => {
-      setDraft(change);
-    },
+    edits,
+    send,
     notify: (place, text) => {
       take({ type: 'notice', place, text });
     },

@@ -26,6 +26,7 @@ const NAMES = [
   'heat-low',
   'heat-middle',
   'heat-high',
+  'mode-1',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;

@@ -2,11 +2,11 @@
 
 import type { JSX } from 'solid-js';
 import { LogPanel } from './LogPanel';
-import { Tabs, type Tab, type TabProps } from './Tabs';
+import { Tabs, type Tab, type PanelProps } from './Tabs';
 
 const TABS: readonly [Tab, ...Tab[]] = [{ id: 'events', title: 'Events', panel: LogPanel }];
 
-export function AsidePanel(props: TabProps): JSX.Element {
+export function AsidePanel(props: PanelProps): JSX.Element {
   return (
     <Tabs
       lab={props.lab}

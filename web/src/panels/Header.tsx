@@ -5,6 +5,7 @@ import type { Lab } from '../lab';
 import type { Link } from '../model';
 import type { Theme } from '../theme';
 import { VIEWS, type View } from '../views';
+import { KeyboardHelp } from './KeyboardHelp';
 import { NoticeBar } from './NoticeBar';
 
 function linkText(link: Link): string {
@@ -103,7 +104,6 @@ export function Header(props: HeaderProps): JSX.Element {
         <span
           class="link"
           data-link={lab.ended() === undefined ? lab.link().kind : 'ended'}
-          role="status"
           data-testid="connection"
         >
           {lab.ended() === undefined ? linkText(lab.link()) : 'session ended'}
@@ -144,6 +144,7 @@ export function Header(props: HeaderProps): JSX.Element {
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
       </dl>
       <span class="safety">Simulation, not safety-rated</span>
+      <KeyboardHelp lab={lab} view={props.view} />
       <button
         type="button"
         class="small"

@@ -1,16 +1,17 @@
 // Below the workspace: the plots against time, or what the magnet can do.
 
-import type { JSX } from 'solid-js';
+import { createSignal, type JSX } from 'solid-js';
 import { MagnetPanel } from './MagnetPanel';
 import { PlotsPanel } from './PlotsPanel';
-import { Tabs, type Tab, type TabProps } from './Tabs';
+import { Tabs, type Tab, type PanelProps } from './Tabs';
 
 const TABS: readonly [Tab, ...Tab[]] = [
   { id: 'plots', title: 'Plots', panel: PlotsPanel },
   { id: 'magnet', title: 'Magnet', panel: MagnetPanel },
 ];
 
-export function LowerPanel(props: TabProps): JSX.Element {
+export function LowerPanel(props: PanelProps): JSX.Element {
+  const [large, setLarge] = createSignal(false);
   return (
     <Tabs
       lab={props.lab}
@@ -18,6 +19,19 @@ export function LowerPanel(props: TabProps): JSX.Element {
       area="lower"
       label="Below the workspace"
       tabs={TABS}
+      aside={
+        <button
+          type="button"
+          class="small enlarge"
+          aria-pressed={large()}
+          title="Gives this panel more of the page's height"
+          onClick={() => {
+            setLarge(!large());
+          }}
+        >
+          Larger
+        </button>
+      }
     />
   );
 }

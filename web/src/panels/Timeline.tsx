@@ -5,6 +5,7 @@ import { clock } from '../format';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
 import type { EventKind } from '../protocol.gen';
+import { ScriptMarks } from './ScriptMarks';
 
 const MAX_REWINDS_PER_S = 15;
 /** How long the slider stays where it was let go, until the server's answer is here. */
@@ -65,6 +66,7 @@ export function Timeline(props: { lab: Lab }): JSX.Element {
               />
             )}
           </For>
+          <ScriptMarks lab={lab} oldest={oldest()} newest={newest()} position={position} />
         </svg>
         <input
           ref={slider}

@@ -25,7 +25,8 @@ import { attachKeyboard } from './keyboard';
 import { storeLayers, storedLayers, type Layer } from './layers';
 import { paint } from './paint';
 import { createPalette } from '../palette';
-import { GRAB_MOUSE_PX, attachPointer, type Pointing } from './pointer';
+import { createPicker } from './picker';
+import { attachPointer, reachesBead, type Pointing } from './pointer';
 import { ValueLegend } from './ValueLegend';
 import { createValueLayer } from './valueLayer';
 import { WorkspaceHead } from './WorkspaceHead';
@@ -42,7 +43,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const { lab } = props;
   let canvas!: HTMLCanvasElement;
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
-  const [pointing, setPointing] = createSignal<Pointing>({ at: undefined, nearBead: false });
+  const [pointing, setPointing] = createSignal<Pointing>();
   const [cursor, setCursor] = createSignal<Vec2>();
   const [disturbing, setDisturbing] = createSignal(false);
   const [focused, setFocused] = createSignal(false);
@@ -59,7 +60,19 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     return now && scene ? wallPath(scene.walls, now) : undefined;
   });
   const palette = createPalette(() => props.theme());
-  const hand = createHand(lab, view);
+  const picker = createPicker();
+  const place = (at: Vec2): void => {
+    if (!picker.offer(at)) lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+  };
+  const hand = createHand(lab, view, place);
+  /** Radius of the ring around a bead that can be taken from where the pointer is. */
+  const reachPx = createMemo(() => {
+    const here = pointing();
+    const canTake = lab.canOperate() && hand.drag().kind !== 'held';
+    return here && canTake && reachesBead(view(), lab.state()?.bead_m, here)
+      ? here.reachPx
+      : undefined;
+  });
 
   const heatQuestion = createMemo<WorkspaceQuery | undefined>(() => {
     const scene = lab.scene();
@@ -102,7 +115,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const readout = createMemo(() => {
     const now = view();
     const scene = lab.scene();
-    const px = pointing().at;
+    const px = pointing()?.at;
     const at = px && now ? worldFromPx(now, px) : focused() ? cursor() : undefined;
     if (!at || !scene) return undefined;
     return { at, wall: scene.walls.some((wall) => insidePolygon(wall, at)) };
@@ -121,7 +134,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       observer.disconnect();
     });
     attachPointer(canvas, lab, hand, view, setPointing);
-    attachKeyboard(canvas, lab, hand, view, cursor, setCursor);
+    attachKeyboard(canvas, lab, hand, view, cursor, setCursor, place, () => {
+      picker.cancel();
+    });
   });
 
   createEffect(() => {
@@ -149,7 +164,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       history: lab.history,
       layers: layers(),
       drag: hand.drag(),
-      grabRadiusPx: pointing().nearBead ? GRAB_MOUSE_PX : undefined,
+      grabRadiusPx: reachPx(),
       cursor: focused() ? cursor() : undefined,
     });
   });
@@ -186,7 +201,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   };
   const cursorName = (): string => {
     if (hand.drag().kind === 'held') return 'holding';
-    return pointing().nearBead ? 'near-bead' : 'free';
+    return reachPx() === undefined ? 'free' : 'near-bead';
   };
 
   return (
@@ -200,7 +215,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         onDisturbing={setDisturbing}
       />
       <Show when={disturbing() && lab.canOperate()}>
-        <DisturbBar lab={lab} id="disturb" />
+        <DisturbBar lab={lab} id="disturb" picker={picker} />
       </Show>
       <div class="stage">
         <canvas
@@ -219,6 +234,11 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
           }}
         />
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
+        <Show when={picker.isPicking()}>
+          <p class="picking" role="status">
+            Pick a place: click it, or arrows and Enter. Esc ends.
+          </p>
+        </Show>
         <NoticeBar lab={lab} place="workspace" />
       </div>
       <Show when={heatQuestion()}>
