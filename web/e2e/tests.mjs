@@ -6,6 +6,21 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
+import {
+  followsAFinger,
+  letsGoByItself,
+  letsGoWhenTheSocketIsLost,
+  placesTheBeadWhilePaused,
+  showsThatTheBeadCanBeTaken,
+} from './gestures.mjs';
+import {
+  bendsTheCurvesBesideThem,
+  disturbsByScript,
+  keepsTime,
+  obeysKeysAllOver,
+  plotsThePapersFigure,
+  saysWhatHappens,
+} from './instruments.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
@@ -330,6 +345,17 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['shows that the bead can be taken', showsThatTheBeadCanBeTaken],
+  ['puts the bead down while paused', placesTheBeadWhilePaused],
+  ['lets go by itself', letsGoByItself],
+  ['lets go when the socket is lost', letsGoWhenTheSocketIsLost],
+  ['follows a finger', followsAFinger],
+  ["plots the paper's figure", plotsThePapersFigure],
+  ['bends the curves beside them', bendsTheCurvesBesideThem],
+  ['disturbs by script', disturbsByScript],
+  ['keeps time', keepsTime],
+  ['obeys keys all over', obeysKeysAllOver],
+  ['says what happens', saysWhatHappens],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],

@@ -148,7 +148,7 @@ export function createTimePlot(
           },
         ],
       },
-      padding: [5, 8, 0, 0],
+      padding: [5, 14, 0, 0],
     },
     [[], ...part.lines.map(() => [])],
     root,

@@ -169,11 +169,11 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
         data={pullData()}
       />
       <CurvePlot
-        title="Capture"
-        unit="cm, by height"
+        title="Capture by height"
+        unit="cm"
         name="Captured offsets against the height of the block's lower face"
         theme={props.theme}
-        keys={[{ label: 'lifts off', color: 'danger' }]}
+        keys={[{ label: 'lift-off', color: 'danger' }]}
         context={reachContext}
         data={reachData()}
       />

@@ -150,7 +150,7 @@ export function Transport(props: { lab: Lab }): JSX.Element {
           <Show when={lab.state()?.running} fallback="paused">
             {achieved().text}
             <Show when={achieved().limited}>
-              <span class="limit"> machine limit</span>
+              <span class="limit">machine limit</span>
             </Show>
           </Show>
         </span>

@@ -219,7 +219,8 @@ export function DisturbBar(props: { lab: Lab; id: string; picker: Picker }): JSX
             />
             <Amount
               name="Distance from the place in cm"
-              unit="cm near"
+              lead="within"
+              unit="cm"
               least={0.1}
               most={FARTHEST_CM}
               value={within_cm()}

@@ -34,7 +34,7 @@ export function ScriptList(props: { lab: Lab }): JSX.Element {
       >
         <Amount
           name="Number of random moves"
-          unit="moves at random while the bead is carried"
+          unit="random moves while the bead is carried"
           least={0}
           most={MOST_RANDOM}
           whole
@@ -51,24 +51,26 @@ export function ScriptList(props: { lab: Lab }): JSX.Element {
           Set and restart
         </button>
       </form>
-      <Show when={script().length > 0} fallback={<p class="hint">No script.</p>}>
+      <Show when={script().length > 0}>
         <ol aria-label="Script">
           <For each={script()}>
             {(entry, index) => (
               <li>
-                <span>{words(entry)}</span>
-                <button
-                  type="button"
-                  class="bare"
-                  disabled={!lab.canOperate()}
-                  aria-label={`Remove and restart: ${words(entry)}`}
-                  title="Remove from the script and restart"
-                  onClick={() => {
-                    load({ script: script().filter((_, at) => at !== index()) });
-                  }}
-                >
-                  ×
-                </button>
+                <div>
+                  <span>{words(entry)}</span>
+                  <button
+                    type="button"
+                    class="bare"
+                    disabled={!lab.canOperate()}
+                    aria-label={`Remove and restart: ${words(entry)}`}
+                    title="Remove from the script and restart"
+                    onClick={() => {
+                      load({ script: script().filter((_, at) => at !== index()) });
+                    }}
+                  >
+                    ×
+                  </button>
+                </div>
               </li>
             )}
           </For>

@@ -6,6 +6,8 @@ import type { Picker } from './picker';
 
 export function Amount(props: {
   name: string;
+  /** What stands before the number. */
+  lead?: string;
   unit: string;
   least?: number;
   most: number;
@@ -17,6 +19,7 @@ export function Amount(props: {
 }): JSX.Element {
   return (
     <label class="amount">
+      <span class="unit">{props.lead}</span>
       <input
         type="number"
         class="number"
@@ -81,7 +84,8 @@ export function PlaceFields(props: {
     <>
       <Amount
         name={`x of ${props.name} in metres`}
-        unit="x"
+        lead="x"
+        unit=""
         least={-10}
         most={10}
         value={props.value.x_m}
@@ -92,7 +96,8 @@ export function PlaceFields(props: {
       />
       <Amount
         name={`y of ${props.name} in metres`}
-        unit="y, m"
+        lead="y"
+        unit="m"
         least={-10}
         most={10}
         value={props.value.y_m}
