@@ -31,11 +31,15 @@ export default tseslint.config(
     languageOptions: {
       globals: {
         console: 'readonly',
+        Event: 'readonly',
+        getComputedStyle: 'readonly',
         MutationObserver: 'readonly',
         document: 'readonly',
+        performance: 'readonly',
         process: 'readonly',
         setTimeout: 'readonly',
         URL: 'readonly',
+        window: 'readonly',
       },
     },
   },

@@ -124,6 +124,7 @@ export async function followsAFinger({ lab, browser, server }) {
   const context = await browser.newContext({
     viewport: { width: 820, height: 1180 },
     hasTouch: true,
+    isMobile: true,
     colorScheme: 'dark',
   });
   const tablet = await Lab.open(context, server.url);
@@ -161,15 +162,23 @@ export async function followsAFinger({ lab, browser, server }) {
     await until('the hand again', () => tablet.state.hand_m);
     await touch('touchCancel');
     await until('let go when cancelled', () => !tablet.state.hand_m);
-    const action = await tablet.canvas.evaluate((canvas) => getComputedStyle(canvas).touchAction);
-    check(action === 'pinch-zoom', `touch-action is ${action}`);
-
     // Elsewhere a finger scrolls.
     const head = await page.getByRole('heading', { name: 'Workspace' }).boundingBox();
     await touch('touchStart', [head.x + 20, head.y + 8]);
     for (let i = 1; i <= 6; i++) await touch('touchMove', [head.x + 20, head.y + 8 - 12 * i]);
     await touch('touchEnd');
     await until('a scrolled page', async () => (await scrolled()) > 20);
+
+    // Two fingers on the plan zoom, and neither place a goal nor take the bead.
+    const before = tablet.state.goal_m;
+    const { x: left, y: top, width, height: high } = await tablet.canvas.boundingBox();
+    const pair = (half) => [-half, half].map((dx) => [left + width / 2 + dx, top + high / 2]);
+    await touch('touchStart', ...pair(40));
+    for (let i = 1; i <= 8; i++) await touch('touchMove', ...pair(40 + 10 * i));
+    await touch('touchEnd');
+    await until('a larger page', () => page.evaluate(() => window.visualViewport.scale > 1.5));
+    check(!tablet.state.hand_m, 'two fingers took the bead');
+    check(distance(tablet.state.goal_m, before) === 0, 'two fingers placed a goal');
   } finally {
     await context.close();
     await lab.button('Take control').click();

@@ -143,18 +143,20 @@ export function Header(props: HeaderProps): JSX.Element {
         <Counter label="disturbed" testid="disturbances" value={lab.state()?.disturbances} />
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
       </dl>
-      <span class="safety">Simulation, not safety-rated</span>
-      <KeyboardHelp lab={lab} view={props.view} />
-      <button
-        type="button"
-        class="small"
-        aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
-        onClick={() => {
-          props.onTheme();
-        }}
-      >
-        {props.theme() === 'dark' ? 'Light' : 'Dark'}
-      </button>
+      <div class="page-tools">
+        <span class="safety">Simulation, not safety-rated</span>
+        <KeyboardHelp lab={lab} view={props.view} />
+        <button
+          type="button"
+          class="small"
+          aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
+          onClick={() => {
+            props.onTheme();
+          }}
+        >
+          {props.theme() === 'dark' ? 'Light' : 'Dark'}
+        </button>
+      </div>
     </header>
   );
 }

@@ -1,6 +1,6 @@
 // The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
 
-import { For, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
 import { fixed } from '../format';
 import type { Picker } from './picker';
 
@@ -8,7 +8,7 @@ export function Amount(props: {
   name: string;
   /** What stands before the number. */
   lead?: string;
-  unit: string;
+  unit?: string;
   least?: number;
   most: number;
   /** Whole numbers only. */
@@ -19,7 +19,9 @@ export function Amount(props: {
 }): JSX.Element {
   return (
     <label class="amount">
-      <span class="unit">{props.lead}</span>
+      <Show when={props.lead}>
+        <span class="unit">{props.lead}</span>
+      </Show>
       <input
         type="number"
         class="number"
@@ -34,7 +36,9 @@ export function Amount(props: {
           props.onValue(event.currentTarget.valueAsNumber);
         }}
       />
-      <span class="unit">{props.unit}</span>
+      <Show when={props.unit}>
+        <span class="unit">{props.unit}</span>
+      </Show>
     </label>
   );
 }
@@ -85,7 +89,6 @@ export function PlaceFields(props: {
       <Amount
         name={`x of ${props.name} in metres`}
         lead="x"
-        unit=""
         least={-10}
         most={10}
         value={props.value.x_m}
