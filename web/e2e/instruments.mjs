@@ -144,7 +144,7 @@ export async function disturbsByScript({ lab }) {
   const track = await page.getByLabel('Timeline').boundingBox();
   await page.mouse.click(track.x + 0.2 * track.width, track.y + track.height / 2);
   await until('before it', () => lab.state.tick < 200 && lab.state.disturbances === 0);
-  check((await page.locator('.marks .scripted').count()) === 1, 'no mark of the script');
+  check((await page.locator('.script-marks circle').count()) === 1, 'no mark of the script');
   await lab.screenshot('script');
 
   await page.getByLabel('Number of random moves').fill('3');

@@ -22,6 +22,7 @@ import {
   saysWhatHappens,
 } from './instruments.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { comparesControllers, tellsWhy } from './past.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -345,6 +346,8 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['tells why a switch came', tellsWhy],
+  ['compares controllers from a moment on', comparesControllers],
   ['shows that the bead can be taken', showsThatTheBeadCanBeTaken],
   ['puts the bead down while paused', placesTheBeadWhilePaused],
   ['lets go by itself', letsGoByItself],

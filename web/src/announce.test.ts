@@ -9,6 +9,7 @@ const line = (id: number, kind: LogLine['kind'], text: string = kind, count = 1)
   text,
   count,
   sim_time_s: 0,
+  event: undefined,
 });
 
 describe('the news', () => {

@@ -3,12 +3,14 @@
 import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
 import { connect, liveAddress, type Picture } from './connection';
 import { createEdits, type Edits } from './edits';
+import { createGhosts, type Ghosts } from './ghosts';
 import { History } from './history';
 import { EMPTY, reduce, type Input, type Model, type Place } from './model';
 import {
   BINARY_CAMERA_JPEG,
   BINARY_OBSERVATION,
   type ClientMessage,
+  type EventMessage,
   type Parameters,
 } from './protocol.gen';
 
@@ -23,6 +25,11 @@ export interface Lab {
   readonly seen: Accessor<Model['seen']>;
   readonly log: Accessor<Model['log']>;
   readonly marks: Accessor<Model['marks']>;
+  readonly ghosts: Ghosts;
+  /** The event whose story is open. */
+  readonly inspected: Accessor<EventMessage | undefined>;
+  /** The tab that was asked to open last, wherever it is. */
+  readonly opened: Accessor<{ readonly tab: string } | undefined>;
   readonly notices: Accessor<Model['notices']>;
   readonly refusals: Accessor<number>;
   readonly camera: Accessor<Picture | undefined>;
@@ -35,6 +42,8 @@ export interface Lab {
   /** Changes of the parameters, from whichever panel. */
   readonly edits: Edits;
   send(message: ClientMessage): void;
+  inspect(event: EventMessage | undefined): void;
+  openTab(tab: string): void;
   notify(place: Place, text: string): void;
   dismiss(place: Place, id: number): void;
 }
@@ -85,6 +94,8 @@ export function createLab(page: Location): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
+  const [inspected, inspect] = createSignal<EventMessage>();
+  const [opened, setOpened] = createSignal<{ readonly tab: string }>();
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -159,6 +170,9 @@ export function createLab(page: Location): Lab {
     seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
     marks: createMemo(() => model().marks),
+    ghosts: createGhosts(createMemo(() => model().comparison)),
+    inspected,
+    opened,
     notices: createMemo(() => model().notices),
     refusals,
     camera,
@@ -168,6 +182,12 @@ export function createLab(page: Location): Lab {
     history,
     edits,
     send,
+    inspect: (event) => {
+      inspect(event);
+    },
+    openTab: (tab) => {
+      setOpened({ tab });
+    },
     notify: (place, text) => {
       take({ type: 'notice', place, text });
     },

@@ -27,6 +27,9 @@ const NAMES = [
   'heat-middle',
   'heat-high',
   'mode-1',
+  'rl',
+  'errt',
+  'attractor',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;

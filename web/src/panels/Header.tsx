@@ -83,7 +83,10 @@ export function Header(props: HeaderProps): JSX.Element {
   const { lab } = props;
   return (
     <header class="bar top">
-      <h1>Ferry</h1>
+      <div class="brand">
+        <h1>Ferry</h1>
+        <p class="safety">Simulation, not safety-rated</p>
+      </div>
       <nav class="views" aria-label="Views">
         <For each={VIEWS}>
           {([id, title]) => (
@@ -144,7 +147,6 @@ export function Header(props: HeaderProps): JSX.Element {
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
       </dl>
       <div class="page-tools">
-        <span class="safety">Simulation, not safety-rated</span>
         <KeyboardHelp lab={lab} view={props.view} />
         <button
           type="button"

@@ -5,28 +5,26 @@ import { describe } from '../disturb';
 import { clock } from '../format';
 import type { Lab } from '../lab';
 
-export function ScriptMarks(props: {
-  lab: Lab;
-  oldest: number;
-  newest: number;
-  /** Place of a tick along the track. */
-  position: (tick: number) => string;
-}): JSX.Element {
+export function ScriptMarks(props: { lab: Lab; oldest: number; newest: number }): JSX.Element {
   const planned = () =>
     (props.lab.scene()?.scenario.script ?? []).flatMap(({ at, disturbance }) =>
       'tick' in at && at.tick >= props.oldest && at.tick <= props.newest
         ? [{ tick: at.tick, disturbance }]
         : [],
     );
+  const position = (tick: number): string =>
+    `${(100 * (tick - props.oldest)) / Math.max(1, props.newest - props.oldest)}%`;
   return (
-    <For each={planned()}>
-      {({ tick, disturbance }) => (
-        <circle class="scripted" cx={props.position(tick)} cy="50%" r="4">
-          <title>
-            {`Script at ${clock(tick * (props.lab.scene()?.tick_s ?? 0))}: ${describe(disturbance)}`}
-          </title>
-        </circle>
-      )}
-    </For>
+    <svg class="script-marks" aria-hidden="true">
+      <For each={planned()}>
+        {({ tick, disturbance }) => (
+          <circle cx={position(tick)} cy="50%" r="4">
+            <title>
+              {`Script at ${clock(tick * (props.lab.scene()?.tick_s ?? 0))}: ${describe(disturbance)}`}
+            </title>
+          </circle>
+        )}
+      </For>
+    </svg>
   );
 }

@@ -7,6 +7,7 @@ import { SPEEDS, achievedWords, speedName, ticksToControlStep } from '../steps';
 import { NoticeBar } from './NoticeBar';
 import { Timeline } from './Timeline';
 import { TruthSelect } from './TruthSelect';
+import { WhyCard } from './WhyCard';
 
 /** One second of ticks. */
 const MANY_TICKS = 125;
@@ -179,6 +180,7 @@ export function Transport(props: { lab: Lab }): JSX.Element {
         </div>
       </div>
       <Timeline lab={lab} />
+      <WhyCard lab={lab} />
       <NoticeBar lab={lab} place="transport" />
     </footer>
   );

@@ -112,6 +112,13 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     return map && now ? createValues(map, palette(), now) : undefined;
   });
 
+  const ghosts = createMemo(() => {
+    const comparison = lab.ghosts.comparison();
+    return comparison && layers().has('ghosts')
+      ? { comparison, tick: lab.ghosts.tick() }
+      : undefined;
+  });
+
   const readout = createMemo(() => {
     const now = view();
     const scene = lab.scene();
@@ -161,6 +168,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       seen: seen(),
       plan: plan(),
       flow: flowLayer.flow(),
+      ghosts: ghosts(),
       history: lab.history,
       layers: layers(),
       drag: hand.drag(),
