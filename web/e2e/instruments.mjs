@@ -19,6 +19,7 @@ async function saved(lab, kind) {
 
 export async function plotsThePapersFigure({ lab }) {
   const { page } = lab;
+  await page.getByRole('tab', { name: 'Plots' }).click();
   await lab.reset({ speed: '8' });
   const bead = await lab.point('bead');
   await lab.click(lab.freePoints(bead, 0.25, 0.4)[0]);
