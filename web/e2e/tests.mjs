@@ -21,6 +21,14 @@ import {
   plotsThePapersFigure,
   saysWhatHappens,
 } from './instruments.mjs';
+import {
+  aViewerMayPredict,
+  everyLessonShowsWhatItClaims,
+  learnsByKeyboard,
+  loadsAPreset,
+  refusesABrokenLink,
+  sharesAnExperiment,
+} from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
 
@@ -359,6 +367,12 @@ export const TESTS = [
   ['keeps time', keepsTime],
   ['obeys keys all over', obeysKeysAllOver],
   ['says what happens', saysWhatHappens],
+  ['shares an experiment', sharesAnExperiment],
+  ['refuses a broken link', refusesABrokenLink],
+  ['loads a preset', loadsAPreset],
+  ['learns by keyboard', learnsByKeyboard],
+  ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
+  ['a viewer may predict', aViewerMayPredict],
   ['looks right', looksRight],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],

@@ -110,20 +110,26 @@ export class History {
     return low;
   }
 
-  /** Doubles the least distance of samples until the past has given enough of them away. */
+  /** Makes the past as coarse as it is already, and coarser only when that leaves too little room. */
   private thin(): void {
-    const ticks = this.columns.tick;
-    do {
+    for (;;) {
+      this.keepApart();
+      if (this.end <= THINNED * this.capacity) return;
       this.grainTicks *= 2;
-      const recent = Math.floor(this.end * (1 - RECENT));
-      let kept = 1;
-      for (let from = 1; from < this.end; from++) {
-        const since = (ticks[from] ?? 0) - (ticks[kept - 1] ?? 0);
-        if (from < recent && since < this.grainTicks) continue;
-        for (const name of COLUMNS) this.columns[name][kept] = this.columns[name][from] ?? 0;
-        kept += 1;
-      }
-      this.end = kept;
-    } while (this.end > THINNED * this.capacity);
+    }
+  }
+
+  /** Drops samples of the past that are nearer to the one before than the grain. */
+  private keepApart(): void {
+    const ticks = this.columns.tick;
+    const recent = Math.floor(this.end * (1 - RECENT));
+    let kept = 1;
+    for (let from = 1; from < this.end; from++) {
+      const since = (ticks[from] ?? 0) - (ticks[kept - 1] ?? 0);
+      if (from < recent && since < this.grainTicks) continue;
+      for (const name of COLUMNS) this.columns[name][kept] = this.columns[name][from] ?? 0;
+      kept += 1;
+    }
+    this.end = kept;
   }
 }

@@ -13,6 +13,7 @@ import {
   type EventMessage,
   type Parameters,
 } from './protocol.gen';
+import { storeLayers, storedLayers, type Layer } from './workspace/layers';
 
 export interface Lab {
   readonly link: Accessor<Model['link']>;
@@ -41,6 +42,9 @@ export interface Lab {
   readonly history: History;
   /** Changes of the parameters, from whichever panel. */
   readonly edits: Edits;
+  /** What is drawn over the workspace. */
+  readonly layers: Accessor<ReadonlySet<Layer>>;
+  showLayer(layer: Layer, on: boolean): void;
   send(message: ClientMessage): void;
   inspect(event: EventMessage | undefined): void;
   openTab(tab: string): void;
@@ -96,6 +100,7 @@ export function createLab(page: Location): Lab {
   const [observation, setObservation] = createSignal<Picture>();
   const [inspected, inspect] = createSignal<EventMessage>();
   const [opened, setOpened] = createSignal<{ readonly tab: string }>();
+  const [layers, setLayers] = createSignal(storedLayers());
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -182,6 +187,14 @@ export function createLab(page: Location): Lab {
     history,
     edits,
     send,
+    layers,
+    showLayer: (layer, on) => {
+      const next = new Set(layers());
+      if (on) next.add(layer);
+      else next.delete(layer);
+      setLayers(next);
+      storeLayers(next);
+    },
     inspect: (event) => {
       inspect(event);
     },

@@ -4,7 +4,11 @@ import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { clock } from '../format';
 import type { Lab } from '../lab';
 import { SPEEDS, achievedWords, speedName, ticksToControlStep } from '../steps';
+import type { Links } from '../links';
+import { LinkBar } from './LinkBar';
 import { NoticeBar } from './NoticeBar';
+import { PresetSelect } from './PresetSelect';
+import { ShareButton } from './ShareButton';
 import { Timeline } from './Timeline';
 import { TruthSelect } from './TruthSelect';
 import { WhyCard } from './WhyCard';
@@ -110,8 +114,8 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
   );
 }
 
-export function Transport(props: { lab: Lab }): JSX.Element {
-  const { lab } = props;
+export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
+  const { lab, links } = props;
   const speeds = createMemo(() => {
     const target = lab.state()?.speed_target ?? 1;
     const all = [...new Set([...SPEEDS, target])].sort((a, b) => a - b);
@@ -135,6 +139,7 @@ export function Transport(props: { lab: Lab }): JSX.Element {
   };
   return (
     <footer class="bar transport" role="region" aria-label="Transport">
+      <LinkBar lab={lab} links={links} />
       <div class="transport-row">
         <RunButtons lab={lab} />
         <TruthSelect
@@ -166,7 +171,9 @@ export function Transport(props: { lab: Lab }): JSX.Element {
                 disabled={!lab.canOperate()}
                 onChoose={loadMap}
               />
+              <PresetSelect lab={lab} links={links} />
               <Seed lab={lab} seed={scene().seed} />
+              <ShareButton links={links} />
             </>
           )}
         </Show>
