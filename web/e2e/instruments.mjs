@@ -172,9 +172,9 @@ export async function disturbsByScript({ lab }) {
 
 export async function keepsTime({ lab }) {
   await lab.reset();
-  await lab.button('Control step').click();
+  await lab.button('Step ¼ s').click();
   await until('a control step', () => lab.state.tick === 32);
-  await lab.button('Control step').click();
+  await lab.button('Step ¼ s').click();
   await until('the next', () => lab.state.tick === 63);
   await lab.page.getByLabel('Speed', { exact: true }).selectOption('64');
   await lab.run();
@@ -239,13 +239,13 @@ export async function obeysKeysAllOver({ lab }) {
   await until('the start', () => lab.state.tick === 0);
 
   // One can do without.
-  await lab.button('Keys').click();
+  await lab.button('Keyboard shortcuts').click();
   await help.getByRole('checkbox').uncheck();
   await keyboard.press('Escape');
   await keyboard.press('.');
   await lab.button('Step').click();
   await until('one tick only', () => lab.state.tick === 1);
-  await lab.button('Keys').click();
+  await lab.button('Keyboard shortcuts').click();
   await help.getByRole('checkbox').check();
   await help.getByRole('button', { name: 'Close' }).click();
 }

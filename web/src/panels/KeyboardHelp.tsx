@@ -36,8 +36,14 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
   };
   return (
     <>
-      <button type="button" class="small" title="Keys of the page (?)" onClick={open}>
-        Keys
+      <button
+        type="button"
+        class="small"
+        aria-label="Keyboard shortcuts"
+        title="Keyboard shortcuts (?)"
+        onClick={open}
+      >
+        ?
       </button>
       <dialog
         ref={dialog}

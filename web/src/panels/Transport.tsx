@@ -54,7 +54,7 @@ function RunButtons(props: { lab: Lab }): JSX.Element {
           lab.send({ type: 'step', ticks });
         }}
       >
-        Control step
+        Step ¼ s
       </button>
       <button
         type="button"
