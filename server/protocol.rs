@@ -18,6 +18,7 @@ mod convert;
 mod layers;
 mod parse;
 mod past;
+mod recordings;
 #[cfg(test)]
 mod typescript;
 
@@ -25,8 +26,8 @@ pub use layers::{
     BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
     ValueQuery,
 };
-
 pub use past::{Branch, ComparisonMessage, MomentMessage};
+pub use recordings::{RecordingFile, RecordingList};
 
 /// Raised when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 5;

@@ -14,3 +14,4 @@ mod recordings;
 mod reference;
 mod rendering;
 mod sights;
+mod viewer;

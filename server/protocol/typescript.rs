@@ -66,6 +66,8 @@ fn generated() -> String {
         declaration::<ValueMap>(c),
         declaration::<FlowQuery>(c),
         declaration::<FlowField>(c),
+        declaration::<RecordingFile>(c),
+        declaration::<RecordingList>(c),
     ];
     parts.join("\n")
 }

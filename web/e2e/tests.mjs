@@ -31,6 +31,7 @@ import {
 } from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
+import { listsRecordings, opensARecording } from './recordings.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -374,6 +375,8 @@ export const TESTS = [
   ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
   ['a viewer may predict', aViewerMayPredict],
   ['looks right', looksRight],
+  ['lists recordings', listsRecordings],
+  ['opens a recording', opensARecording],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],

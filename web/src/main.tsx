@@ -38,7 +38,7 @@ function Page(): JSX.Element {
           <Transport lab={lab} links={links} />
         </Match>
         <Match when={view() === 'recordings'}>
-          <RecordingsView />
+          <RecordingsView theme={theme} />
         </Match>
         <Match when={view() === 'evaluate'}>
           <EvaluateView />
