@@ -173,7 +173,7 @@ export async function disturbsByScript({ lab }) {
 export async function keepsTime({ lab }) {
   await lab.reset();
   await lab.button('Step ¼ s').click();
-  await until('a control step', () => lab.state.tick === 32);
+  await until('a control step', async () => (await lab.text('tick')) === 'tick 32');
   await lab.button('Step ¼ s').click();
   await until('the next', () => lab.state.tick === 63);
   await lab.page.getByLabel('Speed', { exact: true }).selectOption('64');
@@ -195,7 +195,7 @@ export async function obeysKeysAllOver({ lab }) {
   await lab.reset();
   await page.getByRole('heading', { name: 'Workspace' }).click();
   await keyboard.press('.');
-  await until('one tick', () => lab.state.tick === 1);
+  await until('one tick', async () => (await lab.text('tick')) === 'tick 1');
   await keyboard.press(',');
   await until('the control step', () => lab.state.tick === 32);
   // What a key does follows from what the page shows, a frame after what its socket heard.
