@@ -79,7 +79,9 @@ export class Lab {
     page.on('pageerror', (error) => this.complaints.push(error.message));
     const host = new URL(url).host;
     const judge = (address) => {
-      if (new URL(address).host !== host) this.strangers.push(address);
+      // A blob is the page's own, such as a file that it made.
+      const { protocol, host: asked } = new URL(address);
+      if (protocol !== 'blob:' && asked !== host) this.strangers.push(address);
     };
     page.on('request', (request) => judge(request.url()));
     page.on('websocket', (socket) => {

@@ -7,6 +7,21 @@ import {
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import {
+  followsAFinger,
+  letsGoByItself,
+  letsGoWhenTheSocketIsLost,
+  placesTheBeadWhilePaused,
+  showsThatTheBeadCanBeTaken,
+} from './gestures.mjs';
+import {
+  bendsTheCurvesBesideThem,
+  disturbsByScript,
+  keepsTime,
+  obeysKeysAllOver,
+  plotsThePapersFigure,
+  saysWhatHappens,
+} from './instruments.mjs';
+import {
   aViewerMayPredict,
   everyLessonShowsWhatItClaims,
   learnsByKeyboard,
@@ -352,6 +367,17 @@ export const TESTS = [
   ['goes back in time', goesBackInTime],
   ['tells why a switch came', tellsWhy],
   ['compares controllers from a moment on', comparesControllers],
+  ['shows that the bead can be taken', showsThatTheBeadCanBeTaken],
+  ['puts the bead down while paused', placesTheBeadWhilePaused],
+  ['lets go by itself', letsGoByItself],
+  ['lets go when the socket is lost', letsGoWhenTheSocketIsLost],
+  ['follows a finger', followsAFinger],
+  ["plots the paper's figure", plotsThePapersFigure],
+  ['bends the curves beside them', bendsTheCurvesBesideThem],
+  ['disturbs by script', disturbsByScript],
+  ['keeps time', keepsTime],
+  ['obeys keys all over', obeysKeysAllOver],
+  ['says what happens', saysWhatHappens],
   ['shares an experiment', sharesAnExperiment],
   ['refuses a broken link', refusesABrokenLink],
   ['loads a preset', loadsAPreset],

@@ -26,6 +26,7 @@ const NAMES = [
   'heat-low',
   'heat-middle',
   'heat-high',
+  'mode-1',
   'rl',
   'errt',
   'attractor',

@@ -8,7 +8,6 @@ import type { Fields } from './fields';
 import { createGround } from './ground';
 import type { Layer } from './layers';
 import { paint } from './paint';
-import { GRAB_MOUSE_PX } from './pointer';
 import type { Stage } from './stage';
 import { StageCanvas, type Size } from './StageCanvas';
 
@@ -26,7 +25,7 @@ export interface StageProps {
 
 export function PlanStage(props: StageProps): JSX.Element {
   const { lab, stage, layers, palette } = props;
-  const { hand, pointing, focused, cursor } = stage;
+  const { hand, reachPx, focused, cursor } = stage;
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
 
@@ -50,7 +49,7 @@ export function PlanStage(props: StageProps): JSX.Element {
       state: lab.state(),
       history: lab.history,
       drag: hand.drag(),
-      grabRadiusPx: pointing().nearBead ? GRAB_MOUSE_PX : undefined,
+      grabRadiusPx: reachPx(),
       cursor: focused() ? cursor() : undefined,
     });
   });

@@ -25,7 +25,7 @@ const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
 
 export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Element {
   const { lab, stage, layers, palette } = props;
-  const { hand, pointing, focused, cursor } = stage;
+  const { hand, reachPx, focused, cursor } = stage;
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
@@ -130,7 +130,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
       history: lab.history,
       layers: layers(),
       pull: pull(),
-      nearBead: pointing().nearBead,
+      nearBead: reachPx() !== undefined,
       cursor: focused() ? cursor() : undefined,
     });
   });

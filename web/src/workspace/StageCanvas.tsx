@@ -33,11 +33,12 @@ export function StageCanvas(props: {
     });
     observer.observe(canvas);
     const detach = attachPointer(canvas, lab, stage.hand, stage.view, stage.setPointing);
-    attachKeyboard(canvas, lab, stage.hand, stage.view, {
+    const cursor = {
       at: stage.cursor,
       put: stage.setCursor,
-      turned: (arrow) => props.turned?.(arrow) ?? arrow,
-    });
+      turned: (arrow: Vec2) => props.turned?.(arrow) ?? arrow,
+    };
+    attachKeyboard(canvas, lab, stage.hand, stage.view, cursor, stage.place, stage.picker.cancel);
     onCleanup(() => {
       observer.disconnect();
       detach();
@@ -57,7 +58,7 @@ export function StageCanvas(props: {
 
   const cursorName = (): string => {
     if (stage.hand.drag().kind === 'held') return 'holding';
-    return stage.pointing().nearBead ? 'near-bead' : 'free';
+    return stage.reachPx() === undefined ? 'free' : 'near-bead';
   };
 
   return (

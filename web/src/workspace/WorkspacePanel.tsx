@@ -69,7 +69,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         onDisturbing={setDisturbing}
       />
       <Show when={disturbing() && lab.canOperate()}>
-        <DisturbBar lab={lab} id="disturb" />
+        <DisturbBar lab={lab} id="disturb" picker={stage.picker} />
       </Show>
       <div class="stage">
         <Show when={mode() === 'scene'} fallback={<PlanStage {...stageProps} />}>
@@ -81,6 +81,11 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
           />
         </Show>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
+        <Show when={stage.picker.isPicking()}>
+          <p class="picking" role="status">
+            Pick a place: click it, or arrows and Enter. Esc ends.
+          </p>
+        </Show>
         <NoticeBar lab={lab} place="workspace" />
       </div>
       <Show when={fields.showsHeat()}>

@@ -15,7 +15,12 @@ export interface Hand {
   mayAct(): boolean;
 }
 
-export function createHand(lab: Lab, view: () => TableView | undefined): Hand {
+/** `place` hears of clicks, in metres. */
+export function createHand(
+  lab: Lab,
+  view: () => TableView | undefined,
+  place: (at: Vec2) => void,
+): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
   const drags = new Limiter<{ at: Vec2; lift: boolean }>(1000 / MAX_DRAGS_PER_S, (wish) => {
     lab.send({ type: 'drag', x_m: wish.at[0], y_m: wish.at[1], lift: wish.lift });
@@ -45,7 +50,7 @@ export function createHand(lab: Lab, view: () => TableView | undefined): Hand {
         const scene = lab.scene();
         if (!at || !scene) continue;
         if (effect.type === 'goal') {
-          if (mayAct()) lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+          place(at);
         } else {
           drags.offer({ at: clampToRect(scene.workspace, at), lift: effect.lift });
         }

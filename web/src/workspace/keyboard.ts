@@ -1,5 +1,5 @@
 // The workspace by keyboard: arrows move a cursor, Enter places the goal, D takes the bead and lets
-// it go, Escape lets it go.
+// it go, Escape lets it go or ends picking.
 
 import type { Lab } from '../lab';
 import { clampToRect, distance, type TableView, type Vec2 } from '../transform';
@@ -29,6 +29,8 @@ export function attachKeyboard(
   hand: Hand,
   view: () => TableView | undefined,
   cursor: Cursor,
+  place: (at: Vec2) => void,
+  escape: () => void,
 ): void {
   const bead = (): Vec2 | undefined => {
     const state = lab.state();
@@ -75,12 +77,14 @@ export function attachKeyboard(
       move(cursor.turned(direction), event.shiftKey);
     } else if (event.key === 'Enter') {
       const at = cursor.at();
-      if (!at || !hand.mayAct()) return;
-      lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+      // A held key is no second goal.
+      if (!at || event.repeat) return;
+      place(at);
     } else if (event.key === 'd' || event.key === 'D') {
       takeOrRelease();
     } else if (event.key === 'Escape') {
       hand.dispatch({ type: 'cancel' });
+      escape();
     } else {
       return;
     }

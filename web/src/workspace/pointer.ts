@@ -12,12 +12,11 @@ const SLOP_MOUSE_PX = 3;
 const SLOP_TOUCH_PX = 8;
 
 export interface Pointing {
-  /** Pointer in CSS pixels of the canvas; none when it is elsewhere. */
-  readonly at: Vec2 | undefined;
-  readonly nearBead: boolean;
+  /** Pointer in CSS pixels of the canvas. */
+  readonly at: Vec2;
+  /** How near the bead it takes it. */
+  readonly reachPx: number;
 }
-
-export const NOWHERE: Pointing = { at: undefined, nearBead: false };
 
 type PointerEventName =
   | 'pointerdown'
@@ -25,9 +24,20 @@ type PointerEventName =
   | 'pointerup'
   | 'pointerleave'
   | 'pointercancel'
-  | 'lostpointercapture';
+  | 'lostpointercapture'
+  | 'contextmenu';
 
 const isTouch = (event: PointerEvent): boolean => event.pointerType === 'touch';
+
+/** Whether a pointer is so near the bead that a press takes it; the bead may move and the pointer rest. */
+export function reachesBead(
+  view: TableView | undefined,
+  bead_m: readonly [number, number, number] | undefined,
+  { at, reachPx }: Pointing,
+): boolean {
+  const bead = bead_m && view?.toPx([bead_m[0], bead_m[1]], bead_m[2]);
+  return bead !== undefined && distance(at, bead) <= reachPx;
+}
 
 /** Listens until the function that it returns is called. */
 export function attachPointer(
@@ -35,7 +45,7 @@ export function attachPointer(
   lab: Lab,
   hand: Hand,
   view: () => TableView | undefined,
-  onPointing: (pointing: Pointing) => void,
+  onPointing: (pointing: Pointing | undefined) => void,
 ): () => void {
   const attached = new AbortController();
   const { signal } = attached;
@@ -43,33 +53,28 @@ export function attachPointer(
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   };
-  const nearBead = (at: Vec2, reachPx: number): boolean => {
-    const bead_m = lab.state()?.bead_m;
-    const bead = bead_m && view()?.toPx([bead_m[0], bead_m[1]], bead_m[2]);
-    return bead !== undefined && distance(at, bead) <= reachPx;
-  };
-  const point = (event: PointerEvent): void => {
-    const at = position(event);
-    onPointing({ at, nearBead: lab.canOperate() && nearBead(at, GRAB_MOUSE_PX) });
-  };
+  const pointing = (event: PointerEvent): Pointing => ({
+    at: position(event),
+    reachPx: isTouch(event) ? GRAB_TOUCH_PX : GRAB_MOUSE_PX,
+  });
   const listen = (type: PointerEventName, listener: (event: PointerEvent) => void): void => {
     canvas.addEventListener(type, listener, { signal });
   };
 
   listen('pointerdown', (event) => {
     if (event.button !== 0) return;
-    const at = position(event);
-    const onBead = nearBead(at, isTouch(event) ? GRAB_TOUCH_PX : GRAB_MOUSE_PX);
+    const here = pointing(event);
+    const onBead = reachesBead(view(), lab.state()?.bead_m, here);
     if (onBead && !hand.mayAct()) return;
     canvas.setPointerCapture(event.pointerId);
     hand.dispatch({
       type: 'down',
       pointer: event.pointerId,
-      at,
+      at: here.at,
       onBead,
       slopPx: isTouch(event) ? SLOP_TOUCH_PX : SLOP_MOUSE_PX,
     });
-    point(event);
+    onPointing(here);
   });
   listen('pointermove', (event) => {
     hand.dispatch({
@@ -78,13 +83,17 @@ export function attachPointer(
       at: position(event),
       lift: event.shiftKey,
     });
-    point(event);
+    onPointing(pointing(event));
   });
   listen('pointerup', (event) => {
     hand.dispatch({ type: 'up', pointer: event.pointerId });
   });
   listen('pointerleave', () => {
-    onPointing(NOWHERE);
+    onPointing(undefined);
+  });
+  // A long press of a finger that holds the bead asks for no menu.
+  listen('contextmenu', (event) => {
+    if (hand.drag().kind !== 'idle') event.preventDefault();
   });
 
   const cancel = (): void => {
