@@ -6,6 +6,14 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
+import {
+  aViewerMayPredict,
+  everyLessonShowsWhatItClaims,
+  learnsByKeyboard,
+  loadsAPreset,
+  refusesABrokenLink,
+  sharesAnExperiment,
+} from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
@@ -334,6 +342,12 @@ export const TESTS = [
   ['goes back in time', goesBackInTime],
   ['tells why a switch came', tellsWhy],
   ['compares controllers from a moment on', comparesControllers],
+  ['shares an experiment', sharesAnExperiment],
+  ['refuses a broken link', refusesABrokenLink],
+  ['loads a preset', loadsAPreset],
+  ['learns by keyboard', learnsByKeyboard],
+  ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
+  ['a viewer may predict', aViewerMayPredict],
   ['looks right', looksRight],
   ['lists recordings', listsRecordings],
   ['opens a recording', opensARecording],

@@ -12,6 +12,7 @@ import {
   type EventMessage,
   type Parameters,
 } from './protocol.gen';
+import { storeLayers, storedLayers, type Layer } from './workspace/layers';
 
 export interface Lab {
   readonly link: Accessor<Model['link']>;
@@ -38,6 +39,9 @@ export interface Lab {
   /** Connected to a session that goes on, and its operator. */
   readonly canOperate: Accessor<boolean>;
   readonly history: History;
+  /** What is drawn over the workspace. */
+  readonly layers: Accessor<ReadonlySet<Layer>>;
+  showLayer(layer: Layer, on: boolean): void;
   send(message: ClientMessage): void;
   inspect(event: EventMessage | undefined): void;
   openTab(tab: string): void;
@@ -96,6 +100,7 @@ export function createLab(page: Location): Lab {
   const [inspected, inspect] = createSignal<EventMessage>();
   const [opened, setOpened] = createSignal<{ readonly tab: string }>();
   const [draft, setDraft] = createSignal<Partial<Parameters>>({});
+  const [layers, setLayers] = createSignal(storedLayers());
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -176,6 +181,14 @@ export function createLab(page: Location): Lab {
       () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
     ),
     history,
+    layers,
+    showLayer: (layer, on) => {
+      const next = new Set(layers());
+      if (on) next.add(layer);
+      else next.delete(layer);
+      setLayers(next);
+      storeLayers(next);
+    },
     send: (message) => {
       // `release` is sent blindly when a hold ends; a lost socket has released it already.
       if (connection.send(message)) take({ type: 'sent', command: message.type });
