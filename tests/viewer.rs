@@ -2,7 +2,8 @@
 
 use std::io::Read;
 
-use crate::laboratory::{Answer, Laboratory};
+use crate::answers::Answer;
+use crate::laboratory::Laboratory;
 
 fn unpacked(answer: &Answer) -> Vec<u8> {
     let mut plain = Vec::new();
