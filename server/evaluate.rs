@@ -1,13 +1,20 @@
 //! The paper's experiment: many random trials, counted honestly.
 
+mod engine;
+mod evaluation;
 mod figure;
+mod query;
+mod queue;
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use ts_rs::TS;
 
 use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
 use crate::image::CameraFrame;
@@ -15,7 +22,10 @@ use crate::policy::Policy;
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{Arena, Phase, Source, Tally, TickRecord, Trial, TrialError};
 
+pub use evaluation::{CellProgress, CellResult, Evaluation, Failure, Progress, Stage};
 pub use figure::{FigureError, Trace};
+pub use query::{CELL_LIMIT, Cell, EvaluationQuery, QueryError};
+pub use queue::{Queue, SubmitError};
 
 /// What to evaluate.
 #[derive(Clone, Debug)]
@@ -71,7 +81,7 @@ pub struct Episode {
 }
 
 /// One row of the table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 pub struct Row {
     /// Sub-controller 2.
     pub controller: String,
@@ -119,6 +129,9 @@ pub enum EvaluateError {
     /// No camera.
     #[error(transparent)]
     Camera(#[from] CameraError),
+    /// Somebody wanted no more of it.
+    #[error("stopped before its end")]
+    Stopped,
 }
 
 impl From<crate::map::MapError> for EvaluateError {
@@ -140,14 +153,14 @@ impl Eye for Timed<'_> {
     }
 }
 
-/// Runs one trial to its end; `watch` sees every tick.
+/// Runs one trial to its end; `watch` sees every tick, and may break it off: [`EvaluateError::Stopped`].
 pub fn episode(
     index: u32,
     scenario: Scenario,
     arena: &Arc<Arena>,
     eye: &mut dyn Eye,
-    watch: &mut dyn FnMut(&TickRecord),
-) -> Result<Episode, TrialError> {
+    watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
+) -> Result<Episode, EvaluateError> {
     let mut trial = Trial::new(scenario.clone(), arena.clone())?;
     let mut tally = Tally::default();
     let mut decision_s = Vec::new();
@@ -158,7 +171,9 @@ pub fn episode(
         if timed.looked {
             decision_s.push(started.elapsed().as_secs_f64());
         }
-        watch(&record);
+        if watch(&record).is_break() {
+            return Err(EvaluateError::Stopped);
+        }
         let moment = &record.moment;
         tally.add(moment);
         if !moment.phase.is_final() {
@@ -191,18 +206,34 @@ pub fn run(
     gpu: &Arc<Gpu>,
     progress: &(dyn Fn(&Episode) + Sync),
 ) -> Result<Vec<Episode>, EvaluateError> {
+    let arena = Arena::open(&experiment.map)?;
+    run_in(&arena, experiment, gpu, &AtomicBool::new(false), progress)
+}
+
+/// The same in an arena made of the experiment's map, until `stop` turns true: [`EvaluateError::Stopped`].
+fn run_in(
+    arena: &Arc<Arena>,
+    experiment: &Experiment,
+    gpu: &Arc<Gpu>,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(&Episode) + Sync),
+) -> Result<Vec<Episode>, EvaluateError> {
     if !(1..=100_000).contains(&experiment.episodes) {
         return Err(EvaluateError::Episodes(experiment.episodes));
     }
-    let mut arena = Arena::open(&experiment.map)?;
-    if let Some(policy) = &experiment.policy {
-        arena = arena.with_policy(policy.clone());
-    }
+    let arena = match &experiment.policy {
+        Some(policy) => &arena.clone().with_policy(policy.clone()),
+        None => arena,
+    };
+    let go_on = || if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     // A camera a worker: they are cheap beside the trials, and none waits for another.
     let cameras: Mutex<Vec<Camera>> = Mutex::new(Vec::new());
     (0..experiment.episodes)
         .into_par_iter()
         .map(|index| {
+            if go_on().is_break() {
+                return Err(EvaluateError::Stopped);
+            }
             let kept = cameras.lock().expect("no holder panics").pop();
             let mut camera = match kept {
                 Some(camera) => camera,
@@ -219,7 +250,7 @@ pub fn run(
             )
             .map_err(TrialError::from)?;
             scenario.parameters = experiment.parameters.clone();
-            let episode = episode(index, scenario, &arena, &mut camera, &mut |_| ())?;
+            let episode = episode(index, scenario, arena, &mut camera, &mut |_| go_on())?;
             cameras.lock().expect("no holder panics").push(camera);
             progress(&episode);
             Ok(episode)

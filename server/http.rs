@@ -5,6 +5,7 @@ mod api;
 mod assets;
 mod body;
 mod calculator;
+mod evaluations;
 mod fork;
 mod hub;
 mod live;
@@ -28,6 +29,7 @@ use tokio::net::TcpListener;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::camera::Gpu;
+use crate::evaluate::Queue;
 use crate::recording::{self, Recorder, Unrecorded};
 use crate::scenario::Scenario;
 use crate::session::{Session, Sink};
@@ -76,6 +78,8 @@ pub struct Server {
     recordings: PathBuf,
     /// Maps as policies see them.
     atlases: values::Atlases,
+    /// Evaluations in the background.
+    evaluations: Queue,
     /// Sessions by id. Written by `POST` and `DELETE`, read by all.
     sessions: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// A place a session, [`SESSION_CAP`] in all.
@@ -90,6 +94,7 @@ impl Server {
     /// A server with the session `main`.
     pub fn new(gpu: Arc<Gpu>, data: PathBuf, stopping: watch::Receiver<bool>) -> Result<Arc<Self>, ServeError> {
         let server = Arc::new(Self {
+            evaluations: Queue::start(gpu.clone())?,
             gpu,
             recordings: data.join("recordings"),
             atlases: values::Atlases::in_folder(data.join("sweeps")),
@@ -151,6 +156,8 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/moments/{tick}/camera.png", get(moments::camera))
         .route("/api/sessions/{id}/moments/{tick}/observation.png", get(moments::observation))
         .route("/api/sessions/{id}/live", get(live::live))
+        .route("/api/evaluations", get(evaluations::list).post(evaluations::create))
+        .route("/api/evaluations/{id}", get(evaluations::report).delete(evaluations::cancel))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))
         .route("/rerun/{file}", get(viewer::file))
@@ -169,12 +176,14 @@ pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
     TcpListener::bind(address).await.map_err(|error| ServeError::Bind { address, error })
 }
 
-/// Serves until `stopping` turns true, then closes every session and recording.
+/// Serves until `stopping` turns true, then closes every session and recording, and breaks off what is evaluated.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     let mut stopping = server.stopping.clone();
+    let stopped_server = server.clone();
     let stopped = async move {
         // An error means that nobody can ask to stop any more, which is as good as asking.
         let _ = stopping.wait_for(|&stop| stop).await;
+        stopped_server.evaluations.stop();
     };
     let listener = listener.tap_io(|stream| {
         // State messages are small and must not wait for each other.
@@ -185,6 +194,10 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     axum::serve(listener, router(server.clone())).with_graceful_shutdown(stopped).await?;
     let sessions = std::mem::take(&mut *server.sessions.write().expect("no holder panics"));
     sessions.values().for_each(|hub| hub.close());
-    // Joining the sessions' threads and closing files blocks.
-    tokio::task::spawn_blocking(move || drop(sessions)).await.map_err(|error| std::io::Error::other(error).into())
+    // Joining threads and closing files blocks.
+    let closing = move || {
+        drop(sessions);
+        server.evaluations.close();
+    };
+    tokio::task::spawn_blocking(closing).await.map_err(|error| std::io::Error::other(error).into())
 }

@@ -15,13 +15,18 @@ use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripte
 use crate::trial::EventKind;
 
 mod convert;
+mod evaluations;
 mod layers;
 mod parse;
 mod past;
 mod recordings;
+mod seed;
 #[cfg(test)]
 mod typescript;
 
+pub use evaluations::{
+    EvaluationCell, EvaluationFailure, EvaluationReport, EvaluationStage, EvaluationSummary, Evaluations,
+};
 pub use layers::{
     BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
     ValueQuery,
@@ -75,7 +80,8 @@ pub enum ClientMessage {
         seed: Option<u64>,
     },
     /// Another map. Controller, seed and parameters stay as they are where they are left out; the positioner is
-    /// then what the map is made for, the start is random, and there is neither goal nor disturbance.
+    /// then what the map is made for, the start is random, and there is neither goal nor disturbance. A seed may be
+    /// text, since a number of JavaScript does not hold every one.
     LoadScenario {
         map: String,
         #[serde(default)]
@@ -84,8 +90,8 @@ pub enum ClientMessage {
         #[serde(default)]
         #[ts(optional)]
         positioner: Option<PositionerKind>,
-        #[serde(default)]
-        #[ts(optional, type = "number")]
+        #[serde(default, deserialize_with = "seed::number_or_text")]
+        #[ts(optional, type = "number | string")]
         seed: Option<u64>,
         #[serde(default)]
         #[ts(optional)]

@@ -1,19 +1,24 @@
 //! The paper's examples end at their goals, whoever draws them; and what cannot be reached is said to be so.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use ferry::camera::Camera;
 use ferry::evaluate::{Episode, Trace, episode};
 use ferry::map::Map;
 use ferry::scenario::{ControllerName, Scenario, Shipped};
-use ferry::trial::{Arena, Phase, Source, StopReason, Trial};
+use ferry::trial::{Arena, Phase, Source, StopReason, TickRecord, Trial};
 
 use crate::determinism::gpu;
 
 fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
     let mut camera = arena.camera(&gpu()).unwrap();
     let mut trace = Trace::of(&arena.map, &scenario);
-    let episode = episode(0, scenario, arena, &mut camera, &mut |record| trace.add(record)).unwrap();
+    let watch = &mut |record: &TickRecord| {
+        trace.add(record);
+        ControlFlow::Continue(())
+    };
+    let episode = episode(0, scenario, arena, &mut camera, watch).unwrap();
     (episode, trace.to_svg().unwrap())
 }
 

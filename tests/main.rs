@@ -5,6 +5,7 @@ mod calculator;
 mod commands;
 mod determinism;
 mod disturbances;
+mod evaluations;
 mod examples;
 mod forks;
 mod golden;

@@ -33,6 +33,7 @@ export default tseslint.config(
         console: 'readonly',
         MutationObserver: 'readonly',
         document: 'readonly',
+        fetch: 'readonly',
         process: 'readonly',
         setTimeout: 'readonly',
         URL: 'readonly',

@@ -94,6 +94,14 @@ impl Gpu {
         Ok(Arc::new(Self { device, queue, adapter_name, quality, choice, successor: Mutex::default(), lost }))
     }
 
+    /// A second device of the same kind, for work that must not hold this one up.
+    ///
+    /// # Errors
+    /// Those of [`Gpu::open`].
+    pub fn another(&self) -> Result<Arc<Self>, CameraError> {
+        Self::open(self.choice)
+    }
+
     /// This device, or the one that has taken its place since it was lost: a driver that restarts takes
     /// every device with it, and all cameras then share one new one. Blocks while it is opened.
     ///

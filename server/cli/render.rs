@@ -1,5 +1,6 @@
 //! `ferry render`.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -74,7 +75,10 @@ fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&scenario.map)?;
     let mut camera = arena.camera(&super::open_gpu()?)?;
     let mut trace = Trace::of(&arena.map, &scenario);
-    let episode = evaluate::episode(0, scenario, &arena, &mut camera, &mut |record| trace.add(record))?;
+    let episode = evaluate::episode(0, scenario, &arena, &mut camera, &mut |record| {
+        trace.add(record);
+        ControlFlow::Continue(())
+    })?;
     std::fs::write(&arguments.out, trace.to_svg()?).with_context(|| arguments.out.display().to_string())?;
     println!("{name}: {}, {} steps, {} switches", episode.outcome, episode.steps, episode.switches);
     let [mean_m, x_m, y_m] =

@@ -60,12 +60,31 @@ mod tests {
     }
 
     #[test]
+    fn a_seed_may_be_text() {
+        for (text, expected) in [
+            (r#","seed":7"#, Some(7)),
+            (r#","seed":"18446744073709551615""#, Some(u64::MAX)),
+            (r#","seed":null"#, None),
+            ("", None),
+        ] {
+            let message = ClientMessage::parse(&format!(r#"{{"type":"load_scenario","map":"posts"{text}}}"#)).unwrap();
+            let ClientMessage::LoadScenario { seed, .. } = message else { panic!("{message:?}") };
+            assert_eq!(seed, expected, "{text}");
+        }
+    }
+
+    #[test]
     fn what_is_wrong_is_named() {
         assert_eq!(fault(r#"{"type":"set_goal","x_m":null,"y_m":0}"#).0, "x_m");
         assert_eq!(fault(r#"{"type":"set_goal","x_m":0.1}"#).0, "y_m");
         assert_eq!(fault(r#"{"type":"set_goal","x_m":0.1,"y_m":0,"z_m":1}"#).0, "z_m");
         assert_eq!(fault(r#"{"type":"select_controller","controller":"magic"}"#).0, "controller");
         assert_eq!(fault(r#"{"type":"step","ticks":-1}"#).0, "ticks");
+        for seed in ["-1", "1.5", "\"-1\"", "\"1e3\"", "\"\"", "\"18446744073709551616\"", "[1]", "1e300"] {
+            let (field, message) = fault(&format!(r#"{{"type":"load_scenario","map":"posts","seed":{seed}}}"#));
+            assert_eq!(field, "seed");
+            assert!(message.contains("a whole number from 0 to 2^64 - 1"), "{seed}: {message}");
+        }
         let (field, message) = fault(r#"{"type":"fly"}"#);
         assert_eq!(field, "type");
         assert!(message.contains("fly") && message.contains("set_goal"), "{message}");

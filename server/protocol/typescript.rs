@@ -3,6 +3,7 @@
 use ts_rs::{Config, TS};
 
 use super::*;
+use crate::evaluate::{Cell, EvaluationQuery, Row};
 use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
 use crate::plant::{BeadMotion, BlockOrientation};
 use crate::scenario::{AttractorLaw, RlPolicy, SwitchingLaw, When};
@@ -68,6 +69,15 @@ fn generated() -> String {
         declaration::<FlowField>(c),
         declaration::<RecordingFile>(c),
         declaration::<RecordingList>(c),
+        declaration::<EvaluationQuery>(c),
+        declaration::<Cell>(c),
+        declaration::<EvaluationStage>(c),
+        declaration::<EvaluationCell>(c),
+        declaration::<EvaluationSummary>(c),
+        declaration::<Row>(c),
+        declaration::<EvaluationFailure>(c),
+        declaration::<EvaluationReport>(c),
+        declaration::<Evaluations>(c),
     ];
     parts.join("\n")
 }

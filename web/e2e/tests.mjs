@@ -14,9 +14,19 @@ import {
   refusesABrokenLink,
   sharesAnExperiment,
 } from './lessons.mjs';
+import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
+import {
+  disturbsInSpace,
+  frees,
+  goesBackToThePlan,
+  obeysTheKeyboardInSpace,
+  placesAGoalInSpace,
+  saysWhatIsMissing,
+  turnsTheScene,
+} from './scene.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -348,9 +358,19 @@ export const TESTS = [
   ['learns by keyboard', learnsByKeyboard],
   ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
   ['a viewer may predict', aViewerMayPredict],
+  ['places a goal in space', placesAGoalInSpace],
+  ['disturbs in space', disturbsInSpace],
+  ['turns the scene', turnsTheScene],
+  ['obeys the keyboard in space', obeysTheKeyboardInSpace],
+  ['frees what the scene held', frees],
+  ['goes back to the plan', goesBackToThePlan],
+  ['says that there is no 3-D', saysWhatIsMissing],
   ['looks right', looksRight],
   ['lists recordings', listsRecordings],
   ['opens a recording', opensARecording],
+  ['evaluates what is asked for by keyboard', evaluates],
+  ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
+  ['sets a failure up again', setsAFailureUpAgain],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],

@@ -39,7 +39,12 @@ function Page(): JSX.Element {
           <RecordingsView theme={theme} />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <EvaluateView />
+          <EvaluateView
+            lab={lab}
+            onLaboratory={() => {
+              setView('laboratory');
+            }}
+          />
         </Match>
       </Switch>
     </>

@@ -29,6 +29,13 @@ const NAMES = [
   'rl',
   'errt',
   'attractor',
+  'table',
+  'arm',
+  'arm-lid',
+  'arm-seam',
+  'gripper',
+  'pole-north',
+  'pole-south',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;

@@ -362,7 +362,7 @@ script: Array<Scripted>, };
 /**
  * What a browser may send. Fields are named and measured as everywhere: metres in `base`.
  */
-export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "take_control", } | { "type": "release_control", };
+export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number | string, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Who this browser is.
@@ -1266,3 +1266,274 @@ export type RecordingList = {
  * The newest first.
  */
 recordings: Array<RecordingFile>, };
+
+/**
+ * Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
+ * same starts, goals and seeds.
+ */
+export type EvaluationQuery = { 
+/**
+ * Sub-controllers 2.
+ */
+controllers: Array<ControllerName>, 
+/**
+ * Names of shipped maps.
+ */
+maps: Array<string>, 
+/**
+ * Scripted disturbances a trial, 0 to 10.
+ */
+disturbances: Array<number>, 
+/**
+ * Trials a cell, 1 to 1000.
+ */
+episodes: number, 
+/**
+ * Seed of the trials.
+ */
+seed: number, };
+
+/**
+ * What one row of the table is about.
+ */
+export type Cell = { 
+/**
+ * Sub-controller 2.
+ */
+controller: ControllerName, 
+/**
+ * Map.
+ */
+map: string, 
+/**
+ * Scripted disturbances a trial.
+ */
+disturbances: number, };
+
+/**
+ * How an evaluation stands.
+ */
+export type EvaluationStage = "waiting" | "running" | "done" | "cancelled" | "failed";
+
+/**
+ * A cell of an evaluation, and how far it is.
+ */
+export type EvaluationCell = { 
+/**
+ * Trials that ended.
+ */
+done: number, 
+/**
+ * Of these, trials whose bead arrived.
+ */
+delivered: number, 
+/**
+ * How long it ran, to the last trial that ended.
+ */
+elapsed_s: number, 
+/**
+ * Sub-controller 2.
+ */
+controller: ControllerName, 
+/**
+ * Map.
+ */
+map: string, 
+/**
+ * Scripted disturbances a trial.
+ */
+disturbances: number, };
+
+/**
+ * An evaluation without its rows.
+ */
+export type EvaluationSummary = { 
+/**
+ * Its name.
+ */
+id: string, 
+/**
+ * What was asked.
+ */
+query: EvaluationQuery, 
+/**
+ * How it stands.
+ */
+stage: EvaluationStage, 
+/**
+ * Why it failed, if it did.
+ */
+message: string | null, 
+/**
+ * What it comes to, in the order in which it runs.
+ */
+cells: Array<EvaluationCell>, 
+/**
+ * How many of the cells have their row.
+ */
+rows_done: number, };
+
+/**
+ * One row of the table.
+ */
+export type Row = { 
+/**
+ * Sub-controller 2.
+ */
+controller: string, 
+/**
+ * Map.
+ */
+map: string, 
+/**
+ * Scripted disturbances a trial.
+ */
+disturbances: number, 
+/**
+ * Trials.
+ */
+episodes: number, 
+/**
+ * Trials whose tool reached the goal (paper's test).
+ */
+successes: number, 
+/**
+ * Wilson 95 % interval of `successes / episodes`.
+ */
+successes_wilson95: [number, number], 
+/**
+ * Trials whose bead reached the goal.
+ */
+delivered: number, 
+/**
+ * Wilson 95 % interval of `delivered / episodes`.
+ */
+wilson95: [number, number], 
+/**
+ * Mean over trials of the mean distance of tool and bead during transport.
+ */
+tracking_error_mean_m: number, 
+/**
+ * Mean over trials of the largest difference in x during transport.
+ */
+tracking_error_max_x_m: number, 
+/**
+ * The same in y.
+ */
+tracking_error_max_y_m: number, 
+/**
+ * Mean control steps.
+ */
+steps_mean: number, 
+/**
+ * Mean switches.
+ */
+switches_mean: number, 
+/**
+ * Disturbances that struck, all trials together.
+ */
+disturbances_struck: number, 
+/**
+ * Median milliseconds a control step, camera included.
+ */
+decision_ms_p50: number, 
+/**
+ * 99th percentile.
+ */
+decision_ms_p99: number, };
+
+/**
+ * A trial whose bead did not arrive. With map, controller and disturbances of its cell, seed, start and goal set it
+ * up again.
+ */
+export type EvaluationFailure = { 
+/**
+ * Its cell, from 0.
+ */
+cell: number, 
+/**
+ * Which trial of the evaluation's seed.
+ */
+index: number, 
+/**
+ * Seed of the trial itself, as text: a number of JavaScript does not hold it.
+ */
+seed: string, 
+/**
+ * Bead and tool at the start.
+ */
+start_m: [number, number] | null, 
+/**
+ * Goal.
+ */
+goal_m: [number, number] | null, 
+/**
+ * Whether the tool came to the goal.
+ */
+reached: boolean, 
+/**
+ * How it ended.
+ */
+outcome: string, 
+/**
+ * What kept sub-controller 2 from the goal, if anything did.
+ */
+trouble: string | null, 
+/**
+ * Why the arm held in the end, if it did.
+ */
+refusal: string | null, 
+/**
+ * Control steps.
+ */
+steps: number, 
+/**
+ * Disturbances that struck.
+ */
+disturbances: number, };
+
+/**
+ * Answer of `GET /api/evaluations/{id}`.
+ */
+export type EvaluationReport = { 
+/**
+ * Rows of the cells that are through, in the order of the cells; those of `ferry evaluate --json`.
+ */
+rows: Array<Row>, 
+/**
+ * Their trials whose bead did not arrive.
+ */
+failures: Array<EvaluationFailure>, 
+/**
+ * Its name.
+ */
+id: string, 
+/**
+ * What was asked.
+ */
+query: EvaluationQuery, 
+/**
+ * How it stands.
+ */
+stage: EvaluationStage, 
+/**
+ * Why it failed, if it did.
+ */
+message: string | null, 
+/**
+ * What it comes to, in the order in which it runs.
+ */
+cells: Array<EvaluationCell>, 
+/**
+ * How many of the cells have their row.
+ */
+rows_done: number, };
+
+/**
+ * Answer of `GET /api/evaluations`.
+ */
+export type Evaluations = { 
+/**
+ * In the order in which they were asked for.
+ */
+evaluations: Array<EvaluationSummary>, };

@@ -1,0 +1,125 @@
+//! What evaluations run on: threads and a graphics device of their own, which give way to live sessions.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::Instant;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use thread_priority::{ThreadPriority, set_current_thread_priority};
+
+use super::{CellResult, EvaluateError, Evaluation, Stage, run_in};
+use crate::camera::{CameraError, Gpu};
+use crate::map::Map;
+use crate::trial::Arena;
+
+/// Why there is nothing to run on.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum EngineError {
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    #[error("no threads to evaluate in: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+pub(super) struct Engine {
+    pool: ThreadPool,
+    gpu: Arc<Gpu>,
+}
+
+/// The system prefers every other thread to this one, and to those that it starts.
+pub(super) fn give_way() {
+    if let Err(error) = set_current_thread_priority(ThreadPriority::Min) {
+        tracing::warn!(%error, "evaluations run at the priority of everything else");
+    }
+}
+
+impl Engine {
+    /// All cores but one, and a device like `gpu`. To be called in a thread that gives way: a driver that draws on
+    /// the processor does so in threads that it starts here, and they inherit that.
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, EngineError> {
+        let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(cores.saturating_sub(1).max(1))
+            .thread_name(|index| format!("evaluate {index}"))
+            .start_handler(|_| give_way())
+            .build()?;
+        Ok(Self { pool, gpu: gpu.another()? })
+    }
+
+    /// Runs an evaluation to its end, whatever that is.
+    pub(super) fn run(&self, evaluation: &Evaluation) -> Stage {
+        ending(|| self.run_cells(evaluation))
+    }
+
+    fn run_cells(&self, evaluation: &Evaluation) -> Result<(), EvaluateError> {
+        for (index, cell) in evaluation.cells.iter().enumerate() {
+            let began = Instant::now();
+            let arena = Arena::of(Map::shipped(&cell.map)?);
+            let experiment = evaluation.experiment(cell);
+            let note = |episode: &_| evaluation.note(index, began, episode);
+            let episodes = self.pool.install(|| run_in(&arena, &experiment, &self.gpu, evaluation.stop(), &note))?;
+            evaluation.add(CellResult::of(&experiment, &episodes));
+        }
+        Ok(())
+    }
+}
+
+/// How work ended. A panic in a trial ends its evaluation with a message, and nothing else.
+fn ending(work: impl FnOnce() -> Result<(), EvaluateError>) -> Stage {
+    match catch_unwind(AssertUnwindSafe(work)) {
+        Ok(Ok(())) => Stage::Done,
+        Ok(Err(EvaluateError::Stopped)) => Stage::Cancelled,
+        Ok(Err(error)) => Stage::Failed(error.to_string()),
+        Err(panic) => {
+            let text = panic.downcast_ref::<String>().map(String::as_str);
+            let text = text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("without a word");
+            Stage::Failed(format!("a trial panicked: {text}"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::AdapterChoice;
+    use crate::evaluate::{Cell, EvaluationQuery};
+    use crate::scenario::ControllerName;
+
+    fn engine() -> Engine {
+        Engine::new(&Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter")).unwrap()
+    }
+
+    fn evaluation(map: &str) -> Arc<Evaluation> {
+        let cell = Cell { controller: ControllerName::Attractor, map: map.into(), disturbances: 0 };
+        let query = EvaluationQuery {
+            controllers: vec![cell.controller],
+            maps: vec![cell.map.clone()],
+            disturbances: vec![0],
+            episodes: 2,
+            seed: 1,
+        };
+        Evaluation::new("a test".into(), query, vec![cell])
+    }
+
+    #[test]
+    fn a_panic_or_an_error_ends_its_evaluation_and_the_next_one_runs() {
+        let engine = engine();
+        let stage = ending(|| engine.pool.install(|| panic!("seven wings")));
+        assert_eq!(stage, Stage::Failed("a trial panicked: seven wings".into()));
+        let Stage::Failed(message) = engine.run(&evaluation("nowhere")) else { panic!("there is no such map") };
+        assert!(message.contains("nowhere"), "{message}");
+        let good = evaluation("open");
+        assert_eq!((engine.run(&good), good.progress().results.len()), (Stage::Done, 1));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn its_threads_give_way() {
+        let niceness = || {
+            let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
+            // The name, in brackets, may hold anything; nice is the 17th field after it.
+            stat.rsplit_once(')').unwrap().1.split_whitespace().nth(16).unwrap().parse::<i32>().unwrap()
+        };
+        assert_eq!(engine().pool.install(niceness), 19);
+    }
+}

@@ -1,0 +1,209 @@
+//! One evaluation: what was asked, how far it is, what came of it.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use super::{Cell, Episode, EvaluationQuery, Experiment, Row, summarize};
+use crate::geometry::Point2;
+use crate::scenario::Parameters;
+
+/// An evaluation. Whoever runs it writes, all others look.
+#[derive(Debug)]
+pub struct Evaluation {
+    /// Its name.
+    pub id: String,
+    /// What was asked.
+    pub query: EvaluationQuery,
+    /// What that comes to, in the order in which it runs.
+    pub cells: Vec<Cell>,
+    /// Every tick of every trial looks at it.
+    stop: AtomicBool,
+    progress: Mutex<Progress>,
+}
+
+/// How an evaluation stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Another one runs.
+    Waiting,
+    /// It runs.
+    Running,
+    /// Every cell has its row.
+    Done,
+    /// Somebody wanted no more of it; the rows up to then are kept.
+    Cancelled,
+    /// A trial could not go on; the rows up to then are kept.
+    Failed(String),
+}
+
+impl Stage {
+    /// Whether nothing more comes.
+    pub fn is_final(&self) -> bool {
+        !matches!(self, Self::Waiting | Self::Running)
+    }
+}
+
+/// How far an evaluation is.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// How it stands.
+    pub stage: Stage,
+    /// One a cell.
+    pub cells: Vec<CellProgress>,
+    /// The cells that are through, from the first. A cell that was broken off has none: what ends early is not a
+    /// fair sample of it.
+    pub results: Vec<Arc<CellResult>>,
+}
+
+/// How far a cell is.
+#[derive(Clone, Debug, Default)]
+pub struct CellProgress {
+    /// Trials that ended.
+    pub done: u32,
+    /// Of these, trials whose bead arrived.
+    pub delivered: u32,
+    /// How long it ran, to the last trial that ended.
+    pub elapsed_s: f64,
+}
+
+/// What came of a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellResult {
+    /// Its row of the table.
+    pub row: Row,
+    /// Trials whose bead did not arrive.
+    pub failures: Vec<Failure>,
+}
+
+/// A trial whose bead did not arrive, with what it takes to set it up again in its cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Which trial of the seed.
+    pub index: u32,
+    /// Seed of the trial itself.
+    pub seed: u64,
+    /// Bead and tool at the start.
+    pub start_m: Option<Point2<f64>>,
+    /// Goal.
+    pub goal_m: Option<Point2<f64>>,
+    /// Whether the tool came to the goal.
+    pub reached: bool,
+    /// How it ended.
+    pub outcome: String,
+    /// What kept sub-controller 2 from the goal, if anything did.
+    pub trouble: Option<String>,
+    /// Why the arm held in the end, if it did.
+    pub refusal: Option<String>,
+    /// Control steps.
+    pub steps: u32,
+    /// Disturbances that struck.
+    pub disturbances: u32,
+}
+
+impl From<&Episode> for Failure {
+    fn from(episode: &Episode) -> Self {
+        Self {
+            index: episode.index,
+            seed: episode.scenario.seed,
+            start_m: episode.scenario.start_m,
+            goal_m: episode.scenario.goal_m,
+            reached: episode.reached,
+            outcome: episode.outcome.clone(),
+            trouble: episode.trouble.clone(),
+            refusal: episode.refusal.clone(),
+            steps: episode.steps,
+            disturbances: episode.disturbances,
+        }
+    }
+}
+
+impl CellResult {
+    /// Adds a cell's episodes up.
+    pub(super) fn of(experiment: &Experiment, episodes: &[Episode]) -> Self {
+        let failed = episodes.iter().filter(|episode| !episode.delivered);
+        Self { row: summarize(experiment, &experiment.map, episodes), failures: failed.map(Failure::from).collect() }
+    }
+}
+
+impl Evaluation {
+    /// One that waits; `cells` are the query's.
+    pub(super) fn new(id: String, query: EvaluationQuery, cells: Vec<Cell>) -> Arc<Self> {
+        let progress =
+            Progress { stage: Stage::Waiting, cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
+        Arc::new(Self { id, query, cells, stop: AtomicBool::new(false), progress: Mutex::new(progress) })
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        self.lock().clone()
+    }
+
+    /// How it stands.
+    pub fn stage(&self) -> Stage {
+        self.lock().stage.clone()
+    }
+
+    /// Wants no more of it: trials that run stop at their next tick. False when it had ended already.
+    pub fn cancel(&self) -> bool {
+        let mut progress = self.lock();
+        if progress.stage == Stage::Waiting {
+            progress.stage = Stage::Cancelled;
+            return true;
+        }
+        let runs = progress.stage == Stage::Running;
+        if runs {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+        runs
+    }
+
+    pub(super) fn stop(&self) -> &AtomicBool {
+        &self.stop
+    }
+
+    /// Its turn. False when nobody wants it any more.
+    pub(super) fn begin(&self) -> bool {
+        let mut progress = self.lock();
+        let waits = progress.stage == Stage::Waiting;
+        if waits {
+            progress.stage = Stage::Running;
+        }
+        waits
+    }
+
+    pub(super) fn note(&self, cell: usize, began: Instant, episode: &Episode) {
+        let mut progress = self.lock();
+        let cell = &mut progress.cells[cell];
+        cell.done += 1;
+        cell.delivered += u32::from(episode.delivered);
+        cell.elapsed_s = began.elapsed().as_secs_f64();
+    }
+
+    pub(super) fn add(&self, result: CellResult) {
+        self.lock().results.push(Arc::new(result));
+    }
+
+    pub(super) fn end(&self, stage: Stage) {
+        self.lock().stage = stage;
+    }
+
+    /// What the table's row of a cell comes from.
+    pub(super) fn experiment(&self, cell: &Cell) -> Experiment {
+        Experiment {
+            map: cell.map.clone(),
+            controller: cell.controller,
+            episodes: self.query.episodes,
+            disturbances: cell.disturbances,
+            seed: self.query.seed,
+            parameters: Parameters::default(),
+            policy: None,
+        }
+    }
+
+    /// A trial that panics holds no lock of ours; should one ever, its numbers are still whole.
+    fn lock(&self) -> MutexGuard<'_, Progress> {
+        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,212 @@
+//! What an evaluation is asked to do, checked before anything runs.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::map::{Map, MapError};
+use crate::scenario::ControllerName;
+
+/// Cells of one evaluation.
+pub const CELL_LIMIT: usize = 24;
+/// Trials a cell.
+const EPISODES: std::ops::RangeInclusive<u32> = 1..=1000;
+/// Scripted disturbances a trial: with more, few trials end within their 600 steps.
+const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
+
+/// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
+/// same starts, goals and seeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct EvaluationQuery {
+    /// Sub-controllers 2.
+    pub controllers: Vec<ControllerName>,
+    /// Names of shipped maps.
+    pub maps: Vec<String>,
+    /// Scripted disturbances a trial, 0 to 10.
+    pub disturbances: Vec<u32>,
+    /// Trials a cell, 1 to 1000.
+    pub episodes: u32,
+    /// Seed of the trials.
+    #[ts(type = "number")]
+    pub seed: u64,
+}
+
+/// What one row of the table is about.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+pub struct Cell {
+    /// Sub-controller 2.
+    pub controller: ControllerName,
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances a trial.
+    pub disturbances: u32,
+}
+
+/// Why a query is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum QueryError {
+    /// Nothing to run.
+    #[error("{field} is empty, it must name at least one")]
+    Empty {
+        /// The field at fault.
+        field: &'static str,
+    },
+    /// The same twice.
+    #[error("{field}[{index}] is {value:?}, which is in the list already")]
+    Twice {
+        /// The field at fault.
+        field: &'static str,
+        /// Which item.
+        index: usize,
+        /// Its value.
+        value: String,
+    },
+    /// No such map.
+    #[error("maps[{index}]: {error}")]
+    Map {
+        /// Which item.
+        index: usize,
+        /// What is wrong with it.
+        error: MapError,
+    },
+    /// Out of range.
+    #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
+    Range {
+        /// The field at fault.
+        field: String,
+        /// Its value.
+        value: u32,
+        /// What is allowed.
+        allowed: std::ops::RangeInclusive<u32>,
+    },
+    /// More than one evaluation may hold.
+    #[error("controllers × maps × disturbances are {cells} cells, the limit is {CELL_LIMIT}")]
+    TooManyCells {
+        /// How many.
+        cells: usize,
+    },
+}
+
+impl QueryError {
+    /// The field at fault.
+    pub fn field(&self) -> String {
+        match self {
+            Self::Empty { field } => (*field).to_owned(),
+            Self::Twice { field, index, .. } => format!("{field}[{index}]"),
+            Self::Map { index, .. } => format!("maps[{index}]"),
+            Self::Range { field, .. } => field.clone(),
+            Self::TooManyCells { .. } => "maps".to_owned(),
+        }
+    }
+}
+
+impl EvaluationQuery {
+    /// What it comes to, the controllers of a map side by side.
+    pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
+        distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
+        distinct("maps", &self.maps, Clone::clone)?;
+        distinct("disturbances", &self.disturbances, u32::to_string)?;
+        let cells = self.controllers.len() * self.maps.len() * self.disturbances.len();
+        if cells > CELL_LIMIT {
+            return Err(QueryError::TooManyCells { cells });
+        }
+        for (index, name) in self.maps.iter().enumerate() {
+            // A name only: no client path touches the file system.
+            Map::shipped(name).map_err(|error| QueryError::Map { index, error })?;
+        }
+        for (index, &value) in self.disturbances.iter().enumerate() {
+            if !DISTURBANCES.contains(&value) {
+                return Err(QueryError::Range {
+                    field: format!("disturbances[{index}]"),
+                    value,
+                    allowed: DISTURBANCES,
+                });
+            }
+        }
+        if !EPISODES.contains(&self.episodes) {
+            return Err(QueryError::Range { field: "episodes".into(), value: self.episodes, allowed: EPISODES });
+        }
+        let mut made = Vec::with_capacity(cells);
+        for map in &self.maps {
+            for &disturbances in &self.disturbances {
+                made.extend(self.controllers.iter().map(|&controller| Cell {
+                    controller,
+                    map: map.clone(),
+                    disturbances,
+                }));
+            }
+        }
+        Ok(made)
+    }
+}
+
+/// Refuses a list that is empty or names something twice.
+fn distinct<T: PartialEq>(field: &'static str, list: &[T], text: impl Fn(&T) -> String) -> Result<(), QueryError> {
+    if list.is_empty() {
+        return Err(QueryError::Empty { field });
+    }
+    // No list that is allowed has more, so a long one is not compared item by item.
+    let within = &list[..list.len().min(CELL_LIMIT + 1)];
+    for (index, item) in within.iter().enumerate() {
+        if within[..index].contains(item) {
+            return Err(QueryError::Twice { field, index, value: text(item) });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn query() -> EvaluationQuery {
+        EvaluationQuery {
+            controllers: vec![ControllerName::Errt, ControllerName::Attractor],
+            maps: vec!["posts".into(), "open".into()],
+            disturbances: vec![0, 3],
+            episodes: 30,
+            seed: 1,
+        }
+    }
+
+    #[test]
+    fn controllers_of_a_map_are_side_by_side() {
+        let cells = query().cells().unwrap();
+        let names: Vec<_> = cells
+            .iter()
+            .map(|cell| format!("{} {} {}", cell.map, cell.disturbances, cell.controller.as_str()))
+            .collect();
+        let expected = [
+            "posts 0 errt",
+            "posts 0 attractor",
+            "posts 3 errt",
+            "posts 3 attractor",
+            "open 0 errt",
+            "open 0 attractor",
+            "open 3 errt",
+            "open 3 attractor",
+        ];
+        assert_eq!(names, expected);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_value() {
+        let all = Map::shipped_names();
+        for (bad, field, parts) in [
+            (EvaluationQuery { controllers: vec![], ..query() }, "controllers", &["controllers is empty"][..]),
+            (EvaluationQuery { maps: vec![], ..query() }, "maps", &["maps is empty"]),
+            (EvaluationQuery { maps: vec!["posts".into(), "posts".into()], ..query() }, "maps[1]", &["\"posts\""]),
+            (EvaluationQuery { maps: vec!["nowhere".into()], ..query() }, "maps[0]", &["nowhere", "colon", "posts"]),
+            (EvaluationQuery { maps: vec!["../Cargo.toml".into()], ..query() }, "maps[0]", &["../Cargo.toml"]),
+            (EvaluationQuery { disturbances: vec![0, 11], ..query() }, "disturbances[1]", &["is 11", "0 to 10"]),
+            (EvaluationQuery { disturbances: vec![3, 3], ..query() }, "disturbances[1]", &["\"3\""]),
+            (EvaluationQuery { episodes: 0, ..query() }, "episodes", &["episodes is 0", "1 to 1000"]),
+            (EvaluationQuery { episodes: 1001, ..query() }, "episodes", &["1001"]),
+            (EvaluationQuery { maps: all, disturbances: vec![0, 1], ..query() }, "maps", &["28 cells", "24"]),
+        ] {
+            let error = bad.cells().unwrap_err();
+            assert_eq!(error.field(), field, "{error}");
+            assert!(parts.iter().all(|part| error.to_string().contains(part)), "{error}");
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Evaluations as the page gets them.
+
+use serde::Serialize;
+use ts_rs::TS;
+
+use crate::evaluate::{Cell, Evaluation, EvaluationQuery, Failure, Progress, Row, Stage};
+
+/// How an evaluation stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum EvaluationStage {
+    /// Another one runs.
+    Waiting,
+    /// It runs.
+    Running,
+    /// Every cell has its row.
+    Done,
+    /// It was broken off.
+    Cancelled,
+    /// A trial could not go on.
+    Failed,
+}
+
+/// A cell of an evaluation, and how far it is.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct EvaluationCell {
+    /// What it is about.
+    #[serde(flatten)]
+    pub cell: Cell,
+    /// Trials that ended.
+    pub done: u32,
+    /// Of these, trials whose bead arrived.
+    pub delivered: u32,
+    /// How long it ran, to the last trial that ended.
+    pub elapsed_s: f64,
+}
+
+/// An evaluation without its rows.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct EvaluationSummary {
+    /// Its name.
+    pub id: String,
+    /// What was asked.
+    pub query: EvaluationQuery,
+    /// How it stands.
+    pub stage: EvaluationStage,
+    /// Why it failed, if it did.
+    pub message: Option<String>,
+    /// What it comes to, in the order in which it runs.
+    pub cells: Vec<EvaluationCell>,
+    /// How many of the cells have their row.
+    pub rows_done: u32,
+}
+
+/// A trial whose bead did not arrive. With map, controller and disturbances of its cell, seed, start and goal set it
+/// up again.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct EvaluationFailure {
+    /// Its cell, from 0.
+    pub cell: u32,
+    /// Which trial of the evaluation's seed.
+    pub index: u32,
+    /// Seed of the trial itself, as text: a number of JavaScript does not hold it.
+    pub seed: String,
+    /// Bead and tool at the start.
+    pub start_m: Option<[f64; 2]>,
+    /// Goal.
+    pub goal_m: Option<[f64; 2]>,
+    /// Whether the tool came to the goal.
+    pub reached: bool,
+    /// How it ended.
+    pub outcome: String,
+    /// What kept sub-controller 2 from the goal, if anything did.
+    pub trouble: Option<String>,
+    /// Why the arm held in the end, if it did.
+    pub refusal: Option<String>,
+    /// Control steps.
+    pub steps: u32,
+    /// Disturbances that struck.
+    pub disturbances: u32,
+}
+
+/// Answer of `GET /api/evaluations/{id}`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct EvaluationReport {
+    /// How it stands.
+    #[serde(flatten)]
+    pub summary: EvaluationSummary,
+    /// Rows of the cells that are through, in the order of the cells; those of `ferry evaluate --json`.
+    pub rows: Vec<Row>,
+    /// Their trials whose bead did not arrive.
+    pub failures: Vec<EvaluationFailure>,
+}
+
+/// Answer of `GET /api/evaluations`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+pub struct Evaluations {
+    /// In the order in which they were asked for.
+    pub evaluations: Vec<EvaluationSummary>,
+}
+
+impl From<&Evaluation> for EvaluationSummary {
+    fn from(evaluation: &Evaluation) -> Self {
+        Self::at(evaluation, evaluation.progress())
+    }
+}
+
+impl EvaluationSummary {
+    fn at(evaluation: &Evaluation, progress: Progress) -> Self {
+        let (stage, message) = match progress.stage {
+            Stage::Waiting => (EvaluationStage::Waiting, None),
+            Stage::Running => (EvaluationStage::Running, None),
+            Stage::Done => (EvaluationStage::Done, None),
+            Stage::Cancelled => (EvaluationStage::Cancelled, None),
+            Stage::Failed(message) => (EvaluationStage::Failed, Some(message)),
+        };
+        let cells = evaluation.cells.iter().cloned().zip(progress.cells);
+        Self {
+            id: evaluation.id.clone(),
+            query: evaluation.query.clone(),
+            stage,
+            message,
+            cells: cells
+                .map(|(cell, at)| EvaluationCell {
+                    cell,
+                    done: at.done,
+                    delivered: at.delivered,
+                    elapsed_s: at.elapsed_s,
+                })
+                .collect(),
+            rows_done: progress.results.len() as u32,
+        }
+    }
+}
+
+impl From<&Evaluation> for EvaluationReport {
+    fn from(evaluation: &Evaluation) -> Self {
+        let progress = evaluation.progress();
+        let results = progress.results.clone();
+        let failures = results
+            .iter()
+            .zip(0..)
+            .flat_map(|(result, cell)| result.failures.iter().map(move |failure| EvaluationFailure::of(cell, failure)));
+        Self {
+            failures: failures.collect(),
+            rows: results.iter().map(|result| result.row.clone()).collect(),
+            summary: EvaluationSummary::at(evaluation, progress),
+        }
+    }
+}
+
+impl EvaluationFailure {
+    fn of(cell: u32, failure: &Failure) -> Self {
+        Self {
+            cell,
+            index: failure.index,
+            seed: failure.seed.to_string(),
+            start_m: failure.start_m.map(|start| [start.x, start.y]),
+            goal_m: failure.goal_m.map(|goal| [goal.x, goal.y]),
+            reached: failure.reached,
+            outcome: failure.outcome.clone(),
+            trouble: failure.trouble.clone(),
+            refusal: failure.refusal.clone(),
+            steps: failure.steps,
+            disturbances: failure.disturbances,
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Evaluations over HTTP: the same rows as on the command line, in the background, one after the other.
+
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::laboratory::Laboratory;
+
+/// More trials than end during a test.
+const LONG: u32 = 1000;
+
+fn query(change: Value) -> Value {
+    let mut query =
+        json!({"controllers": ["attractor"], "maps": ["posts"], "disturbances": [0], "episodes": 4, "seed": 1});
+    query.as_object_mut().unwrap().extend(change.as_object().unwrap().clone());
+    query
+}
+
+impl Laboratory {
+    async fn begin(&self, change: Value) -> String {
+        let (status, made) = self.ask("POST", "/api/evaluations", &query(change).to_string()).await;
+        assert_eq!(status, 201, "{made}");
+        format!("/api/evaluations/{}", made["id"].as_str().unwrap())
+    }
+
+    /// The evaluation at the first look that fits, within a minute.
+    async fn evaluation(&self, path: &str, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+        let end = Instant::now() + Duration::from_secs(60);
+        loop {
+            let (status, report) = self.ask("GET", path, "").await;
+            assert_eq!(status, 200, "{report}");
+            if fits(&report) {
+                return report;
+            }
+            assert!(Instant::now() < end, "waited in vain: {what}: {report}");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    }
+
+    async fn ended(&self, path: &str) -> Value {
+        self.evaluation(path, "the end", |report| !["waiting", "running"].contains(&stage(report))).await
+    }
+}
+
+fn stage(report: &Value) -> &str {
+    report["stage"].as_str().unwrap()
+}
+
+/// Rows as they are on every machine.
+fn timeless(rows: &Value) -> Vec<Value> {
+    let mut rows = rows.as_array().unwrap().clone();
+    for row in &mut rows {
+        row.as_object_mut().unwrap().retain(|name, _| !name.starts_with("decision_ms"));
+    }
+    rows
+}
+
+fn on_the_command_line(controllers: &str, disturbances: &str) -> Vec<Value> {
+    let output = Command::new(env!("CARGO_BIN_EXE_ferry"))
+        .args(["evaluate", "--map", "posts", "--episodes", "4", "--seed", "1", "--json"])
+        .args(["--controller", controllers, "--disturbances", disturbances])
+        .output()
+        .unwrap();
+    timeless(&serde_json::from_slice::<Value>(&output.stdout).unwrap()["rows"])
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn rows_are_those_of_the_command_line_every_time() {
+    let lab = Laboratory::open().await;
+    let asked = json!({"controllers": ["attractor", "errt"], "disturbances": [0, 1]});
+    let (first, second) = (lab.begin(asked.clone()).await, lab.begin(asked).await);
+    let (first, second) = (lab.ended(&first).await, lab.ended(&second).await);
+    assert_eq!((stage(&first), stage(&second)), ("done", "done"), "{first}");
+    let rows = timeless(&first["rows"]);
+    assert_eq!(rows, timeless(&second["rows"]));
+    assert_eq!(rows, [on_the_command_line("attractor,errt", "0"), on_the_command_line("attractor,errt", "1")].concat());
+    for (cell, row) in first["cells"].as_array().unwrap().iter().zip(&rows) {
+        assert_eq!((&cell["controller"], &cell["disturbances"]), (&row["controller"], &row["disturbances"]));
+        assert_eq!((&cell["done"], &cell["delivered"]), (&row["episodes"], &row["delivered"]));
+        assert!(cell["elapsed_s"].as_f64() > Some(0.0), "{cell}");
+    }
+    let (_, all) = lab.ask("GET", "/api/evaluations", "").await;
+    let ids: Vec<_> = all["evaluations"].as_array().unwrap().iter().map(|one| &one["id"]).collect();
+    assert_eq!(ids, [&first["id"], &second["id"]]);
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_failure_set_up_again_fails_again() {
+    let lab = Laboratory::open().await;
+    let report = lab.begin(json!({"maps": ["colon"], "disturbances": [1], "seed": 2})).await;
+    let report = lab.ended(&report).await;
+    let failure = &report["failures"][0];
+    let row = &report["rows"][0];
+    let (episodes, delivered) = (row["episodes"].as_u64().unwrap(), row["delivered"].as_u64().unwrap());
+    assert_eq!(report["failures"].as_array().unwrap().len() as u64, episodes - delivered);
+    assert!(delivered < episodes, "the attractor cannot carry through the colon: {row}");
+
+    let mut browser = lab.browser().await;
+    browser
+        .send(json!({
+            "type": "load_scenario", "map": "colon", "controller": "attractor", "disturbances": 1,
+            "seed": failure["seed"], "start_m": failure["start_m"], "goal_m": failure["goal_m"],
+        }))
+        .await;
+    browser.send(json!({"type": "set_speed", "factor": 64})).await;
+    browser.send(json!({"type": "run"})).await;
+    let end = browser.state("the same end", |m| m["phase"] == failure["outcome"]).await;
+    assert_eq!((&end["steps"], &end["disturbances"]), (&failure["steps"], &failure["disturbances"]), "{failure}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn one_runs_few_wait_and_all_can_be_cancelled() {
+    let lab = Laboratory::open().await;
+    let long = lab.begin(json!({"controllers": ["errt", "attractor"], "episodes": LONG})).await;
+    let under_way = |report: &Value| report["cells"][0]["done"].as_u64() >= Some(1);
+    lab.evaluation(&long, "a first trial", under_way).await;
+    let mut waiting = Vec::new();
+    for _ in 0..4 {
+        waiting.push(lab.begin(json!({})).await);
+    }
+    let (status, problem) = lab.ask("POST", "/api/evaluations", &query(json!({})).to_string()).await;
+    assert_eq!((status, &problem["code"]), (429, &json!("too_many_evaluations")));
+
+    // Who waits leaves at once; who runs stops within moments, without a row.
+    let (status, left) = lab.ask("DELETE", &waiting[0], "").await;
+    assert_eq!((status, stage(&left)), (202, "cancelled"));
+    assert_eq!(lab.ask("DELETE", &waiting[0], "").await.0, 409);
+    let asked = Instant::now();
+    assert_eq!(lab.ask("DELETE", &long, "").await.0, 202);
+    let report = lab.ended(&long).await;
+    assert!(asked.elapsed() < Duration::from_secs(1), "{:?}", asked.elapsed());
+    assert_eq!((stage(&report), &report["rows"], &report["rows_done"]), ("cancelled", &json!([]), &json!(0)));
+    assert!(report["cells"][0]["done"].as_u64() < Some(LONG.into()));
+    // The next one has its turn.
+    assert_eq!(stage(&lab.ended(&waiting[1]).await), "done");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_queries_are_refused_by_field_and_value() {
+    let lab = Laboratory::open().await;
+    for (change, status, code, field, parts) in [
+        (json!({"episodes": 0}), 422, "out_of_range", "episodes", &["episodes is 0", "1 to 1000"][..]),
+        (json!({"episodes": 1001}), 422, "out_of_range", "episodes", &["1001"]),
+        (json!({"episodes": -1}), 400, "malformed", "episodes", &["-1"]),
+        (json!({"controllers": ["magic"]}), 400, "malformed", "controllers[0]", &["magic", "rl", "errt", "attractor"]),
+        (json!({"controllers": []}), 422, "out_of_range", "controllers", &["empty"]),
+        (json!({"maps": ["posts", "nowhere"]}), 422, "map_refused", "maps[1]", &["nowhere", "colon", "vessels"]),
+        (json!({"maps": ["/etc/passwd"]}), 422, "map_refused", "maps[0]", &["/etc/passwd"]),
+        (json!({"disturbances": [0, 3, 99]}), 422, "out_of_range", "disturbances[2]", &["99", "0 to 10"]),
+        (json!({"seed": 1.5}), 400, "malformed", "seed", &["1.5"]),
+        (json!({"wings": 2}), 400, "malformed", "wings", &["wings"]),
+        (
+            json!({"controllers": ["rl", "errt", "attractor"], "maps": ["open", "posts", "colon"], "disturbances": [0, 1, 2]}),
+            422,
+            "too_many",
+            "maps",
+            &["27 cells", "24"],
+        ),
+    ] {
+        let (answered, problem) = lab.ask("POST", "/api/evaluations", &query(change.clone()).to_string()).await;
+        assert_eq!((answered, &problem["code"]), (status, &json!(code)), "{change}: {problem}");
+        assert_eq!(problem["field"], field, "{change}: {problem}");
+        let detail = problem["detail"].as_str().unwrap();
+        assert!(parts.iter().all(|part| detail.contains(part)), "{change}: {detail}");
+    }
+    assert_eq!(lab.ask("GET", "/api/evaluations", "").await.1, json!({"evaluations": []}));
+    for method in ["GET", "DELETE"] {
+        assert_eq!(lab.ask(method, "/api/evaluations/evaluation-1", "").await.0, 404);
+    }
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_server_that_stops_breaks_off_what_is_evaluated() {
+    let lab = Laboratory::open().await;
+    let long = lab.begin(json!({"episodes": LONG})).await;
+    lab.evaluation(&long, "a first trial", |report| report["cells"][0]["done"].as_u64() >= Some(1)).await;
+    let asked = Instant::now();
+    lab.close().await;
+    assert!(asked.elapsed() < Duration::from_secs(2), "{:?}", asked.elapsed());
+}

@@ -1,0 +1,81 @@
+import { describe, expect, it } from 'vitest';
+import {
+  isActive,
+  milestone,
+  numberOf,
+  remaining_s,
+  roughly,
+  secondsAnEpisode,
+  stageWords,
+  subject,
+  episodesDone,
+  episodesInAll,
+} from './progress';
+import { cellOf, summaryOf } from './testing';
+
+const TWO = summaryOf({
+  cells: [cellOf({ done: 10, elapsed_s: 20 }), cellOf({ disturbances: 3, done: 4, elapsed_s: 12 })],
+  rows_done: 1,
+});
+
+describe('how far it is', () => {
+  it('is counted in trials', () => {
+    expect([episodesDone(TWO), episodesInAll(TWO)]).toEqual([14, 20]);
+    expect(isActive(TWO)).toBe(true);
+    expect(isActive({ ...TWO, stage: 'cancelled' })).toBe(false);
+    expect(stageWords({ ...TWO, stage: 'waiting' })).toBe('waits');
+  });
+
+  it('leaves what each cell needs at its own pace', () => {
+    expect(remaining_s(TWO, [])).toBe(6 * 3);
+    expect(remaining_s(summaryOf(), [])).toBeUndefined();
+    expect(remaining_s(summaryOf(), [TWO])).toBe(10 * 2);
+    expect(remaining_s({ ...TWO, cells: [cellOf({ done: 10 })] }, [])).toBe(0);
+  });
+
+  it('takes the newest of what is equally alike', () => {
+    const newer = summaryOf({ cells: [cellOf({ done: 1, elapsed_s: 7 })] });
+    expect(secondsAnEpisode(cellOf(), [TWO, newer])).toBe(7);
+    expect(secondsAnEpisode(cellOf({ map: 'colon', disturbances: 3 }), [TWO, newer])).toBe(3);
+  });
+});
+
+describe('roughly', () => {
+  it.each([
+    [0, '1 s'],
+    [3.2, '4 s'],
+    [41, '45 s'],
+    [56, '1 min'],
+    [601, '11 min'],
+    [3600, '1 h'],
+    [4000, '1 h 7 min'],
+  ])('%f s is %s', (time_s, text) => {
+    expect(roughly(time_s)).toBe(text);
+  });
+});
+
+describe('words', () => {
+  it('say what it is about', () => {
+    expect(numberOf('evaluation-12')).toBe('12');
+    const query = { ...TWO.query, controllers: ['rl', 'errt'] as ('rl' | 'errt')[] };
+    expect(subject({ ...TWO, query: { ...query, disturbances: [0, 3] } })).toBe(
+      'RL, ERRT on posts; 0 and 3 disturbances',
+    );
+    expect(subject({ ...TWO, query: { ...TWO.query, disturbances: [1] } })).toBe(
+      'RL on posts; 1 disturbance',
+    );
+  });
+
+  it('are new at milestones only', () => {
+    const at = (done: number) => milestone({ ...TWO, cells: [cellOf({ done })] });
+    expect(at(0)).toBe(at(2));
+    expect(at(3)).toBe('Evaluation 3 runs: 25 % of its episodes, 1 of 1 rows.');
+    expect(at(4)).toBe(at(3));
+    expect(milestone({ ...TWO, stage: 'done', rows_done: 2 })).toBe(
+      'Evaluation 3 is done: 2 of 2 rows.',
+    );
+    expect(milestone({ ...TWO, stage: 'failed', message: 'no camera' })).toContain('no camera');
+    expect(milestone({ ...TWO, stage: 'cancelled' })).toContain('cancelled after 1 of 2');
+    expect(milestone({ ...TWO, stage: 'waiting' })).toContain('waits');
+  });
+});

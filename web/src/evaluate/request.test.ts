@@ -1,0 +1,77 @@
+import { describe, expect, it } from 'vitest';
+import { PAPERS, estimate_s, faultsOf, queryOf, sizeWords, toggled } from './request';
+import { cellOf, summaryOf } from './testing';
+
+const PAPERS_QUERY = {
+  controllers: ['rl' as const],
+  maps: ['colon'],
+  disturbances: [0, 3],
+  episodes: 30,
+  seed: 1,
+};
+
+describe('queryOf', () => {
+  it('takes what is chosen and typed', () => {
+    expect(queryOf(PAPERS)).toEqual({ query: PAPERS_QUERY });
+    // What is too much or too little, the server says.
+    expect(queryOf({ ...PAPERS, episodes: '0' })).toEqual({
+      query: { ...PAPERS_QUERY, episodes: 0 },
+    });
+  });
+
+  it('names every field that is missing or no number', () => {
+    const bad = { controllers: [], maps: [], disturbances: [], episodes: '', seed: '1.5' };
+    const made = queryOf(bad);
+    expect('faults' in made && Object.keys(made.faults).sort()).toEqual(
+      ['controllers', 'disturbances', 'episodes', 'maps', 'seed'].sort(),
+    );
+    for (const seed of ['-1', '9007199254740993', '1e3', '']) {
+      expect(queryOf({ ...PAPERS, seed })).toHaveProperty('faults.seed');
+    }
+  });
+});
+
+describe('faultsOf', () => {
+  it('brings a refusal to its field', () => {
+    expect(faultsOf({ detail: 'no', field: 'maps[1]' })).toEqual({ maps: 'no' });
+    expect(faultsOf({ detail: 'no', field: 'episodes' })).toEqual({ episodes: 'no' });
+  });
+
+  it('leaves the rest to the form', () => {
+    expect(faultsOf({ detail: 'full' })).toEqual({ form: 'full' });
+    expect(faultsOf({ detail: 'no', field: 'Host' })).toEqual({ form: 'no' });
+  });
+});
+
+describe('toggled', () => {
+  it('keeps the order of all', () => {
+    expect(toggled(['a', 'b', 'c'], ['c'], 'a', true)).toEqual(['a', 'c']);
+    expect(toggled(['a', 'b', 'c'], ['c', 'a'], 'c', false)).toEqual(['a']);
+    expect(toggled(['a', 'b'], ['a'], 'a', true)).toEqual(['a']);
+  });
+});
+
+describe('what it will take', () => {
+  it('is counted', () => {
+    expect(sizeWords(PAPERS_QUERY)).toBe('2 cells, 60 episodes');
+    expect(sizeWords({ ...PAPERS_QUERY, disturbances: [0], episodes: 1 })).toBe(
+      '1 cell, 1 episode',
+    );
+  });
+
+  it('is unknown before anything was measured', () => {
+    expect(estimate_s(PAPERS_QUERY, [])).toBeUndefined();
+    expect(estimate_s(PAPERS_QUERY, [summaryOf()])).toBeUndefined();
+  });
+
+  it('is told by what is most like it', () => {
+    const measured = summaryOf({
+      cells: [
+        cellOf({ done: 10, elapsed_s: 5 }),
+        cellOf({ disturbances: 3, done: 10, elapsed_s: 20 }),
+        cellOf({ controller: 'errt', map: 'colon', done: 10, elapsed_s: 900 }),
+      ],
+    });
+    expect(estimate_s(PAPERS_QUERY, [measured])).toBe(30 * 0.5 + 30 * 2);
+  });
+});
