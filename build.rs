@@ -1,9 +1,11 @@
-//! Builds the page below `web/` into `OUT_DIR/web`, where `http::assets` embeds it.
+//! Builds the page below `web/` into `OUT_DIR/web`, where `http::assets` embeds it, and compresses Rerun's viewer into
+//! `OUT_DIR/rerun`, where `http::viewer` does.
 
+use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     "web/index.html",
     "web/package.json",
     "web/package-lock.json",
@@ -11,6 +13,7 @@ const SOURCES: [&str; 7] = [
     "web/tsconfig.json",
     "web/vite.config.ts",
     "web/src",
+    "web/viewer",
 ];
 
 fn main() {
@@ -18,11 +21,36 @@ fn main() {
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
     }
-    let out = Path::new(&std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR")).join("web");
+    let out = std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR");
+    let page = Path::new(&out).join("web");
     if packages_are_stale() {
-        npm(&["ci", "--no-audit", "--no-fund"], &out);
+        npm(&["ci", "--no-audit", "--no-fund"], &page);
     }
-    npm(&["run", "build"], &out);
+    npm(&["run", "build"], &page);
+    if let Err(error) = compress_viewer(&Path::new(&out).join("rerun")) {
+        stop(&format!("Rerun's viewer could not be compressed: {error}"));
+    }
+}
+
+/// The files of Rerun's viewer for browsers, from the crate that ships them, as gzip.
+fn compress_viewer(folder: &Path) -> std::io::Result<()> {
+    let viewer = re_web_viewer_server::WebViewerData::load(None).map_err(std::io::Error::other)?;
+    // This program carries the viewer: what is younger was made from it, and need not be made at every change of the page.
+    let shipped = std::env::current_exe()?.metadata()?.modified()?;
+    std::fs::create_dir_all(folder)?;
+    for (name, bytes) in [("re_viewer.js", viewer.viewer_js()), ("re_viewer_bg.wasm", viewer.viewer_wasm())] {
+        let path = folder.join(format!("{name}.gz"));
+        if path.metadata().and_then(|made| made.modified()).is_ok_and(|made| made > shipped) {
+            continue;
+        }
+        let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+        packed.write_all(bytes)?;
+        // Renamed when whole: a build that is stopped leaves no half of it.
+        let unfinished = folder.join(name);
+        std::fs::write(&unfinished, packed.finish()?)?;
+        std::fs::rename(unfinished, path)?;
+    }
+    Ok(())
 }
 
 /// Whether `web/node_modules` is absent or older than the lockfile.

@@ -13,6 +13,7 @@ mod metrics;
 mod moments;
 mod problem;
 mod values;
+mod viewer;
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
@@ -29,7 +30,7 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::camera::Gpu;
 use crate::evaluate::Queue;
-use crate::recording::{Recorder, Unrecorded};
+use crate::recording::{self, Recorder, Unrecorded};
 use crate::scenario::Scenario;
 use crate::session::{Session, Sink};
 use crate::trial::TrialError;
@@ -109,17 +110,17 @@ impl Server {
 
     /// Starts a session under an id that is free. Blocks: it makes a file, a camera and a thread.
     fn open(&self, id: &str, scenario: Scenario, place: OwnedSemaphorePermit) -> Result<Arc<Hub>, ServeError> {
-        let started = jiff::Zoned::now().strftime("%Y%m%d-%H%M%S%.3f").to_string().replace('.', "-");
+        let name = recording::name(&jiff::Zoned::now(), id);
         // A recording that cannot begin is shown, and the session runs without.
-        let sink: Box<dyn Sink> = match Recorder::create(&self.recordings, &format!("{started}-{id}")) {
-            Ok(recorder) => Box::new(recorder),
+        let (sink, recording): (Box<dyn Sink>, _) = match Recorder::create(&self.recordings, &name) {
+            Ok(recorder) => (Box::new(recorder), Some(name)),
             Err(error) => {
                 tracing::warn!(%error, "session not recorded");
-                Box::new(Unrecorded { reason: error.to_string() })
+                (Box::new(Unrecorded { reason: error.to_string() }), None)
             }
         };
         let session = Session::start(id, scenario, self.gpu.clone(), sink)?;
-        let hub = Hub::start(id, session, self.gpu.clone(), place);
+        let hub = Hub::start(id, session, recording, self.gpu.clone(), place);
         self.sessions.write().expect("no holder panics").insert(id.to_owned(), hub.clone());
         Ok(hub)
     }
@@ -159,6 +160,7 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/evaluations/{id}", get(evaluations::report).delete(evaluations::cancel))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))
+        .route("/rerun/{file}", get(viewer::file))
         .layer(DefaultBodyLimit::max(BODY_LIMIT))
         .merge(calculator)
         .fallback(assets::page)

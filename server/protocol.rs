@@ -19,6 +19,7 @@ mod evaluations;
 mod layers;
 mod parse;
 mod past;
+mod recordings;
 mod seed;
 #[cfg(test)]
 mod typescript;
@@ -30,8 +31,8 @@ pub use layers::{
     BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
     ValueQuery,
 };
-
 pub use past::{Branch, ComparisonMessage, MomentMessage};
+pub use recordings::{RecordingFile, RecordingList};
 
 /// Raised when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 5;

@@ -1,5 +1,6 @@
 //! Recordings: every session is logged by Rerun to one `.rrd` file, off the session's thread.
 
+mod files;
 mod log;
 
 use std::path::{Path, PathBuf};
@@ -11,6 +12,8 @@ use rerun::RecordingStream;
 
 use crate::session::{Scenery, Sink};
 use crate::trial::{Event, EventKind, Moment, TickRecord};
+
+pub use files::{Listed, list, name};
 
 /// Samples that may wait for the disk: seventeen simulated seconds of them.
 const QUEUE: usize = 512;
@@ -70,6 +73,7 @@ impl Recorder {
         let path = folder.join(format!("{id}.rrd"));
         let stream = rerun::RecordingStreamBuilder::new("ferry")
             .recording_id(id)
+            .recording_name(id)
             .save(&path)
             .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
         let (queue, inbox) = sync_channel(QUEUE);
@@ -191,35 +195,6 @@ impl Sink for Unrecorded {
     fn status(&self) -> String {
         format!("not recording: {}", self.reason)
     }
-}
-
-/// A finished or running recording on disk.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Listed {
-    /// Its id: the name of the file without its ending.
-    pub id: String,
-    /// Size of the file.
-    pub bytes: u64,
-}
-
-/// The recordings in a folder, newest name first; an absent folder holds none.
-pub fn list(folder: &Path) -> Result<Vec<Listed>, RecordingError> {
-    let failed = |error| RecordingError::Io { path: folder.into(), error };
-    let entries = match std::fs::read_dir(folder) {
-        Ok(entries) => entries,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => return Err(failed(error)),
-    };
-    let mut found = Vec::new();
-    for entry in entries {
-        let entry = entry.map_err(failed)?;
-        let name = entry.file_name();
-        if let Some(id) = name.to_str().and_then(|name| name.strip_suffix(".rrd")) {
-            found.push(Listed { id: id.to_owned(), bytes: entry.metadata().map_err(failed)?.len() });
-        }
-    }
-    found.sort_by(|a, b| b.id.cmp(&a.id));
-    Ok(found)
 }
 
 /// Severity of an event in Rerun's text log.

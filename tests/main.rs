@@ -15,3 +15,4 @@ mod recordings;
 mod reference;
 mod rendering;
 mod sights;
+mod viewer;

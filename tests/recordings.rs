@@ -41,3 +41,33 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
         assert!(found["entities"].as_array().unwrap().contains(&json!(entity)), "{entity}: {found}");
     }
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_list_says_what_is_being_written_and_what_is_not_ours() {
+    let lab = Laboratory::open().await;
+    std::fs::write(lab.data.path().join("recordings/mine.rrd"), b"RRF2").unwrap();
+    lab.ask("POST", "/api/sessions", "").await;
+    let live = async |lab: &Laboratory| {
+        let (_, listed) = lab.ask("GET", "/api/recordings", "").await;
+        let mut found: Vec<_> = listed["recordings"].as_array().unwrap().clone();
+        found.sort_by_key(|one| one["session"].to_string());
+        found
+    };
+    let found = live(&lab).await;
+    let told = |field: &str| found.iter().map(|one| one[field].clone()).collect::<Vec<_>>();
+    assert_eq!(told("session"), [json!("main"), json!("session-1"), json!(null)]);
+    assert_eq!(told("live"), [json!(true), json!(true), json!(false)]);
+    assert_eq!((&found[2]["id"], &found[2]["started"], &found[2]["bytes"]), (&json!("mine"), &json!(null), &json!(4)));
+    let started: jiff::Timestamp = found[0]["started"].as_str().unwrap().parse().unwrap();
+    let ago = jiff::Timestamp::now().duration_since(started);
+    assert!(!ago.is_negative() && ago.as_secs() < 60, "started {ago:?} ago");
+
+    lab.ask("DELETE", "/api/sessions/session-1", "").await;
+    let closed = &live(&lab).await[1];
+    assert_eq!(closed["live"], false, "{closed}");
+    let file = lab.fetch("GET", &format!("/api/recordings/{}.rrd", closed["id"].as_str().unwrap()), &[]).await;
+    assert_eq!(file.headers()["content-length"].to_str().unwrap(), closed["bytes"].to_string());
+    assert_eq!(file.body().len() as u64, closed["bytes"].as_u64().unwrap());
+    assert!(file.body().starts_with(b"RRF2"));
+    lab.close().await;
+}

@@ -10,6 +10,8 @@ export default defineConfig({
     // The page's policy is `default-src 'self'`: a `data:` address would be refused.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    // The page, and the one that Rerun's viewer has for itself.
+    rolldownOptions: { input: ['index.html', 'viewer/index.html'] },
   },
   test: {
     // Only pure modules are unit-tested; the page itself is tested in a browser (e2e).

@@ -9,13 +9,14 @@ use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
+use tokio::io::AsyncReadExt;
 use tokio_util::io::ReaderStream;
 
 use super::body::WholeBody;
 use super::problem::Problem;
 use super::{MAIN_SESSION, SESSION_CAP, Server};
 use crate::map::{Map, MapError};
-use crate::protocol::{FlowField, FlowQuery, StateMessage};
+use crate::protocol::{FlowField, FlowQuery, RecordingFile, RecordingList, StateMessage};
 use crate::recording;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
@@ -37,6 +38,8 @@ pub async fn map(Path(name): Path<String>) -> Result<Response, Problem> {
     Ok(attachment("image/svg+xml", &format!("{name}.svg"), map.svg().to_owned()))
 }
 
+/// A recording is read in pieces of this size.
+const CHUNK_BYTES: usize = 64 << 10;
 /// Spacing of a flow field.
 const SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
 
@@ -162,13 +165,18 @@ pub async fn observation(State(server): State<Arc<Server>>, Path(id): Path<Strin
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 
-#[derive(Serialize)]
-pub struct Recordings {
-    recordings: Vec<recording::Listed>,
-}
-
-pub async fn recordings(State(server): State<Arc<Server>>) -> Result<Json<Recordings>, Problem> {
-    Ok(Json(Recordings { recordings: recording::list(&server.recordings).map_err(Problem::internal)? }))
+pub async fn recordings(State(server): State<Arc<Server>>) -> Result<Json<RecordingList>, Problem> {
+    let listed = recording::list(&server.recordings).map_err(Problem::internal)?;
+    let hubs = server.sessions.read().expect("no holder panics");
+    let written: Vec<&str> = hubs.values().filter_map(|hub| hub.recording.as_deref()).collect();
+    let recordings = listed.into_iter().map(|recording::Listed { id, session, started, bytes }| RecordingFile {
+        live: written.contains(&id.as_str()),
+        started: started.map(|started| started.to_string()),
+        id,
+        session,
+        bytes,
+    });
+    Ok(Json(RecordingList { recordings: recordings.collect() }))
 }
 
 /// Only names that the list holds are opened, so that no client path touches the file system.
@@ -179,7 +187,12 @@ pub async fn recording(State(server): State<Arc<Server>>, Path(file): Path<Strin
     let id = listed.ok_or_else(|| Problem::not_found("recording", &file))?.id;
     let name = format!("{id}.rrd");
     let opened = tokio::fs::File::open(server.recordings.join(&name)).await.map_err(Problem::internal)?;
-    Ok(attachment("application/octet-stream", &name, Body::from_stream(ReaderStream::new(opened))))
+    // What is written while it is sent is left out, so that the length told is the length sent.
+    let bytes = opened.metadata().await.map_err(Problem::internal)?.len();
+    let body = Body::from_stream(ReaderStream::with_capacity(opened.take(bytes), CHUNK_BYTES));
+    let mut response = attachment("application/octet-stream", &name, body);
+    response.headers_mut().insert(header::CONTENT_LENGTH, bytes.into());
+    Ok(response)
 }
 
 pub fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {

@@ -1,9 +1,10 @@
 //! The page, embedded in the binary.
 
-use axum::http::{HeaderMap, Method, StatusCode, Uri, header};
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 
 use super::problem::Problem;
+use super::viewer;
 
 #[derive(rust_embed::RustEmbed)]
 #[folder = "$OUT_DIR/web"]
@@ -20,6 +21,7 @@ pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
     }
     let name = match path {
         "/" => "index.html",
+        "/viewer/" => "viewer/index.html",
         path => path.trim_start_matches('/'),
     };
     let Some(file) = Page::get(name) else { return Problem::not_found("page", path).into_response() };
@@ -37,5 +39,9 @@ pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
         (header::CACHE_CONTROL, keep.to_owned()),
         (header::ETAG, tag),
     ];
-    (head, file.data).into_response()
+    let mut response = (head, file.data).into_response();
+    if name.starts_with("viewer/") {
+        response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(viewer::POLICY));
+    }
+    response
 }

@@ -54,6 +54,8 @@ pub struct Seats {
 pub struct Hub {
     pub id: String,
     pub session: Session,
+    /// Id of the recording that its session writes, if it could begin.
+    pub recording: Option<String>,
     gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
@@ -70,7 +72,13 @@ pub struct Hub {
 
 impl Hub {
     /// Starts encoding a session's views.
-    pub fn start(id: &str, session: Session, gpu: Arc<Gpu>, place: OwnedSemaphorePermit) -> Arc<Self> {
+    pub fn start(
+        id: &str,
+        session: Session,
+        recording: Option<String>,
+        gpu: Arc<Gpu>,
+        place: OwnedSemaphorePermit,
+    ) -> Arc<Self> {
         let views = session.watch();
         let first = Encoder::default().encode(&views.borrow(), true);
         let (publish, encoded) = watch::channel(first);
@@ -78,6 +86,7 @@ impl Hub {
         Arc::new(Self {
             id: id.to_owned(),
             session,
+            recording,
             gpu,
             comparison: watch::Sender::new(Utf8Bytes::default()),
             forks: AtomicU64::new(0),

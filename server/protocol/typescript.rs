@@ -76,6 +76,8 @@ fn generated() -> String {
         declaration::<EvaluationFailure>(c),
         declaration::<EvaluationReport>(c),
         declaration::<Evaluations>(c),
+        declaration::<RecordingFile>(c),
+        declaration::<RecordingList>(c),
     ];
     parts.join("\n")
 }

@@ -79,15 +79,18 @@ export async function startServer() {
   }
 }
 
+/** WebGL without a graphics card. */
+const SOFTWARE_WEBGL = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
 /** Chromium with a fresh profile, which the launcher makes and removes. */
-export function startBrowser() {
+export function startBrowser({ webgl = false } = {}) {
   return chromium.launch({
     executablePath: '/usr/bin/chromium',
     headless: true,
     args: [
       '--headless',
       '--no-sandbox',
-      '--disable-gpu',
+      ...(webgl ? SOFTWARE_WEBGL : ['--disable-gpu']),
       '--disable-quic',
       '--no-first-run',
       '--disable-background-networking',

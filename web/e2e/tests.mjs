@@ -7,7 +7,17 @@ import {
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
+import {
+  aViewerMayPredict,
+  everyLessonShowsWhatItClaims,
+  learnsByKeyboard,
+  loadsAPreset,
+  refusesABrokenLink,
+  sharesAnExperiment,
+} from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { comparesControllers, tellsWhy } from './past.mjs';
+import { listsRecordings, opensARecording } from './recordings.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -331,10 +341,20 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['tells why a switch came', tellsWhy],
+  ['compares controllers from a moment on', comparesControllers],
+  ['shares an experiment', sharesAnExperiment],
+  ['refuses a broken link', refusesABrokenLink],
+  ['loads a preset', loadsAPreset],
+  ['learns by keyboard', learnsByKeyboard],
+  ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
+  ['a viewer may predict', aViewerMayPredict],
   ['looks right', looksRight],
   ['evaluates what is asked for by keyboard', evaluates],
   ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
   ['sets a failure up again', setsAFailureUpAgain],
+  ['lists recordings', listsRecordings],
+  ['opens a recording', opensARecording],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],

@@ -66,9 +66,8 @@ export function problemText(body: unknown): string | undefined {
     : undefined;
 }
 
-async function post<A>(path: string, body: string): Promise<A> {
-  const headers = { 'content-type': 'application/json' };
-  const response = await fetch(path, { method: 'POST', headers, body }).catch(() => {
+async function request<A>(path: string, init: RequestInit): Promise<A> {
+  const response = await fetch(path, init).catch(() => {
     throw new Error('The server does not answer.');
   });
   if (!response.ok) {
@@ -76,6 +75,15 @@ async function post<A>(path: string, body: string): Promise<A> {
     throw new Error(problemText(problem) ?? `The server answered ${response.status}.`);
   }
   return (await response.json()) as A;
+}
+
+/** What the server has at `path`; fails with the sentence to show. */
+export function get<A>(path: string): Promise<A> {
+  return request(path, {});
+}
+
+function post<A>(path: string, body: string): Promise<A> {
+  return request(path, { method: 'POST', headers: { 'content-type': 'application/json' }, body });
 }
 
 export interface Asking {

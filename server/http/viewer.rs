@@ -1,0 +1,88 @@
+//! Rerun's viewer, of the version that records: its two files, embedded as gzip. The page that starts it is ours
+//! (`web/viewer`), since Rerun's own loads fonts from elsewhere.
+
+use std::io::Read;
+
+use axum::body::Bytes;
+use axum::extract::Path;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use super::problem::Problem;
+
+/// What the viewer's page may do: compile WebAssembly, and be framed by our own page.
+pub const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
+                          frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
+
+const FILES: [(&str, &str, &[u8]); 2] = [
+    ("re_viewer.js", "text/javascript", include_bytes!(concat!(env!("OUT_DIR"), "/rerun/re_viewer.js.gz"))),
+    ("re_viewer_bg.wasm", "application/wasm", include_bytes!(concat!(env!("OUT_DIR"), "/rerun/re_viewer_bg.wasm.gz"))),
+];
+
+/// `GET /rerun/{file}`
+pub async fn file(Path(name): Path<String>, headers: HeaderMap) -> Result<Response, Problem> {
+    let known = FILES.iter().find(|(known, ..)| *known == name);
+    let &(_, kind, packed) = known.ok_or_else(|| Problem::not_found("file of the viewer", &name))?;
+    let tag = tag(packed);
+    // The address is the same at every version, so a browser asks each time, and is told that it has it.
+    let head = [
+        (header::CONTENT_TYPE, kind),
+        (header::CACHE_CONTROL, "no-cache"),
+        (header::ETAG, tag.as_str()),
+        (header::VARY, "accept-encoding"),
+    ];
+    if headers.get(header::IF_NONE_MATCH).is_some_and(|known| known.as_bytes() == tag.as_bytes()) {
+        return Ok((StatusCode::NOT_MODIFIED, head).into_response());
+    }
+    if accepts_gzip(&headers) {
+        return Ok((head, [(header::CONTENT_ENCODING, "gzip")], packed).into_response());
+    }
+    let plain = tokio::task::spawn_blocking(move || unpack(packed)).await.map_err(Problem::internal)?;
+    Ok((head, plain.map_err(Problem::internal)?).into_response())
+}
+
+/// A gzip stream ends with checksum and length of its contents. Weak, because both encodings share it.
+fn tag(packed: &[u8]) -> String {
+    let end = packed.last_chunk::<8>().expect("a gzip stream has at least eight bytes");
+    format!("W/\"{:016x}\"", u64::from_le_bytes(*end))
+}
+
+fn unpack(packed: &[u8]) -> std::io::Result<Bytes> {
+    let mut plain = Vec::new();
+    flate2::read::GzDecoder::new(packed).read_to_end(&mut plain)?;
+    Ok(plain.into())
+}
+
+/// Whether `accept-encoding` names gzip, or everything, and not with the weight 0.
+fn accepts_gzip(headers: &HeaderMap) -> bool {
+    let weight = |coding: &str| {
+        let values = headers.get_all(header::ACCEPT_ENCODING).iter().filter_map(|value| value.to_str().ok());
+        let found = values.flat_map(|value| value.split(',')).find_map(|one| {
+            let (name, parameter) = one.split_once(';').unwrap_or((one, "q=1"));
+            name.trim().eq_ignore_ascii_case(coding).then_some(parameter)
+        });
+        found.map(|q| q.trim().trim_start_matches(['q', 'Q', '=']).parse::<f32>().unwrap_or(0.0))
+    };
+    weight("gzip").or_else(|| weight("*")).is_some_and(|weight| weight > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gzip_is_sent_to_those_who_take_it() {
+        let accepts = |value: &str| {
+            let mut headers = HeaderMap::new();
+            headers.insert(header::ACCEPT_ENCODING, value.parse().unwrap());
+            accepts_gzip(&headers)
+        };
+        for yes in ["gzip", "br, GZIP;q=0.5", "gzip, deflate, br, zstd", "*", "gzip;q=1, *;q=0", "identity, *; q=0.1"] {
+            assert!(accepts(yes), "{yes}");
+        }
+        for no in ["", "identity", "br", "gzip;q=0", "gzip;q=0, *", "*;q=0", "xgzip"] {
+            assert!(!accepts(no), "{no}");
+        }
+        assert!(!accepts_gzip(&HeaderMap::new()));
+    }
+}

@@ -1,0 +1,30 @@
+import { expect, test } from 'vitest';
+import { keptAtHome } from './home';
+
+const HOME = 'http://127.0.0.1:8080';
+
+test('asks its own server and nobody else', async () => {
+  const asked: string[] = [];
+  const kept = keptAtHome((input) => {
+    asked.push(input instanceof Request ? input.url : input.toString());
+    return Promise.resolve(new Response());
+  }, HOME);
+  await kept('/api/recordings');
+  await kept(new URL('/rerun/re_viewer.js', HOME));
+  await kept(new Request(`${HOME}/api/recordings`, { method: 'HEAD' }));
+  expect(asked).toEqual([
+    '/api/recordings',
+    `${HOME}/rerun/re_viewer.js`,
+    `${HOME}/api/recordings`,
+  ]);
+  for (const stranger of [
+    'https://tel.rerun.io/api/pog',
+    '//example.org/',
+    'http://127.0.0.1:8081/',
+    'https://127.0.0.1:8080/',
+    new Request('https://app.rerun.io/x', { method: 'POST' }),
+  ]) {
+    expect((await kept(stranger)).status).toBe(403);
+  }
+  expect(asked).toHaveLength(3);
+});
