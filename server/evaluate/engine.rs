@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use thread_priority::{ThreadPriority, set_current_thread_priority};
+use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
 use super::{CellResult, EvaluateError, Evaluation, Stage, run_in};
 use crate::camera::{CameraError, Gpu};
@@ -26,9 +26,16 @@ pub(super) struct Engine {
     gpu: Arc<Gpu>,
 }
 
-/// The system prefers every other thread to this one, and to those that it starts.
+/// Of 0 to 99; on Linux a niceness of 10, as the command `nice` gives. With the lowest, an evaluation stands still
+/// while anything else runs.
+const PRIORITY: u8 = 24;
+
+/// The system prefers other threads to this one, and to those that it starts.
 pub(super) fn give_way() {
-    if let Err(error) = set_current_thread_priority(ThreadPriority::Min) {
+    let lowered = ThreadPriorityValue::try_from(PRIORITY).and_then(|value| {
+        set_current_thread_priority(ThreadPriority::Crossplatform(value)).map_err(|error| error.to_string())
+    });
+    if let Err(error) = lowered {
         tracing::warn!(%error, "evaluations run at the priority of everything else");
     }
 }
@@ -120,6 +127,6 @@ mod tests {
             // The name, in brackets, may hold anything; nice is the 17th field after it.
             stat.rsplit_once(')').unwrap().1.split_whitespace().nth(16).unwrap().parse::<i32>().unwrap()
         };
-        assert_eq!(engine().pool.install(niceness), 19);
+        assert_eq!(engine().pool.install(niceness), 10);
     }
 }

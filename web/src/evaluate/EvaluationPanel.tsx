@@ -134,16 +134,18 @@ export function EvaluationPanel(props: {
       <Show when={report()}>
         {(now) => (
           <>
-            <div class="downloads">
-              <span class="hint">Download the rows</span>
-              <Download report={now()} ending="json" type="application/json" text={json(now())} />
-              <Download
-                report={now()}
-                ending="csv"
-                type="text/csv"
-                text={csv(now().rows, now().query.seed)}
-              />
-            </div>
+            <Show when={now().rows.length > 0}>
+              <div class="downloads">
+                <span class="hint">Download</span>
+                <Download report={now()} ending="json" type="application/json" text={json(now())} />
+                <Download
+                  report={now()}
+                  ending="csv"
+                  type="text/csv"
+                  text={csv(now().rows, now().query.seed)}
+                />
+              </div>
+            </Show>
             <h3>Failures</h3>
             <FailureList lab={lab} report={now()} onLaboratory={props.onLaboratory} />
           </>
