@@ -6,6 +6,8 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
+import { PAIR } from './pair.mjs';
+import { PROOF } from './proof.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
@@ -287,22 +289,9 @@ async function looksRight({ lab, browser, server }) {
   }
 }
 
-async function hasOneOperator({ lab, browser, server }) {
-  const second = await Lab.open(browser, server.url);
-  check((await second.text('role')) === 'viewer', 'a second browser became the operator');
-  check(await second.button('Run').isDisabled(), 'a viewer may run');
-  await lab.button('Release control').click();
-  await until('a viewer', async () => (await lab.text('role')) === 'viewer');
-  await second.button('Take control').click();
-  await until('the operator', async () => (await second.text('role')) === 'operator');
-  await second.page.close();
-  await lab.button('Take control').click();
-  await until('the operator again', async () => (await lab.text('role')) === 'operator');
-}
-
-async function isQuiet({ lab }) {
-  check(lab.complaints.length === 0, `the console says: ${lab.complaints.join(' | ')}`);
-  check(lab.strangers.length === 0, `requests left the server: ${lab.strangers.join(' ')}`);
+async function isQuiet({ watch: { complaints, strangers } }) {
+  check(complaints.length === 0, `the console says: ${complaints.join(' | ')}`);
+  check(strangers.length === 0, `requests left the server: ${strangers.join(' ')}`);
 }
 
 /** Last, because it ends the server. */
@@ -331,7 +320,8 @@ export const TESTS = [
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['looks right', looksRight],
-  ['has one operator', hasOneOperator],
+  ...PAIR,
+  ...PROOF,
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],
 ];
