@@ -31,6 +31,10 @@ export default tseslint.config(
     languageOptions: {
       globals: {
         console: 'readonly',
+        localStorage: 'readonly',
+        performance: 'readonly',
+        requestAnimationFrame: 'readonly',
+        window: 'readonly',
         MutationObserver: 'readonly',
         document: 'readonly',
         process: 'readonly',

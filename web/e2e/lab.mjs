@@ -5,7 +5,7 @@ import { mkdir } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { check, until } from './harness.mjs';
 
-const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
+export const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
 /** A bead trailing its magnet cuts corners; farther from walls than this, it passes. */
 const CLEARANCE_M = 0.025;
 const STEP_M = 0.01;
@@ -57,6 +57,11 @@ export class Lab {
       colorScheme: 'dark',
       ...options,
     });
+    return Lab.attach(page, url);
+  }
+
+  /** The same in a page that is there already. */
+  static async attach(page, url) {
     const lab = new Lab(page);
     await page.goto(url);
     await until('the first state', () => lab.state && lab.scene);

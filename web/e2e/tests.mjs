@@ -1,5 +1,6 @@
 // What a person does with the dashboard, on a real server.
 
+import { BUDGET } from './budget.mjs';
 import { check, until } from './harness.mjs';
 import {
   carriesAlongAWay,
@@ -279,13 +280,18 @@ async function looksRight({ lab, browser, server }) {
   await lab.button('Use light colours').click();
   await lab.screenshot('light');
   await lab.button('Use dark colours').click();
-  for (const colorScheme of ['dark', 'light']) {
-    const tablet = await Lab.open(browser, server.url, {
-      viewport: { width: 820, height: 1180 },
-      colorScheme,
-    });
-    await tablet.screenshot(`tablet-${colorScheme}`);
-    await tablet.page.close();
+  for (const [name, width, height] of [
+    ['wide', 1440, 900],
+    ['tablet', 820, 1180],
+  ]) {
+    for (const colorScheme of ['dark', 'light']) {
+      const other = await Lab.open(browser, server.url, {
+        viewport: { width, height },
+        colorScheme,
+      });
+      await other.screenshot(`${name}-${colorScheme}`);
+      await other.page.context().close();
+    }
   }
 }
 
@@ -322,6 +328,7 @@ export const TESTS = [
   ['looks right', looksRight],
   ...PAIR,
   ...PROOF,
+  ...BUDGET,
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],
 ];
