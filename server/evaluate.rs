@@ -10,11 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
-use crate::control::switching::Mode;
 use crate::image::CameraFrame;
 use crate::policy::Policy;
 use crate::scenario::{ControllerName, Parameters, Scenario};
-use crate::trial::{Arena, Phase, Source, TickRecord, Trial, TrialError};
+use crate::trial::{Arena, Phase, Source, Tally, TickRecord, Trial, TrialError};
 
 pub use figure::{FigureError, Trace};
 
@@ -150,7 +149,7 @@ pub fn episode(
     watch: &mut dyn FnMut(&TickRecord),
 ) -> Result<Episode, TrialError> {
     let mut trial = Trial::new(scenario.clone(), arena.clone())?;
-    let (mut sum_m, mut count, mut max_x_m, mut max_y_m) = (0.0, 0u32, 0.0f64, 0.0f64);
+    let mut tally = Tally::default();
     let mut decision_s = Vec::new();
     loop {
         let mut timed = Timed { eye, looked: false };
@@ -161,17 +160,12 @@ pub fn episode(
         }
         watch(&record);
         let moment = &record.moment;
-        if moment.switching.mode == Mode::Transport && moment.phase == Phase::Transporting {
-            let error = moment.tracking_error_m();
-            sum_m += error.norm();
-            count += 1;
-            max_x_m = max_x_m.max(error.x.abs());
-            max_y_m = max_y_m.max(error.y.abs());
-        }
+        tally.add(moment);
         if !moment.phase.is_final() {
             continue;
         }
         let counters = moment.counters;
+        let [max_x_m, max_y_m] = tally.max_m();
         return Ok(Episode {
             index,
             scenario,
@@ -180,7 +174,7 @@ pub fn episode(
             outcome: moment.phase.to_string(),
             trouble: trial.state().mind.carrier.trouble().map(|trouble| trouble.to_string()),
             refusal: moment.refusal.clone(),
-            tracking_error_mean_m: sum_m / f64::from(count.max(1)),
+            tracking_error_mean_m: tally.mean_m(),
             tracking_error_max_x_m: max_x_m,
             tracking_error_max_y_m: max_y_m,
             steps: counters.steps,

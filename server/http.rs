@@ -5,9 +5,11 @@ mod api;
 mod assets;
 mod body;
 mod calculator;
+mod fork;
 mod hub;
 mod live;
 mod metrics;
+mod moments;
 mod problem;
 mod values;
 
@@ -112,7 +114,7 @@ impl Server {
             }
         };
         let session = Session::start(id, scenario, self.gpu.clone(), sink)?;
-        let hub = Hub::start(id, session, self.gpu.adapter_name(), place);
+        let hub = Hub::start(id, session, self.gpu.clone(), place);
         self.sessions.write().expect("no holder panics").insert(id.to_owned(), hub.clone());
         Ok(hub)
     }
@@ -144,6 +146,9 @@ pub fn router(server: Arc<Server>) -> Router {
         .route("/api/sessions/{id}/observation.png", get(api::observation))
         .route("/api/sessions/{id}/flow", post(api::flow))
         .route("/api/sessions/{id}/values", post(values::values))
+        .route("/api/sessions/{id}/moments/{tick}", get(moments::moment))
+        .route("/api/sessions/{id}/moments/{tick}/camera.png", get(moments::camera))
+        .route("/api/sessions/{id}/moments/{tick}/observation.png", get(moments::observation))
         .route("/api/sessions/{id}/live", get(live::live))
         .route("/api/recordings", get(api::recordings))
         .route("/api/recordings/{file}", get(api::recording))
@@ -177,6 +182,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     });
     axum::serve(listener, router(server.clone())).with_graceful_shutdown(stopped).await?;
     let sessions = std::mem::take(&mut *server.sessions.write().expect("no holder panics"));
+    sessions.values().for_each(|hub| hub.close());
     // Joining the sessions' threads and closing files blocks.
     tokio::task::spawn_blocking(move || drop(sessions)).await.map_err(|error| std::io::Error::other(error).into())
 }

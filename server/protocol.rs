@@ -17,6 +17,7 @@ use crate::trial::EventKind;
 mod convert;
 mod layers;
 mod parse;
+mod past;
 #[cfg(test)]
 mod typescript;
 
@@ -24,6 +25,8 @@ pub use layers::{
     BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
     ValueQuery,
 };
+
+pub use past::{Branch, ComparisonMessage, MomentMessage};
 
 /// Raised when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 5;
@@ -106,6 +109,15 @@ pub enum ClientMessage {
         #[ts(type = "number")]
         tick: u64,
     },
+    /// Runs the control step at or before a tick that is still held on under these controllers, all of them when
+    /// left out, beside the session; the answer is a `comparison`. A new one takes an older one's place.
+    Fork {
+        #[ts(type = "number")]
+        tick: u64,
+        #[serde(default)]
+        #[ts(optional, as = "Option<Vec<ControllerName>>")]
+        controllers: Vec<ControllerName>,
+    },
     /// Asks to be the operator.
     TakeControl {},
     /// Stops being the operator.
@@ -138,6 +150,8 @@ pub enum ServerMessage {
     Overlay(Box<OverlayMessage>),
     /// What the camera has shown up to now, when that changed.
     Seen(SeenMessage),
+    /// How a fork goes on.
+    Comparison(Box<ComparisonMessage>),
     /// A message was refused; nothing changed.
     Error(ErrorMessage),
 }

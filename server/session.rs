@@ -4,6 +4,7 @@
 //! (bounded; a full queue refuses) and watch. A slow watcher sees the newest view and no other.
 
 mod pacing;
+mod past;
 mod timeline;
 mod worker;
 
@@ -21,11 +22,14 @@ use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
 use crate::trial::{Arena, Event, Input, InputError, Moment, Sight, TickRecord, TrialError};
 
 pub use pacing::{SPEED_MAX, SPEED_MIN};
+pub use past::{Past, Progress};
 
 /// Commands that may wait.
 const COMMAND_QUEUE: usize = 256;
 /// Events that a watcher may lag behind before it loses the oldest.
 const EVENT_QUEUE: usize = 256;
+/// Events that a browser that comes later is told of.
+pub const JOURNAL: usize = 500;
 /// Most ticks of one `Step`.
 const STEP_MAX: u32 = 12_500;
 
@@ -91,6 +95,12 @@ pub enum CommandError {
         /// What is allowed.
         allowed: String,
     },
+    /// No goal, nothing to carry the bead to.
+    #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare")]
+    NoGoal {
+        /// The tick asked for.
+        tick: u64,
+    },
     /// More commands than the session can take.
     #[error("the session is busy: more than {COMMAND_QUEUE} commands wait")]
     Busy,
@@ -135,6 +145,8 @@ pub struct View {
     pub scenery: Arc<Scenery>,
     /// What was last seen, and when.
     pub sight: Arc<(u64, Sight)>,
+    /// What happened in the trial, oldest first, [`JOURNAL`] events at most; without what a rewind undid.
+    pub journal: Arc<Vec<Event>>,
     /// `recording`, or why not.
     pub recording: String,
     /// Why the session ended, if it has.
@@ -161,10 +173,10 @@ pub struct Session {
     thread: Option<JoinHandle<()>>,
 }
 
-/// A command and where its answer goes.
-struct Request {
-    command: Command,
-    answer: oneshot::Sender<Result<(), CommandError>>,
+/// What is asked of the thread, and where the answer goes.
+enum Request {
+    Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
+    Recall { tick: u64, answer: oneshot::Sender<Result<Past, CommandError>> },
 }
 
 impl Session {
@@ -186,12 +198,23 @@ impl Session {
     /// Sends a command and waits for its answer.
     pub async fn send(&self, command: Command) -> Result<(), CommandError> {
         let (answer, answered) = oneshot::channel();
+        self.ask(Request::Obey { command, answer })?;
+        answered.await.unwrap_or(Err(CommandError::Ended))
+    }
+
+    /// The last moment kept at or before a tick; changes nothing.
+    pub async fn recall(&self, tick: u64) -> Result<Past, CommandError> {
+        let (answer, answered) = oneshot::channel();
+        self.ask(Request::Recall { tick, answer })?;
+        answered.await.unwrap_or(Err(CommandError::Ended))
+    }
+
+    fn ask(&self, request: Request) -> Result<(), CommandError> {
         let commands = self.commands.as_ref().ok_or(CommandError::Ended)?;
-        commands.try_send(Request { command, answer }).map_err(|error| match error {
+        commands.try_send(request).map_err(|error| match error {
             TrySendError::Full(_) => CommandError::Busy,
             TrySendError::Disconnected(_) => CommandError::Ended,
-        })?;
-        answered.await.unwrap_or(Err(CommandError::Ended))
+        })
     }
 
     /// The newest view, and a signal at each newer one.

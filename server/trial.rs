@@ -12,6 +12,7 @@ mod log;
 mod outcome;
 mod record;
 mod state;
+mod tally;
 
 use std::sync::Arc;
 
@@ -32,6 +33,7 @@ pub use log::{InputLog, LogError, LoggedTick};
 pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Event, EventKind, Moment, Sight, TickRecord};
 pub use state::{Counters, Decision, Mind, Motion, TrialState, World};
+pub use tally::Tally;
 
 /// The tool changes height no faster than this.
 const LIFT_SPEED_M_S: f64 = 0.05;

@@ -52,6 +52,13 @@ impl Laboratory {
         (status, serde_json::from_str(&text).unwrap_or(Value::String(text)))
     }
 
+    /// Body of a file.
+    pub async fn bytes(&self, path: &str) -> Vec<u8> {
+        let address = format!("http://{}{path}", self.address);
+        let read = move || ureq::get(address).call().unwrap().body_mut().read_to_vec().unwrap();
+        tokio::task::spawn_blocking(read).await.unwrap()
+    }
+
     async fn ask_text(&self, method: &str, path: &str, body: &str, headers: &[(&str, &str)]) -> (u16, String) {
         let mut request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", self.address));
         for (name, value) in headers {

@@ -5,6 +5,7 @@ mod commands;
 mod determinism;
 mod disturbances;
 mod examples;
+mod forks;
 mod golden;
 mod house;
 mod laboratory;

@@ -1,5 +1,6 @@
 //! One session and all its browsers: each message is encoded once, and one browser is the operator.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
@@ -9,11 +10,14 @@ use serde::Serialize;
 use tokio::sync::{OwnedSemaphorePermit, watch};
 use tokio::time::Instant;
 
+use super::fork;
+use crate::camera::Gpu;
 use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
     ServerMessage, StateMessage,
 };
-use crate::session::{Session, View};
+use crate::scenario::ControllerName;
+use crate::session::{CommandError, Session, View};
 
 /// Camera frames go out at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
@@ -50,19 +54,23 @@ pub struct Seats {
 pub struct Hub {
     pub id: String,
     pub session: Session,
-    adapter: String,
+    gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
     encoder: Mutex<Option<tokio::task::JoinHandle<()>>>,
     /// Turns true when the session is deleted; its browsers watch it.
     closing: watch::Sender<bool>,
+    /// The newest comparison, ready to send; empty before the first.
+    comparison: watch::Sender<Utf8Bytes>,
+    /// Forks begun; an older one stops when it is no longer the last.
+    forks: AtomicU64,
     /// Its place among the sessions.
     _place: OwnedSemaphorePermit,
 }
 
 impl Hub {
     /// Starts encoding a session's views.
-    pub fn start(id: &str, session: Session, adapter: &str, place: OwnedSemaphorePermit) -> Arc<Self> {
+    pub fn start(id: &str, session: Session, gpu: Arc<Gpu>, place: OwnedSemaphorePermit) -> Arc<Self> {
         let views = session.watch();
         let first = Encoder::default().encode(&views.borrow(), true);
         let (publish, encoded) = watch::channel(first);
@@ -70,7 +78,9 @@ impl Hub {
         Arc::new(Self {
             id: id.to_owned(),
             session,
-            adapter: adapter.to_owned(),
+            gpu,
+            comparison: watch::Sender::new(Utf8Bytes::default()),
+            forks: AtomicU64::new(0),
             encoded,
             seats: watch::Sender::new(Seats::default()),
             encoder: Mutex::new(Some(encoder)),
@@ -90,6 +100,28 @@ impl Hub {
 
     pub fn encoded(&self) -> watch::Receiver<Encoded> {
         self.encoded.clone()
+    }
+
+    pub fn comparison(&self) -> watch::Receiver<Utf8Bytes> {
+        self.comparison.subscribe()
+    }
+
+    /// Starts a comparison, which tells of itself.
+    pub async fn fork(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
+        let past = self.session.recall(tick).await?;
+        if !past.has_goal() {
+            return Err(CommandError::NoGoal { tick });
+        }
+        let number = self.forks.fetch_add(1, Ordering::Relaxed) + 1;
+        let trial = self.session.watch().borrow().scenery.trial;
+        let hub = self.clone();
+        tokio::task::spawn_blocking(move || {
+            let is_last = || hub.forks.load(Ordering::Relaxed) == number && !*hub.closing.borrow();
+            fork::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
+                hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
+            });
+        });
+        Ok(())
     }
 
     pub fn seats(&self) -> watch::Receiver<Seats> {
@@ -144,7 +176,7 @@ impl Hub {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             role: if seats.operator == Some(connection) { Role::Operator } else { Role::Viewer },
             operator_present: seats.operator.is_some(),
-            adapter: self.adapter.clone(),
+            adapter: self.gpu.adapter_name().to_owned(),
         }
     }
 }

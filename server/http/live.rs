@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
+use axum::extract::ws::Utf8Bytes;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{Path, State};
 use axum::response::{IntoResponse, Response};
 use futures_util::SinkExt;
 use tokio::sync::broadcast::error::RecvError;
+use tokio::sync::watch;
 
 use super::Server;
 use super::hub::{Encoded, Hub, json};
 use super::problem::Problem;
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, ServerMessage};
+use crate::scenario::ControllerName;
 use crate::session::Command;
 use crate::trial::{EventKind, Input};
 
@@ -55,16 +58,18 @@ struct Sent {
 }
 
 impl Connection {
-    async fn run(&mut self, stopping: &mut tokio::sync::watch::Receiver<bool>) -> Result<(), axum::Error> {
+    async fn run(&mut self, stopping: &mut watch::Receiver<bool>) -> Result<(), axum::Error> {
         let mut encoded = self.hub.encoded();
         let mut seats = self.hub.seats();
         let mut events = self.hub.session.events();
+        let mut comparison = self.hub.comparison();
         let mut closing = self.hub.closing();
         let mut sent = Sent::default();
         let now = *seats.borrow_and_update();
         self.say(&ServerMessage::Hello(self.hub.hello(self.own, &now))).await?;
         let first = encoded.borrow_and_update().clone();
         self.send_newest(&first, &mut sent).await?;
+        self.tell_the_past(&mut comparison).await?;
         loop {
             tokio::select! {
                 changed = encoded.changed() => {
@@ -80,6 +85,13 @@ impl Connection {
                     Err(RecvError::Lagged(_)) => {}
                     Err(RecvError::Closed) => return self.close("the session has ended").await,
                 },
+                changed = comparison.changed() => {
+                    if changed.is_err() {
+                        return self.close("the session has ended").await;
+                    }
+                    let newest = comparison.borrow_and_update().clone();
+                    self.socket.send(Message::Text(newest)).await?;
+                }
                 changed = seats.changed() => {
                     if changed.is_err() {
                         return self.close("the session has ended").await;
@@ -124,6 +136,19 @@ impl Connection {
         self.socket.flush().await
     }
 
+    /// What happened before this browser came.
+    async fn tell_the_past(&mut self, comparison: &mut watch::Receiver<Utf8Bytes>) -> Result<(), axum::Error> {
+        let journal = self.hub.session.watch().borrow().journal.clone();
+        for event in journal.iter() {
+            self.socket.feed(Message::Text(json(&ServerMessage::Event(EventMessage::from(event))))).await?;
+        }
+        let compared = comparison.borrow_and_update().clone();
+        if !compared.is_empty() {
+            self.socket.feed(Message::Text(compared)).await?;
+        }
+        self.socket.flush().await
+    }
+
     async fn hear(&mut self, text: &str) -> Result<(), axum::Error> {
         let message = match ClientMessage::parse(text) {
             Ok(message) => message,
@@ -149,8 +174,18 @@ impl Connection {
                     ClientMessage::Release {} => false,
                     _ => self.dragging,
                 };
-                let Some(command) = message.command() else { return Ok(()) };
-                match self.hub.session.send(command).await {
+                let done = match message {
+                    ClientMessage::Fork { tick, controllers } => {
+                        let mut asked = ControllerName::ALL.to_vec();
+                        asked.retain(|name| controllers.is_empty() || controllers.contains(name));
+                        self.hub.fork(tick, asked).await
+                    }
+                    message => match message.command() {
+                        Some(command) => self.hub.session.send(command).await,
+                        None => Ok(()),
+                    },
+                };
+                match done {
                     Ok(()) => self.dragging = dragging,
                     Err(error) => return self.say(&ServerMessage::Error(ErrorMessage::from(&error))).await,
                 }

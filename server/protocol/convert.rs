@@ -17,9 +17,9 @@ use crate::perception::{CellState, ObstacleMap, PixelRect};
 use crate::plant::BEAD_RADIUS_M;
 use crate::policy::Judgement;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, Parameters};
+use crate::scenario::{ControllerName, Parameters, RlPolicy};
 use crate::session::{Command, CommandError, Scenery, View};
-use crate::trial::{Event, Input, InputError, Motion, Phase, Sight, TrialError};
+use crate::trial::{Arena, Event, Input, InputError, Motion, Phase, Sight, TrialError};
 use rayon::prelude::*;
 
 /// Instead of the switching law's reason, which no longer matters.
@@ -30,7 +30,7 @@ const MOST_EDGES: usize = 4000;
 const CAPTURE_DIRECTIONS: u32 = 72;
 
 impl ClientMessage {
-    /// The command for the session; `None` for what concerns the connection alone.
+    /// The command for the session; `None` for what concerns the connection, or runs beside the session.
     pub fn command(self) -> Option<Command> {
         let point = |[x, y]: [f64; 2]| Point2::new(x, y);
         Some(match self {
@@ -68,7 +68,7 @@ impl ClientMessage {
             },
             Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
-            Self::TakeControl {} | Self::ReleaseControl {} => return None,
+            Self::Fork { .. } | Self::TakeControl {} | Self::ReleaseControl {} => return None,
         })
     }
 }
@@ -86,6 +86,7 @@ impl From<&CommandError> for ErrorMessage {
             }
             CommandError::Trial(_) => ("trial_failed", None),
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
+            CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::Busy => ("busy", None),
             CommandError::Ended => ("ended", None),
         };
@@ -194,6 +195,14 @@ impl From<&View> for StateMessage {
 impl From<&View> for OverlayMessage {
     fn from(view: &View) -> Self {
         let (tick, sight) = &*view.sight;
+        let Scenery { arena, parameters, .. } = &*view.scenery;
+        Self::of(*tick, sight, view.moment.motion, arena, parameters.rl_policy)
+    }
+}
+
+impl OverlayMessage {
+    /// Of what was seen at a tick, and what the arm then did.
+    pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: RlPolicy) -> Self {
         let sensed = match &sight.carrier {
             Carrier::Attractor(attractor) => attractor.sensed(),
             Carrier::Rl(_) | Carrier::Errt(_) => &[],
@@ -204,12 +213,12 @@ impl From<&View> for OverlayMessage {
             boundary_m: o.half_axes_m.into(),
         });
         Self {
-            tick: *tick,
+            tick,
             obstacles: obstacles.collect(),
             center_mean: sight.percept.center_mean,
             patch: sight.percept.patch(sight.tool_m),
             obstacle: sight.percept.obstacle(),
-            target_m: match view.moment.motion {
+            target_m: match motion {
                 Motion::Segment(step) => Some(step.target_m.coords.into()),
                 Motion::Hold | Motion::Track => None,
             },
@@ -220,7 +229,7 @@ impl From<&View> for OverlayMessage {
                 Carrier::Rl(_) | Carrier::Attractor(_) => None,
             },
             judgement: match &sight.carrier {
-                Carrier::Rl(rl) => JudgementLayer::of(rl, &view.scenery),
+                Carrier::Rl(rl) => JudgementLayer::of(rl, arena, policy),
                 Carrier::Errt(_) | Carrier::Attractor(_) => None,
             },
         }
@@ -281,9 +290,9 @@ impl FlowField {
 
 impl JudgementLayer {
     /// Of a policy in a session; `None` before the first image that it judged.
-    pub fn of(rl: &Rl, scenery: &Scenery) -> Option<Self> {
+    pub fn of(rl: &Rl, arena: &Arena, policy: RlPolicy) -> Option<Self> {
         let (judgement, taken) = rl.judged()?;
-        let policy = scenery.arena.policy(scenery.parameters.rl_policy).ok()?;
+        let policy = arena.policy(policy).ok()?;
         Some(Self {
             quantiles: judgement.quantiles.clone(),
             values: judgement.values(),

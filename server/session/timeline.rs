@@ -1,8 +1,8 @@
-//! Moments to go back to: a snapshot before each control step of the last ten minutes.
+//! Moments to go back to: a snapshot before each control step of the last ten minutes, and what was told since.
 
 use std::collections::VecDeque;
 
-use crate::trial::TrialState;
+use crate::trial::{Input, TrialState};
 
 /// Four snapshots a second for ten minutes, a few kilobytes each.
 const MOST: usize = 2400;
@@ -11,6 +11,8 @@ const MOST: usize = 2400;
 #[derive(Debug, Default)]
 pub struct Timeline {
     moments: VecDeque<TrialState>,
+    /// Inputs with the tick before which they came.
+    inputs: VecDeque<(u64, Input)>,
 }
 
 impl Timeline {
@@ -24,12 +26,30 @@ impl Timeline {
             self.moments.pop_front();
         }
         self.moments.push_back(state);
+        let oldest = self.moments.front().map_or(0, |state| state.world.tick);
+        while self.inputs.front().is_some_and(|&(tick, _)| tick <= oldest) {
+            self.inputs.pop_front();
+        }
+    }
+
+    /// Notes inputs that came before a tick.
+    pub fn note(&mut self, tick: u64, inputs: &[Input]) {
+        self.inputs.extend(inputs.iter().map(|input| (tick, input.clone())));
+    }
+
+    /// Inputs that a state of this tick does not hold yet.
+    pub fn inputs_after(&self, tick: u64) -> Vec<(u64, Input)> {
+        let after = self.inputs.partition_point(|&(at, _)| at <= tick);
+        self.inputs.range(after..).cloned().collect()
     }
 
     /// Drops what lies after a tick.
     pub fn forget_after(&mut self, tick: u64) {
         while self.moments.back().is_some_and(|last| last.world.tick > tick) {
             self.moments.pop_back();
+        }
+        while self.inputs.back().is_some_and(|&(at, _)| at > tick) {
+            self.inputs.pop_back();
         }
     }
 

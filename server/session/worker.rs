@@ -9,12 +9,12 @@ use tokio::sync::{broadcast, watch};
 
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, Request, STEP_MAX, Scenery, Sink, View};
+use super::{Command, CommandError, JOURNAL, Past, Request, STEP_MAX, Scenery, Sink, View};
 use crate::camera::{Camera, Gpu};
 use crate::control::step_is_due;
 use crate::geometry::Point2;
 use crate::scenario::Scenario;
-use crate::trial::{Arena, Event, EventKind, Input, InputError, Sight, Source, Trial, TrialError};
+use crate::trial::{Arena, Event, EventKind, Input, InputError, Sight, Source, Trial, TrialError, TrialState};
 
 /// Watchers get at most sixty views a second.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -34,6 +34,7 @@ pub(super) struct Worker {
     /// Whether the trial's hand is that of a moment gone back to, which holds nothing any more.
     hand_is_past: bool,
     pace: Pace,
+    journal: Arc<Vec<Event>>,
     ended: Option<String>,
 }
 
@@ -65,6 +66,7 @@ impl Worker {
             running: false,
             hand_is_past: false,
             pace,
+            journal: Arc::default(),
             ended: None,
         })
     }
@@ -79,6 +81,7 @@ impl Worker {
             rewind_ticks: self.timeline.range().unwrap_or_default(),
             scenery: self.scenery.clone(),
             sight: self.sight.clone(),
+            journal: self.journal.clone(),
             recording: self.sink.status(),
             ended: self.ended.clone(),
         }
@@ -135,13 +138,37 @@ impl Worker {
         }
     }
 
+    /// Whoever asked may have left, so that nobody takes the answer.
     fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
-        let result = self.obey(request.command);
-        self.announce();
-        publish.send_replace(Arc::new(self.view()));
-        // Whoever asked may have left.
-        let _ = request.answer.send(result);
+        match request {
+            Request::Obey { command, answer } => {
+                let result = self.obey(command);
+                self.announce();
+                publish.send_replace(Arc::new(self.view()));
+                let _ = answer.send(result);
+            }
+            Request::Recall { tick, answer } => {
+                let _ = answer.send(self.recall(tick));
+            }
+        }
         Ok(())
+    }
+
+    fn recall(&self, tick: u64) -> Result<Past, CommandError> {
+        let state =
+            if tick == self.trial.state().world.tick { self.trial.snapshot() } else { self.moment(tick)?.clone() };
+        let inputs = self.timeline.inputs_after(state.world.tick);
+        Ok(Past::new(&self.trial, state, inputs))
+    }
+
+    /// The last state kept at or before a tick that is not later than all of them.
+    fn moment(&self, tick: u64) -> Result<&TrialState, CommandError> {
+        let (first, last) = self.timeline.range().unwrap_or_default();
+        let last = last.max(self.trial.state().world.tick);
+        self.timeline.at(tick).filter(|_| tick <= last).ok_or_else(|| {
+            let allowed = format!("{first} to {last}");
+            CommandError::Range { field: "tick", value: tick as f64, allowed }
+        })
     }
 
     fn obey(&mut self, command: Command) -> Result<(), CommandError> {
@@ -202,11 +229,7 @@ impl Worker {
                 }
             }
             Command::Rewind(tick) => {
-                let (first, last) = self.timeline.range().unwrap_or_default();
-                let Some(state) = self.timeline.at(tick).cloned() else {
-                    let allowed = format!("{first} to {last}");
-                    return Err(CommandError::Range { field: "tick", value: tick as f64, allowed });
-                };
+                let state = self.moment(tick)?.clone();
                 self.running = false;
                 self.hand_is_past = state.world.plant.hand.is_some();
                 self.trial.restore(state);
@@ -273,7 +296,8 @@ impl Worker {
         let text = format!("set up: map {}, seed {}", scenario.map, scenario.seed);
         let event = Event::new(0, EventKind::Session, text);
         self.sink.note(&event);
-        let _ = self.events.send(event);
+        self.journal = Arc::default();
+        self.tell(event);
         Ok(())
     }
 
@@ -307,9 +331,9 @@ impl Worker {
         }
         let mut record = self.trial.tick(Source::Eye(&mut self.camera))?;
         self.sink.record(&record);
+        self.timeline.note(record.tick - 1, &record.inputs);
         for event in record.events.drain(..) {
-            // Nobody may be listening.
-            let _ = self.events.send(event);
+            self.tell(event);
         }
         if let Some(sight) = record.sight {
             self.sight = Arc::new((record.tick, sight));
@@ -324,8 +348,19 @@ impl Worker {
         }
         for event in self.trial.take_events() {
             self.sink.note(&event);
-            let _ = self.events.send(event);
+            self.tell(event);
         }
+    }
+
+    /// To whoever listens, and into the journal in place of what came after it before a rewind.
+    fn tell(&mut self, event: Event) {
+        let journal = Arc::make_mut(&mut self.journal);
+        journal.retain(|told| told.tick <= event.tick);
+        if journal.len() == JOURNAL {
+            journal.remove(0);
+        }
+        journal.push(event.clone());
+        let _ = self.events.send(event);
     }
 }
 

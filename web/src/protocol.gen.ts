@@ -362,7 +362,7 @@ script: Array<Scripted>, };
 /**
  * What a browser may send. Fields are named and measured as everywhere: metres in `base`.
  */
-export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "take_control", } | { "type": "release_control", };
+export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Who this browser is.
@@ -372,7 +372,7 @@ export type Role = "operator" | "viewer";
 /**
  * What the server sends as text.
  */
-export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "error" } & ErrorMessage;
+export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "error" } & ErrorMessage;
 
 /**
  * See [`ServerMessage::Hello`].
@@ -778,6 +778,161 @@ rows: number,
  * unknown, 1 for free, 2 for an obstacle; and how many.
  */
 runs: Array<[number, number]>, };
+
+/**
+ * What one controller makes of the moment.
+ */
+export type Branch = { 
+/**
+ * The controller.
+ */
+controller: ControllerName, 
+/**
+ * Tool x, y and bead x, y in metres, from the first sample after the moment.
+ */
+samples: Array<[number, number, number, number]>, 
+/**
+ * Whether it has ended.
+ */
+done: boolean, 
+/**
+ * What the arm did last, as in the state.
+ */
+phase: string, 
+/**
+ * Tick of the first delivery after the moment.
+ */
+delivered_tick: number | null, 
+/**
+ * Mean distance of tool and bead during transport.
+ */
+tracking_error_mean_m: number, 
+/**
+ * Largest difference in x during transport.
+ */
+tracking_error_max_x_m: number, 
+/**
+ * The same in y.
+ */
+tracking_error_max_y_m: number, 
+/**
+ * Control steps since the moment.
+ */
+steps: number, 
+/**
+ * Switches since the moment.
+ */
+switches: number, };
+
+/**
+ * A moment run on under several controllers, each from the same state with the same disturbances.
+ */
+export type ComparisonMessage = { 
+/**
+ * Number of the trial, as in the scene.
+ */
+trial: number, 
+/**
+ * Tick of the moment.
+ */
+tick: number, 
+/**
+ * The same in seconds.
+ */
+sim_time_s: number, 
+/**
+ * Tick at which branches end at the latest.
+ */
+until_tick: number, 
+/**
+ * Sub-controller 2 at that moment: its branch is what happens without a change.
+ */
+controller: ControllerName, 
+/**
+ * Ticks between two samples.
+ */
+ticks_a_sample: number, 
+/**
+ * Whether branches still run.
+ */
+running: boolean, 
+/**
+ * Why it came to a halt, if it did.
+ */
+failed: string | null, 
+/**
+ * One a controller, in the order asked for; those not begun yet are left out.
+ */
+branches: Array<Branch>, };
+
+/**
+ * Answer of `GET /api/sessions/{id}/moments/{tick}`: the control step at or before a tick, lived through again.
+ */
+export type MomentMessage = { 
+/**
+ * Tick of the control step.
+ */
+tick: number, 
+/**
+ * The same in seconds.
+ */
+sim_time_s: number, 
+/**
+ * Active sub-controller from then on, 1 or 2.
+ */
+mode: number, 
+/**
+ * Whether it was the other one before.
+ */
+switched: boolean, 
+/**
+ * Why, one plain sentence.
+ */
+reason: string, 
+/**
+ * e: distance from tool to tracked bead in the plane.
+ */
+error_m: number, 
+/**
+ * What e was held against: T, or the fetch radius during a fetch.
+ */
+threshold_m: number, 
+/**
+ * Sub-controller 2 in use.
+ */
+controller: ControllerName, 
+/**
+ * What the arm does, as in the state.
+ */
+phase: string, 
+/**
+ * Tool point.
+ */
+tool_m: [number, number], 
+/**
+ * Bead, the truth.
+ */
+bead_m: [number, number], 
+/**
+ * Bead as tracked.
+ */
+bead_tracked_m: [number, number], 
+/**
+ * Goal, if there is one.
+ */
+goal_m: [number, number] | null, 
+/**
+ * Next tool target, if it goes to one.
+ */
+target_m: [number, number] | null, 
+/**
+ * Why the arm holds, if a step was refused.
+ */
+refusal: string | null, 
+/**
+ * What the controller saw and made of it.
+ */
+overlay: OverlayMessage, };
 
 /**
  * See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.

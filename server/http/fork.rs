@@ -1,0 +1,62 @@
+//! Runs a moment on under several controllers and tells how each fares.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::camera::Gpu;
+use crate::protocol::{Branch, ComparisonMessage};
+use crate::scenario::ControllerName;
+use crate::session::Past;
+use crate::trial::TrialError;
+
+/// Ghosts grow on the page so often.
+const TELL_EVERY: Duration = Duration::from_millis(250);
+
+/// Blocks until all branches have ended, or `is_wanted` turns false: then the page is told nothing more.
+pub fn compare(
+    past: &Past,
+    trial: u64,
+    controllers: &[ControllerName],
+    gpu: &Arc<Gpu>,
+    is_wanted: &dyn Fn() -> bool,
+    tell: &dyn Fn(ComparisonMessage),
+) {
+    let mut comparison = ComparisonMessage::begin(trial, past);
+    tell(comparison.clone());
+    let run = || -> Result<(), TrialError> {
+        let mut camera = past.camera(gpu)?;
+        for &controller in controllers {
+            comparison.branches.push(Branch::begin(controller));
+            let mut told = Instant::now();
+            past.branch(controller, &mut camera, &mut |progress| {
+                if let Some(branch) = comparison.branches.last_mut() {
+                    branch.follow(past, &progress);
+                }
+                if !is_wanted() {
+                    return ControlFlow::Break(());
+                }
+                if told.elapsed() >= TELL_EVERY {
+                    told = Instant::now();
+                    tell(comparison.clone());
+                }
+                ControlFlow::Continue(())
+            })?;
+            if !is_wanted() {
+                break;
+            }
+        }
+        Ok(())
+    };
+    // A panic in a controller ends the comparison with a message, and nothing else.
+    let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
+    comparison.running = false;
+    comparison.failed = match outcome {
+        Ok(Ok(())) => None,
+        Ok(Err(error)) => Some(error.to_string()),
+        Err(_) => Some("a controller failed; the log has more".to_owned()),
+    };
+    if is_wanted() {
+        tell(comparison);
+    }
+}

@@ -1,0 +1,187 @@
+//! Moments gone by: why the arm did what it did, and what another controller would have done from there.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use super::OverlayMessage;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::ControllerName;
+use crate::session::{Past, Progress};
+use crate::trial::{Moment, Motion, TickRecord};
+
+/// Ticks between two samples of a branch: 25 Hz of simulated time.
+pub const TICKS_A_SAMPLE: u64 = 5;
+
+/// Answer of `GET /api/sessions/{id}/moments/{tick}`: the control step at or before a tick, lived through again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct MomentMessage {
+    /// Tick of the control step.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// The same in seconds.
+    pub sim_time_s: f64,
+    /// Active sub-controller from then on, 1 or 2.
+    pub mode: u8,
+    /// Whether it was the other one before.
+    pub switched: bool,
+    /// Why, one plain sentence.
+    pub reason: String,
+    /// e: distance from tool to tracked bead in the plane.
+    pub error_m: f64,
+    /// What e was held against: T, or the fetch radius during a fetch.
+    pub threshold_m: f64,
+    /// Sub-controller 2 in use.
+    pub controller: ControllerName,
+    /// What the arm does, as in the state.
+    pub phase: String,
+    /// Tool point.
+    pub tool_m: [f64; 2],
+    /// Bead, the truth.
+    pub bead_m: [f64; 2],
+    /// Bead as tracked.
+    pub bead_tracked_m: [f64; 2],
+    /// Goal, if there is one.
+    pub goal_m: Option<[f64; 2]>,
+    /// Next tool target, if it goes to one.
+    pub target_m: Option<[f64; 2]>,
+    /// Why the arm holds, if a step was refused.
+    pub refusal: Option<String>,
+    /// What the controller saw and made of it.
+    pub overlay: Box<OverlayMessage>,
+}
+
+impl MomentMessage {
+    /// Of a moment and the control step that started there; `None` when none did.
+    pub fn of(past: &Past, before: &Moment, record: &TickRecord) -> Option<Self> {
+        let (decision, sight) = (record.decision.as_ref()?, record.sight.as_ref()?);
+        let overlay =
+            OverlayMessage::of(before.tick, sight, decision.motion, past.arena(), past.parameters().rl_policy);
+        Some(Self {
+            tick: before.tick,
+            sim_time_s: before.sim_time_s(),
+            mode: decision.switching.mode.index(),
+            switched: decision.switching.switched,
+            reason: decision.switching.reason(),
+            error_m: decision.switching.error_m,
+            threshold_m: decision.switching.threshold_m,
+            controller: past.controller(),
+            phase: record.moment.phase.to_string(),
+            tool_m: before.tool_m.xy().coords.into(),
+            bead_m: before.bead_m.xy().coords.into(),
+            bead_tracked_m: before.tracked_m.coords.into(),
+            goal_m: before.goal_m.map(|goal| goal.coords.into()),
+            target_m: match decision.motion {
+                Motion::Segment(step) => Some(step.target_m.coords.into()),
+                Motion::Hold | Motion::Track => None,
+            },
+            refusal: decision.refusal.as_ref().map(ToString::to_string),
+            overlay: Box::new(overlay),
+        })
+    }
+}
+
+/// A moment run on under several controllers, each from the same state with the same disturbances.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct ComparisonMessage {
+    /// Number of the trial, as in the scene.
+    #[ts(type = "number")]
+    pub trial: u64,
+    /// Tick of the moment.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// The same in seconds.
+    pub sim_time_s: f64,
+    /// Tick at which branches end at the latest.
+    #[ts(type = "number")]
+    pub until_tick: u64,
+    /// Sub-controller 2 at that moment: its branch is what happens without a change.
+    pub controller: ControllerName,
+    /// Ticks between two samples.
+    #[ts(type = "number")]
+    pub ticks_a_sample: u64,
+    /// Whether branches still run.
+    pub running: bool,
+    /// Why it came to a halt, if it did.
+    pub failed: Option<String>,
+    /// One a controller, in the order asked for; those not begun yet are left out.
+    pub branches: Vec<Branch>,
+}
+
+/// What one controller makes of the moment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct Branch {
+    /// The controller.
+    pub controller: ControllerName,
+    /// Tool x, y and bead x, y in metres, from the first sample after the moment.
+    pub samples: Vec<[f64; 4]>,
+    /// Whether it has ended.
+    pub done: bool,
+    /// What the arm did last, as in the state.
+    pub phase: String,
+    /// Tick of the first delivery after the moment.
+    #[ts(type = "number | null")]
+    pub delivered_tick: Option<u64>,
+    /// Mean distance of tool and bead during transport.
+    pub tracking_error_mean_m: f64,
+    /// Largest difference in x during transport.
+    pub tracking_error_max_x_m: f64,
+    /// The same in y.
+    pub tracking_error_max_y_m: f64,
+    /// Control steps since the moment.
+    pub steps: u32,
+    /// Switches since the moment.
+    pub switches: u32,
+}
+
+impl ComparisonMessage {
+    /// Before its first branch.
+    pub fn begin(trial: u64, past: &Past) -> Self {
+        Self {
+            trial,
+            tick: past.tick(),
+            sim_time_s: past.tick() as f64 * SERVO_PERIOD_S,
+            until_tick: past.until_tick(),
+            controller: past.controller(),
+            ticks_a_sample: TICKS_A_SAMPLE,
+            running: true,
+            failed: None,
+            branches: Vec::new(),
+        }
+    }
+}
+
+impl Branch {
+    /// Before its first tick.
+    pub fn begin(controller: ControllerName) -> Self {
+        Self {
+            controller,
+            samples: Vec::new(),
+            done: false,
+            phase: String::new(),
+            delivered_tick: None,
+            tracking_error_mean_m: 0.0,
+            tracking_error_max_x_m: 0.0,
+            tracking_error_max_y_m: 0.0,
+            steps: 0,
+            switches: 0,
+        }
+    }
+
+    /// Takes a tick in.
+    pub fn follow(&mut self, past: &Past, progress: &Progress<'_>) {
+        let moment = &progress.record.moment;
+        if (moment.tick - past.tick()).is_multiple_of(TICKS_A_SAMPLE) {
+            let ([tool_x, tool_y], [bead_x, bead_y]) =
+                (moment.tool_m.xy().coords.into(), moment.bead_m.xy().coords.into());
+            self.samples.push([tool_x, tool_y, bead_x, bead_y]);
+        }
+        let before = past.counters();
+        self.done = progress.done;
+        self.delivered_tick = progress.delivered_tick;
+        self.phase = moment.phase.to_string();
+        self.tracking_error_mean_m = progress.tally.mean_m();
+        [self.tracking_error_max_x_m, self.tracking_error_max_y_m] = progress.tally.max_m();
+        self.steps = moment.counters.steps - before.steps;
+        self.switches = moment.counters.switches - before.switches;
+    }
+}

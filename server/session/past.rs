@@ -1,0 +1,138 @@
+//! A moment of a session, taken out of it: to look at again, or to run on under another controller. Both run the same
+//! trial as the session, beside it, and change nothing in it.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::camera::{Camera, Eye, Gpu};
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::trial::{
+    Arena, Counters, Input, InputError, Moment, Source, Tally, TickRecord, Trial, TrialError, TrialState,
+};
+
+/// A branch runs for so long at most.
+const HORIZON_S: f64 = 60.0;
+
+/// A moment, and what the session was told after it.
+#[derive(Clone, Debug)]
+pub struct Past {
+    scenario: Scenario,
+    arena: Arc<Arena>,
+    state: TrialState,
+    /// Inputs with the tick before which they came, later than the state's.
+    inputs: Vec<(u64, Input)>,
+}
+
+/// How far a branch has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// Its last tick.
+    pub record: &'a TickRecord,
+    /// Its tracking errors up to now.
+    pub tally: &'a Tally,
+    /// Tick of its first delivery.
+    pub delivered_tick: Option<u64>,
+    /// Whether it runs no further.
+    pub done: bool,
+}
+
+impl Past {
+    pub(super) fn new(trial: &Trial, state: TrialState, inputs: Vec<(u64, Input)>) -> Self {
+        Self { scenario: trial.scenario().clone(), arena: trial.arena().clone(), state, inputs }
+    }
+
+    /// Its tick.
+    pub fn tick(&self) -> u64 {
+        self.state.world.tick
+    }
+
+    /// Tick at which branches end at the latest.
+    pub fn until_tick(&self) -> u64 {
+        self.tick() + (HORIZON_S / SERVO_PERIOD_S) as u64
+    }
+
+    /// Counters then.
+    pub fn counters(&self) -> Counters {
+        self.state.world.counters
+    }
+
+    /// Sub-controller 2 at that moment.
+    pub fn controller(&self) -> ControllerName {
+        self.state.controller
+    }
+
+    /// Where it took place.
+    pub fn arena(&self) -> &Arc<Arena> {
+        &self.arena
+    }
+
+    /// Parameters then.
+    pub fn parameters(&self) -> &Parameters {
+        &self.state.world.parameters
+    }
+
+    /// A camera of its own.
+    pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, TrialError> {
+        Ok(self.arena.camera(gpu)?)
+    }
+
+    /// Whether there is a goal then, or comes one before [`Self::until_tick`].
+    pub fn has_goal(&self) -> bool {
+        let comes =
+            |&(tick, ref input): &(u64, Input)| tick < self.until_tick() && matches!(input, Input::SetGoal { .. });
+        self.state.world.goal_m.is_some() || self.inputs.iter().any(comes)
+    }
+
+    fn trial(&self) -> Result<Trial, TrialError> {
+        let mut trial = Trial::new(self.scenario.clone(), self.arena.clone())?;
+        trial.take_events();
+        trial.restore(self.state.clone());
+        Ok(trial)
+    }
+
+    /// The moment, and what was seen and decided at it: a control step starts there.
+    pub fn relive(&self, eye: &mut dyn Eye) -> Result<(Moment, TickRecord), TrialError> {
+        let mut trial = self.trial()?;
+        let before = trial.moment();
+        Ok((before, trial.tick(Source::Eye(eye))?))
+    }
+
+    /// Runs on from here under a controller, with the hand's and the script's disturbances as they came, until all
+    /// is delivered or [`Self::until_tick`]; `watch` sees every tick and may stop it. What the session was told of
+    /// controllers is left out; what the branch's course makes impossible does not happen in it.
+    pub fn branch(
+        &self,
+        controller: ControllerName,
+        eye: &mut dyn Eye,
+        watch: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
+    ) -> Result<(), TrialError> {
+        let mut trial = self.trial()?;
+        if controller != self.state.controller {
+            trial.apply(Input::SelectController(controller))?;
+        }
+        let mut inputs =
+            self.inputs.iter().filter(|(_, input)| !matches!(input, Input::SelectController(_))).peekable();
+        let mut tally = Tally::default();
+        let mut delivered_tick = None;
+        let deliveries = self.state.world.counters.deliveries;
+        loop {
+            let tick = trial.state().world.tick;
+            while let Some((_, input)) = inputs.next_if(|(at, _)| *at <= tick) {
+                // A bead that is elsewhere may, for instance, not fit where the hand put the other one.
+                let _: Result<(), InputError> = trial.apply(input.clone());
+            }
+            let record = trial.tick(Source::Eye(eye))?;
+            tally.add(&record.moment);
+            if delivered_tick.is_none() && record.moment.counters.deliveries > deliveries {
+                delivered_tick = Some(record.tick);
+            }
+            let rests = record.moment.phase.is_final() && record.moment.hand.is_none();
+            let done = record.tick >= self.until_tick() || (rests && inputs.peek().is_none());
+            let progress = Progress { record: &record, tally: &tally, delivered_tick, done };
+            if watch(progress).is_break() || done {
+                return Ok(());
+            }
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Tracking errors of a trial, added up as the paper does: while sub-controller 2 transports (paper, §V).
+
+use super::{Moment, Phase};
+use crate::control::switching::Mode;
+
+/// Sums over the ticks of transport.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    sum_m: f64,
+    ticks: u32,
+    max_x_m: f64,
+    max_y_m: f64,
+}
+
+impl Tally {
+    /// Takes a tick in, if it is one of transport.
+    pub fn add(&mut self, moment: &Moment) {
+        if moment.switching.mode != Mode::Transport || moment.phase != Phase::Transporting {
+            return;
+        }
+        let error = moment.tracking_error_m();
+        self.sum_m += error.norm();
+        self.ticks += 1;
+        self.max_x_m = self.max_x_m.max(error.x.abs());
+        self.max_y_m = self.max_y_m.max(error.y.abs());
+    }
+
+    /// Mean distance of tool and bead; 0 before any tick of transport.
+    pub fn mean_m(&self) -> f64 {
+        self.sum_m / f64::from(self.ticks.max(1))
+    }
+
+    /// Largest difference in x and in y.
+    pub fn max_m(&self) -> [f64; 2] {
+        [self.max_x_m, self.max_y_m]
+    }
+}
