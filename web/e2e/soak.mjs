@@ -9,7 +9,10 @@ import { figuresOf, stepThrough } from './meter.mjs';
 
 const MINUTES = Number(process.env.SOAK_MINUTES ?? 30);
 const MINUTE_MS = 60_000;
-/** Until then, what is kept for a while is still filling up. */
+/** What is kept has an end: the log's lines, the moments to go back to. First, all of it is filled. */
+const KEPT_S = 620;
+const KEPT_LINES = 300;
+const MOST_FILLING_MS = 5 * MINUTE_MS;
 const SETTLED_MINUTES = Math.min(5, Math.floor(MINUTES / 2));
 const MOST_GROWTH = 0.1;
 const STEPS = 100;
@@ -34,7 +37,7 @@ async function rssBytes(pid) {
 }
 
 /** What a person does: another goal, now and then the bead taken away. */
-async function play(lab, chance) {
+async function play(lab, chance, pause_ms) {
   const bead = await lab.point('bead');
   const near = (least, most) => {
     const points = lab.freePoints(bead, least, most);
@@ -49,7 +52,19 @@ async function play(lab, chance) {
   } else {
     await lab.click(near(0.1, 0.5));
   }
-  await lab.page.waitForTimeout(3000 + 5000 * chance());
+  await lab.page.waitForTimeout(pause_ms);
+}
+
+/** As fast as it goes, until nothing more is kept than before. */
+async function fill(lab, chance) {
+  const speed = lab.page.getByLabel('Speed', { exact: true });
+  const end = Date.now() + MOST_FILLING_MS;
+  await speed.selectOption('64');
+  const lines = lab.page.getByRole('log').locator('.log-line');
+  const isFull = async () => lab.state.sim_time_s > KEPT_S && (await lines.count()) >= KEPT_LINES;
+  while (!(await isFull()) && Date.now() < end) await play(lab, chance, 100);
+  await speed.selectOption('1');
+  console.log(`filled: ${lab.state.sim_time_s.toFixed(0)} s, ${await lines.count()} lines`);
 }
 
 async function soak({ browser, server }) {
@@ -58,12 +73,13 @@ async function soak({ browser, server }) {
   await lab.reset();
   await lab.run();
   const chance = random(SEED);
+  await fill(lab, chance);
   const counts = [];
   const samples = [];
   for (let minute = 1; minute <= MINUTES; minute++) {
     const end = Date.now() + MINUTE_MS;
     await meter.start();
-    while (Date.now() < end) await play(lab, chance);
+    while (Date.now() < end) await play(lab, chance, 3000 + 5000 * chance());
     counts.push(await meter.stop());
     const sample = {
       minute,
