@@ -7,9 +7,18 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
-import { PAIR } from './pair.mjs';
-import { PROOF } from './proof.mjs';
+import {
+  aViewerMayPredict,
+  everyLessonShowsWhatItClaims,
+  learnsByKeyboard,
+  loadsAPreset,
+  refusesABrokenLink,
+  sharesAnExperiment,
+} from './lessons.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { PAIR } from './pair.mjs';
+import { comparesControllers, tellsWhy } from './past.mjs';
+import { PROOF } from './proof.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -325,6 +334,14 @@ export const TESTS = [
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
+  ['tells why a switch came', tellsWhy],
+  ['compares controllers from a moment on', comparesControllers],
+  ['shares an experiment', sharesAnExperiment],
+  ['refuses a broken link', refusesABrokenLink],
+  ['loads a preset', loadsAPreset],
+  ['learns by keyboard', learnsByKeyboard],
+  ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
+  ['a viewer may predict', aViewerMayPredict],
   ['looks right', looksRight],
   ...PAIR,
   ...PROOF,

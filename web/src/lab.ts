@@ -2,14 +2,17 @@
 
 import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
 import { connect, liveAddress, type Picture } from './connection';
+import { createGhosts, type Ghosts } from './ghosts';
 import { History } from './history';
 import { EMPTY, reduce, type Input, type Model, type Place } from './model';
 import {
   BINARY_CAMERA_JPEG,
   BINARY_OBSERVATION,
   type ClientMessage,
+  type EventMessage,
   type Parameters,
 } from './protocol.gen';
+import { storeLayers, storedLayers, type Layer } from './workspace/layers';
 
 export interface Lab {
   readonly link: Accessor<Model['link']>;
@@ -22,6 +25,11 @@ export interface Lab {
   readonly seen: Accessor<Model['seen']>;
   readonly log: Accessor<Model['log']>;
   readonly marks: Accessor<Model['marks']>;
+  readonly ghosts: Ghosts;
+  /** The event whose story is open. */
+  readonly inspected: Accessor<EventMessage | undefined>;
+  /** The tab that was asked to open last, wherever it is. */
+  readonly opened: Accessor<{ readonly tab: string } | undefined>;
   readonly notices: Accessor<Model['notices']>;
   readonly refusals: Accessor<number>;
   readonly camera: Accessor<Picture | undefined>;
@@ -31,7 +39,12 @@ export interface Lab {
   /** Connected to a session that goes on, and its operator. */
   readonly canOperate: Accessor<boolean>;
   readonly history: History;
+  /** What is drawn over the workspace. */
+  readonly layers: Accessor<ReadonlySet<Layer>>;
+  showLayer(layer: Layer, on: boolean): void;
   send(message: ClientMessage): void;
+  inspect(event: EventMessage | undefined): void;
+  openTab(tab: string): void;
   /** What the form is about to change. */
   draft(change: Partial<Parameters>): void;
   notify(place: Place, text: string): void;
@@ -84,7 +97,10 @@ export function createLab(page: Location): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
+  const [inspected, inspect] = createSignal<EventMessage>();
+  const [opened, setOpened] = createSignal<{ readonly tab: string }>();
   const [draft, setDraft] = createSignal<Partial<Parameters>>({});
+  const [layers, setLayers] = createSignal(storedLayers());
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -153,6 +169,9 @@ export function createLab(page: Location): Lab {
     seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
     marks: createMemo(() => model().marks),
+    ghosts: createGhosts(createMemo(() => model().comparison)),
+    inspected,
+    opened,
     notices: createMemo(() => model().notices),
     refusals: createMemo(() => model().refusals),
     camera,
@@ -162,9 +181,23 @@ export function createLab(page: Location): Lab {
       () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
     ),
     history,
+    layers,
+    showLayer: (layer, on) => {
+      const next = new Set(layers());
+      if (on) next.add(layer);
+      else next.delete(layer);
+      setLayers(next);
+      storeLayers(next);
+    },
     send: (message) => {
       // `release` is sent blindly when a hold ends; a lost socket has released it already.
       if (connection.send(message)) take({ type: 'sent', command: message.type });
+    },
+    inspect: (event) => {
+      inspect(event);
+    },
+    openTab: (tab) => {
+      setOpened({ tab });
     },
     draft: (change) => {
       setDraft(change);

@@ -3,6 +3,7 @@
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { createLab } from './lab';
+import { createLinks } from './links';
 import { AsidePanel } from './panels/AsidePanel';
 import { CameraPanel } from './panels/CameraPanel';
 import { ControllerPanel } from './panels/ControllerPanel';
@@ -18,6 +19,7 @@ import { WorkspacePanel } from './workspace/WorkspacePanel';
 function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window.location);
+  const links = createLinks(lab, window);
   const [view, setView] = createSignal<View>('laboratory');
   return (
     <>
@@ -31,7 +33,7 @@ function Page(): JSX.Element {
             <LowerPanel lab={lab} theme={theme} />
             <AsidePanel lab={lab} theme={theme} />
           </main>
-          <Transport lab={lab} />
+          <Transport lab={lab} links={links} />
         </Match>
         <Match when={view() === 'recordings'}>
           <RecordingsView />

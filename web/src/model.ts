@@ -3,6 +3,7 @@
 import {
   PROTOCOL_VERSION,
   type ClientMessage,
+  type ComparisonMessage,
   type ErrorMessage,
   type EventKind,
   type EventMessage,
@@ -27,7 +28,7 @@ export type Link =
   | { readonly kind: 'outdated' };
 
 /** Panels at which a message can appear. */
-export type Place = 'workspace' | 'controller' | 'transport' | 'session';
+export type Place = 'workspace' | 'controller' | 'transport' | 'session' | 'compare';
 
 export interface LogLine {
   readonly id: number;
@@ -35,6 +36,8 @@ export interface LogLine {
   readonly sim_time_s: number | undefined;
   readonly kind: EventKind | 'error' | 'link';
   readonly text: string;
+  /** What happened, when it belongs to the trial. */
+  readonly event: EventMessage | undefined;
   /** How often in a row. */
   readonly count: number;
 }
@@ -55,6 +58,8 @@ export interface Model {
   readonly seen: SeenMessage | undefined;
   readonly log: readonly LogLine[];
   readonly marks: readonly EventMessage[];
+  /** The last fork of this trial, as far as it has come. */
+  readonly comparison: ComparisonMessage | undefined;
   readonly notices: Readonly<Partial<Record<Place, Notice>>>;
   /** Grows with each refusal, so that forms know when to show the server's truth again. */
   readonly refusals: number;
@@ -78,6 +83,7 @@ export const EMPTY: Model = {
   seen: undefined,
   log: [],
   marks: [],
+  comparison: undefined,
   notices: {},
   refusals: 0,
   lastCommand: undefined,
@@ -99,6 +105,7 @@ const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   reset: 'transport',
   load_scenario: 'transport',
   rewind: 'transport',
+  fork: 'compare',
   take_control: 'session',
   release_control: 'session',
 };
@@ -119,6 +126,7 @@ const PLACE_OF_FIELD: Partial<Record<string, Place>> = {
 
 /** Where the cause of a refusal is on the page: its field says, else the last command. */
 export function placeOfError(error: ErrorMessage, model: Model): Place {
+  if (model.lastCommand === 'fork') return PLACE_OF_COMMAND.fork;
   const field = error.field?.split('.').at(-1);
   if (field !== undefined) {
     if (model.scene && Object.hasOwn(model.scene.parameters, field)) return 'controller';
@@ -133,12 +141,13 @@ function withLine(
   kind: LogLine['kind'],
   text: string,
   sim_time_s: number | undefined,
+  event?: EventMessage,
 ): Model {
   const last = model.log.at(-1);
   if (last?.kind === kind && last.text === text) {
     return { ...model, log: [...model.log.slice(0, -1), { ...last, count: last.count + 1 }] };
   }
-  const line: LogLine = { id: model.nextId, sim_time_s, kind, text, count: 1 };
+  const line: LogLine = { id: model.nextId, sim_time_s, kind, text, event, count: 1 };
   return {
     ...model,
     log: [...model.log, line].slice(-LOG_LINES),
@@ -166,7 +175,9 @@ function withLink(model: Model, link: Link): Model {
     return withLine(next, 'link', 'Connection lost; trying again.', undefined);
   }
   if (link.kind === 'live' && model.link.kind === 'lost') {
-    return withLine(next, 'link', 'Connected again.', undefined);
+    // The session tells anew what happened in it.
+    const own = model.log.filter((line) => line.kind === 'link' || line.kind === 'error');
+    return withLine({ ...next, log: own, marks: [] }, 'link', 'Connected again.', undefined);
   }
   return next;
 }
@@ -191,7 +202,15 @@ function withMessage(model: Model, message: ServerMessage): Model {
       // Another trial: what was seen, marked and complained about is over.
       const otherTrial = model.scene !== undefined && model.scene.trial !== message.trial;
       return otherTrial
-        ? { ...model, scene: message, overlay: undefined, seen: undefined, marks: [], notices: {} }
+        ? {
+            ...model,
+            scene: message,
+            overlay: undefined,
+            seen: undefined,
+            comparison: undefined,
+            marks: [],
+            notices: {},
+          }
         : { ...model, scene: message };
     }
     case 'state':
@@ -204,8 +223,10 @@ function withMessage(model: Model, message: ServerMessage): Model {
       // A session says something at tick 0 when it is set up anew: what came before is over.
       const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;
       const marked = { ...model, marks: [...before, message].slice(-MARKS) };
-      return withLine(marked, message.kind, message.text, message.sim_time_s);
+      return withLine(marked, message.kind, message.text, message.sim_time_s, message);
     }
+    case 'comparison':
+      return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
     case 'error': {
       const place = placeOfError(message, model);
       const logged = withLine(model, 'error', message.message, model.state?.sim_time_s);

@@ -26,6 +26,9 @@ const NAMES = [
   'heat-low',
   'heat-middle',
   'heat-high',
+  'rl',
+  'errt',
+  'attractor',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;

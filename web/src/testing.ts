@@ -1,6 +1,12 @@
 // Messages for the unit tests.
 
-import type { SceneMessage, StateMessage } from './protocol.gen';
+import type {
+  Branch,
+  ComparisonMessage,
+  MomentMessage,
+  SceneMessage,
+  StateMessage,
+} from './protocol.gen';
 
 export function stateAt(tick: number, change: Partial<StateMessage> = {}): StateMessage {
   return {
@@ -116,5 +122,76 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
     trial,
     capture_m: [[0.004, 0.0947], [0.004, null], null],
     tick_s: 0.008,
+  };
+}
+
+export function branchOf(
+  controller: Branch['controller'],
+  samples: Branch['samples'],
+  change: Partial<Branch> = {},
+): Branch {
+  return {
+    controller,
+    samples,
+    done: true,
+    phase: 'delivered',
+    delivered_tick: null,
+    tracking_error_mean_m: 0.01,
+    tracking_error_max_x_m: 0.02,
+    tracking_error_max_y_m: 0.03,
+    steps: 1,
+    switches: 0,
+    ...change,
+  };
+}
+
+export function comparisonOf(tick: number, branches: Branch[], trial = 0): ComparisonMessage {
+  return {
+    trial,
+    tick,
+    sim_time_s: tick * 0.008,
+    until_tick: tick + 7500,
+    controller: 'attractor',
+    ticks_a_sample: 5,
+    running: false,
+    failed: null,
+    branches,
+  };
+}
+
+export function momentOf(change: Partial<MomentMessage> = {}): MomentMessage {
+  return {
+    tick: 0,
+    sim_time_s: 0,
+    mode: 2,
+    switched: true,
+    reason: '',
+    error_m: 0,
+    threshold_m: 0.1,
+    controller: 'attractor',
+    phase: 'transporting',
+    tool_m: [0, 0],
+    bead_m: [0, 0],
+    bead_tracked_m: [0, 0],
+    goal_m: null,
+    target_m: null,
+    refusal: null,
+    overlay: {
+      tick: 0,
+      obstacles: [],
+      center_mean: 255,
+      patch: { x_min_m: 0, x_max_m: 0, y_min_m: 0, y_max_m: 0 },
+      obstacle: false,
+      target_m: null,
+      picture_from_table: [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+      ],
+      blocks: { origin_m: [0, 0], pixel_m: 0.001, dark: [], free: [], rectangles: [] },
+      plan: null,
+      judgement: null,
+    },
+    ...change,
   };
 }

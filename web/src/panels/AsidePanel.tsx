@@ -1,10 +1,27 @@
 // Beside the workspace: what happened, or a lesson.
 
-import type { JSX } from 'solid-js';
+import { Suspense, lazy, type JSX } from 'solid-js';
 import { LogPanel } from './LogPanel';
 import { Tabs, type Tab, type TabProps } from './Tabs';
 
-const TABS: readonly [Tab, ...Tab[]] = [{ id: 'events', title: 'Events', panel: LogPanel }];
+// Loaded when somebody wants to learn.
+const LazyLessons = lazy(async () => {
+  const { LessonsPanel } = await import('../lessons/LessonsPanel');
+  return { default: LessonsPanel };
+});
+
+function Lessons(props: TabProps): JSX.Element {
+  return (
+    <Suspense fallback={<p class="placeholder">Loading…</p>}>
+      <LazyLessons lab={props.lab} />
+    </Suspense>
+  );
+}
+
+const TABS: readonly [Tab, ...Tab[]] = [
+  { id: 'events', title: 'Events', panel: LogPanel },
+  { id: 'lessons', title: 'Lessons', panel: Lessons },
+];
 
 export function AsidePanel(props: TabProps): JSX.Element {
   return (

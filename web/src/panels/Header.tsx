@@ -82,7 +82,10 @@ export function Header(props: HeaderProps): JSX.Element {
   const { lab } = props;
   return (
     <header class="bar top">
-      <h1>Ferry</h1>
+      <div class="brand">
+        <h1>Ferry</h1>
+        <p class="safety">Simulation, not safety-rated</p>
+      </div>
       <nav class="views" aria-label="Views">
         <For each={VIEWS}>
           {([id, title]) => (
@@ -143,10 +146,9 @@ export function Header(props: HeaderProps): JSX.Element {
         <Counter label="disturbed" testid="disturbances" value={lab.state()?.disturbances} />
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
       </dl>
-      <span class="safety">Simulation, not safety-rated</span>
       <button
         type="button"
-        class="small"
+        class="small theme"
         aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
         onClick={() => {
           props.onTheme();

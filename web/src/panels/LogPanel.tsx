@@ -3,9 +3,14 @@
 import { For, Show, createEffect, type JSX } from 'solid-js';
 import { clock } from '../format';
 import type { Lab } from '../lab';
+import type { LogLine } from '../model';
+import { eventTitle } from '../why';
 
 /** Nearer than this to the end counts as reading along. */
 const FOLLOW_PX = 24;
+
+const when = (line: LogLine): string =>
+  line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
 
 export function LogPanel(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
@@ -34,7 +39,21 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
         {(line) => (
           <p class="log-line" data-kind={line.kind}>
             <span class="when number">
-              {line.sim_time_s === undefined ? '' : clock(line.sim_time_s)}
+              <Show when={line.event} fallback={when(line)}>
+                {(event) => (
+                  <button
+                    type="button"
+                    class="link-like"
+                    aria-label={`Why: ${eventTitle(event())}`}
+                    title="Why?"
+                    onClick={() => {
+                      lab.inspect(event());
+                    }}
+                  >
+                    {when(line)}
+                  </button>
+                )}
+              </Show>
             </span>
             <span class="what">
               {line.text}

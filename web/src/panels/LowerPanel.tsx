@@ -1,6 +1,7 @@
-// Below the workspace: the plots against time, or what the magnet can do.
+// Below the workspace: the plots against time, what the magnet can do, or how controllers compare.
 
 import type { JSX } from 'solid-js';
+import { ComparePanel } from './ComparePanel';
 import { MagnetPanel } from './MagnetPanel';
 import { PlotsPanel } from './PlotsPanel';
 import { Tabs, type Tab, type TabProps } from './Tabs';
@@ -8,6 +9,7 @@ import { Tabs, type Tab, type TabProps } from './Tabs';
 const TABS: readonly [Tab, ...Tab[]] = [
   { id: 'plots', title: 'Plots', panel: PlotsPanel },
   { id: 'magnet', title: 'Magnet', panel: MagnetPanel },
+  { id: 'compare', title: 'Compare', panel: ComparePanel },
 ];
 
 export function LowerPanel(props: TabProps): JSX.Element {

@@ -1,6 +1,6 @@
 // Panels that share a place: tabs to choose one, arrow keys to go along them.
 
-import { For, createSignal, type Component, type JSX } from 'solid-js';
+import { For, createEffect, createSignal, type Component, type JSX } from 'solid-js';
 import { Dynamic } from 'solid-js/web';
 import type { Lab } from '../lab';
 import type { Theme } from '../theme';
@@ -25,6 +25,11 @@ export function Tabs(
   const [index, setIndex] = createSignal(0);
   const tab = () => props.tabs[index()] ?? props.tabs[0];
   const buttons: HTMLButtonElement[] = [];
+  createEffect(() => {
+    const asked = props.lab.opened()?.tab;
+    const found = props.tabs.findIndex(({ id }) => id === asked);
+    if (found >= 0) setIndex(found);
+  });
   const onKey = (event: KeyboardEvent): void => {
     const move = MOVES[event.key];
     if (move === undefined) return;

@@ -1,23 +1,14 @@
 // The ticks that can be gone back to, with what happened on the way.
 
-import { For, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { clock } from '../format';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
-import type { EventKind } from '../protocol.gen';
+import { EventMarks } from './EventMarks';
 
 const MAX_REWINDS_PER_S = 15;
 /** How long the slider stays where it was let go, until the server's answer is here. */
 const SETTLE_MS = 300;
-const MARKED: ReadonlySet<EventKind> = new Set<EventKind>([
-  'switch',
-  'disturbance',
-  'goal',
-  'reached',
-  'delivered',
-  'lift_off',
-  'stopped',
-]);
 
 export function Timeline(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
@@ -33,13 +24,6 @@ export function Timeline(props: { lab: Lab }): JSX.Element {
   const rewinds = new Limiter<number>(1000 / MAX_REWINDS_PER_S, (to) => {
     lab.send({ type: 'rewind', tick: to });
   });
-  const marks = createMemo(() =>
-    lab.marks().filter((mark) => MARKED.has(mark.kind) && mark.tick >= oldest()),
-  );
-  const position = (at: number): string => {
-    const span = Math.max(1, newest() - oldest());
-    return `${(100 * Math.min(span, at - oldest())) / span}%`;
-  };
   let slider!: HTMLInputElement;
   createEffect(() => {
     // In this order: a value outside the old ends would be clamped to them.
@@ -53,19 +37,7 @@ export function Timeline(props: { lab: Lab }): JSX.Element {
     <div class="timeline">
       <span class="end number">{seconds(oldest())}</span>
       <div class="track">
-        <svg class="marks" aria-hidden="true">
-          <For each={marks()}>
-            {(mark) => (
-              <line
-                data-kind={mark.kind}
-                x1={position(mark.tick)}
-                x2={position(mark.tick)}
-                y1="0"
-                y2="100%"
-              />
-            )}
-          </For>
-        </svg>
+        <EventMarks lab={lab} oldest={oldest()} newest={newest()} />
         <input
           ref={slider}
           type="range"

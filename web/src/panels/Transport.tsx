@@ -3,9 +3,14 @@
 import { Show, createEffect, createMemo, on, onCleanup, onMount, type JSX } from 'solid-js';
 import { clock, fixed, speed } from '../format';
 import type { Lab } from '../lab';
+import type { Links } from '../links';
+import { LinkBar } from './LinkBar';
 import { NoticeBar } from './NoticeBar';
+import { PresetSelect } from './PresetSelect';
+import { ShareButton } from './ShareButton';
 import { Timeline } from './Timeline';
 import { TruthSelect } from './TruthSelect';
+import { WhyCard } from './WhyCard';
 
 const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4, 8, 64];
 const FASTEST = 64;
@@ -117,8 +122,8 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
   );
 }
 
-export function Transport(props: { lab: Lab }): JSX.Element {
-  const { lab } = props;
+export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
+  const { lab, links } = props;
   const speeds = createMemo(() => {
     const target = lab.state()?.speed_target ?? 1;
     const all = SPEEDS.includes(target) ? SPEEDS : [...SPEEDS, target].sort((a, b) => a - b);
@@ -142,6 +147,7 @@ export function Transport(props: { lab: Lab }): JSX.Element {
   };
   return (
     <footer class="bar transport" role="region" aria-label="Transport">
+      <LinkBar lab={lab} links={links} />
       <div class="transport-row">
         <RunButtons lab={lab} />
         <TruthSelect
@@ -170,7 +176,9 @@ export function Transport(props: { lab: Lab }): JSX.Element {
                 disabled={!lab.canOperate()}
                 onChoose={loadMap}
               />
+              <PresetSelect lab={lab} links={links} />
               <Seed lab={lab} seed={scene().seed} />
+              <ShareButton links={links} />
             </>
           )}
         </Show>
@@ -184,6 +192,7 @@ export function Transport(props: { lab: Lab }): JSX.Element {
         </div>
       </div>
       <Timeline lab={lab} />
+      <WhyCard lab={lab} />
       <NoticeBar lab={lab} place="transport" />
     </footer>
   );

@@ -4,6 +4,8 @@ import { For, createEffect, createUniqueId, on, type JSX } from 'solid-js';
 
 export function TruthSelect(props: {
   label: string;
+  /** Whether the first option says enough for those who see it. */
+  hideLabel?: boolean;
   value: string;
   options: readonly (readonly [value: string, label: string])[];
   refusals: number;
@@ -19,11 +21,14 @@ export function TruthSelect(props: {
   );
   return (
     <div class="field">
-      <label for={id}>{props.label}</label>
+      <label for={id} classList={{ 'visually-hidden': props.hideLabel ?? false }}>
+        {props.label}
+      </label>
       <select
         ref={select}
         id={id}
         disabled={props.disabled}
+        title={props.options.find(([value]) => value === props.value)?.[1]}
         onChange={(event) => {
           props.onChoose(event.currentTarget.value);
         }}

@@ -1,6 +1,7 @@
 // The layers, behind a button: more of them than fit beside the title.
 
-import { For, Show, createEffect, createSignal, onCleanup, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
+import { createPopover } from '../popover';
 import { LAYER_GROUPS, type Layer } from './layers';
 
 export function LayerMenu(props: {
@@ -11,42 +12,13 @@ export function LayerMenu(props: {
 }): JSX.Element {
   let menu!: HTMLDivElement;
   let button!: HTMLButtonElement;
-  const [open, setOpen] = createSignal(false);
-  const close = (): void => {
-    setOpen(false);
-  };
-
-  createEffect(() => {
-    if (!open()) return;
-    const onDown = (event: PointerEvent): void => {
-      if (menu.contains(event.target as Node)) return;
-      close();
-      // A click that is to close the menu is to place no goal. Buttons hear of the click all the same.
-      event.stopPropagation();
-    };
-    const onKey = (event: KeyboardEvent): void => {
-      if (event.key !== 'Escape') return;
-      // What has the focus is about to go.
-      if (menu.contains(document.activeElement)) button.focus();
-      close();
-    };
-    document.addEventListener('pointerdown', onDown, true);
-    document.addEventListener('keydown', onKey);
-    onCleanup(() => {
-      document.removeEventListener('pointerdown', onDown, true);
-      document.removeEventListener('keydown', onKey);
-    });
-  });
+  const { open, setOpen, onFocusOut } = createPopover(
+    () => menu,
+    () => button,
+  );
 
   return (
-    <div
-      ref={menu}
-      class="layer-menu"
-      onFocusOut={({ relatedTarget }) => {
-        // The keyboard went on; a click beside the boxes focuses nothing.
-        if (relatedTarget && !menu.contains(relatedTarget as Node)) close();
-      }}
-    >
+    <div ref={menu} class="layer-menu" onFocusOut={onFocusOut}>
       <button
         ref={button}
         type="button"

@@ -22,7 +22,6 @@ import { createHand } from './hand';
 import { workspaceQuery } from './heat';
 import { HeatLegend } from './HeatLegend';
 import { attachKeyboard } from './keyboard';
-import { storeLayers, storedLayers, type Layer } from './layers';
 import { paint } from './paint';
 import { createPalette } from '../palette';
 import { GRAB_MOUSE_PX, attachPointer, type Pointing } from './pointer';
@@ -46,7 +45,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const [cursor, setCursor] = createSignal<Vec2>();
   const [disturbing, setDisturbing] = createSignal(false);
   const [focused, setFocused] = createSignal(false);
-  const [layers, setLayers] = createSignal(storedLayers());
+  const { layers } = lab;
 
   const view = createMemo<View | undefined>(() => {
     const scene = lab.scene();
@@ -99,6 +98,13 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     return map && now ? createValues(map, palette(), now) : undefined;
   });
 
+  const ghosts = createMemo(() => {
+    const comparison = lab.ghosts.comparison();
+    return comparison && layers().has('ghosts')
+      ? { comparison, tick: lab.ghosts.tick() }
+      : undefined;
+  });
+
   const readout = createMemo(() => {
     const now = view();
     const scene = lab.scene();
@@ -146,6 +152,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       seen: seen(),
       plan: plan(),
       flow: flowLayer.flow(),
+      ghosts: ghosts(),
       history: lab.history,
       layers: layers(),
       drag: hand.drag(),
@@ -171,13 +178,6 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     canvas.dataset.goal = state.goal_m?.slice(0, 2).join(',') ?? '';
   });
 
-  const toggle = (layer: Layer, on: boolean): void => {
-    const next = new Set(layers());
-    if (on) next.add(layer);
-    else next.delete(layer);
-    setLayers(next);
-    storeLayers(next);
-  };
   const stale = (): string | undefined => {
     const ended = lab.ended();
     if (ended !== undefined) return `The session has ended: ${ended}`;
@@ -195,7 +195,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       <WorkspaceHead
         lab={lab}
         layers={layers()}
-        onLayer={toggle}
+        onLayer={(layer, on) => {
+          lab.showLayer(layer, on);
+        }}
         disturbId="disturb"
         disturbing={disturbing()}
         onDisturbing={setDisturbing}

@@ -6,6 +6,7 @@ export const LAYER_GROUPS = [
     layers: [
       ['trail', 'Trails'],
       ['capture', 'Capture'],
+      ['ghosts', 'Ghosts'],
     ],
   },
   {
@@ -34,7 +35,7 @@ export type Layer = (typeof LAYER_GROUPS)[number]['layers'][number][0];
 
 const LAYERS: readonly Layer[] = LAYER_GROUPS.flatMap(({ layers }) => layers.map(([id]) => id));
 /** Those that cover nothing. */
-const FIRST_LAYERS: readonly Layer[] = ['sensed', 'trail', 'camera', 'capture', 'plan'];
+const FIRST_LAYERS: readonly Layer[] = ['sensed', 'trail', 'camera', 'capture', 'ghosts', 'plan'];
 const KEY = 'ferry.layers';
 
 /** What was stored, less the layers that are none any more; the first ones when there is no choice in it. */

@@ -3,9 +3,15 @@
 import type { DragState } from '../drag';
 import type { History } from '../history';
 import type { Palette } from '../palette';
-import type { OverlayMessage, SceneMessage, StateMessage } from '../protocol.gen';
+import type {
+  ComparisonMessage,
+  OverlayMessage,
+  SceneMessage,
+  StateMessage,
+} from '../protocol.gen';
 import { clampToRect, pxFromWorld, worldFromPx, type Vec2, type View } from '../transform';
 import { drawFlow, type Flow } from './drawFlow';
+import { drawGhosts } from './drawGhosts';
 import { drawCursor, drawSpring } from './drawHand';
 import { drawHeat, type Heat } from './drawHeat';
 import { drawFloor, drawMap } from './drawMap';
@@ -42,6 +48,8 @@ export interface Picture {
   readonly plan: Plan | undefined;
   /** The attractor's flow, when it is shown. */
   readonly flow: Flow | undefined;
+  /** A fork, and the tick at which its branches are shown. */
+  readonly ghosts: { readonly comparison: ComparisonMessage; readonly tick: number } | undefined;
   readonly history: History;
   readonly layers: ReadonlySet<Layer>;
   readonly drag: DragState;
@@ -111,6 +119,9 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
   }
   ctx.restore();
   if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
+  if (picture.ghosts) {
+    drawGhosts(ctx, view, palette, picture.ghosts.comparison, picture.ghosts.tick);
+  }
   drawTool(ctx, view, palette, tool);
   drawBead(ctx, view, palette, scene, state, picture.grabRadiusPx);
   paintSpring(ctx, picture, state, widthPx);

@@ -1,0 +1,118 @@
+// Going back: why a switch came, and what other controllers would have done from a moment on.
+
+import { check, until } from './harness.mjs';
+import { distance } from './lab.mjs';
+
+/** A carry with the bead taken away in the middle of it, delivered in the end. */
+async function disturbedCarry(lab) {
+  await lab.reset({ speed: '4' });
+  const [goal] = lab.freePoints(await lab.point('bead'), 0.3, 0.5);
+  await lab.click(goal);
+  await lab.run();
+  await until('transport', () => lab.state.leg_steps > 4);
+  await lab.button('Pause').click();
+  await until('pause', () => !lab.state.running);
+  // While time stands a drag puts the bead down: nothing depends on how fast this machine is.
+  const bead = await lab.point('bead');
+  const [away] = lab.freePoints(bead, 0.15, 0.25);
+  const { mouse } = lab.page;
+  await mouse.move(...(await lab.px(bead)));
+  await mouse.down();
+  await mouse.move(...(await lab.px(away)), { steps: 6 });
+  await mouse.up();
+  await until('the bead away', async () => distance(await lab.point('bead'), away) < 0.01);
+  await lab.run();
+  await lab.delivered(1);
+  await lab.button('Pause').click();
+}
+
+/** Opens an event in time by what it tells, through the others when it shares their button. */
+async function openEvent(lab, kind) {
+  const bar = lab.page.getByRole('toolbar', { name: 'Events in time' });
+  await bar.getByRole('button').first().click();
+  const card = lab.page.getByRole('dialog');
+  const told = () => card.locator('h2, .why-sentence').allInnerTexts();
+  for (;;) {
+    const now = await told();
+    if (now[0].startsWith(kind)) return card;
+    await card.getByRole('button', { name: 'Next event' }).click();
+    await until('the next event', async () => (await told()).join() !== now.join());
+  }
+}
+
+export async function tellsWhy({ lab }) {
+  await disturbedCarry(lab);
+  const card = await openEvent(lab, 'Switch');
+  const told = await until('the story', async () => {
+    const text = await card.innerText();
+    return text.includes('over the limit') && text;
+  });
+  check(
+    /Sub-controller 1 takes over: bead lost: \d+ mm away, more than T = 100 mm\./.test(told),
+    told,
+  );
+  check(told.includes('Sub-controller 1 flies after it'), told);
+  const picture = card.getByRole('img', { name: /What the camera saw/ });
+  await until('the picture', () => picture.evaluate((image) => image.naturalWidth === 480));
+  await lab.screenshot('why');
+  const before = lab.state.tick;
+  await card.getByRole('button', { name: 'Go there' }).click();
+  await until('back in time', () => lab.state.tick < before);
+  await until('the second sub-controller before', () => lab.state.mode === 2);
+  await lab.page.keyboard.press('Escape');
+  await card.waitFor({ state: 'detached' });
+  const focused = await lab.page.evaluate(() => document.activeElement.className);
+  check(focused === 'mark', `the focus went to ${focused}`);
+}
+
+export async function comparesControllers({ lab }) {
+  const { newest_tick: newest, world_hash: hash } = lab.state;
+  const card = await openEvent(lab, 'Disturbance');
+  await card.getByRole('button', { name: 'Compare controllers from here' }).click();
+  const panel = lab.page.getByRole('tabpanel').filter({ has: lab.page.getByText('Play ghosts') });
+  const rows = panel.getByRole('row');
+  await until(
+    'three results',
+    async () => {
+      const outcomes = await rows.evaluateAll((all) =>
+        all.slice(1).map((row) => row.cells[1].innerText),
+      );
+      return outcomes.length === 3 && outcomes.every((text) => /^(delivered|stopped)/.test(text));
+    },
+    60_000,
+  );
+  const names = await rows.evaluateAll((all) => all.slice(1).map((row) => row.cells[0].innerText));
+  check(/^RL,ERRT,Attractor\s*in use$/.test(names.join(',')), `rows: ${names}`);
+  check(lab.state.world_hash === hash, 'the session moved');
+  check(lab.state.newest_tick === newest, 'the future was lost');
+
+  const time = lab.page.getByLabel('Time of the ghosts', { exact: true });
+  const end = Number(await time.inputValue());
+  check(end === Number(await time.getAttribute('max')), 'the ghosts do not stand at their end');
+  await lab.screenshot('compare');
+  const drawn = () => lab.canvas.evaluate((canvas) => canvas.toDataURL());
+  const atEnd = await drawn();
+  await lab.button('Play ghosts').click();
+  await until('ghosts on their way', async () => Number(await time.inputValue()) < end - 50);
+  await lab.button('Pause ghosts').click();
+  check((await drawn()) !== atEnd, 'the ghosts do not move');
+  await time.focus();
+  const [before] = [Number(await time.inputValue())];
+  await lab.page.keyboard.press('ArrowRight');
+  check(Number(await time.inputValue()) > before, 'the key does not move the ghosts');
+  await lab.button('Clear ghosts').click();
+  check((await panel.count()) === 0, 'the ghosts are still there');
+
+  // One controller alone, from the moment shown.
+  await lab.page.getByLabel('Compare RL', { exact: true }).uncheck();
+  await lab.page.getByLabel('Compare ERRT', { exact: true }).uncheck();
+  await lab.button('Compare from here').click();
+  await until('one result', async () => (await rows.count()) === 2, 60_000);
+  await lab.button('Clear ghosts').click();
+
+  // Without a goal there is nothing to compare, and that is said here.
+  await lab.reset();
+  await lab.button('Compare from here').click();
+  await lab.notice('compare').waitFor({ timeout: 5000 });
+  await lab.page.getByRole('tab', { name: 'Plots' }).click();
+}

@@ -1,0 +1,17 @@
+// All lessons, in the order in which they build on each other.
+
+import { ATTRACTOR, ERRT, POLICY } from './carryingLessons';
+import type { Lesson } from './lesson';
+import { LIFT_OFF, MEET_THE_MAGNET } from './magnetLessons';
+import { LOSE_THE_BEAD, THRESHOLD, TWO_LAWS } from './switchingLessons';
+
+export const LESSONS: readonly Lesson[] = [
+  MEET_THE_MAGNET,
+  LOSE_THE_BEAD,
+  THRESHOLD,
+  TWO_LAWS,
+  ATTRACTOR,
+  ERRT,
+  POLICY,
+  LIFT_OFF,
+];

@@ -1,0 +1,78 @@
+// The events on the timeline, each a button that opens its story.
+
+import { Index, Show, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
+import type { Lab } from '../lab';
+import { clusters } from '../marks';
+import type { EventMessage } from '../protocol.gen';
+
+const GAP_PX = 24;
+/** How far a key moves along the marks. */
+const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
+
+export function EventMarks(props: { lab: Lab; oldest: number; newest: number }): JSX.Element {
+  const { lab } = props;
+  let bar!: HTMLDivElement;
+  const [width_px, setWidth] = createSignal(0);
+  onMount(() => {
+    const observer = new ResizeObserver(() => {
+      setWidth(bar.clientWidth);
+    });
+    observer.observe(bar);
+    onCleanup(() => {
+      observer.disconnect();
+    });
+  });
+  const found = createMemo(() => {
+    const span = Math.max(1, props.newest - props.oldest);
+    const px = (tick: number): number => (width_px() * Math.min(span, tick - props.oldest)) / span;
+    const held = lab.marks().filter((mark) => mark.tick >= props.oldest);
+    return width_px() > 0 ? clusters(held, px, GAP_PX) : [];
+  });
+  const [current, setCurrent] = createSignal<EventMessage>();
+  // One of them is reached by Tab: the last one chosen, else the newest.
+  const reached = createMemo(() => {
+    const chosen = current();
+    const index = found().findIndex(({ events }) => chosen && events.includes(chosen));
+    return index >= 0 ? index : found().length - 1;
+  });
+  const onKey = (event: KeyboardEvent): void => {
+    const move = MOVES[event.key];
+    if (move === undefined || found().length === 0) return;
+    event.preventDefault();
+    const index = Math.min(found().length - 1, Math.max(0, reached() + move));
+    setCurrent(found()[index]?.first);
+    bar.querySelectorAll('button')[index]?.focus();
+  };
+  const isOpen = (events: readonly EventMessage[]): boolean => {
+    const open = lab.inspected();
+    return open !== undefined && events.includes(open);
+  };
+  return (
+    <div ref={bar} class="event-marks" role="toolbar" aria-label="Events in time" onKeyDown={onKey}>
+      {/* By place and not by value: while time runs, every mark moves with each frame. */}
+      <Index each={found()}>
+        {(cluster, index) => (
+          <button
+            type="button"
+            class="mark"
+            data-kind={cluster().first.kind}
+            style={{ left: `${cluster().px}px` }}
+            tabindex={reached() === index ? 0 : -1}
+            aria-label={cluster().name}
+            title={`${cluster().name}. Why?`}
+            aria-pressed={isOpen(cluster().events)}
+            onClick={() => {
+              setCurrent(cluster().first);
+              lab.inspect(cluster().first);
+            }}
+          >
+            {cluster().symbol}
+            <Show when={cluster().events.length > 1}>
+              <sub>{cluster().events.length}</sub>
+            </Show>
+          </button>
+        )}
+      </Index>
+    </div>
+  );
+}
