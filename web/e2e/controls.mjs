@@ -3,43 +3,8 @@
 
 import { until } from './harness.mjs';
 import { PARAMETERS, RESTORE } from './parameters.mjs';
-
-/** A free place near the bead, another one each time. */
-function nearby(lab) {
-  const points = lab.freePoints(lab.state.bead_m.slice(0, 2), 0.05, 0.2);
-  const taken = lab.state.goal_m;
-  return points.find(([x, y]) => !taken || Math.hypot(x - taken[0], y - taken[1]) > 0.03);
-}
-
-export async function pause(lab) {
-  if (!lab.state.running) return;
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
-}
-
-async function run(lab) {
-  if (lab.state.running) return;
-  await lab.run();
-  await until('running', () => lab.state.running);
-}
-
-async function withGoal(lab) {
-  if (lab.state.goal_m) return;
-  await lab.click(nearby(lab));
-  await until('a goal', () => lab.state.goal_m);
-}
-
-async function withoutGoal(lab) {
-  if (!lab.state.goal_m) return;
-  await lab.button('Clear goal').click();
-  await until('no goal', () => !lab.state.goal_m);
-}
-
-async function withHistory(lab) {
-  await run(lab);
-  await until('a history', () => lab.state.newest_tick - lab.state.oldest_tick > 100);
-  await pause(lab);
-}
+import { nearby, open, pause, run, withGoal, withHistory, withoutGoal } from './moments.mjs';
+import { PAST } from './controlsPast.mjs';
 
 const expanded = (_lab, locator) => locator.getAttribute('aria-expanded');
 const isSelected = (_lab, locator) => locator.getAttribute('aria-selected');
@@ -66,6 +31,14 @@ const controller = (wish) => ({
   after: (lab) => until(wish, () => lab.state.controller === wish),
 });
 
+/** Whatever was loaded. */
+const asBefore = async (lab, hand) => {
+  await lab.page.getByLabel('Map', { exact: true }).selectOption('posts');
+  await until('posts', () => lab.scene.map === 'posts');
+  await choose('Attractor')(lab);
+  await hand.press(lab.button('Restore defaults'));
+};
+
 /** Fields that go out with their button. */
 const amount = (button) => ({
   see: disturbance,
@@ -76,6 +49,10 @@ const amount = (button) => ({
   },
 });
 
+const choose = (name) => async (lab) => {
+  await lab.page.getByRole('radio', { name, exact: true }).check();
+  await until(name, () => lab.state.controller === name.toLowerCase());
+};
 const LABORATORY = {
   'button Laboratory': { see: view, ready: goTo('Recordings') },
   'button Recordings': { see: view, after: goTo('Laboratory') },
@@ -141,11 +118,15 @@ const LABORATORY = {
   'button New seed': { see: (lab) => lab.scene.seed },
 
   'tab Events': { see: isSelected },
+  'tab Lessons': { see: isSelected },
+  'tab Compare': { see: isSelected },
   'tab Magnet': { see: isSelected },
   'tab Plots': { see: isSelected },
 
   'button Restore defaults': RESTORE,
 
+  'combobox Preset': { see: trial, after: asBefore },
+  'button Share': toggle(expanded),
   'button Layers': toggle(expanded),
   'button Disturb': toggle(expanded),
 };
@@ -154,6 +135,7 @@ const LAYERS = Object.fromEntries(
   [
     'Trails',
     'Capture',
+    'Ghosts',
     'Camera field',
     'Sensed',
     'Seen so far',
@@ -186,15 +168,6 @@ const DISTURB = {
 
 const magnetFact = (lab) => lab.page.locator('.magnet-words .facts').innerText();
 
-const choose = (name) => async (lab) => {
-  await lab.page.getByRole('radio', { name, exact: true }).check();
-  await until(name, () => lab.state.controller === name.toLowerCase());
-};
-const press = (name) => async (lab) => {
-  const button = lab.button(name);
-  if ((await button.getAttribute('aria-expanded')) === 'false') await button.click();
-};
-
 /** What to open before the rows can be gone through. */
 export const SECTIONS = [
   { rows: LABORATORY },
@@ -206,11 +179,11 @@ export const SECTIONS = [
       await lab.layer('Trails', false);
       await lab.layer('Trails');
     },
-    rowReady: press('Layers'),
+    rowReady: open('Layers'),
     rows: LAYERS,
     after: (lab) => lab.page.keyboard.press('Escape'),
   },
-  { ready: press('Disturb'), rows: DISTURB, after: (lab) => lab.button('Disturb').click() },
+  { ready: open('Disturb'), rows: DISTURB, after: (lab) => lab.button('Disturb').click() },
   {
     ready: (lab) => lab.page.getByRole('tab', { name: 'Magnet' }).click(),
     rows: { 'radio x': { see: magnetFact }, 'radio y': { see: magnetFact } },
@@ -222,6 +195,7 @@ export const SECTIONS = [
       'radio Attractor': controller('attractor'),
     },
   },
+  ...PAST,
   ...PARAMETERS.map(({ group, controller: name, rows }) => ({
     ready: async (lab) => {
       if (name) await choose(name)(lab);

@@ -6,6 +6,11 @@ import { setOf } from './hands.mjs';
 
 const EFFECT_MS = 6000;
 
+/** A name may be a pattern between slashes, for those that tell what happened. */
+function patternOf(name) {
+  return name.startsWith('/') ? new RegExp(name.slice(1, -1)) : undefined;
+}
+
 function locate(page, key) {
   const [role, ...words] = key.split(' ');
   const name = words.join(' ');
@@ -15,6 +20,8 @@ function locate(page, key) {
       .locator('summary')
       .filter({ hasText: new RegExp(`^${name}( \\d+ changed|\\d+ changed)?$`) });
   }
+  const pattern = patternOf(name);
+  if (pattern) return page.getByRole(role, { name: pattern }).first();
   return page.getByRole(role, { name, exact: true });
 }
 
@@ -32,6 +39,7 @@ async function nextNumber(locator) {
 /** What one does with a control of such a role, unless its row says otherwise. */
 const ACTS = {
   button: (hand, locator) => hand.press(locator),
+  textbox: (hand, locator) => hand.press(locator),
   link: (hand, locator) => hand.press(locator),
   summary: (hand, locator) => hand.press(locator),
   checkbox: (hand, locator) => hand.press(locator),
@@ -99,5 +107,14 @@ export async function workAll(hand) {
   return faults;
 }
 
-/** The keys of all rows. */
-export const KNOWN = new Set(SECTIONS.flatMap(({ rows }) => Object.keys(rows)));
+const ROWS = SECTIONS.flatMap(({ rows }) => Object.keys(rows)).map((key) => {
+  const [role, ...words] = key.split(' ');
+  return { key, role, pattern: patternOf(words.join(' ')) };
+});
+
+/** Whether some row is about this control. */
+export function isKnown({ key, role, name }) {
+  return ROWS.some((row) =>
+    row.pattern ? row.role === role && row.pattern.test(name) : row.key === key,
+  );
+}

@@ -142,7 +142,16 @@ export class Keys extends Hand {
     const chosen = (one) =>
       one.evaluate((it) => it.checked || it.getAttribute('aria-selected') === 'true');
     const all = await setOf(locator).getByRole(role).all();
-    for (const one of all) if (await chosen(one)) await one.focus();
+    let isAny = false;
+    for (const one of all) {
+      if (!(await chosen(one))) continue;
+      await one.focus();
+      isAny = true;
+    }
+    if (!isAny) {
+      await locator.focus();
+      await this.page.keyboard.press(' ');
+    }
     for (let pressed = 0; pressed < all.length && !(await chosen(locator)); pressed++) {
       await this.page.keyboard.press('ArrowRight');
     }

@@ -54,6 +54,15 @@ function measure(index) {
   };
 }
 
+/** None for what went meanwhile, a notice or a mark. */
+async function resolve(cdp, { backendDOMNodeId: backendNodeId }) {
+  try {
+    return (await cdp.send('DOM.resolveNode', { backendNodeId })).object;
+  } catch {
+    return undefined;
+  }
+}
+
 /** All controls on the page now; each element gets its index as `ferryIndex`. */
 export async function controls(page) {
   const cdp = await page.context().newCDPSession(page);
@@ -69,14 +78,14 @@ export async function controls(page) {
     const chromium = node.role?.value;
     const role = NAMES[chromium] ?? chromium;
     if (node.ignored || !(ROLES.has(chromium) || NAMES[chromium])) continue;
-    const { object } = await cdp.send('DOM.resolveNode', { backendNodeId: node.backendDOMNodeId });
+    const object = await resolve(cdp, node);
+    if (!object) continue;
     const { result } = await cdp.send('Runtime.callFunctionOn', {
       objectId: object.objectId,
       functionDeclaration: measure.toString(),
       arguments: [{ value: found.length }],
       returnByValue: true,
     });
-    // A notice goes by itself, meanwhile.
     if (result.value.isGone) continue;
     const name = node.name?.value.trim() ?? '';
     const group = groupOf(node);
@@ -114,10 +123,10 @@ export function faultsOf(all, leastPx) {
 }
 
 /**
- * Which of `wanted`, from what `controls` found just now, Tab does not get to from `opener` on.
+ * Which of `wanted`, some of `all` that `controls` found just now, Tab does not get to from `opener` on.
  * What is disabled need not be reached.
  */
-export async function unreached(page, wanted, opener) {
+export async function unreached(page, all, wanted, opener) {
   const missing = new Map();
   for (const one of wanted) if (!one.isDisabled) missing.set(one.set || one.key, one);
   if (missing.size === 0) return [];
@@ -131,14 +140,14 @@ export async function unreached(page, wanted, opener) {
       ) ?? true;
   });
   if (opener) await opener.focus();
-  const all = await page.evaluate(
+  const stops = await page.evaluate(
     () => document.querySelectorAll('button, input, select, summary, a, [tabindex]').length,
   );
   const ROUND = 16;
-  for (let pressed = 0; pressed < 1.2 * all + ROUND && missing.size > 0; pressed += ROUND) {
+  for (let pressed = 0; pressed < 1.2 * stops + ROUND && missing.size > 0; pressed += ROUND) {
     for (let i = 0; i < ROUND; i++) await page.keyboard.press('Tab');
     const focused = new Set(await page.evaluate(() => [...window.ferryFocused]));
-    for (const one of wanted) if (focused.has(one.index)) missing.delete(one.set || one.key);
+    for (const one of all) if (focused.has(one.index)) missing.delete(one.set || one.key);
   }
   return [...missing.values()].map((one) => `Tab does not get to ${one.key}`);
 }

@@ -1,7 +1,7 @@
 // Every place of the page looked at, and every control of it worked, by each hand.
 
 import { violations } from './axe.mjs';
-import { KNOWN, workAll } from './drive.mjs';
+import { isKnown, workAll } from './drive.mjs';
 import { Keys, Mouse, Touch } from './hands.mjs';
 import { check, until } from './harness.mjs';
 import { controls, faultsOf, unreached } from './inventory.mjs';
@@ -61,11 +61,11 @@ async function looksAt(context, options) {
       const all = await controls(lab.page);
       for (const fault of faultsOf(all, leastPx)) faults.add(fault);
       const fresh = all.filter(({ key }) => !known.has(key));
-      for (const { key } of fresh) {
-        known.add(key);
-        if (!KNOWN.has(key)) faults.add(`controls.mjs does not know “${key}” of ${place.name}`);
+      for (const one of fresh) {
+        known.add(one.key);
+        if (!isKnown(one)) faults.add(`no row of controls.mjs knows “${one.key}” of ${place.name}`);
       }
-      for (const fault of await unreached(lab.page, fresh, place.opener)) faults.add(fault);
+      for (const fault of await unreached(lab.page, all, fresh, place.opener)) faults.add(fault);
     }
   });
   tell(faults);
