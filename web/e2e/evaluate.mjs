@@ -187,7 +187,7 @@ export async function setsAFailureUpAgain({ lab }) {
   await until('a new one', async () => (await lab.text('evaluation-progress')).includes('of 4 '));
   await until('the end', async () => (await stage(lab)) === 'done', RUN_MS);
   const { failures, cells } = await shownReport(lab);
-  const again = page.getByRole('button', { name: /^Set up episode/ });
+  const again = page.getByRole('button', { name: /^Set it up: episode/ });
   await until('its failures', async () => (await again.count()) === failures.length);
   check(failures.length > 0, 'the attractor carries through the colon');
   await lab.screenshot('evaluate-failures');

@@ -133,7 +133,8 @@ export class Lab {
   /** Shows a layer or hides it, and leaves the menu closed: it covers some of the map. */
   async layer(name, on = true) {
     await this.button('Layers').click();
-    await this.page.getByLabel(name, { exact: true }).setChecked(on);
+    const layers = this.page.getByRole('group', { name: 'Layers' });
+    await layers.getByLabel(name, { exact: true }).setChecked(on);
     await this.page.keyboard.press('Escape');
     await this.page.getByRole('group', { name: 'Layers' }).waitFor({ state: 'detached' });
   }

@@ -78,7 +78,7 @@ export function pageShortcuts(
       group: 'Page',
       keys: ['g'],
       does: 'to the workspace, to place a goal',
-      run: () => document.querySelector<HTMLElement>('.workspace-canvas')?.focus(),
+      run: () => document.querySelector<HTMLElement>('.stage-canvas')?.focus(),
     },
     { group: 'Page', keys: ['?'], does: 'this help', run: help },
     ...WORKSPACE,

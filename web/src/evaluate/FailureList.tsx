@@ -40,7 +40,7 @@ function FailureRow(props: {
           type="button"
           class="small"
           disabled={!lab.canOperate()}
-          aria-label={`Set up episode ${props.failure.index} of ${label()}`}
+          aria-label={`Set it up: episode ${props.failure.index} of ${label()}`}
           title="Loads this episode into the live session"
           onClick={setUp}
         >

@@ -126,7 +126,7 @@ export function PlaceFields(props: {
             props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
             button.focus();
           });
-          document.querySelector<HTMLElement>('.workspace-canvas')?.focus();
+          document.querySelector<HTMLElement>('.stage-canvas')?.focus();
         }}
       >
         Pick

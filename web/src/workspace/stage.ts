@@ -1,6 +1,6 @@
 // What is done on the workspace, whichever view shows it: the hand, the pointer, the keyboard's cursor.
 
-import { createEffect, createMemo, createSignal, type Accessor, type Setter } from 'solid-js';
+import { createEffect, createMemo, createSignal, on, type Accessor, type Setter } from 'solid-js';
 import type { Lab } from '../lab';
 import type { TableView, Vec2 } from '../transform';
 import { createHand, type Hand } from './hand';
@@ -47,10 +47,12 @@ export function createStage(lab: Lab): Stage {
       : undefined;
   });
 
-  createEffect(() => {
-    // A lost socket has let go of the bead on the server; a lost role may not hold it.
-    if (!lab.canOperate()) hand.dispatch({ type: 'cancel' });
-  });
+  createEffect(
+    on(lab.canOperate, (can) => {
+      // A lost socket has let go of the bead on the server; a lost role may not hold it.
+      if (!can) hand.dispatch({ type: 'cancel' });
+    }),
+  );
 
   return {
     view,
