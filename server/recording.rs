@@ -73,8 +73,12 @@ impl Recorder {
         let path = folder.join(format!("{id}.rrd"));
         let stream = rerun::RecordingStreamBuilder::new("ferry")
             .recording_id(id)
-            .recording_name(id)
             .save(&path)
+            .and_then(|stream| {
+                // Without a name the viewer calls it unknown; the builder's own is lost on the way to a file.
+                stream.send_recording_name(id)?;
+                Ok(stream)
+            })
             .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
         let (queue, inbox) = sync_channel(QUEUE);
         let stopped = Arc::new(OnceLock::new());

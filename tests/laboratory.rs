@@ -74,23 +74,6 @@ impl Laboratory {
         .unwrap()
     }
 
-    /// The whole answer, however long, as it came.
-    pub async fn fetch(&self, method: &str, path: &str, headers: &[(&str, &str)]) -> ureq::http::Response<Vec<u8>> {
-        let mut request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", self.address));
-        for (name, value) in headers {
-            request = request.header(*name, *value);
-        }
-        let request = request.body(()).unwrap();
-        tokio::task::spawn_blocking(move || {
-            let agent = ureq::Agent::config_builder().http_status_as_error(false).build().new_agent();
-            let (parts, mut body) = agent.run(request).unwrap().into_parts();
-            let bytes = body.with_config().limit(u64::MAX).read_to_vec().unwrap();
-            ureq::http::Response::from_parts(parts, bytes)
-        })
-        .await
-        .unwrap()
-    }
-
     /// Stops the server as SIGTERM does, and waits.
     pub async fn close(self) -> tempfile::TempDir {
         self.stop.send(true).unwrap();

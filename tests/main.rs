@@ -1,5 +1,6 @@
 //! Tests of the whole, in one binary so that a small machine links once.
 
+mod answers;
 mod calculator;
 mod commands;
 mod determinism;

@@ -66,8 +66,8 @@ async fn the_list_says_what_is_being_written_and_what_is_not_ours() {
     let closed = &live(&lab).await[1];
     assert_eq!(closed["live"], false, "{closed}");
     let file = lab.fetch("GET", &format!("/api/recordings/{}.rrd", closed["id"].as_str().unwrap()), &[]).await;
-    assert_eq!(file.headers()["content-length"].to_str().unwrap(), closed["bytes"].to_string());
-    assert_eq!(file.body().len() as u64, closed["bytes"].as_u64().unwrap());
-    assert!(file.body().starts_with(b"RRF2"));
+    assert_eq!(file.header("content-length"), Some(closed["bytes"].to_string().as_str()));
+    assert_eq!(file.body.len() as u64, closed["bytes"].as_u64().unwrap());
+    assert!(file.body.starts_with(b"RRF2"));
     lab.close().await;
 }

@@ -2,17 +2,12 @@
 
 use std::io::Read;
 
-use ureq::http::{HeaderMap, Response};
-
+use crate::answers::Answer;
 use crate::laboratory::Laboratory;
 
-fn text<'a>(headers: &'a HeaderMap, name: &str) -> Option<&'a str> {
-    headers.get(name).map(|value| value.to_str().unwrap())
-}
-
-fn unpacked(response: &Response<Vec<u8>>) -> Vec<u8> {
+fn unpacked(answer: &Answer) -> Vec<u8> {
     let mut plain = Vec::new();
-    flate2::read::GzDecoder::new(&response.body()[..]).read_to_end(&mut plain).unwrap();
+    flate2::read::GzDecoder::new(&answer.body[..]).read_to_end(&mut plain).unwrap();
     plain
 }
 
@@ -25,26 +20,28 @@ async fn its_files_come_packed_or_plain_and_once() {
     ] {
         let path = format!("/rerun/{name}");
         let packed = lab.fetch("GET", &path, &[("accept-encoding", "gzip, br")]).await;
-        assert_eq!(packed.status(), 200);
-        let head = packed.headers();
-        assert_eq!((text(head, "content-encoding"), text(head, "content-type")), (Some("gzip"), Some(kind)));
-        assert_eq!((text(head, "vary"), text(head, "cache-control")), (Some("accept-encoding"), Some("no-cache")));
+        assert_eq!(packed.status, 200);
+        assert_eq!((packed.header("content-encoding"), packed.header("content-type")), (Some("gzip"), Some(kind)));
+        assert_eq!(
+            (packed.header("vary"), packed.header("cache-control")),
+            (Some("accept-encoding"), Some("no-cache"))
+        );
         let whole = unpacked(&packed);
-        assert!(whole.starts_with(beginning) && packed.body().len() * 2 < whole.len(), "{name}");
+        assert!(whole.starts_with(beginning) && packed.body.len() * 2 < whole.len(), "{name}");
 
         let plain = lab.fetch("GET", &path, &[("accept-encoding", "identity")]).await;
-        assert_eq!((plain.status().as_u16(), text(plain.headers(), "content-encoding")), (200, None));
-        assert!(plain.body() == &whole, "{name}: packed and plain differ");
+        assert_eq!((plain.status, plain.header("content-encoding")), (200, None));
+        assert!(plain.body == whole, "{name}: packed and plain differ");
 
-        let tag = text(head, "etag").unwrap();
-        assert_eq!(text(plain.headers(), "etag"), Some(tag));
+        let tag = packed.header("etag").unwrap();
+        assert_eq!(plain.header("etag"), Some(tag));
         let known = lab.fetch("GET", &path, &[("if-none-match", tag)]).await;
-        assert_eq!((known.status().as_u16(), known.body().len()), (304, 0));
+        assert_eq!((known.status, known.body.len()), (304, 0));
     }
     let missing = lab.fetch("GET", "/rerun/index.html", &[]).await;
-    assert_eq!(missing.status(), 404);
-    assert_eq!(text(missing.headers(), "content-type"), Some("application/problem+json"));
-    assert_eq!(lab.fetch("DELETE", "/rerun/re_viewer.js", &[]).await.status(), 405);
+    assert_eq!(missing.status, 404);
+    assert_eq!(missing.header("content-type"), Some("application/problem+json"));
+    assert_eq!(lab.fetch("DELETE", "/rerun/re_viewer.js", &[]).await.status, 405);
     lab.close().await;
 }
 
@@ -70,8 +67,8 @@ async fn only_its_page_may_be_framed_and_compile() {
     let lab = Laboratory::open().await;
     let policy = async |path: &str| {
         let page = lab.fetch("GET", path, &[]).await;
-        assert_eq!(page.status(), 200, "{path}");
-        text(page.headers(), "content-security-policy").unwrap().to_owned()
+        assert_eq!(page.status, 200, "{path}");
+        page.header("content-security-policy").unwrap().to_owned()
     };
     let own = policy("/viewer/").await;
     assert!(own.contains("frame-ancestors 'self'") && own.contains("script-src 'self' 'wasm-unsafe-eval'"), "{own}");

@@ -31,12 +31,16 @@ export default tseslint.config(
     languageOptions: {
       globals: {
         console: 'readonly',
+        Event: 'readonly',
+        getComputedStyle: 'readonly',
         MutationObserver: 'readonly',
         document: 'readonly',
         fetch: 'readonly',
+        performance: 'readonly',
         process: 'readonly',
         setTimeout: 'readonly',
         URL: 'readonly',
+        window: 'readonly',
       },
     },
   },

@@ -12,6 +12,8 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     // The page, and the one that Rerun's viewer has for itself.
     rolldownOptions: { input: ['index.html', 'viewer/index.html'] },
+    // The renderer of the 3-D view, which is loaded when that is opened.
+    chunkSizeWarningLimit: 700,
   },
   test: {
     // Only pure modules are unit-tested; the page itself is tested in a browser (e2e).

@@ -67,6 +67,8 @@ fn generated() -> String {
         declaration::<ValueMap>(c),
         declaration::<FlowQuery>(c),
         declaration::<FlowField>(c),
+        declaration::<RecordingFile>(c),
+        declaration::<RecordingList>(c),
         declaration::<EvaluationQuery>(c),
         declaration::<Cell>(c),
         declaration::<EvaluationStage>(c),
@@ -76,8 +78,6 @@ fn generated() -> String {
         declaration::<EvaluationFailure>(c),
         declaration::<EvaluationReport>(c),
         declaration::<Evaluations>(c),
-        declaration::<RecordingFile>(c),
-        declaration::<RecordingList>(c),
     ];
     parts.join("\n")
 }

@@ -70,6 +70,8 @@ export class Lab {
     this.complaints = [];
     this.strangers = [];
     page.on('console', (message) => {
+      // A driver in software says that a screenshot of the 3-D view takes time.
+      if (message.text().includes('GPU stall due to ReadPixels')) return;
       if (message.type() === 'error' || message.type() === 'warning') {
         this.complaints.push(message.text());
       }
@@ -77,7 +79,9 @@ export class Lab {
     page.on('pageerror', (error) => this.complaints.push(error.message));
     const host = new URL(url).host;
     const judge = (address) => {
-      if (new URL(address).host !== host) this.strangers.push(address);
+      // A blob is the page's own, such as a file that it made.
+      const { protocol, host: asked } = new URL(address);
+      if (protocol !== 'blob:' && asked !== host) this.strangers.push(address);
     };
     page.on('request', (request) => judge(request.url()));
     page.on('websocket', (socket) => {

@@ -6,7 +6,21 @@ import {
   decidesByQuantiles,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
-import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
+import {
+  followsAFinger,
+  letsGoByItself,
+  letsGoWhenTheSocketIsLost,
+  placesTheBeadWhilePaused,
+  showsThatTheBeadCanBeTaken,
+} from './gestures.mjs';
+import {
+  bendsTheCurvesBesideThem,
+  disturbsByScript,
+  keepsTime,
+  obeysKeysAllOver,
+  plotsThePapersFigure,
+  saysWhatHappens,
+} from './instruments.mjs';
 import {
   aViewerMayPredict,
   everyLessonShowsWhatItClaims,
@@ -15,9 +29,19 @@ import {
   refusesABrokenLink,
   sharesAnExperiment,
 } from './lessons.mjs';
+import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
+import {
+  disturbsInSpace,
+  frees,
+  goesBackToThePlan,
+  obeysTheKeyboardInSpace,
+  placesAGoalInSpace,
+  saysWhatIsMissing,
+  turnsTheScene,
+} from './scene.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -343,18 +367,36 @@ export const TESTS = [
   ['goes back in time', goesBackInTime],
   ['tells why a switch came', tellsWhy],
   ['compares controllers from a moment on', comparesControllers],
+  ['shows that the bead can be taken', showsThatTheBeadCanBeTaken],
+  ['puts the bead down while paused', placesTheBeadWhilePaused],
+  ['lets go by itself', letsGoByItself],
+  ['lets go when the socket is lost', letsGoWhenTheSocketIsLost],
+  ['follows a finger', followsAFinger],
+  ["plots the paper's figure", plotsThePapersFigure],
+  ['bends the curves beside them', bendsTheCurvesBesideThem],
+  ['disturbs by script', disturbsByScript],
+  ['keeps time', keepsTime],
+  ['obeys keys all over', obeysKeysAllOver],
+  ['says what happens', saysWhatHappens],
   ['shares an experiment', sharesAnExperiment],
   ['refuses a broken link', refusesABrokenLink],
   ['loads a preset', loadsAPreset],
   ['learns by keyboard', learnsByKeyboard],
   ['every lesson shows what it claims', everyLessonShowsWhatItClaims],
   ['a viewer may predict', aViewerMayPredict],
+  ['places a goal in space', placesAGoalInSpace],
+  ['disturbs in space', disturbsInSpace],
+  ['turns the scene', turnsTheScene],
+  ['obeys the keyboard in space', obeysTheKeyboardInSpace],
+  ['frees what the scene held', frees],
+  ['goes back to the plan', goesBackToThePlan],
+  ['says that there is no 3-D', saysWhatIsMissing],
   ['looks right', looksRight],
+  ['lists recordings', listsRecordings],
+  ['opens a recording', opensARecording],
   ['evaluates what is asked for by keyboard', evaluates],
   ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
   ['sets a failure up again', setsAFailureUpAgain],
-  ['lists recordings', listsRecordings],
-  ['opens a recording', opensARecording],
   ['has one operator', hasOneOperator],
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],

@@ -1,6 +1,18 @@
-// What the operator can do to the bead besides pulling it by hand. Pure.
+// What the operator can do to the bead besides pulling it by hand, now or by script. Pure.
 
-import type { Disturbance } from './protocol.gen';
+import { clock, fixed } from './format';
+import type {
+  ClientMessage,
+  Disturbance,
+  SceneMessage,
+  Scripted,
+  StateMessage,
+  When,
+} from './protocol.gen';
+
+/** The server's limits. */
+export const SCRIPT_LIMIT = 64;
+export const MOST_RANDOM = 20;
 
 export const DIRECTIONS = [
   ['random', 'random'],
@@ -10,6 +22,23 @@ export const DIRECTIONS = [
   ['down', '↓ down'],
 ] as const;
 export type Direction = (typeof DIRECTIONS)[number][0];
+
+export const KINDS = [
+  ['kick', 'Kick'],
+  ['push', 'Push'],
+  ['move', 'Move'],
+  ['blind', 'Blind tracker'],
+] as const;
+export type Kind = (typeof KINDS)[number][0];
+
+export const TIMES = [
+  ['now', 'now'],
+  ['time', 'at a time'],
+  ['step', 'at a step'],
+  ['passes', 'passing x'],
+  ['near', 'near a place'],
+] as const;
+export type Time = (typeof TIMES)[number][0];
 
 /** As drawn: x to the right, y up. */
 const UNIT: Readonly<Record<Exclude<Direction, 'random'>, readonly [number, number]>> = {
@@ -40,6 +69,67 @@ export function push(
   return { drift: { x_n: x * force_n, y_n: y * force_n, for_s } };
 }
 
+export function move(x_m: number, y_m: number): Disturbance {
+  return { displace: { x_m, y_m } };
+}
+
 export function blind(for_s: number): Disturbance {
   return { dropout: { for_s } };
+}
+
+const place = (x_m: number, y_m: number): string => `(${fixed(x_m, 3)}, ${fixed(y_m, 3)}) m`;
+
+const ARROWS = ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'];
+
+/** The nearest of eight arrows. */
+function arrow(x: number, y: number): string {
+  const eighth = Math.round((4 * Math.atan2(y, x)) / Math.PI);
+  return ARROWS[(eighth + 8) % 8] ?? '';
+}
+
+export function describe(disturbance: Disturbance): string {
+  if ('displace' in disturbance) {
+    return `move to ${place(disturbance.displace.x_m, disturbance.displace.y_m)}`;
+  }
+  if ('impulse' in disturbance) {
+    const { x_n_s, y_n_s } = disturbance.impulse;
+    return `kick ${arrow(x_n_s, y_n_s)} ${fixed(1000 * Math.hypot(x_n_s, y_n_s), 2)} mN·s`;
+  }
+  if ('drift' in disturbance) {
+    const { x_n, y_n, for_s } = disturbance.drift;
+    return `push ${arrow(x_n, y_n)} ${fixed(1000 * Math.hypot(x_n, y_n), 1)} mN for ${for_s} s`;
+  }
+  return `tracker blind for ${disturbance.dropout.for_s} s`;
+}
+
+export function describeWhen(at: When, tick_s: number): string {
+  if ('tick' in at) return `at ${clock(at.tick * tick_s)}`;
+  if ('step' in at) return `at step ${at.step}`;
+  if ('passes_x_m' in at) return `passing x = ${fixed(at.passes_x_m, 3)} m`;
+  const { x_m, y_m, within_m } = at.near;
+  return `within ${fixed(100 * within_m, 1)} cm of ${place(x_m, y_m)}`;
+}
+
+/** The trial from its start, with other disturbances: all else is as it is now. */
+export function restart(
+  scene: SceneMessage,
+  state: StateMessage,
+  change: { readonly script?: readonly Scripted[]; readonly disturbances?: number },
+): Extract<ClientMessage, { type: 'load_scenario' }> {
+  const { scenario } = scene;
+  const goal_m: [number, number] | null = state.goal_m
+    ? [state.goal_m[0], state.goal_m[1]]
+    : scenario.goal_m;
+  return {
+    type: 'load_scenario',
+    map: scene.map,
+    controller: state.controller,
+    positioner: scene.positioner,
+    seed: scene.seed,
+    ...(scenario.start_m && { start_m: scenario.start_m }),
+    ...(goal_m && { goal_m }),
+    parameters: scene.parameters,
+    disturbances: change.disturbances ?? scenario.disturbances,
+    script: [...(change.script ?? scenario.script)],
+  };
 }

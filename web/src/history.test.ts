@@ -13,13 +13,26 @@ function filled(capacity: number, count: number): History {
 }
 
 describe('History', () => {
-  it('keeps the newest samples, in order, however many come', () => {
-    for (const count of [3, 8, 9, 16, 17, 100]) {
-      const kept = Math.min(8, count);
-      expect(ticks(filled(8, count))).toEqual(
-        Array.from({ length: kept }, (_, i) => count - kept + i),
-      );
-    }
+  it('keeps every sample while there is room', () => {
+    expect(ticks(filled(8, 8))).toEqual([0, 1, 2, 3, 4, 5, 6, 7]);
+  });
+
+  it('reaches back to the start however many come, whole at the end and coarser before', () => {
+    const kept = ticks(filled(64, 10_000));
+    expect(kept.length).toBeLessThanOrEqual(64);
+    expect(kept[0]).toBe(0);
+    expect(kept.slice(-9)).toEqual([9991, 9992, 9993, 9994, 9995, 9996, 9997, 9998, 9999]);
+    const gaps = kept.slice(1).map((tick, index) => tick - (kept[index] ?? 0));
+    expect(Math.min(...gaps)).toBe(1);
+    // No hole: the past is as coarse as it has to be, and evenly so.
+    expect(Math.max(...gaps)).toBeLessThan(1024);
+  });
+
+  it('tells where the bead was before it was struck', () => {
+    const history = filled(100, 10);
+    expect(history.before(5, 'bead_x_m')).toBe(-4);
+    expect(history.before(0, 'bead_x_m')).toBe(-0);
+    expect(history.newest_s).toBeCloseTo(0.072);
   });
 
   it('cuts windows at both ends, ends included', () => {
@@ -39,9 +52,9 @@ describe('History', () => {
   });
 
   it('replaces the newest state by one of the same tick', () => {
-    const history = filled(8, 20);
+    const history = filled(30, 20);
     history.push(stateAt(19, { bead_m: [7, 0, 0] }));
-    expect(ticks(history)).toEqual([12, 13, 14, 15, 16, 17, 18, 19]);
+    expect(ticks(history)).toHaveLength(20);
     expect(history.window(0, 1, ['bead_x_m'])[0]?.at(-1)).toBe(7);
   });
 
@@ -54,9 +67,12 @@ describe('History', () => {
     expect(history.length).toBe(0);
   });
 
-  it('is cut right also after it moved to the front', () => {
-    const history = filled(8, 17);
-    history.cutAfter(12);
-    expect(ticks(history)).toEqual([9, 10, 11, 12]);
+  it('is cut right also where it is coarse', () => {
+    const history = filled(16, 100);
+    const before = ticks(history);
+    history.cutAfter(60);
+    expect(ticks(history)).toEqual(before.filter((tick) => tick <= 60));
+    history.push(stateAt(61));
+    expect(ticks(history).at(-1)).toBe(61);
   });
 });

@@ -2,6 +2,7 @@
 
 import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
 import { connect, liveAddress, type Picture } from './connection';
+import { createEdits, type Edits } from './edits';
 import { createGhosts, type Ghosts } from './ghosts';
 import { History } from './history';
 import { EMPTY, reduce, type Input, type Model, type Place } from './model';
@@ -18,7 +19,7 @@ export interface Lab {
   readonly link: Accessor<Model['link']>;
   readonly hello: Accessor<Model['hello']>;
   readonly scene: Accessor<Model['scene']>;
-  /** The parameters in force, with what the form is about to change on top. */
+  /** The parameters in force, with what some panel is about to change on top. */
   readonly tuning: Accessor<Parameters | undefined>;
   readonly state: Accessor<Model['state']>;
   readonly overlay: Accessor<Model['overlay']>;
@@ -39,14 +40,14 @@ export interface Lab {
   /** Connected to a session that goes on, and its operator. */
   readonly canOperate: Accessor<boolean>;
   readonly history: History;
+  /** Changes of the parameters, from whichever panel. */
+  readonly edits: Edits;
   /** What is drawn over the workspace. */
   readonly layers: Accessor<ReadonlySet<Layer>>;
   showLayer(layer: Layer, on: boolean): void;
   send(message: ClientMessage): void;
   inspect(event: EventMessage | undefined): void;
   openTab(tab: string): void;
-  /** What the form is about to change. */
-  draft(change: Partial<Parameters>): void;
   notify(place: Place, text: string): void;
   dismiss(place: Place, id: number): void;
 }
@@ -99,7 +100,6 @@ export function createLab(page: Location): Lab {
   const [observation, setObservation] = createSignal<Picture>();
   const [inspected, inspect] = createSignal<EventMessage>();
   const [opened, setOpened] = createSignal<{ readonly tab: string }>();
-  const [draft, setDraft] = createSignal<Partial<Parameters>>({});
   const [layers, setLayers] = createSignal(storedLayers());
   const history = new History();
   let queue: Input[] = [];
@@ -156,14 +156,20 @@ export function createLab(page: Location): Lab {
   const hello = createMemo(() => model().hello);
   const scene = createMemo(() => model().scene);
   const ended = createMemo(() => model().state?.ended ?? undefined);
+  const refusals = createMemo(() => model().refusals);
+  const canOperate = createMemo(
+    () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
+  );
+  const send = (message: ClientMessage): void => {
+    // `release` is sent blindly when a hold ends; a lost socket has released it already.
+    if (connection.send(message)) take({ type: 'sent', command: message.type });
+  };
+  const edits = createEdits({ scene, refusals, canOperate, send });
   return {
     link,
     hello,
     scene,
-    tuning: createMemo(() => {
-      const truth = scene()?.parameters;
-      return truth && { ...truth, ...draft() };
-    }),
+    tuning: edits.shown,
     state: createMemo(() => model().state),
     overlay: createMemo(() => model().overlay),
     seen: createMemo(() => model().seen),
@@ -173,14 +179,14 @@ export function createLab(page: Location): Lab {
     inspected,
     opened,
     notices: createMemo(() => model().notices),
-    refusals: createMemo(() => model().refusals),
+    refusals,
     camera,
     observation,
     ended,
-    canOperate: createMemo(
-      () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
-    ),
+    canOperate,
     history,
+    edits,
+    send,
     layers,
     showLayer: (layer, on) => {
       const next = new Set(layers());
@@ -189,18 +195,11 @@ export function createLab(page: Location): Lab {
       setLayers(next);
       storeLayers(next);
     },
-    send: (message) => {
-      // `release` is sent blindly when a hold ends; a lost socket has released it already.
-      if (connection.send(message)) take({ type: 'sent', command: message.type });
-    },
     inspect: (event) => {
       inspect(event);
     },
     openTab: (tab) => {
       setOpened({ tab });
-    },
-    draft: (change) => {
-      setDraft(change);
     },
     notify: (place, text) => {
       take({ type: 'notice', place, text });

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import {
+  directionOf,
   breakaway,
   captureWords,
   heldRatio,
@@ -51,7 +52,10 @@ describe('the breakaway', () => {
 
 describe('the questions', () => {
   it('follow block, height, friction and direction', () => {
-    const asked = pullQuery(parameters({ block_orientation: 'B', tool_height_m: 0.12 }), 'y');
+    const asked = pullQuery(
+      parameters({ block_orientation: 'B', tool_height_m: 0.12 }),
+      Math.PI / 2,
+    );
     expect(asked).toMatchObject({
       orientation: 'B',
       lower_face_height_m: 0.12,
@@ -61,10 +65,10 @@ describe('the questions', () => {
   });
 
   it('ask for all heights or for the one in force, and never without drag', () => {
-    const all = reachQuery(parameters({ drag_n_s_m: 0 }), 'x', 'all');
+    const all = reachQuery(parameters({ drag_n_s_m: 0 }), 0, 'all');
     expect([all.lowest_m, all.highest_m, all.count]).toEqual([0.09, 0.2, 56]);
     expect(all.drag_n_s_m).toBeGreaterThan(0);
-    const here = reachQuery(parameters(), 'x', 'here');
+    const here = reachQuery(parameters(), 0, 'here');
     expect([here.lowest_m, here.highest_m]).toEqual([0.1, 0.1]);
   });
 });
@@ -109,5 +113,15 @@ describe('the curve', () => {
     expect(shownOffset([0, 0.0947])).toBe(0.15);
     expect(shownOffset([0, 0.14])).toBe(0.2);
     expect(shownOffset([0, 0.5])).toBe(0.5);
+  });
+});
+
+describe('the direction of the curves', () => {
+  it('is a side of the block, or toward the bead in steps of 5°', () => {
+    expect(directionOf('x', [0, 0], [0, 1])).toBe(0);
+    expect(directionOf('y', [0, 0], [1, 0])).toBeCloseTo(Math.PI / 2);
+    expect(directionOf('bead', [0.1, 0.1], [0.1, 0.05])).toBeCloseTo(-Math.PI / 2);
+    expect(directionOf('bead', [0, 0], [0.05, 0.001])).toBeCloseTo(0);
+    expect(directionOf('bead', [0, 0], [0, 0.0005])).toBe(0);
   });
 });

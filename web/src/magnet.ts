@@ -3,8 +3,13 @@
 import { fixed, millimetres } from './format';
 import type { Parameters, PullCurve, PullQuery, ReachCurve, ReachQuery } from './protocol.gen';
 
-/** Along which side of the block the bead lies beside it. */
-export type Side = 'x' | 'y';
+/** Where the bead lies beside the block: along one of its sides, or where it is now. */
+export const SIDES = [
+  ['x', 'x'],
+  ['y', 'y'],
+  ['bead', 'the bead'],
+] as const;
+export type Side = (typeof SIDES)[number][0];
 
 /** Heights that the form offers. */
 export const HEIGHTS_M = [0.09, 0.2] as const;
@@ -30,20 +35,38 @@ export function breakaway(parameters: Parameters): number {
   return rolls(parameters) ? parameters.rolling_resistance : parameters.friction;
 }
 
+/** A bead nearer than this lies in no direction worth the name. */
+const NEAREST_M = 0.001;
+/** The curves change little within this angle, and a moving bead asks less often. */
+const DIRECTION_STEP_RAD = Math.PI / 36;
+
+/** From the block's x toward its y; the block's sides are those of the table. */
+export function directionOf(
+  side: Side,
+  tool_m: readonly number[],
+  bead_m: readonly number[],
+): number {
+  if (side !== 'bead') return side === 'x' ? 0 : Math.PI / 2;
+  const x_m = (bead_m[0] ?? 0) - (tool_m[0] ?? 0);
+  const y_m = (bead_m[1] ?? 0) - (tool_m[1] ?? 0);
+  if (Math.hypot(x_m, y_m) < NEAREST_M) return 0;
+  return Math.round(Math.atan2(y_m, x_m) / DIRECTION_STEP_RAD) * DIRECTION_STEP_RAD;
+}
+
 function common(
   parameters: Parameters,
-  side: Side,
+  direction_rad: number,
 ): Pick<PullQuery, 'orientation' | 'direction_rad' | 'friction'> {
   return {
     orientation: parameters.block_orientation,
-    direction_rad: side === 'x' ? 0 : Math.PI / 2,
+    direction_rad,
     friction: breakaway(parameters),
   };
 }
 
-export function pullQuery(parameters: Parameters, side: Side): PullQuery {
+export function pullQuery(parameters: Parameters, direction_rad: number): PullQuery {
   return {
-    ...common(parameters, side),
+    ...common(parameters, direction_rad),
     lower_face_height_m: parameters.tool_height_m,
     farthest_m: FARTHEST_M,
     count: OFFSETS,
@@ -51,11 +74,15 @@ export function pullQuery(parameters: Parameters, side: Side): PullQuery {
 }
 
 /** Over all heights, or at the one in force. */
-export function reachQuery(parameters: Parameters, side: Side, at: 'all' | 'here'): ReachQuery {
+export function reachQuery(
+  parameters: Parameters,
+  direction_rad: number,
+  at: 'all' | 'here',
+): ReachQuery {
   const height_m = parameters.tool_height_m;
   const [lowest_m, highest_m] = at === 'all' ? HEIGHTS_M : [height_m, height_m];
   return {
-    ...common(parameters, side),
+    ...common(parameters, direction_rad),
     lowest_m,
     highest_m,
     drag_n_s_m: Math.max(LEAST_DRAG_N_S_M, parameters.drag_n_s_m),

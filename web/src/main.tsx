@@ -9,6 +9,7 @@ import { CameraPanel } from './panels/CameraPanel';
 import { ControllerPanel } from './panels/ControllerPanel';
 import { EvaluateView } from './panels/EvaluateView';
 import { Header } from './panels/Header';
+import { LiveRegion } from './panels/LiveRegion';
 import { LowerPanel } from './panels/LowerPanel';
 import { RecordingsView } from './panels/RecordingsView';
 import { Transport } from './panels/Transport';
@@ -24,6 +25,7 @@ function Page(): JSX.Element {
   return (
     <>
       <Header lab={lab} theme={theme} onTheme={toggle} view={view()} onView={setView} />
+      <LiveRegion lab={lab} />
       <Switch>
         <Match when={view() === 'laboratory'}>
           <main>

@@ -26,9 +26,17 @@ const NAMES = [
   'heat-low',
   'heat-middle',
   'heat-high',
+  'mode-1',
   'rl',
   'errt',
   'attractor',
+  'table',
+  'arm',
+  'arm-lid',
+  'arm-seam',
+  'gripper',
+  'pole-north',
+  'pole-south',
 ] as const;
 
 export type Palette = Record<(typeof NAMES)[number], string>;

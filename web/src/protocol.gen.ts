@@ -1234,6 +1234,40 @@ spacing_m: number,
 velocity_m_s: Array<[number, number] | null>, };
 
 /**
+ * A recording on disk; `GET /api/recordings/{id}.rrd` is its file.
+ */
+export type RecordingFile = { 
+/**
+ * Name of the file without its ending.
+ */
+id: string, 
+/**
+ * The session that it is of; none where the file was not named by Ferry.
+ */
+session: string | null, 
+/**
+ * When it began, RFC 3339; none where the file was not named by Ferry.
+ */
+started: string | null, 
+/**
+ * Size of the file up to now.
+ */
+bytes: number, 
+/**
+ * Whether its session still runs: the file may grow, and has no footer yet.
+ */
+live: boolean, };
+
+/**
+ * Answer of `GET /api/recordings`.
+ */
+export type RecordingList = { 
+/**
+ * The newest first.
+ */
+recordings: Array<RecordingFile>, };
+
+/**
  * Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
  * same starts, goals and seeds.
  */
@@ -1503,37 +1537,3 @@ export type Evaluations = {
  * In the order in which they were asked for.
  */
 evaluations: Array<EvaluationSummary>, };
-
-/**
- * A recording on disk; `GET /api/recordings/{id}.rrd` is its file.
- */
-export type RecordingFile = { 
-/**
- * Name of the file without its ending.
- */
-id: string, 
-/**
- * The session that it is of; none where the file was not named by Ferry.
- */
-session: string | null, 
-/**
- * When it began, RFC 3339; none where the file was not named by Ferry.
- */
-started: string | null, 
-/**
- * Size of the file up to now.
- */
-bytes: number, 
-/**
- * Whether its session still runs: the file may grow, and has no footer yet.
- */
-live: boolean, };
-
-/**
- * Answer of `GET /api/recordings`.
- */
-export type RecordingList = { 
-/**
- * The newest first.
- */
-recordings: Array<RecordingFile>, };

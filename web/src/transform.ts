@@ -43,6 +43,21 @@ export function worldFromPx(view: View, point: Vec2): [number, number] {
   return [(point[0] - view.originX) / view.pxPerM, (view.originY - point[1]) / view.pxPerM];
 }
 
+/** Between the table and a picture of it, however that shows the table: from above or in perspective. */
+export interface TableView {
+  /** The point of the table at a pixel; none where the picture shows none, as over the horizon. */
+  readonly toWorld: (px: Vec2) => [number, number] | undefined;
+  /** The pixel of a point of the table, or of one above it; none behind the eye. */
+  readonly toPx: (point: Vec2, height_m?: number) => [number, number] | undefined;
+}
+
+export function planView(view: View): TableView {
+  return {
+    toWorld: (px) => worldFromPx(view, px),
+    toPx: (point) => pxFromWorld(view, point),
+  };
+}
+
 export function distance(a: Vec2, b: Vec2): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
 }

@@ -2,7 +2,7 @@
 
 import { Suspense, lazy, type JSX } from 'solid-js';
 import { LogPanel } from './LogPanel';
-import { Tabs, type Tab, type TabProps } from './Tabs';
+import { Tabs, type Tab, type PanelProps } from './Tabs';
 
 // Loaded when somebody wants to learn.
 const LazyLessons = lazy(async () => {
@@ -10,7 +10,7 @@ const LazyLessons = lazy(async () => {
   return { default: LessonsPanel };
 });
 
-function Lessons(props: TabProps): JSX.Element {
+function Lessons(props: PanelProps): JSX.Element {
   return (
     <Suspense fallback={<p class="placeholder">Loading…</p>}>
       <LazyLessons lab={props.lab} />
@@ -23,7 +23,7 @@ const TABS: readonly [Tab, ...Tab[]] = [
   { id: 'lessons', title: 'Lessons', panel: Lessons },
 ];
 
-export function AsidePanel(props: TabProps): JSX.Element {
+export function AsidePanel(props: PanelProps): JSX.Element {
   return (
     <Tabs
       lab={props.lab}

@@ -11,7 +11,7 @@ import type { Branch, ComparisonMessage, ControllerName } from '../protocol.gen'
 import type { CurveContext } from './curve';
 import { CurvePlot } from './CurvePlot';
 import { NoticeBar } from './NoticeBar';
-import type { TabProps } from './Tabs';
+import type { PanelProps, TabProps } from './Tabs';
 
 const CONTROLLERS: readonly ControllerName[] = ['rl', 'errt', 'attractor'];
 const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
@@ -193,7 +193,9 @@ function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedDa
   ];
 }
 
-function Errors(props: TabProps & { comparison: ComparisonMessage; tick_s: number }): JSX.Element {
+function Errors(
+  props: PanelProps & { comparison: ComparisonMessage; tick_s: number },
+): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const threshold_cm = (): number => (lab.scene()?.parameters.threshold_m ?? 0) * CM;

@@ -29,7 +29,9 @@ export function CurvePlot(props: {
     createEffect(() => {
       plot.setData(props.data);
     });
-    createEffect(on([props.theme, props.context.rules], () => plot.redraw(true), { defer: true }));
+    createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
+    // The curve itself stays.
+    createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
   });
   return (
     <figure class="plot">

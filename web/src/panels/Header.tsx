@@ -5,6 +5,7 @@ import type { Lab } from '../lab';
 import type { Link } from '../model';
 import type { Theme } from '../theme';
 import { VIEWS, type View } from '../views';
+import { KeyboardHelp } from './KeyboardHelp';
 import { NoticeBar } from './NoticeBar';
 
 function linkText(link: Link): string {
@@ -106,7 +107,6 @@ export function Header(props: HeaderProps): JSX.Element {
         <span
           class="link"
           data-link={lab.ended() === undefined ? lab.link().kind : 'ended'}
-          role="status"
           data-testid="connection"
         >
           {lab.ended() === undefined ? linkText(lab.link()) : 'session ended'}
@@ -146,16 +146,19 @@ export function Header(props: HeaderProps): JSX.Element {
         <Counter label="disturbed" testid="disturbances" value={lab.state()?.disturbances} />
         <Counter label="steps" testid="steps" value={lab.state()?.steps} />
       </dl>
-      <button
-        type="button"
-        class="small theme"
-        aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
-        onClick={() => {
-          props.onTheme();
-        }}
-      >
-        {props.theme() === 'dark' ? 'Light' : 'Dark'}
-      </button>
+      <div class="page-tools">
+        <KeyboardHelp lab={lab} view={props.view} />
+        <button
+          type="button"
+          class="small"
+          aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
+          onClick={() => {
+            props.onTheme();
+          }}
+        >
+          {props.theme() === 'dark' ? 'Light' : 'Dark'}
+        </button>
+      </div>
     </header>
   );
 }

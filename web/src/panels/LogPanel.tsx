@@ -25,7 +25,7 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
       ref={box}
       class="log-lines"
       role="log"
-      aria-live="polite"
+      aria-live="off"
       aria-label="Events"
       tabindex="0"
       onScroll={() => {

@@ -1,10 +1,10 @@
 // Below the workspace: the plots against time, what the magnet can do, or how controllers compare.
 
-import type { JSX } from 'solid-js';
+import { createSignal, type JSX } from 'solid-js';
 import { ComparePanel } from './ComparePanel';
 import { MagnetPanel } from './MagnetPanel';
 import { PlotsPanel } from './PlotsPanel';
-import { Tabs, type Tab, type TabProps } from './Tabs';
+import { Tabs, type Tab, type PanelProps } from './Tabs';
 
 const TABS: readonly [Tab, ...Tab[]] = [
   { id: 'plots', title: 'Plots', panel: PlotsPanel },
@@ -12,7 +12,8 @@ const TABS: readonly [Tab, ...Tab[]] = [
   { id: 'compare', title: 'Compare', panel: ComparePanel },
 ];
 
-export function LowerPanel(props: TabProps): JSX.Element {
+export function LowerPanel(props: PanelProps): JSX.Element {
+  const [large, setLarge] = createSignal(false);
   return (
     <Tabs
       lab={props.lab}
@@ -20,6 +21,19 @@ export function LowerPanel(props: TabProps): JSX.Element {
       area="lower"
       label="Below the workspace"
       tabs={TABS}
+      aside={
+        <button
+          type="button"
+          class="small enlarge"
+          aria-pressed={large()}
+          title="Gives this panel more of the page's height"
+          onClick={() => {
+            setLarge(!large());
+          }}
+        >
+          Larger
+        </button>
+      }
     />
   );
 }

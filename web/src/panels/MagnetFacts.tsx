@@ -23,7 +23,7 @@ export function MagnetFacts(props: {
         alarm={lifted()}
       />
       <Fact
-        name={`Captures along ${props.side}`}
+        name={props.side === 'bead' ? 'Captures toward it' : `Captures along ${props.side}`}
         help="Offsets at which the pull beats friction"
         testid="magnet-capture"
         value={props.pull ? captureWords(props.pull.capture_m) : '–'}

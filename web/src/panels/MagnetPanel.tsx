@@ -13,6 +13,8 @@ import {
   pullWords,
   reachQuery,
   reachWords,
+  SIDES,
+  directionOf,
   shownOffset,
   type Side,
 } from '../magnet';
@@ -21,15 +23,24 @@ import type { Parameters, PullCurve, PullQuery, ReachCurve, ReachQuery } from '.
 import type { Theme } from '../theme';
 import { CurvePlot } from './CurvePlot';
 import type { CurveContext } from './curve';
+import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
-
-const SIDES: readonly Side[] = ['x', 'y'];
+import type { PanelProps } from './Tabs';
 
 function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters }): JSX.Element {
   const { lab } = props;
   const [side, setSide] = createSignal<Side>('x');
   const [pointed, setPointed] = createSignal<string>();
   const palette = createPalette(() => props.theme());
+  const direction_rad = createMemo(() => {
+    const state = lab.state();
+    return state ? directionOf(side(), state.tool_m, state.bead_m) : 0;
+  });
+  /** In whole millimetres: a mark need not follow every tremble. */
+  const distance_m = createMemo(() => {
+    const error_m = lab.state()?.tracking_error_m;
+    return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
+  });
   // No question without a connection, so that it is asked again on the next one.
   const asked =
     <Q,>(question: (parameters: Parameters) => Q) =>
@@ -37,15 +48,15 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
       lab.link().kind === 'live' ? question(props.parameters) : undefined;
   const pull = createAnswer<PullQuery, PullCurve>(
     '/api/magnetics/pull',
-    asked((parameters) => pullQuery(parameters, side())),
+    asked((parameters) => pullQuery(parameters, direction_rad())),
   );
   const reach = createAnswer<ReachQuery, ReachCurve>(
     '/api/magnetics/reach',
-    asked((parameters) => reachQuery(parameters, side(), 'all')),
+    asked((parameters) => reachQuery(parameters, direction_rad(), 'all')),
   );
   const here = createAnswer<ReachQuery, ReachCurve>(
     '/api/magnetics/reach',
-    asked((parameters) => reachQuery(parameters, side(), 'here')),
+    asked((parameters) => reachQuery(parameters, direction_rad(), 'here')),
   );
   const error = (): string | undefined => pull().error ?? reach().error ?? here().error;
   const hint = (): string =>
@@ -71,7 +82,15 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
       const capture_m = pull().data?.capture_m;
       return capture_m ? [{ from: 100 * capture_m[0], to: 100 * capture_m[1], color: 'tool' }] : [];
     },
-    rules: () => [{ axis: 'y', at: 1, label: 'lift-off', color: 'danger', dashed: true }],
+    rules: createMemo(() => {
+      const now_m = distance_m();
+      return [
+        { axis: 'y', at: 1, label: 'lift-off', color: 'danger', dashed: true },
+        ...(now_m === undefined
+          ? []
+          : [{ axis: 'x', at: 100 * now_m, label: 'bead', color: 'bead', dashed: false } as const]),
+      ] as const;
+    }),
     onCursor: (index) => {
       const curve = pull().data;
       setPointed(index !== undefined && curve ? pullWords(curve, friction(), index) : undefined);
@@ -143,33 +162,34 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
       <CurvePlot
         title="Pull"
         unit="of weight"
-        name={`Lift, pull and friction against the offset along ${side()}`}
+        name={`Lift, pull and friction against the offset toward ${side()}; the bead is ${fixed(100 * (distance_m() ?? 0), 1)} cm away`}
         theme={props.theme}
         keys={pullContext.lines}
         context={pullContext}
         data={pullData()}
       />
       <CurvePlot
-        title="Capture"
-        unit="cm, by height"
+        title="Capture by height"
+        unit="cm"
         name="Captured offsets against the height of the block's lower face"
         theme={props.theme}
-        keys={[{ label: 'lifts off', color: 'danger' }]}
+        keys={[{ label: 'lift-off', color: 'danger' }]}
         context={reachContext}
         data={reachData()}
       />
       <div class="magnet-words">
-        <fieldset class="choice" role="radiogroup" aria-label="Bead beside the block, along its">
-          <span class="unit">Bead beside it along</span>
+        <MagnetControls lab={lab} />
+        <fieldset class="choice" role="radiogroup" aria-label="Bead beside the block, toward">
+          <span class="unit">Curves toward</span>
           <For each={SIDES}>
-            {(name) => (
+            {([id, name]) => (
               <label>
                 <input
                   type="radio"
                   name="magnet-side"
-                  value={name}
-                  checked={side() === name}
-                  onChange={() => setSide(name)}
+                  value={id}
+                  checked={side() === id}
+                  onChange={() => setSide(id)}
                 />
                 {name}
               </label>
@@ -193,7 +213,7 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
   );
 }
 
-export function MagnetPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
+export function MagnetPanel(props: PanelProps): JSX.Element {
   return (
     <Show when={props.lab.tuning()} fallback={<p class="placeholder">No parameters yet.</p>}>
       {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}

@@ -1,160 +1,152 @@
-// The paper's figure, live: positions and tracking errors of the last minute.
+// The paper's figure, live: positions and tracking errors against time, and the way in the plane.
 
-import { For, createEffect, createMemo, createSignal, on, onCleanup, onMount } from 'solid-js';
-import type { JSX } from 'solid-js';
-import type uPlot from 'uplot';
-import 'uplot/dist/uPlot.min.css';
-import { fixed } from '../format';
+import { For, createEffect, on, onCleanup, type JSX } from 'solid-js';
+import { Portal } from 'solid-js/web';
+import { download, pngOf } from '../download';
+import { LocusPlot } from '../figure/LocusPlot';
+import { TimePlot } from '../figure/TimePlot';
+import { createFigure, type Figure } from '../figure/figure';
+import { FIGURE_PX, figureSvg } from '../figure/figureSvg';
+import { PARTS } from '../figure/parts';
+import { Rotation } from '../figure/rotation';
+import { WINDOWS, csvOf, type WindowChoice } from '../figure/sample';
+import type { PlotContext } from '../figure/timePlot';
+import { clock } from '../format';
 import type { Lab } from '../lab';
-import { Limiter } from '../limiter';
-import { createPalette } from '../palette';
-import type { Theme } from '../theme';
-import { createPlot, type PlotContext, type PlotSpec } from './plot';
+import { createPalette, type Palette } from '../palette';
+import type { TabProps } from './Tabs';
 
-const WINDOW_S = 60;
-/** A young trial is not squeezed into the first pixels of a minute. */
-const LEAST_WINDOW_S = 10;
-/** The eye does not follow numbers faster than this, and four plots cost something. */
-const REDRAWS_PER_S = 10;
-
-const POSITION = { unit: 'm', scale: 1, digits: 2, grain: 0.05, threshold: false };
-const ERROR = { unit: 'cm', scale: 100, digits: 0, grain: 2 };
-
-const SPECS: readonly PlotSpec[] = [
-  {
-    ...POSITION,
-    title: 'x',
-    lines: [
-      { column: 'tool_x_m', label: 'tool', color: 'tool' },
-      { column: 'bead_x_m', label: 'bead', color: 'bead' },
-    ],
-  },
-  {
-    ...POSITION,
-    title: 'y',
-    lines: [
-      { column: 'tool_y_m', label: 'tool', color: 'tool' },
-      { column: 'bead_y_m', label: 'bead', color: 'bead' },
-    ],
-  },
-  {
-    ...ERROR,
-    title: 'Tracking error',
-    threshold: false,
-    lines: [
-      { column: 'error_x_m', label: 'x', color: 'error-x' },
-      { column: 'error_y_m', label: 'y', color: 'error-y' },
-    ],
-  },
-  {
-    ...ERROR,
-    title: 'Error norm',
-    threshold: true,
-    lines: [{ column: 'error_m', label: 'e', color: 'text' }],
-  },
-];
-
-interface PlotProps {
-  readonly lab: Lab;
-  readonly spec: PlotSpec;
-  readonly context: PlotContext;
-  readonly theme: () => Theme;
-}
-
-function Plot(props: PlotProps): JSX.Element {
-  const { lab, spec } = props;
-  let root!: HTMLDivElement;
-  let plot: uPlot | undefined;
-  const [latest, setLatest] = createSignal<readonly (number | undefined)[]>([]);
-  let pointed: number | undefined;
-
-  const read = (): void => {
-    if (!plot) return;
-    const data = plot.data;
-    const index = pointed ?? data[0].length - 1;
-    setLatest(spec.lines.map((_line, line) => data[line + 1]?.[index] ?? undefined));
+/** Window and files, in the strip of the tabs. */
+function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX.Element {
+  const { lab, figure } = props;
+  /** Name of a file, or nothing while there is nothing to save. */
+  const name = (): string | undefined => {
+    const scene = lab.scene();
+    const state = lab.state();
+    return scene && state && `ferry-${scene.map}-seed${scene.seed}-tick${state.tick}`;
   };
-  const redraw = new Limiter<number>(1000 / REDRAWS_PER_S, (now_s) => {
-    if (!plot) return;
-    const from_s = Math.max(0, now_s - WINDOW_S);
-    const [times, ...columns] = lab.history.window(from_s, now_s, [
-      'sim_time_s',
-      ...spec.lines.map((line) => line.column),
-    ]);
-    if (!times) return;
-    const scaled = columns.map((column) => column.map((value) => value * spec.scale));
-    // The times are copied because the history moves under a plot that may draw later.
-    const data = [times.slice(), ...scaled] as unknown as uPlot.AlignedData;
-    plot.batch(() => {
-      plot?.setData(data, false);
-      plot?.setScale('x', { min: from_s, max: Math.max(from_s + LEAST_WINDOW_S, now_s) });
+  const svg = (): string | undefined => {
+    figure.renew();
+    const sample = figure.sample();
+    const scene = lab.scene();
+    const state = lab.state();
+    if (!sample || !scene || !state) return undefined;
+    const { goal_m } = state;
+    return figureSvg({
+      title: `Ferry: map ${scene.map}, ${state.controller}, seed ${scene.seed}, ${clock(sample.from_s)} to ${clock(sample.to_s)}`,
+      palette: props.palette(),
+      sample,
+      threshold_m: scene.parameters.threshold_m,
+      workspace: scene.workspace,
+      walls: scene.walls,
+      goal_m: goal_m ? [goal_m[0], goal_m[1]] : undefined,
     });
-    read();
-  });
-
-  onMount(() => {
-    plot = createPlot(root, spec, props.context, (index) => {
-      pointed = index;
-      read();
-    });
-    const observer = new ResizeObserver(() => {
-      plot?.setSize({ width: root.clientWidth, height: root.clientHeight });
-    });
-    observer.observe(root);
-    onCleanup(() => {
-      observer.disconnect();
-      plot?.destroy();
-    });
-    createEffect(() => {
-      const state = lab.state();
-      if (state) redraw.offer(state.sim_time_s);
-    });
-    createEffect(
-      on([props.theme, props.context.threshold_m], () => plot?.redraw(true), { defer: true }),
-    );
-  });
-
+  };
+  const saveCsv = (): void => {
+    figure.renew();
+    const sample = figure.sample();
+    const file = name();
+    if (!sample || file === undefined) return;
+    download(`${file}.csv`, new Blob([csvOf(lab.history, sample)], { type: 'text/csv' }));
+  };
+  const saveSvg = (): void => {
+    const drawing = svg();
+    if (drawing === undefined) return;
+    download(`${name() ?? 'ferry'}.svg`, new Blob([drawing], { type: 'image/svg+xml' }));
+  };
+  const savePng = async (): Promise<void> => {
+    const drawing = svg();
+    const file = name();
+    if (drawing === undefined || file === undefined) return;
+    download(`${file}.png`, await pngOf(drawing, FIGURE_PX));
+  };
   return (
-    <figure class="plot">
-      <figcaption>
-        <strong>{spec.title}</strong>
-        <span class="unit">{spec.unit}</span>
-        <For each={spec.lines}>
-          {(line, index) => (
-            <span class="key" data-color={line.color}>
-              {line.label}{' '}
-              <span class="number">
-                {latest()[index()] === undefined
-                  ? '–'
-                  : fixed(latest()[index()] ?? 0, spec.digits + 1)}
-              </span>
-            </span>
-          )}
-        </For>
-      </figcaption>
-      <div ref={root} class="plot-area" role="img" aria-label={`${spec.title} against time`} />
-    </figure>
+    <div class="plot-tools" role="group" aria-label="Plots">
+      <label>
+        <span class="unit">Window</span>
+        <select
+          aria-label="Window of the plots"
+          onChange={(event) => {
+            figure.choose(event.currentTarget.value as WindowChoice);
+          }}
+        >
+          <For each={WINDOWS}>
+            {([id, label]) => (
+              <option value={id} selected={figure.choice() === id}>
+                {label}
+              </option>
+            )}
+          </For>
+        </select>
+      </label>
+      <span class="unit">Save</span>
+      <button type="button" class="small" aria-label="Save CSV" onClick={saveCsv}>
+        CSV
+      </button>
+      <button type="button" class="small" aria-label="Save PNG" onClick={() => void savePng()}>
+        PNG
+      </button>
+      <button type="button" class="small" aria-label="Save SVG" onClick={saveSvg}>
+        SVG
+      </button>
+    </div>
   );
 }
 
-export function PlotsPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
+export function PlotsPanel(props: TabProps): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
+  const figure = createFigure(lab);
   const context: PlotContext = {
     palette,
-    disturbances: createMemo(() =>
-      lab
-        .marks()
-        .filter((mark) => mark.kind === 'disturbance')
-        .map((mark) => mark.sim_time_s),
-    ),
+    sample: figure.sample,
     threshold_m: () => lab.scene()?.parameters.threshold_m,
   };
+  const draws: (() => void)[] = [];
+  const rotation = new Rotation(
+    PARTS.length + 1,
+    () => {
+      figure.renew();
+    },
+    (part) => draws[part]?.(),
+    (work) => requestAnimationFrame(work),
+  );
+  createEffect(
+    on([lab.state, lab.marks, figure.choice], () => {
+      rotation.offer();
+    }),
+  );
+  onCleanup(() => {
+    rotation.stop();
+  });
   return (
-    <div class="plots">
-      <For each={SPECS}>
-        {(spec) => <Plot lab={lab} spec={spec} context={context} theme={props.theme} />}
-      </For>
-    </div>
+    <>
+      <Portal mount={props.tools}>
+        <Tools lab={lab} figure={figure} palette={palette} />
+      </Portal>
+      <div class="plots">
+        <For each={PARTS}>
+          {(part, index) => (
+            <TimePlot
+              part={part}
+              figure={figure}
+              context={context}
+              theme={props.theme}
+              onDraw={(draw) => {
+                draws[index()] = draw;
+              }}
+            />
+          )}
+        </For>
+        <LocusPlot
+          lab={lab}
+          figure={figure}
+          palette={palette}
+          onDraw={(draw) => {
+            draws[PARTS.length] = draw;
+          }}
+        />
+      </div>
+    </>
   );
 }

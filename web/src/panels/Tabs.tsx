@@ -5,9 +5,14 @@ import { Dynamic } from 'solid-js/web';
 import type { Lab } from '../lab';
 import type { Theme } from '../theme';
 
-export interface TabProps {
+export interface PanelProps {
   readonly lab: Lab;
   readonly theme: () => Theme;
+}
+
+export interface TabProps extends PanelProps {
+  /** Room for a panel's own controls, beside the tabs. */
+  readonly tools: HTMLElement;
 }
 
 export interface Tab {
@@ -20,8 +25,16 @@ export interface Tab {
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
 export function Tabs(
-  props: TabProps & { area: string; label: string; tabs: readonly [Tab, ...Tab[]] },
+  props: PanelProps & {
+    area: string;
+    label: string;
+    tabs: readonly [Tab, ...Tab[]];
+    /** What stands beside the tabs whichever is chosen. */
+    aside?: JSX.Element;
+  },
 ): JSX.Element {
+  const tools = document.createElement('div');
+  tools.className = 'tab-tools';
   const [index, setIndex] = createSignal(0);
   const tab = () => props.tabs[index()] ?? props.tabs[0];
   const buttons: HTMLButtonElement[] = [];
@@ -40,25 +53,29 @@ export function Tabs(
   };
   return (
     <section class={`panel ${props.area}`}>
-      <div class="tabs" role="tablist" aria-label={props.label} onKeyDown={onKey}>
-        <For each={props.tabs}>
-          {({ id, title }, at) => (
-            <button
-              ref={(button) => (buttons[at()] = button)}
-              type="button"
-              role="tab"
-              id={`tab-${id}`}
-              aria-controls={`${props.area}-panel`}
-              aria-selected={index() === at()}
-              tabindex={index() === at() ? 0 : -1}
-              onClick={() => {
-                setIndex(at());
-              }}
-            >
-              {title}
-            </button>
-          )}
-        </For>
+      <div class="tab-strip">
+        <div class="tabs" role="tablist" aria-label={props.label} onKeyDown={onKey}>
+          <For each={props.tabs}>
+            {({ id, title }, at) => (
+              <button
+                ref={(button) => (buttons[at()] = button)}
+                type="button"
+                role="tab"
+                id={`tab-${id}`}
+                aria-controls={`${props.area}-panel`}
+                aria-selected={index() === at()}
+                tabindex={index() === at() ? 0 : -1}
+                onClick={() => {
+                  setIndex(at());
+                }}
+              >
+                {title}
+              </button>
+            )}
+          </For>
+        </div>
+        {tools}
+        {props.aside}
       </div>
       <div
         id={`${props.area}-panel`}
@@ -66,7 +83,7 @@ export function Tabs(
         role="tabpanel"
         aria-labelledby={`tab-${tab().id}`}
       >
-        <Dynamic component={tab().panel} lab={props.lab} theme={props.theme} />
+        <Dynamic component={tab().panel} lab={props.lab} theme={props.theme} tools={tools} />
       </div>
     </section>
   );

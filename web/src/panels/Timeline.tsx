@@ -5,6 +5,7 @@ import { clock } from '../format';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
 import { EventMarks } from './EventMarks';
+import { ScriptMarks } from './ScriptMarks';
 
 const MAX_REWINDS_PER_S = 15;
 /** How long the slider stays where it was let go, until the server's answer is here. */
@@ -38,6 +39,7 @@ export function Timeline(props: { lab: Lab }): JSX.Element {
       <span class="end number">{seconds(oldest())}</span>
       <div class="track">
         <EventMarks lab={lab} oldest={oldest()} newest={newest()} />
+        <ScriptMarks lab={lab} oldest={oldest()} newest={newest()} />
         <input
           ref={slider}
           type="range"

@@ -1,8 +1,9 @@
 // Time: run, pause, step, reset, speed, seed, map, and the way back.
 
-import { Show, createEffect, createMemo, on, onCleanup, onMount, type JSX } from 'solid-js';
-import { clock, fixed, speed } from '../format';
+import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
+import { clock } from '../format';
 import type { Lab } from '../lab';
+import { SPEEDS, achievedWords, speedName, ticksToControlStep } from '../steps';
 import type { Links } from '../links';
 import { LinkBar } from './LinkBar';
 import { NoticeBar } from './NoticeBar';
@@ -12,19 +13,9 @@ import { Timeline } from './Timeline';
 import { TruthSelect } from './TruthSelect';
 import { WhyCard } from './WhyCard';
 
-const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4, 8, 64];
-const FASTEST = 64;
 /** One second of ticks. */
 const MANY_TICKS = 125;
 const SEED_LIMIT = 2 ** 32;
-
-/** Whether Space already means something where the focus is. */
-function usesSpace(target: EventTarget | null): boolean {
-  return (
-    target instanceof Element &&
-    target.closest('button, input:not([type=range]), select, summary, textarea, a') !== null
-  );
-}
 
 function RunButtons(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
@@ -32,17 +23,6 @@ function RunButtons(props: { lab: Lab }): JSX.Element {
   const toggle = (): void => {
     lab.send({ type: running() ? 'pause' : 'run' });
   };
-  onMount(() => {
-    const onKey = (event: KeyboardEvent): void => {
-      if (event.key !== ' ' || event.repeat || usesSpace(event.target)) return;
-      event.preventDefault();
-      if (lab.canOperate()) toggle();
-    };
-    document.addEventListener('keydown', onKey);
-    onCleanup(() => {
-      document.removeEventListener('keydown', onKey);
-    });
-  });
   return (
     <div class="buttons">
       <button
@@ -57,7 +37,7 @@ function RunButtons(props: { lab: Lab }): JSX.Element {
       <button
         type="button"
         disabled={!lab.canOperate() || running()}
-        title={`One tick of 8 ms; with Shift ${MANY_TICKS} ticks, one second`}
+        title={`One tick of 8 ms; with Shift ${MANY_TICKS} ticks, one second (.)`}
         onClick={(event) => {
           lab.send({ type: 'step', ticks: event.shiftKey ? MANY_TICKS : 1 });
         }}
@@ -66,8 +46,20 @@ function RunButtons(props: { lab: Lab }): JSX.Element {
       </button>
       <button
         type="button"
+        disabled={!lab.canOperate() || running()}
+        title="To the next control step: 31 or 32 ticks, a quarter of a second (,)"
+        onClick={() => {
+          const tick = lab.state()?.tick ?? 0;
+          const ticks = ticksToControlStep(tick, lab.scene()?.tick_s ?? 0.008);
+          lab.send({ type: 'step', ticks });
+        }}
+      >
+        Step ¼ s
+      </button>
+      <button
+        type="button"
         disabled={!lab.canOperate()}
-        title="Back to the start with the same seed"
+        title="Back to the start with the same seed (R)"
         onClick={() => {
           lab.send({ type: 'reset' });
         }}
@@ -126,11 +118,11 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
   const { lab, links } = props;
   const speeds = createMemo(() => {
     const target = lab.state()?.speed_target ?? 1;
-    const all = SPEEDS.includes(target) ? SPEEDS : [...SPEEDS, target].sort((a, b) => a - b);
-    return all.map(
-      (factor) => [String(factor), factor === FASTEST ? 'max (64×)' : speed(factor)] as const,
-    );
+    const all = [...new Set([...SPEEDS, target])].sort((a, b) => a - b);
+    return all.map((factor) => [String(factor), speedName(factor)] as const);
   });
+  const achieved = () =>
+    achievedWords(lab.state()?.speed_target ?? 1, lab.state()?.speed_achieved ?? 0);
   const maps = createMemo(() => (lab.scene()?.maps ?? []).map((name) => [name, name] as const));
   const loadMap = (map: string): void => {
     const scene = lab.scene();
@@ -162,7 +154,10 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
         />
         <span class="achieved number" title="Simulated seconds a second that the server achieves">
           <Show when={lab.state()?.running} fallback="paused">
-            achieved {fixed(lab.state()?.speed_achieved ?? 0, 2)}×
+            {achieved().text}
+            <Show when={achieved().limited}>
+              <span class="limit">machine limit</span>
+            </Show>
           </Show>
         </span>
         <Show when={lab.scene()}>

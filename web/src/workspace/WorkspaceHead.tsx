@@ -1,12 +1,38 @@
 // Head of the plan view: what carries the magnet, which layers are shown, what can be done.
 
-import { Show, type JSX } from 'solid-js';
+import { For, Show, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import { LayerMenu } from './LayerMenu';
 import type { Layer } from './layers';
+import { VIEW_MODES, type ViewMode } from './viewMode';
+
+/** Radio buttons, so that arrow keys go between them as everywhere. */
+function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {
+  return (
+    <fieldset class="view-switch" role="radiogroup" aria-label="View">
+      <For each={VIEW_MODES}>
+        {([id, label]) => (
+          <label>
+            <input
+              type="radio"
+              name="workspace-view"
+              checked={props.mode === id}
+              onChange={() => {
+                props.onMode(id);
+              }}
+            />
+            {label}
+          </label>
+        )}
+      </For>
+    </fieldset>
+  );
+}
 
 export function WorkspaceHead(props: {
   lab: Lab;
+  mode: ViewMode;
+  onMode: (mode: ViewMode) => void;
   layers: ReadonlySet<Layer>;
   onLayer: (layer: Layer, on: boolean) => void;
   disturbId: string;
@@ -30,6 +56,7 @@ export function WorkspaceHead(props: {
         </Show>
       </h2>
       <div class="buttons">
+        <ViewSwitch mode={props.mode} onMode={props.onMode} />
         <LayerMenu layers={props.layers} onLayer={props.onLayer} reason={reason} />
         <button
           type="button"

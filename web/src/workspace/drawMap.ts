@@ -37,7 +37,13 @@ export function wallPath(walls: readonly Polygon[], view: View): Path2D {
   return path;
 }
 
-function drawGrid(ctx: CanvasRenderingContext2D, rect: Rect, view: View, palette: Palette): void {
+/** The lines of the grid, and their numbers beside the workspace. */
+export function drawGrid(
+  ctx: CanvasRenderingContext2D,
+  rect: Rect,
+  view: View,
+  palette: Palette,
+): void {
   const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   const step = gridStepM(view.pxPerM);

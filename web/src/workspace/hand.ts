@@ -4,7 +4,7 @@ import { createSignal, type Accessor } from 'solid-js';
 import { IDLE, dragStep, type DragEvent, type DragState } from '../drag';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
-import { clampToRect, worldFromPx, type Vec2, type View } from '../transform';
+import { clampToRect, type TableView, type Vec2 } from '../transform';
 
 const MAX_DRAGS_PER_S = 60;
 
@@ -15,26 +15,28 @@ export interface Hand {
   mayAct(): boolean;
 }
 
-export function createHand(lab: Lab, view: () => View | undefined): Hand {
+/** `place` hears of clicks, in metres. */
+export function createHand(
+  lab: Lab,
+  view: () => TableView | undefined,
+  place: (at: Vec2) => void,
+): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
   const drags = new Limiter<{ at: Vec2; lift: boolean }>(1000 / MAX_DRAGS_PER_S, (wish) => {
     lab.send({ type: 'drag', x_m: wish.at[0], y_m: wish.at[1], lift: wish.lift });
   });
 
-  const world = (px: Vec2): [number, number] | undefined => {
-    const now = view();
-    return now && worldFromPx(now, px);
+  const mayAct = (): boolean => {
+    if (lab.canOperate()) return true;
+    if (lab.link().kind === 'live') {
+      lab.notify('workspace', 'You are watching. Take control to place goals or move the bead.');
+    }
+    return false;
   };
 
   return {
     drag,
-    mayAct() {
-      if (lab.canOperate()) return true;
-      if (lab.link().kind === 'live') {
-        lab.notify('workspace', 'You are watching. Take control to place goals or move the bead.');
-      }
-      return false;
-    },
+    mayAct,
     dispatch(event) {
       const [next, effects] = dragStep(drag(), event);
       setDrag(next);
@@ -44,11 +46,11 @@ export function createHand(lab: Lab, view: () => View | undefined): Hand {
           lab.send({ type: 'release' });
           continue;
         }
-        const at = world(effect.at);
+        const at = view()?.toWorld(effect.at);
         const scene = lab.scene();
         if (!at || !scene) continue;
         if (effect.type === 'goal') {
-          lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+          place(at);
         } else {
           drags.offer({ at: clampToRect(scene.workspace, at), lift: effect.lift });
         }

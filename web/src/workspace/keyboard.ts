@@ -1,8 +1,8 @@
 // The workspace by keyboard: arrows move a cursor, Enter places the goal, D takes the bead and lets
-// it go, Escape lets it go.
+// it go, Escape lets it go or ends picking.
 
 import type { Lab } from '../lab';
-import { clampToRect, distance, pxFromWorld, type Vec2, type View } from '../transform';
+import { clampToRect, distance, type TableView, type Vec2 } from '../transform';
 import type { Hand } from './hand';
 
 const STEP_M = 0.005;
@@ -15,13 +15,22 @@ const ARROWS: Partial<Record<string, Vec2>> = {
 /** Within this of the bead the hand takes it where the cursor is. */
 const REACH_M = 0.02;
 
+export interface Cursor {
+  readonly at: () => Vec2 | undefined;
+  readonly put: (at: Vec2) => void;
+  /** Where on the table an arrow leads that points so on the screen. */
+  readonly turned: (arrow: Vec2) => Vec2;
+}
+
+/** Listens as long as the canvas is there. */
 export function attachKeyboard(
   canvas: HTMLCanvasElement,
   lab: Lab,
   hand: Hand,
-  view: () => View | undefined,
-  cursor: () => Vec2 | undefined,
-  setCursor: (cursor: Vec2) => void,
+  view: () => TableView | undefined,
+  cursor: Cursor,
+  place: (at: Vec2) => void,
+  escape: () => void,
 ): void {
   const bead = (): Vec2 | undefined => {
     const state = lab.state();
@@ -31,20 +40,17 @@ export function attachKeyboard(
     const drag = hand.drag();
     return drag.kind === 'held' && drag.by === 'keyboard';
   };
-  const px = (at: Vec2): Vec2 | undefined => {
-    const now = view();
-    return now && pxFromWorld(now, at);
-  };
+  const px = (at: Vec2): Vec2 | undefined => view()?.toPx(at);
 
   const move = (direction: Vec2, lift: boolean): void => {
     const scene = lab.scene();
-    const from = cursor() ?? bead();
+    const from = cursor.at() ?? bead();
     if (!scene || !from) return;
     const to = clampToRect(scene.workspace, [
       from[0] + direction[0] * STEP_M,
       from[1] + direction[1] * STEP_M,
     ]);
-    setCursor(to);
+    cursor.put(to);
     const at = px(to);
     if (holds() && at) hand.dispatch({ type: 'move', by: 'keyboard', at, lift });
   };
@@ -57,9 +63,9 @@ export function attachKeyboard(
     const beadAt = bead();
     if (!beadAt || !hand.mayAct()) return;
     // From afar the cursor goes to the bead first: taking it must not fling it across the map.
-    const here = cursor();
+    const here = cursor.at();
     const from = here && distance(here, beadAt) <= REACH_M ? here : beadAt;
-    setCursor(from);
+    cursor.put(from);
     const at = px(from);
     if (at) hand.dispatch({ type: 'take', at });
   };
@@ -68,15 +74,17 @@ export function attachKeyboard(
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const direction = ARROWS[event.key];
     if (direction) {
-      move(direction, event.shiftKey);
+      move(cursor.turned(direction), event.shiftKey);
     } else if (event.key === 'Enter') {
-      const at = cursor();
-      if (!at || !hand.mayAct()) return;
-      lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+      const at = cursor.at();
+      // A held key is no second goal.
+      if (!at || event.repeat) return;
+      place(at);
     } else if (event.key === 'd' || event.key === 'D') {
       takeOrRelease();
     } else if (event.key === 'Escape') {
       hand.dispatch({ type: 'cancel' });
+      escape();
     } else {
       return;
     }

@@ -2,22 +2,13 @@
 
 import type { DragState } from '../drag';
 import type { History } from '../history';
-import type { Palette } from '../palette';
-import type {
-  ComparisonMessage,
-  OverlayMessage,
-  SceneMessage,
-  StateMessage,
-} from '../protocol.gen';
-import { clampToRect, pxFromWorld, worldFromPx, type Vec2, type View } from '../transform';
-import { drawFlow, type Flow } from './drawFlow';
+import type { SceneMessage, StateMessage } from '../protocol.gen';
+import { clampToRect, planView, pxFromWorld, type TableView, type Vec2 } from '../transform';
+import { drawFlow } from './drawFlow';
 import { drawGhosts } from './drawGhosts';
 import { drawCursor, drawSpring } from './drawHand';
-import { drawHeat, type Heat } from './drawHeat';
+import { drawHeat } from './drawHeat';
 import { drawFloor, drawMap } from './drawMap';
-import { drawObstacles, drawPlan, type Plan } from './drawPlan';
-import { drawValues, type Values } from './drawValue';
-import { drawBlocks, drawRectangles, drawSeen, type Seen } from './drawSeen';
 import {
   drawBead,
   drawCapture,
@@ -27,31 +18,18 @@ import {
   drawTool,
   drawTrail,
 } from './drawMoving';
-import type { Layer } from './layers';
+import { drawObstacles, drawPlan } from './drawPlan';
+import { drawBlocks, drawRectangles, drawSeen } from './drawSeen';
+import { drawValues } from './drawValue';
+import type { Ground } from './ground';
 
-const TRAIL_S = 60;
+/** As long as the plots show. */
+export const TRAIL_S = 60;
 
 export interface Picture {
-  readonly view: View;
-  readonly palette: Palette;
-  readonly scene: SceneMessage;
-  readonly walls: Path2D;
+  readonly ground: Ground;
   readonly state: StateMessage | undefined;
-  readonly overlay: OverlayMessage | undefined;
-  /** The layer of singularities, when it is shown. */
-  readonly heat: Heat | undefined;
-  /** What the policy thinks of each place, when it is shown. */
-  readonly values: Values | undefined;
-  /** What the camera has shown, when it is shown. */
-  readonly seen: Seen | undefined;
-  /** What ERRT plans, when it does. */
-  readonly plan: Plan | undefined;
-  /** The attractor's flow, when it is shown. */
-  readonly flow: Flow | undefined;
-  /** A fork, and the tick at which its branches are shown. */
-  readonly ghosts: { readonly comparison: ComparisonMessage; readonly tick: number } | undefined;
   readonly history: History;
-  readonly layers: ReadonlySet<Layer>;
   readonly drag: DragState;
   /** Radius of the ring that says that the bead can be taken; none when it cannot. */
   readonly grabRadiusPx: number | undefined;
@@ -60,68 +38,96 @@ export interface Picture {
 
 type Ctx = CanvasRenderingContext2D;
 
-function paintTrails(ctx: Ctx, picture: Picture, state: StateMessage): void {
-  const [toolX, toolY, beadX, beadY] = picture.history.window(
+function paintTrails(ctx: Ctx, { ground, history }: Picture, state: StateMessage): void {
+  const [toolX, toolY, beadX, beadY] = history.window(
     state.sim_time_s - TRAIL_S,
     state.sim_time_s,
     ['tool_x_m', 'tool_y_m', 'bead_x_m', 'bead_y_m'],
   );
   if (!toolX || !toolY || !beadX || !beadY) return;
-  drawTrail(ctx, picture.view, picture.palette.tool, toolX, toolY);
-  drawTrail(ctx, picture.view, picture.palette.bead, beadX, beadY);
+  drawTrail(ctx, ground.view, ground.palette.tool, toolX, toolY);
+  drawTrail(ctx, ground.view, ground.palette.bead, beadX, beadY);
 }
 
-function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { drag, view, scene } = picture;
-  // One's own pointer is newer than the server's echo of it; a viewer sees the echo.
-  const hand_m =
-    drag.kind === 'held' ? clampToRect(scene.workspace, worldFromPx(view, drag.at)) : state.hand_m;
-  if (!hand_m) return;
+/** What is worth knowing about a hold: that the bead is lifted, or, while time stands, when it moves. */
+export function remarkOf(drag: DragState, state: StateMessage): string {
   const remarks: string[] = [];
   if (drag.kind === 'held' && drag.lift) remarks.push('lifted');
   if (!state.running) remarks.push('put there on release');
-  drawSpring(ctx, view, picture.palette, widthPx, {
+  return remarks.join(', ');
+}
+
+/** Where the hand is: one's own pointer is newer than the server's echo of it; a viewer sees the echo. */
+export function handOf(
+  drag: DragState,
+  state: StateMessage,
+  scene: SceneMessage,
+  toWorld: TableView['toWorld'],
+): Vec2 | undefined {
+  const own = drag.kind === 'held' ? toWorld(drag.at) : undefined;
+  return own ? clampToRect(scene.workspace, own) : (state.hand_m ?? undefined);
+}
+
+function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
+  const { drag } = picture;
+  const { view, palette, scene } = picture.ground;
+  const hand_m = handOf(drag, state, scene, planView(view).toWorld);
+  if (!hand_m) return;
+  drawSpring(ctx, view, palette, widthPx, {
     bead_m: [state.bead_m[0], state.bead_m[1]],
     hand_m,
     force_n: state.hand_force_n,
-    remark: remarks.join(', '),
+    remark: remarkOf(drag, state),
   });
 }
 
 /** Fields reach beyond the table; their pictures would cover the numbers of the axes. */
-function clipToWorkspace(ctx: Ctx, { view, scene }: Picture): void {
+function clipped(ctx: Ctx, { view, scene }: Ground, draw: () => void): void {
   const rect = scene.workspace;
   const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  ctx.save();
   ctx.beginPath();
   ctx.rect(left, top, right - left, bottom - top);
   ctx.clip();
+  draw();
+  ctx.restore();
+}
+
+/** Everything that lies on the table, from the floor up. */
+export function paintGround(ctx: Ctx, ground: Ground): void {
+  const { view, palette, scene, layers, overlay, heat, values, seen, plan, flow, ghosts } = ground;
+  drawFloor(ctx, scene.workspace, view, palette);
+  clipped(ctx, ground, () => {
+    if (heat) drawHeat(ctx, view, palette, heat);
+    if (values) drawValues(ctx, view, palette, values);
+  });
+  drawMap(ctx, scene, ground.walls, view, palette);
+  if (seen) drawSeen(ctx, view, seen);
+  clipped(ctx, ground, () => {
+    if (flow) drawFlow(ctx, view, palette, flow);
+    if (overlay) {
+      if (layers.has('blocks')) drawBlocks(ctx, view, palette, overlay.blocks);
+      if (layers.has('rectangles')) drawRectangles(ctx, view, palette, overlay.blocks);
+      if (layers.has('sensed')) drawSensed(ctx, view, palette, overlay);
+    }
+    if (plan) {
+      if (layers.has('obstacles')) drawObstacles(ctx, palette, plan);
+      if (layers.has('plan')) drawPlan(ctx, palette, plan);
+    }
+  });
+  if (ghosts) drawGhosts(ctx, view, palette, ghosts.comparison, ghosts.tick);
 }
 
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { view, palette, scene, layers } = picture;
+  const { view, palette, scene, layers } = picture.ground;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
-  ctx.save();
-  clipToWorkspace(ctx, picture);
-  if (picture.overlay) {
-    if (layers.has('blocks')) drawBlocks(ctx, view, palette, picture.overlay.blocks);
-    if (layers.has('rectangles')) drawRectangles(ctx, view, palette, picture.overlay.blocks);
-    if (layers.has('sensed')) drawSensed(ctx, view, palette, picture.overlay);
-  }
-  if (picture.plan) {
-    if (layers.has('obstacles')) drawObstacles(ctx, palette, picture.plan);
-    if (layers.has('plan')) drawPlan(ctx, palette, picture.plan);
-  }
-  if (layers.has('trail')) paintTrails(ctx, picture, state);
-  if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_sees_m);
-  if (layers.has('capture')) {
-    drawCapture(ctx, view, palette, tool, scene.capture_m);
-  }
-  ctx.restore();
+  clipped(ctx, picture.ground, () => {
+    if (layers.has('trail')) paintTrails(ctx, picture, state);
+    if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_sees_m);
+    if (layers.has('capture')) drawCapture(ctx, view, palette, tool, scene.capture_m);
+  });
   if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
-  if (picture.ghosts) {
-    drawGhosts(ctx, view, palette, picture.ghosts.comparison, picture.ghosts.tick);
-  }
   drawTool(ctx, view, palette, tool);
   drawBead(ctx, view, palette, scene, state, picture.grabRadiusPx);
   paintSpring(ctx, picture, state, widthPx);
@@ -143,27 +149,7 @@ export function paint(
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, size.width, size.height);
-  drawFloor(ctx, picture.scene.workspace, picture.view, picture.palette);
-  if (picture.heat) {
-    ctx.save();
-    clipToWorkspace(ctx, picture);
-    drawHeat(ctx, picture.view, picture.palette, picture.heat);
-    ctx.restore();
-  }
-  if (picture.values) {
-    ctx.save();
-    clipToWorkspace(ctx, picture);
-    drawValues(ctx, picture.view, picture.palette, picture.values);
-    ctx.restore();
-  }
-  drawMap(ctx, picture.scene, picture.walls, picture.view, picture.palette);
-  if (picture.seen) drawSeen(ctx, picture.view, picture.seen);
-  if (picture.flow) {
-    ctx.save();
-    clipToWorkspace(ctx, picture);
-    drawFlow(ctx, picture.view, picture.palette, picture.flow);
-    ctx.restore();
-  }
+  paintGround(ctx, picture.ground);
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
-  if (picture.cursor) drawCursor(ctx, picture.view, picture.palette, picture.cursor);
+  if (picture.cursor) drawCursor(ctx, picture.ground.view, picture.ground.palette, picture.cursor);
 }

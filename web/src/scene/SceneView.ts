@@ -1,0 +1,271 @@
+// The scene in one place: what is told it, and one picture a frame when something of it has changed.
+
+import {
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  PCFShadowMap,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import type { History } from '../history';
+import type { Palette } from '../palette';
+import type { SceneMessage, StateMessage } from '../protocol.gen';
+import type { TableView, Vec2 } from '../transform';
+import type { GroundPicture } from '../workspace/groundPicture';
+import type { Layer } from '../workspace/layers';
+import { Arm, HIDING } from './arm';
+import { Bead, type Pull } from './bead';
+import { Eye } from './eye';
+import { Floor } from './floor';
+import type { LookName } from './looks';
+import { Marks } from './marks';
+import { Paints } from './paints';
+import { disposeGeometries } from './solids';
+import { Table } from './table';
+import { Tool } from './tool';
+
+const MOST_PIXEL_RATIO = 2;
+const SKY = '#ffffff';
+const SKY_STRENGTH = 1.75;
+/** What the table throws back from below. */
+const BELOW = '#8a8f98';
+const LIGHT_STRENGTH = 1.9;
+/** From the middle of the table toward the light: over the user's left shoulder. */
+const TOWARD_LIGHT = new Vector3(-0.3, -0.55, 1.1);
+const SHADOW_PX = 1024;
+const SHADOW_STRENGTH = 0.65;
+/** Half of what the light's own picture shows around the middle of the table: the arm, or a larger table. */
+const SHADOWED_M = 0.62;
+
+/** This browser draws no 3-D. */
+export class NoWebGl extends Error {}
+
+export interface Now {
+  readonly state: StateMessage;
+  readonly history: History;
+  readonly layers: ReadonlySet<Layer>;
+  readonly pull: Pull | undefined;
+  readonly nearBead: boolean;
+  readonly cursor: Vec2 | undefined;
+}
+
+/** What stands on the table of one scene. */
+interface Setting {
+  readonly scene: SceneMessage;
+  readonly table: Table;
+  readonly tool: Tool;
+  readonly marks: Marks;
+  readonly bead: Bead;
+  readonly group: Group;
+}
+
+export class SceneView {
+  private readonly renderer: WebGLRenderer;
+  private readonly world = new Scene();
+  private readonly light = new DirectionalLight(SKY, LIGHT_STRENGTH);
+  private readonly paints: Paints;
+  private readonly arm: Arm;
+  private readonly eye: Eye;
+  private setting: Setting | undefined;
+  private floor: Floor | undefined;
+  private now: Now | undefined;
+  private view: TableView | undefined;
+  private frame: number | undefined;
+  private height_px = 1;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private palette: Palette,
+    /** Called when the table is seen otherwise than before. */
+    private readonly onView: (view: TableView) => void,
+  ) {
+    // Asked for here, because the library complains aloud when there is none.
+    const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
+    if (!context) throw new NoWebGl();
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.renderer.setClearAlpha(0);
+    this.renderer.localClippingEnabled = true;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.paints = new Paints(palette);
+    this.arm = new Arm(this.paints);
+    this.arm.group.visible = false;
+    this.world.add(new HemisphereLight(SKY, BELOW, SKY_STRENGTH), this.light, this.light.target);
+    this.world.add(this.arm.group);
+    this.light.castShadow = true;
+    const { shadow } = this.light;
+    shadow.mapSize.set(SHADOW_PX, SHADOW_PX);
+    shadow.camera.near = 0.05;
+    shadow.camera.far = 4;
+    shadow.normalBias = 2e-3;
+    shadow.intensity = SHADOW_STRENGTH;
+    this.eye = new Eye(canvas, () => {
+      this.seeAnew();
+    });
+    canvas.addEventListener('webglcontextrestored', this.request);
+  }
+
+  resize(width_px: number, height_px: number): void {
+    if (width_px === 0 || height_px === 0) return;
+    this.height_px = height_px;
+    this.renderer.setPixelRatio(Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio));
+    this.renderer.setSize(width_px, height_px, false);
+    this.eye.resize(width_px, height_px);
+    this.seeAnew();
+  }
+
+  recolor(palette: Palette): void {
+    this.palette = palette;
+    this.paints.recolor(palette);
+    this.setting?.table.recolor(palette);
+    this.setting?.bead.recolor(palette);
+    this.request();
+  }
+
+  /** Sets everything up that follows from the scene. */
+  show(scene: SceneMessage): void {
+    this.clear();
+    const group = new Group();
+    const { paints, palette } = this;
+    paints.clipTo(scene.workspace);
+    const hasArm = scene.positioner === 'arm';
+    const table = new Table(paints, palette, scene);
+    const tool = new Tool(
+      paints,
+      scene.parameters.block_orientation,
+      hasArm ? undefined : scene.workspace,
+    );
+    const marks = new Marks(paints, scene);
+    const bead = new Bead(paints, palette, scene.bead_radius_m);
+    group.add(table.group, tool.group, marks.group, bead.group);
+    this.world.add(group);
+    this.setting = { scene, table, tool, marks, bead, group };
+    const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
+    this.light.target.position.set((x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2, 0);
+    this.light.position.copy(this.light.target.position).add(TOWARD_LIGHT);
+    const half_m = Math.max(SHADOWED_M, 0.55 * Math.hypot(x_max_m - x_min_m, y_max_m - y_min_m));
+    Object.assign(this.light.shadow.camera, {
+      left: -half_m,
+      right: half_m,
+      top: half_m,
+      bottom: -half_m,
+    }).updateProjectionMatrix();
+    this.eye.lookAt(scene.workspace);
+    this.place();
+  }
+
+  /** Lays a picture on the floor, or says that it has been drawn anew. */
+  lay(picture: GroundPicture): void {
+    if (this.floor?.of === picture) {
+      this.floor.refresh();
+    } else {
+      this.removeFloor();
+      this.floor = new Floor(picture, this.paints);
+      this.world.add(this.floor.group);
+    }
+    this.request();
+  }
+
+  update(now: Now): void {
+    this.now = now;
+    this.place();
+  }
+
+  setFree(free: boolean): void {
+    this.eye.setFree(free);
+  }
+
+  look(name: LookName): void {
+    this.eye.take(name);
+  }
+
+  key(key: string): boolean {
+    return this.eye.key(key);
+  }
+
+  turned(arrow: Vec2): Vec2 {
+    return this.eye.turned(arrow);
+  }
+
+  dispose(): void {
+    if (this.frame !== undefined) cancelAnimationFrame(this.frame);
+    this.canvas.removeEventListener('webglcontextrestored', this.request);
+    this.clear();
+    this.removeFloor();
+    disposeGeometries(this.arm.group);
+    this.light.dispose();
+    this.paints.dispose();
+    this.eye.dispose();
+    this.renderer.dispose();
+    // A browser has few contexts, and frees one that is no longer reachable late.
+    this.renderer.forceContextLoss();
+  }
+
+  private clear(): void {
+    if (!this.setting) return;
+    const { table, tool, marks, bead, group } = this.setting;
+    this.world.remove(group);
+    for (const part of [table, tool, marks, bead]) part.dispose();
+    this.setting = undefined;
+  }
+
+  private removeFloor(): void {
+    if (!this.floor) return;
+    this.world.remove(this.floor.group);
+    this.floor.dispose();
+    this.floor = undefined;
+  }
+
+  private place(): void {
+    const { now, setting } = this;
+    if (!now || !setting) return;
+    const { state, pull } = now;
+    const { tool, marks, bead } = setting;
+    this.arm.group.visible = state.joints_rad !== null;
+    if (state.joints_rad) this.arm.pose(state.joints_rad);
+    tool.place(state.tool_m);
+    marks.place(state, now.history, now.layers);
+    marks.placeCursor(now.cursor);
+    bead.place(state);
+    bead.canGrab(now.nearBead || pull !== undefined);
+    bead.pull(pull);
+    this.request();
+  }
+
+  private seeAnew(): void {
+    const { view, pxFromTable } = this.eye.view();
+    this.view = view;
+    this.canvas.dataset.pxFromTable = pxFromTable.join(',');
+    this.onView(view);
+    this.request();
+  }
+
+  private readonly request = (): void => {
+    this.frame ??= requestAnimationFrame(() => {
+      this.frame = undefined;
+      this.draw();
+    });
+  };
+
+  private draw(): void {
+    const { setting, now, eye } = this;
+    if (!setting || !now) return;
+    this.paints.fade(HIDING, eye.hiding());
+    setting.bead.fit(eye.camera, this.height_px);
+    this.renderer.render(this.world, eye.camera);
+    this.tell(now.state);
+  }
+
+  /** For tests and for other tools that read the page. */
+  private tell(state: StateMessage): void {
+    const [x, y, z] = state.bead_m;
+    const { dataset } = this.canvas;
+    dataset.beadPx = this.view?.toPx([x, y], z)?.join(',') ?? '';
+    const { memory, render } = this.renderer.info;
+    dataset.frames = String(render.frame);
+    dataset.geometries = String(memory.geometries);
+    dataset.textures = String(memory.textures);
+  }
+}

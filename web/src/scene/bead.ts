@@ -1,0 +1,168 @@
+// The bead, what helps to find it, and the hand's spring.
+
+import { Group, Mesh, SphereGeometry, Sprite, SpriteMaterial, CanvasTexture, Vector3 } from 'three';
+import type { PerspectiveCamera } from 'three';
+import type { Palette } from '../palette';
+import type { StateMessage } from '../protocol.gen';
+import type { Vec2 } from '../transform';
+import { ORDER, type Paints } from './paints';
+import { disposeGeometries } from './solids';
+import { Strokes } from './strokes';
+
+/** The bead is 5 mm: from afar it is drawn larger than life, or nobody finds it. */
+const LEAST_RADIUS_PX = 5;
+const HALO_PX = 13;
+const HALO_OPACITY = 0.4;
+/** The halo of a bead that a press would take. */
+const GRAB_OPACITY = 0.85;
+const SPRITE_PX = 64;
+
+const COILS = 10;
+const COIL_POINTS = 14;
+const COIL_M = 0.0035;
+/** Share of the spring that is straight wire, at either end. */
+const LEAD = 0.12;
+/** Of the hand over the table, and while it lifts. */
+const HAND_UP_M = 0.006;
+const LIFTED_UP_M = 0.03;
+
+/** A ring around a glow, white: the material gives the colour. */
+function haloTexture(): CanvasTexture {
+  const canvas = document.createElement('canvas');
+  canvas.width = SPRITE_PX;
+  canvas.height = SPRITE_PX;
+  const ctx = canvas.getContext('2d');
+  if (ctx) {
+    const half = SPRITE_PX / 2;
+    const glow = ctx.createRadialGradient(half, half, 0, half, half, half);
+    glow.addColorStop(0, 'rgb(255 255 255 / 60%)');
+    glow.addColorStop(0.85, 'rgb(255 255 255 / 18%)');
+    glow.addColorStop(1, 'rgb(255 255 255 / 0%)');
+    ctx.fillStyle = glow;
+    ctx.fillRect(0, 0, SPRITE_PX, SPRITE_PX);
+    ctx.strokeStyle = 'white';
+    ctx.lineWidth = 4;
+    ctx.beginPath();
+    ctx.arc(half, half, half - 4, 0, 2 * Math.PI);
+    ctx.stroke();
+  }
+  return new CanvasTexture(canvas);
+}
+
+export interface Pull {
+  readonly hand_m: Vec2;
+  readonly lifted: boolean;
+}
+
+export class Bead {
+  readonly group = new Group();
+  private readonly ball: Mesh;
+  private readonly halo: Sprite;
+  private readonly spring: Strokes;
+  private readonly grip: Mesh;
+  private readonly at = new Vector3();
+  private readonly along = new Vector3();
+  private readonly u = new Vector3();
+  private readonly v = new Vector3();
+
+  constructor(
+    paints: Paints,
+    palette: Palette,
+    private readonly radius_m: number,
+  ) {
+    this.ball = new Mesh(new SphereGeometry(1, 28, 18), paints.glowing('bead'));
+    this.ball.castShadow = true;
+    // Found behind the arm and the walls as well.
+    this.halo = new Sprite(
+      new SpriteMaterial({
+        map: haloTexture(),
+        sizeAttenuation: false,
+        depthTest: false,
+        depthWrite: false,
+        transparent: true,
+      }),
+    );
+    this.spring = new Strokes(paints, 'hand', COILS * COIL_POINTS + 2, {
+      width_px: 2,
+      through: true,
+    });
+    this.grip = new Mesh(new SphereGeometry(0.004, 18, 12), paints.glowing('hand'));
+    this.group.renderOrder = ORDER.solids;
+    const air = new Group();
+    air.renderOrder = ORDER.air;
+    air.add(this.halo, this.spring.object);
+    this.group.add(this.ball, this.grip, air);
+    this.recolor(palette);
+    this.pull(undefined);
+  }
+
+  recolor(palette: Palette): void {
+    this.halo.material.color.set(palette.bead);
+  }
+
+  place(state: StateMessage): void {
+    this.at.set(...state.bead_m);
+  }
+
+  canGrab(near: boolean): void {
+    this.halo.material.opacity = near ? GRAB_OPACITY : HALO_OPACITY;
+  }
+
+  /** The spring from the bead to the hand, or none; after `place`. */
+  pull(pull: Pull | undefined): void {
+    this.spring.clear();
+    this.grip.visible = pull !== undefined;
+    if (pull) {
+      const up_m = pull.lifted ? LIFTED_UP_M : HAND_UP_M;
+      this.grip.position.set(...pull.hand_m, up_m);
+      this.coil(this.grip.position);
+    }
+    this.spring.done();
+  }
+
+  /** Sizes what is measured in pixels, for a picture of so many. */
+  fit(camera: PerspectiveCamera, heightPx: number): void {
+    const perPx = (2 * Math.tan((camera.fov * Math.PI) / 360)) / heightPx;
+    // Sprites that distance does not shrink are sized for the distance 1.
+    this.halo.scale.setScalar(2 * HALO_PX * perPx);
+    const depth_m = this.along.copy(this.at).applyMatrix4(camera.matrixWorldInverse).z;
+    const radius_m = Math.max(this.radius_m, -depth_m * perPx * LEAST_RADIUS_PX);
+    this.ball.scale.setScalar(radius_m);
+    // It rests where it rests.
+    this.ball.position.copy(this.at);
+    this.ball.position.z += radius_m - this.radius_m;
+    this.halo.position.copy(this.ball.position);
+  }
+
+  dispose(): void {
+    disposeGeometries(this.group);
+    this.halo.material.map?.dispose();
+    this.halo.material.dispose();
+  }
+
+  private coil(hand: Vector3): void {
+    const { at, along, u, v, spring } = this;
+    along.subVectors(hand, at);
+    const length_m = along.length();
+    if (length_m < 1e-6) return;
+    along.divideScalar(length_m);
+    u.set(-along.y, along.x, 0);
+    if (u.lengthSq() < 1e-6) u.set(1, 0, 0);
+    u.normalize();
+    v.crossVectors(along, u);
+    const radius_m = Math.min(COIL_M, 0.15 * length_m);
+    spring.move(at.x, at.y, at.z);
+    for (let i = 0; i <= COILS * COIL_POINTS; i++) {
+      const share = LEAD + ((1 - 2 * LEAD) * i) / (COILS * COIL_POINTS);
+      const angle = (2 * Math.PI * i) / COIL_POINTS;
+      const [cos, sin] = [radius_m * Math.cos(angle), radius_m * Math.sin(angle)];
+      const s = share * length_m;
+      spring.line(
+        at.x + along.x * s + u.x * cos + v.x * sin,
+        at.y + along.y * s + u.y * cos + v.y * sin,
+        at.z + along.z * s + u.z * cos + v.z * sin,
+      );
+    }
+    spring.line(hand.x, hand.y, hand.z);
+  }
+}

@@ -1,0 +1,51 @@
+// Where the links of the UR5 are, from its joint angles; as server/robot/forward.rs.
+
+import { Matrix4 } from 'three';
+
+/**
+ * Rows of the Denavit-Hartenberg table from the base to the flange, classic convention:
+ * `[d_m, a_m, alpha_quarter_turns]`, of server/robot/ur5.rs.
+ */
+const DH = [
+  [0.089159, 0, 1],
+  [0, -0.425, 0],
+  [0, -0.39225, 0],
+  [0.10915, 0, 1],
+  [0.09465, 0, -1],
+  [0.0823, 0, 0],
+] as const;
+
+/** Shoulder to elbow, elbow to wrist 1. */
+export const UPPER_ARM_M = 0.425;
+export const FOREARM_M = 0.39225;
+/** From wrist 1 to wrist 2, from there to wrist 3, from there to the flange. */
+export const WRIST_LENGTHS_M = [DH[3][0], DH[4][0], DH[5][0]] as const;
+
+const link = new Matrix4();
+
+/**
+ * Writes the poses `base_from_frame` of the frames 1 to 6 into `frames`. Frame i is fixed to link i
+ * and lies at its far end; frame 6 is the flange.
+ */
+export function linkFrames(joints_rad: readonly number[], frames: readonly Matrix4[]): void {
+  let before: Matrix4 | undefined;
+  DH.forEach(([d_m, a_m, alpha], i) => {
+    const frame = frames[i];
+    if (!frame) return;
+    const theta_rad = joints_rad[i] ?? 0;
+    const [sin, cos] = [Math.sin(theta_rad), Math.cos(theta_rad)];
+    // Of a twist in quarter turns: its cosine and its sine.
+    const [twistCos, twistSin] = [alpha === 0 ? 1 : 0, alpha];
+    // Rz(θ)·Tz(d)·Tx(a)·Rx(α), row by row.
+    // prettier-ignore
+    link.set(
+      cos, -sin * twistCos, sin * twistSin, a_m * cos,
+      sin, cos * twistCos, -cos * twistSin, a_m * sin,
+      0, twistSin, twistCos, d_m,
+      0, 0, 0, 1,
+    );
+    if (before) frame.multiplyMatrices(before, link);
+    else frame.copy(link);
+    before = frame;
+  });
+}

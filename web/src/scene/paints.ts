@@ -1,0 +1,149 @@
+// The materials of the scene, in the colours of the palette: one a colour and a kind, shared by all that has it.
+
+import {
+  DoubleSide,
+  MeshBasicMaterial,
+  MeshPhongMaterial,
+  Plane,
+  Vector3,
+  type Color,
+  type Material,
+} from 'three';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import type { Palette } from '../palette';
+import type { Rect } from '../protocol.gen';
+
+export type PaintName = keyof Palette;
+
+/**
+ * What is drawn when. Marks lie on the floor and are seen through the walls, but not through what
+ * stands over them: they do not ask for depth, and solids are drawn after them.
+ */
+export const ORDER = { floor: -1, marks: 0, solids: 1, air: 2 } as const;
+
+/** Plastic and painted metal, no mirror. */
+const GLOSS = { shininess: 36, specular: 0x2a2a2a };
+/** Share of its colour that a thing which must be found shines by itself. */
+const GLOW = 0.45;
+
+type Colored = Material & { readonly color: Color };
+
+interface Paint {
+  readonly name: PaintName;
+  readonly material: Colored;
+}
+
+export interface Sheet {
+  readonly opacity?: number;
+  /** Seen through what was drawn before it, however near that is. */
+  readonly through?: boolean;
+  /** Only over the workspace. */
+  readonly clipped?: boolean;
+}
+
+export interface Stroke extends Sheet {
+  readonly width_px: number;
+}
+
+export class Paints {
+  private readonly paints = new Map<string, Paint>();
+  /** Four sides of the workspace, looking in. */
+  private readonly borders = [
+    new Plane(new Vector3(1, 0, 0)),
+    new Plane(new Vector3(-1, 0, 0)),
+    new Plane(new Vector3(0, 1, 0)),
+    new Plane(new Vector3(0, -1, 0)),
+  ] as const;
+
+  constructor(private palette: Palette) {}
+
+  /** Of what stands still, in the light. */
+  lit(name: PaintName): MeshPhongMaterial {
+    return this.shared(`lit ${name}`, name, () => new MeshPhongMaterial(GLOSS));
+  }
+
+  /** Of what moves over the table: drawn after the marks, and it can fade. */
+  over(name: PaintName): MeshPhongMaterial {
+    const make = (): MeshPhongMaterial => new MeshPhongMaterial({ ...GLOSS, transparent: true });
+    return this.shared(`over ${name}`, name, make);
+  }
+
+  /** The same, shining in the dark. */
+  glowing(name: PaintName): MeshPhongMaterial {
+    const make = (): MeshPhongMaterial => {
+      const material = new MeshPhongMaterial({ ...GLOSS, transparent: true });
+      material.emissiveIntensity = GLOW;
+      return material;
+    };
+    return this.shared(`glowing ${name}`, name, make);
+  }
+
+  /** Of what is drawn rather than there: neither light nor shadow, seen from both sides. */
+  flat(name: PaintName, sheet: Sheet): MeshBasicMaterial {
+    const make = (): MeshBasicMaterial =>
+      new MeshBasicMaterial({ side: DoubleSide, ...this.sheet(sheet) });
+    return this.shared(`flat ${name} ${JSON.stringify(sheet)}`, name, make);
+  }
+
+  stroke(name: PaintName, stroke: Stroke): LineMaterial {
+    const make = (): LineMaterial =>
+      new LineMaterial({
+        linewidth: stroke.width_px,
+        clipping: stroke.clipped ?? false,
+        ...this.sheet(stroke),
+      });
+    return this.shared(`stroke ${name} ${JSON.stringify(stroke)}`, name, make);
+  }
+
+  /** How much `over(name)` hides of what is behind, from 0 to 1. */
+  fade(names: readonly PaintName[], opacity: number): void {
+    for (const name of names) this.over(name).opacity = opacity;
+  }
+
+  clipTo({ x_min_m, x_max_m, y_min_m, y_max_m }: Rect): void {
+    const [left, right, front, back] = this.borders;
+    left.constant = -x_min_m;
+    right.constant = x_max_m;
+    front.constant = -y_min_m;
+    back.constant = y_max_m;
+  }
+
+  /** The same materials in another palette. */
+  recolor(palette: Palette): void {
+    this.palette = palette;
+    for (const paint of this.paints.values()) this.apply(paint);
+  }
+
+  dispose(): void {
+    for (const { material } of this.paints.values()) material.dispose();
+    this.paints.clear();
+  }
+
+  private sheet({ opacity = 1, through = false, clipped = false }: Sheet) {
+    return {
+      transparent: true,
+      depthTest: !through,
+      depthWrite: false,
+      opacity,
+      clippingPlanes: clipped ? [...this.borders] : [],
+    };
+  }
+
+  private shared<M extends Colored>(key: string, name: PaintName, make: () => M): M {
+    const known = this.paints.get(key);
+    // The key names the kind.
+    if (known) return known.material as M;
+    const material = make();
+    const paint = { name, material };
+    this.apply(paint);
+    this.paints.set(key, paint);
+    return material;
+  }
+
+  private apply({ name, material }: Paint): void {
+    material.color.set(this.palette[name]);
+    if (material instanceof MeshPhongMaterial && material.emissiveIntensity === GLOW) {
+      material.emissive.copy(material.color);
+    }
+  }
+}

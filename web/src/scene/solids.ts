@@ -1,0 +1,81 @@
+// Solids put together from tubes and boxes: a mesh a colour, since every mesh costs a call to the card.
+
+import {
+  BoxGeometry,
+  CylinderGeometry,
+  Group,
+  Matrix4,
+  Mesh,
+  Quaternion,
+  Vector3,
+  type BufferGeometry,
+  type Object3D,
+} from 'three';
+import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
+import { ORDER, type PaintName, type Paints } from './paints';
+
+const ROUND = 28;
+
+export type Point = readonly [number, number, number];
+
+/** What round solids are strung on: a place on it is a distance from `origin`. */
+export interface Line {
+  readonly origin: Point;
+  /** Of length 1. */
+  readonly along: Point;
+}
+
+const vector = ([x, y, z]: Point): Vector3 => new Vector3(x, y, z);
+
+export class Solids {
+  private readonly pieces = new Map<PaintName, BufferGeometry[]>();
+
+  /** A cylinder between two places on a line; narrower at the second when there is another radius. */
+  tube(
+    name: PaintName,
+    line: Line,
+    [from_m, to_m]: readonly [number, number],
+    radius_m: number,
+    endRadius_m = radius_m,
+  ): this {
+    const length_m = Math.abs(to_m - from_m);
+    const geometry = new CylinderGeometry(endRadius_m, radius_m, length_m, ROUND);
+    const along = vector(line.along).multiplyScalar(Math.sign(to_m - from_m));
+    // Cylinders are made along y.
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along);
+    const middle = vector(line.origin).addScaledVector(vector(line.along), (from_m + to_m) / 2);
+    return this.add(name, geometry, new Matrix4().compose(middle, turn, new Vector3(1, 1, 1)));
+  }
+
+  box(name: PaintName, center: Point, size: Point): this {
+    return this.add(name, new BoxGeometry(...size), new Matrix4().setPosition(vector(center)));
+  }
+
+  private add(name: PaintName, geometry: BufferGeometry, at: Matrix4): this {
+    geometry.applyMatrix4(at);
+    const pieces = this.pieces.get(name);
+    if (pieces) pieces.push(geometry);
+    else this.pieces.set(name, [geometry]);
+    return this;
+  }
+
+  group(paints: Paints): Group {
+    const group = new Group();
+    group.renderOrder = ORDER.solids;
+    for (const [name, pieces] of this.pieces) {
+      const mesh = new Mesh(mergeGeometries(pieces), paints.over(name));
+      for (const piece of pieces) piece.dispose();
+      mesh.castShadow = true;
+      mesh.receiveShadow = true;
+      group.add(mesh);
+    }
+    return group;
+  }
+}
+
+/** Frees what `object` and what hangs on it hold on the card; materials are shared and stay. */
+export function disposeGeometries(object: Object3D): void {
+  object.traverse((one) => {
+    if ('geometry' in one) (one as Mesh).geometry.dispose();
+  });
+}

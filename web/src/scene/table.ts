@@ -1,0 +1,136 @@
+// What stands still: the table, and the walls on it.
+
+import {
+  BoxGeometry,
+  BufferGeometry,
+  ExtrudeGeometry,
+  Float32BufferAttribute,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  Path,
+  Shape,
+  Vector2,
+} from 'three';
+import type { Palette } from '../palette';
+import type { Polygon, Rect, SceneMessage } from '../protocol.gen';
+import { groundMargins } from '../workspace/groundPicture';
+import { Numbers } from './floor';
+import type { Paints } from './paints';
+import { disposeGeometries } from './solids';
+
+export const WALL_M = 0.005;
+/** Of the table, around the numbers of the axes: a portal's rails lie there. */
+export const EDGE_M = 0.022;
+const THICKNESS_M = 0.018;
+/** Room for the robot's foot. */
+const FOOT_M = 0.115;
+/** The floor lies this much over the table, or else the two would flicker. */
+const GAP_M = 4e-4;
+
+const points = (ring: Polygon['exterior']): Vector2[] => ring.map(([x, y]) => new Vector2(x, y));
+
+function wallGeometry(walls: readonly Polygon[]): ExtrudeGeometry {
+  const shapes = walls.map((wall) => {
+    const shape = new Shape(points(wall.exterior));
+    shape.holes = wall.holes.map((hole) => new Path(points(hole)));
+    return shape;
+  });
+  return new ExtrudeGeometry(shapes, { depth: WALL_M, bevelEnabled: false });
+}
+
+/** The upper edges of walls and border, which tell their shape from afar. */
+function edgeGeometry(walls: readonly Polygon[], border: Rect): BufferGeometry {
+  const ends: number[] = [];
+  const { x_min_m, x_max_m, y_min_m, y_max_m } = border;
+  const corners: Polygon['exterior'] = [
+    [x_min_m, y_min_m],
+    [x_max_m, y_min_m],
+    [x_max_m, y_max_m],
+    [x_min_m, y_max_m],
+  ];
+  for (const ring of [corners, ...walls.flatMap((wall) => [wall.exterior, ...wall.holes])]) {
+    let before = ring.at(-1);
+    for (const corner of ring) {
+      if (before) ends.push(...before, WALL_M, ...corner, WALL_M);
+      before = corner;
+    }
+  }
+  return new BufferGeometry().setAttribute('position', new Float32BufferAttribute(ends, 3));
+}
+
+/** The rim around the workspace: its borders are walls too. */
+function rimGeometry(rect: Rect, width_m: number): ExtrudeGeometry {
+  const ring = (by: number): Vector2[] => [
+    new Vector2(rect.x_min_m - by, rect.y_min_m - by),
+    new Vector2(rect.x_max_m + by, rect.y_min_m - by),
+    new Vector2(rect.x_max_m + by, rect.y_max_m + by),
+    new Vector2(rect.x_min_m - by, rect.y_max_m + by),
+  ];
+  const shape = new Shape(ring(width_m));
+  shape.holes = [new Path(ring(0))];
+  return new ExtrudeGeometry([shape], { depth: WALL_M, bevelEnabled: false });
+}
+
+/** Of the table: under floor and numbers, and under the robot's foot where there is one. */
+export function tableOf(workspace: Rect, hasArm: boolean): Rect {
+  const { left, right, bottom, top } = groundMargins(workspace);
+  const side_m = Math.max(left, right) + EDGE_M;
+  const rect = {
+    x_min_m: workspace.x_min_m - side_m,
+    x_max_m: workspace.x_max_m + side_m,
+    y_min_m: workspace.y_min_m - bottom - EDGE_M,
+    y_max_m: workspace.y_max_m + top + EDGE_M,
+  };
+  if (!hasArm) return rect;
+  return {
+    x_min_m: Math.min(rect.x_min_m, -FOOT_M),
+    x_max_m: Math.max(rect.x_max_m, FOOT_M),
+    y_min_m: Math.min(rect.y_min_m, -FOOT_M),
+    y_max_m: Math.max(rect.y_max_m, FOOT_M),
+  };
+}
+
+const RIM_M = 0.004;
+
+export class Table {
+  readonly group = new Group();
+  private readonly edge = new LineBasicMaterial();
+  private readonly numbers: Numbers;
+
+  constructor(paints: Paints, palette: Palette, scene: SceneMessage) {
+    const table = tableOf(scene.workspace, scene.positioner === 'arm');
+    const size = [table.x_max_m - table.x_min_m, table.y_max_m - table.y_min_m] as const;
+    const slab = new Mesh(new BoxGeometry(...size, THICKNESS_M), paints.lit('table'));
+    slab.position.set(
+      (table.x_min_m + table.x_max_m) / 2,
+      (table.y_min_m + table.y_max_m) / 2,
+      -THICKNESS_M / 2 - GAP_M,
+    );
+    slab.receiveShadow = true;
+
+    const walls = new Mesh(wallGeometry(scene.walls), paints.lit('wall'));
+    const rim = new Mesh(rimGeometry(scene.workspace, RIM_M), paints.lit('wall'));
+    for (const mesh of [walls, rim]) {
+      mesh.castShadow = true;
+      mesh.receiveShadow = true;
+    }
+    this.group.add(slab, walls, rim);
+    this.group.add(new LineSegments(edgeGeometry(scene.walls, scene.workspace), this.edge));
+    this.numbers = new Numbers(palette, scene.workspace);
+    this.group.add(this.numbers.group);
+    this.edge.color.set(palette['wall-edge']);
+  }
+
+  recolor(palette: Palette): void {
+    this.numbers.recolor(palette);
+    this.edge.color.set(palette['wall-edge']);
+  }
+
+  dispose(): void {
+    disposeGeometries(this.group);
+    this.numbers.dispose();
+    this.edge.dispose();
+  }
+}

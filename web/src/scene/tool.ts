@@ -1,0 +1,154 @@
+// The magnet, and what holds it: the gripper's fingers on the arm, a portal on the planar stage.
+
+import { Group } from 'three';
+import type { Orientation, Rect } from '../protocol.gen';
+import { groundMargins } from '../workspace/groundPicture';
+import type { Paints } from './paints';
+import { Solids, disposeGeometries, type Point } from './solids';
+import { EDGE_M } from './table';
+
+/** Of the tool point, the middle of the block's lower face. */
+type At = Point;
+
+export interface Block {
+  readonly size_m: Point;
+  /** The axis from the south pole to the north pole. */
+  readonly along: 0 | 2;
+}
+
+/** The block of 50 × 25 × 10 mm as it hangs on the tool; as server/magnetics/force.rs. */
+export function blockOf(orientation: Orientation): Block {
+  switch (orientation) {
+    case 'A':
+      return { size_m: [0.05, 0.025, 0.01], along: 2 };
+    case 'B':
+      return { size_m: [0.01, 0.05, 0.025], along: 0 };
+    case 'C':
+      return { size_m: [0.05, 0.025, 0.01], along: 0 };
+  }
+}
+
+/** The halves at either pole, around the block's own middle above the tool point. */
+export function halvesOf({ size_m, along }: Block): {
+  size_m: Point;
+  north_m: Point;
+  south_m: Point;
+} {
+  const [x, y, z] = size_m;
+  const half: Point = along === 0 ? [x / 2, y, z] : [x, y, z / 2];
+  const middle_m = z / 2;
+  const at = (side: number): Point =>
+    along === 0 ? [(side * x) / 4, 0, middle_m] : [0, 0, middle_m + (side * z) / 4];
+  return { size_m: half, north_m: at(1), south_m: at(-1) };
+}
+
+const FINGER_M = 0.011;
+const PAD_M = 0.004;
+/** From the tool point up to the gripper's knuckles. */
+const KNUCKLES_M = 0.082;
+
+/** Two fingers that hold the block across its narrower side. */
+function fingers(solids: Solids, [x, y, z]: Point): void {
+  const acrossX = x < y;
+  const across_m = acrossX ? x : y;
+  const placed = (across: number, wide: number, up: number): Point =>
+    acrossX ? [across, wide, up] : [wide, across, up];
+  const wide_m = across_m + 2 * (FINGER_M + PAD_M) + 0.01;
+  solids.box('gripper', [0, 0, KNUCKLES_M], placed(wide_m, 0.032, 0.026));
+  solids.tube('gripper', { origin: [0, 0, 0], along: [0, 0, 1] }, [KNUCKLES_M, 0.095], 0.02);
+  // Fingers reach from the knuckles down to the block's lower edge, with a pad on its side.
+  const low_m = 0.1 * z;
+  for (const side of [-0.5, 0.5]) {
+    const finger_m = side * (across_m + 2 * PAD_M + FINGER_M);
+    const middle_m = (low_m + KNUCKLES_M) / 2;
+    solids.box(
+      'gripper',
+      placed(finger_m, 0, middle_m),
+      placed(FINGER_M, 0.018, KNUCKLES_M - low_m),
+    );
+    const pad_m = side * (across_m + PAD_M);
+    solids.box('arm-seam', placed(pad_m, 0, z / 2 + 0.006), placed(PAD_M, 0.021, z + 0.008));
+  }
+}
+
+const RAIL_M = 0.012;
+/** From the table to the middle of the portal's beam. */
+const BEAM_UP_M = 0.235;
+/** Of the column, above the tool point. */
+const COLUMN_M = 0.24;
+
+/** Of the planar stage: rails beside the table, a portal that goes along them, a carriage with a column. */
+class Portal {
+  readonly group = new Group();
+  private readonly bridge: Group;
+  private readonly carriage: Group;
+  private readonly column: Group;
+
+  constructor(paints: Paints, workspace: Rect, block_m: number) {
+    const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
+    const margins = groundMargins(workspace);
+    const rails_m = [
+      y_min_m - margins.bottom - EDGE_M / 2,
+      y_max_m + margins.top + EDGE_M / 2,
+    ] as const;
+    const middle_m = (rails_m[0] + rails_m[1]) / 2;
+    const span_m = rails_m[1] - rails_m[0];
+    const length_m = x_max_m - x_min_m + 0.03;
+    const rails = new Solids();
+    const bridge = new Solids().box('arm', [0, middle_m, BEAM_UP_M], [0.024, span_m, 0.03]);
+    for (const y of rails_m) {
+      rails.box('gripper', [(x_min_m + x_max_m) / 2, y, RAIL_M / 2], [length_m, 0.016, RAIL_M]);
+      bridge.box('arm-seam', [0, y, RAIL_M + 0.009], [0.05, 0.024, 0.018]);
+      bridge.box('arm', [0, y, (BEAM_UP_M + RAIL_M) / 2], [0.024, 0.016, BEAM_UP_M - RAIL_M]);
+    }
+    const upright = { origin: [0, 0, 0], along: [0, 0, 1] } as const;
+    this.bridge = bridge.group(paints);
+    this.carriage = new Solids()
+      .box('arm-lid', [0, 0, BEAM_UP_M], [0.05, 0.05, 0.046])
+      .group(paints);
+    this.column = new Solids()
+      .tube('arm', upright, [block_m + 0.02, COLUMN_M], 0.009)
+      .tube('gripper', upright, [block_m, block_m + 0.02], 0.016, 0.012)
+      .group(paints);
+    this.carriage.add(this.column);
+    this.bridge.add(this.carriage);
+    this.group.add(rails.group(paints), this.bridge);
+  }
+
+  place([x, y, z]: At): void {
+    this.bridge.position.x = x;
+    this.carriage.position.y = y;
+    this.column.position.z = z;
+  }
+}
+
+export class Tool {
+  readonly group = new Group();
+  private readonly held: Group;
+  private readonly portal: Portal | undefined;
+
+  /** On the planar stage over `portalOver`, else on the arm. */
+  constructor(paints: Paints, orientation: Orientation, portalOver: Rect | undefined) {
+    const block = blockOf(orientation);
+    const halves = halvesOf(block);
+    const solids = new Solids()
+      .box('pole-north', halves.north_m, halves.size_m)
+      .box('pole-south', halves.south_m, halves.size_m);
+    if (!portalOver) fingers(solids, block.size_m);
+    this.held = solids.group(paints);
+    this.group.add(this.held);
+    if (portalOver) {
+      this.portal = new Portal(paints, portalOver, block.size_m[2]);
+      this.group.add(this.portal.group);
+    }
+  }
+
+  place(at: At): void {
+    this.held.position.set(...at);
+    this.portal?.place(at);
+  }
+
+  dispose(): void {
+    disposeGeometries(this.group);
+  }
+}

@@ -1,0 +1,36 @@
+import { describe, expect, it } from 'vitest';
+import { achievedWords, nextSpeed, speedName, ticksToControlStep } from './steps';
+
+describe('speeds', () => {
+  it('go up and down by one, and end', () => {
+    expect(nextSpeed(1, 1)).toBe(2);
+    expect(nextSpeed(1, -1)).toBe(0.5);
+    expect(nextSpeed(3, 1)).toBe(4);
+    expect(nextSpeed(64, 1)).toBe(64);
+    expect(nextSpeed(0.125, -1)).toBe(0.125);
+  });
+
+  it('are named', () => {
+    expect(speedName(64)).toBe('max (64×)');
+    expect(speedName(0.125)).toBe('1/8×');
+  });
+
+  it('tell when the machine is at its limit', () => {
+    expect(achievedWords(1, 0.97)).toEqual({ text: 'achieved 0.97×', limited: false });
+    expect(achievedWords(64, 21.04)).toEqual({ text: 'achieved 21.0×', limited: true });
+  });
+});
+
+describe('a control step', () => {
+  it('is due at the first tick at or after each quarter of a second', () => {
+    let tick = 0;
+    const due: number[] = [];
+    for (let step = 0; step < 5; step++) {
+      tick += ticksToControlStep(tick, 0.008);
+      due.push(tick);
+    }
+    // 31.25 ticks a step.
+    expect(due).toEqual([32, 63, 94, 125, 157]);
+    expect(ticksToControlStep(40, 0.008)).toBe(23);
+  });
+});

@@ -1,0 +1,36 @@
+// Speeds and steps of simulated time. Pure.
+
+import { fixed, speed } from './format';
+
+export const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4, 8, 64] as const;
+export const FASTEST = 64;
+/** A control step is due at the first tick at or after each quarter of a second. */
+const CONTROL_PERIOD_S = 0.25;
+/** Below this share of what was asked, the machine is at its limit. */
+const LIMITED = 0.85;
+
+/** The next speed up (1) or down (−1); the same where there is none. */
+export function nextSpeed(target: number, direction: 1 | -1): number {
+  const further = SPEEDS.filter((factor) => (factor - target) * direction > 0);
+  return (direction > 0 ? further[0] : further.at(-1)) ?? target;
+}
+
+/** Ticks to the next one at which a control step is due. */
+export function ticksToControlStep(tick: number, tick_s: number): number {
+  const stepsBefore = Math.floor((tick * tick_s) / CONTROL_PERIOD_S + 1e-9);
+  const due = Math.ceil(((stepsBefore + 1) * CONTROL_PERIOD_S) / tick_s - 1e-9);
+  return due - tick;
+}
+
+/** What is achieved, and whether it is clearly less than what was asked. */
+export function achievedWords(
+  target: number,
+  achieved: number,
+): { text: string; limited: boolean } {
+  const limited = achieved < LIMITED * target;
+  return { text: `achieved ${fixed(achieved, achieved < 10 ? 2 : 1)}×`, limited };
+}
+
+export function speedName(factor: number): string {
+  return factor === FASTEST ? `max (${speed(factor)})` : speed(factor);
+}

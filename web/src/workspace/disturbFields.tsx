@@ -1,0 +1,136 @@
+// The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
+
+import { For, Show, type JSX } from 'solid-js';
+import { fixed } from '../format';
+import type { Picker } from './picker';
+
+export function Amount(props: {
+  name: string;
+  /** What stands before the number. */
+  lead?: string;
+  unit?: string;
+  least?: number;
+  most: number;
+  /** Whole numbers only. */
+  whole?: boolean;
+  value: number;
+  disabled: boolean;
+  onValue: (value: number) => void;
+}): JSX.Element {
+  return (
+    <label class="amount">
+      <Show when={props.lead}>
+        <span class="unit">{props.lead}</span>
+      </Show>
+      <input
+        type="number"
+        class="number"
+        aria-label={props.name}
+        min={props.least ?? 0.01}
+        max={props.most}
+        step={props.whole ? 1 : 'any'}
+        required
+        value={props.value}
+        disabled={props.disabled}
+        onInput={(event) => {
+          props.onValue(event.currentTarget.valueAsNumber);
+        }}
+      />
+      <Show when={props.unit}>
+        <span class="unit">{props.unit}</span>
+      </Show>
+    </label>
+  );
+}
+
+export function Choice<T extends string>(props: {
+  name: string;
+  options: readonly (readonly [T, string])[];
+  value: T;
+  disabled: boolean;
+  onValue: (value: T) => void;
+}): JSX.Element {
+  return (
+    <select
+      aria-label={props.name}
+      disabled={props.disabled}
+      onChange={(event) => {
+        props.onValue(event.currentTarget.value as T);
+      }}
+    >
+      <For each={props.options}>
+        {([id, label]) => (
+          <option value={id} selected={props.value === id}>
+            {label}
+          </option>
+        )}
+      </For>
+    </select>
+  );
+}
+
+export interface Place {
+  readonly x_m: number;
+  readonly y_m: number;
+}
+
+/** Names are `x of NAME in metres` and so on. */
+export function PlaceFields(props: {
+  name: string;
+  value: Place;
+  disabled: boolean;
+  picker: Picker;
+  onValue: (value: Place) => void;
+}): JSX.Element {
+  let button!: HTMLButtonElement;
+  const rounded = (value: number): number => Number(value.toFixed(3));
+  return (
+    <>
+      <Amount
+        name={`x of ${props.name} in metres`}
+        lead="x"
+        least={-10}
+        most={10}
+        value={props.value.x_m}
+        disabled={props.disabled}
+        onValue={(x_m) => {
+          props.onValue({ ...props.value, x_m });
+        }}
+      />
+      <Amount
+        name={`y of ${props.name} in metres`}
+        lead="y"
+        unit="m"
+        least={-10}
+        most={10}
+        value={props.value.y_m}
+        disabled={props.disabled}
+        onValue={(y_m) => {
+          props.onValue({ ...props.value, y_m });
+        }}
+      />
+      <button
+        ref={button}
+        type="button"
+        class="small"
+        aria-pressed={props.picker.isPicking()}
+        aria-label={`Pick ${props.name} on the map`}
+        title={`Now (${fixed(props.value.x_m, 3)}, ${fixed(props.value.y_m, 3)}) m; click here, then the place`}
+        disabled={props.disabled}
+        onClick={() => {
+          if (props.picker.isPicking()) {
+            props.picker.cancel();
+            return;
+          }
+          props.picker.begin(([x_m, y_m]) => {
+            props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
+            button.focus();
+          });
+          document.querySelector<HTMLElement>('.workspace-canvas')?.focus();
+        }}
+      >
+        Pick
+      </button>
+    </>
+  );
+}

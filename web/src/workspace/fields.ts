@@ -1,0 +1,70 @@
+// What the server is asked for so that a layer can be drawn, whichever view draws it.
+
+import { createMemo, type Accessor } from 'solid-js';
+import { createAnswer, type Answer } from '../answers';
+import type { Lab } from '../lab';
+import type { Palette } from '../palette';
+import type { WorkspaceMap, WorkspaceQuery } from '../protocol.gen';
+import type { Vec2 } from '../transform';
+import { createHeat, type Heat } from './drawHeat';
+import { createSeen, type Seen } from './drawSeen';
+import { createFlowLayer, type FlowLayer } from './flowLayer';
+import { createGoal } from './goal';
+import { workspaceQuery } from './heat';
+import type { Layer } from './layers';
+import { createValueLayer, type ValueLayer } from './valueLayer';
+
+export interface Fields {
+  readonly goal: Accessor<Vec2 | undefined>;
+  /** Whether the layer of singularities is shown. */
+  readonly showsHeat: Accessor<boolean>;
+  readonly heatAnswer: Accessor<Answer<WorkspaceMap>>;
+  readonly heat: Accessor<Heat | undefined>;
+  readonly seen: Accessor<Seen | undefined>;
+  readonly showsFlow: Accessor<boolean>;
+  readonly flow: FlowLayer;
+  readonly showsValue: Accessor<boolean>;
+  readonly value: ValueLayer;
+}
+
+export function createFields(
+  lab: Lab,
+  layers: Accessor<ReadonlySet<Layer>>,
+  palette: Accessor<Palette>,
+): Fields {
+  const goal = createGoal(lab);
+
+  const heatQuestion = createMemo<WorkspaceQuery | undefined>(() => {
+    const scene = lab.scene();
+    const parameters = lab.tuning();
+    if (!scene || !parameters || !layers().has('singularity')) return undefined;
+    return workspaceQuery(scene, parameters);
+  });
+  const showsHeat = (): boolean => heatQuestion() !== undefined;
+  const heatAnswer = createAnswer<WorkspaceQuery, WorkspaceMap>('/api/kinematics/workspace', () =>
+    lab.link().kind === 'live' ? heatQuestion() : undefined,
+  );
+  const heat = createMemo(() => {
+    const map = heatAnswer().data;
+    return map && createHeat(map, palette());
+  });
+
+  const seen = createMemo(() => {
+    const message = layers().has('seen') ? lab.seen() : undefined;
+    return message && createSeen(message, palette());
+  });
+
+  const showsFlow = createMemo(() => layers().has('flow'));
+  const showsValue = createMemo(() => layers().has('value'));
+  return {
+    goal,
+    showsHeat,
+    heatAnswer,
+    heat: () => (showsHeat() ? heat() : undefined),
+    seen,
+    showsFlow,
+    flow: createFlowLayer(lab, goal, showsFlow),
+    showsValue,
+    value: createValueLayer(lab, goal, showsValue),
+  };
+}
