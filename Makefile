@@ -1,9 +1,10 @@
-# `make run` serves the laboratory, `make test` runs every check. Both first install what is missing.
+# `make run` serves the laboratory, `make test` runs every check, `make soak` leaves a page open for half an hour.
+# All first install what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test system-run system-test rust web browser
+.PHONY: run test soak system-run system-test rust web browser
 
 # Rerun's own tools, at the version of the crate, to check recordings with.
 RERUN_VERSION := 0.36.3
@@ -24,6 +25,12 @@ test: system-test $(VENV)/rerun-$(RERUN_VERSION)
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
+
+# Its budgets are strict: let nothing else run meanwhile. SOAK_MINUTES=4 has a shorter look.
+soak: system-test
+	cargo build --release
+	mkdir -p test-output
+	cd web && FERRY_BIN=../target/release/ferry npm run --silent soak
 
 # A graphics driver that needs no graphics card, and Node.js for the page.
 system-run:

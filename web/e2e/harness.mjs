@@ -1,4 +1,4 @@
-// A server and a browser for the tests, and the list that their results go to.
+// A server, a browser and who watches it for the tests, and the list that their results go to.
 
 import { spawn } from 'node:child_process';
 import { mkdtemp, rm } from 'node:fs/promises';
@@ -31,7 +31,7 @@ export function check(condition, message) {
 
 /**
  * The server at FERRY_URL, or one of our own started from FERRY_BIN with a fresh data directory.
- * `kill` is there only for our own.
+ * `kill` and `pid` are there only for our own.
  */
 export async function startServer() {
   const given = process.env.FERRY_URL;
@@ -68,6 +68,7 @@ export async function startServer() {
     return {
       url,
       stop,
+      pid: child.pid,
       kill: async () => {
         child.kill('SIGKILL');
         await exited;
@@ -98,6 +99,35 @@ export function startBrowser({ webgl = false } = {}) {
       '--disable-sync',
     ],
   });
+}
+
+/** What no page, frame or worker of a browser may do: complain, or ask anybody but its server. */
+export class Watch {
+  complaints = [];
+  strangers = [];
+
+  constructor(browser, url) {
+    const { host } = new URL(url);
+    const judge = (address) => {
+      const { protocol, host: asked } = new URL(address);
+      // These two never leave the page.
+      if (protocol !== 'blob:' && protocol !== 'data:' && asked !== host) {
+        this.strangers.push(address);
+      }
+    };
+    // A refusal by the content security policy is an error on the console.
+    browser.on('context', (context) => {
+      context.on('console', (message) => {
+        if (message.type() !== 'error' && message.type() !== 'warning') return;
+        // A driver in software says that a screenshot of the 3-D view takes time.
+        if (message.text().includes('GPU stall due to ReadPixels')) return;
+        this.complaints.push(`${message.text()} (${message.location().url})`);
+      });
+      context.on('weberror', (error) => this.complaints.push(error.error().message));
+      context.on('request', (request) => judge(request.url()));
+      context.on('page', (page) => page.on('websocket', (socket) => judge(socket.url())));
+    });
+  }
 }
 
 /** Runs the tests in order, all of them, and returns how many failed. */

@@ -5,7 +5,7 @@ import { mkdir } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { check, until } from './harness.mjs';
 
-const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
+export const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
 /** A bead trailing its magnet cuts corners; farther from walls than this, it passes. */
 const CLEARANCE_M = 0.025;
 const STEP_M = 0.01;
@@ -57,41 +57,36 @@ export class Lab {
       colorScheme: 'dark',
       ...options,
     });
-    const lab = new Lab(page, url);
+    return Lab.attach(page, url);
+  }
+
+  /** The same in a page that is there already. */
+  static async attach(page, url) {
+    const lab = new Lab(page);
     await page.goto(url);
     await until('the first state', () => lab.state && lab.scene);
     await until('live', async () => (await lab.text('connection')) === 'live');
     return lab;
   }
 
-  constructor(page, url) {
+  constructor(page) {
     this.page = page;
     this.canvas = page.getByLabel('Workspace', { exact: true });
-    this.complaints = [];
-    this.strangers = [];
-    page.on('console', (message) => {
-      // A driver in software says that a screenshot of the 3-D view takes time.
-      if (message.text().includes('GPU stall due to ReadPixels')) return;
-      if (message.type() === 'error' || message.type() === 'warning') {
-        this.complaints.push(message.text());
-      }
-    });
-    page.on('pageerror', (error) => this.complaints.push(error.message));
-    const host = new URL(url).host;
-    const judge = (address) => {
-      // A blob is the page's own, such as a file that it made.
-      const { protocol, host: asked } = new URL(address);
-      if (protocol !== 'blob:' && asked !== host) this.strangers.push(address);
-    };
-    page.on('request', (request) => judge(request.url()));
+    /** What this page last sent of each type, and every event that it heard of. */
+    this.sent = {};
+    this.events = [];
     page.on('websocket', (socket) => {
-      judge(socket.url());
+      socket.on('framesent', ({ payload }) => {
+        const message = JSON.parse(payload);
+        this.sent[message.type] = message;
+      });
       socket.on('framereceived', ({ payload }) => {
         if (typeof payload !== 'string') return;
         const message = JSON.parse(payload);
         if (message.type === 'scene') this.scene = message;
         if (message.type === 'state') this.state = message;
         if (message.type === 'overlay') this.overlay = message;
+        if (message.type === 'event') this.events.push(message);
       });
     });
   }
@@ -119,6 +114,7 @@ export class Lab {
 
   /** Position on the page, in CSS pixels, of a point of the table. */
   async px([x, y]) {
+    await this.canvas.scrollIntoViewIfNeeded();
     const box = await this.canvas.boundingBox();
     const data = await this.canvas.evaluate((canvas) => ({ ...canvas.dataset }));
     return [
@@ -220,5 +216,14 @@ export class Lab {
   async screenshot(name, options = {}) {
     await mkdir(OUTPUT, { recursive: true });
     await this.page.screenshot({ path: `${OUTPUT}web-${name}.png`, ...options });
+  }
+
+  /** A picture of a part of the page, from its beginning. */
+  async shoot(locator, name) {
+    await mkdir(OUTPUT, { recursive: true });
+    await locator.evaluate((part) => {
+      for (const one of part.querySelectorAll('*')) one.scrollTop = 0;
+    });
+    await locator.screenshot({ path: `${OUTPUT}${name}.png` });
   }
 }

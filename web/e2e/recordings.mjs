@@ -1,7 +1,7 @@
 // Recordings: the list, the files, and Rerun's viewer in its frame.
 
 import { readFile } from 'node:fs/promises';
-import { check, startBrowser, until } from './harness.mjs';
+import { Watch, check, startBrowser, until } from './harness.mjs';
 import { Lab } from './lab.mjs';
 
 /** Forty megabytes of WebAssembly, compiled and drawn without a graphics card. */
@@ -50,13 +50,10 @@ const isFocused = (locator) => locator.evaluate((element) => element === documen
 
 export async function opensARecording({ server }) {
   const browser = await startBrowser({ webgl: true });
+  const watch = new Watch(browser, server.url);
   try {
     const lab = await Lab.open(browser, server.url);
     const { page } = lab;
-    const violations = [];
-    page.on('console', (message) => {
-      if (/Content Security Policy/.test(message.text())) violations.push(message.text());
-    });
     // By keyboard alone.
     await lab.button('Recordings').press('Enter');
     const opener = rowOf(lab).getByRole('button', { name: 'Open main' });
@@ -86,10 +83,9 @@ export async function opensARecording({ server }) {
     await page.keyboard.press('Enter');
     await page.locator('iframe').waitFor({ state: 'detached' });
     check(await isFocused(opener), 'the focus did not return to where it came from');
-    check(lab.strangers.length === 0, `requests left the server: ${lab.strangers.join(' ')}`);
-    check(violations.length === 0, violations.join(' | '));
+    check(watch.strangers.length === 0, `requests left the server: ${watch.strangers.join(' ')}`);
     // The viewer warns of what it lacks here, a graphics card; it must have no errors.
-    const errors = lab.complaints.filter((text) => !/^\s*WARN /.test(text));
+    const errors = watch.complaints.filter((text) => !/^\s*WARN /.test(text));
     check(errors.length === 0, `the console says: ${errors.join(' | ')}`);
 
     await page.goto(`${server.url}/viewer/?recording=none&theme=light`);

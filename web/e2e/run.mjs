@@ -1,20 +1,24 @@
-// Runs the browser tests: FERRY_URL=http://… or FERRY_BIN=…/ferry node e2e/run.mjs
+// Runs the browser tests: FERRY_URL=http://… or FERRY_BIN=…/ferry node e2e/run.mjs [WORDS]
+// With WORDS, only those tests that have them in their names.
 
-import { runAll, startBrowser, startServer } from './harness.mjs';
+import { Watch, runAll, startBrowser, startServer } from './harness.mjs';
 import { Lab } from './lab.mjs';
 import { TESTS } from './tests.mjs';
 
+const words = process.argv[2] ?? '';
+const tests = TESTS.filter(([name]) => name.includes(words));
 const server = await startServer();
 const browser = await startBrowser();
-let failed = TESTS.length;
+const watch = new Watch(browser, server.url);
+let failed = tests.length;
 try {
   const lab = await Lab.open(browser, server.url);
-  failed = await runAll(TESTS, { lab, browser, server });
+  failed = await runAll(tests, { lab, browser, server, watch });
 } catch (error) {
   console.log(`FAIL  opening the page\n      ${error.message}`);
 } finally {
   await browser.close();
   await server.stop();
 }
-console.log(`${TESTS.length - failed} passed, ${failed} failed`);
+console.log(`${tests.length - failed} passed, ${failed} failed`);
 process.exitCode = failed === 0 ? 0 : 1;

@@ -170,7 +170,7 @@ export async function obeysTheKeyboardInSpace({ lab }) {
   await keyboard.press('Home');
 }
 
-export async function frees({ lab }) {
+export async function frees({ lab, watch }) {
   const held = async () => {
     await settled(lab);
     return [await numbers(lab, 'geometries'), await numbers(lab, 'textures')].join();
@@ -187,7 +187,7 @@ export async function frees({ lab }) {
   await lab.reset();
   check((await held()) === first, `the card keeps more: ${await held()} after ${first}`);
 
-  const complaints = lab.complaints.length;
+  const complaints = watch.complaints.length;
   for (let i = 0; i < TOGGLES; i++) {
     // A browser keeps a few contexts only, and frees one late that is merely forgotten.
     const old = await canvasOf(lab).elementHandle();
@@ -197,7 +197,7 @@ export async function frees({ lab }) {
     await open(lab);
   }
   check((await held()) === first, 'another number of things than at first');
-  check(lab.complaints.length === complaints, `it says: ${lab.complaints.slice(complaints)}`);
+  check(watch.complaints.length === complaints, `it says: ${watch.complaints.slice(complaints)}`);
 }
 
 export async function goesBackToThePlan({ lab }) {

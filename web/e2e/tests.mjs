@@ -1,5 +1,6 @@
 // What a person does with the dashboard, on a real server.
 
+import { BUDGET } from './budget.mjs';
 import { check, until } from './harness.mjs';
 import {
   carriesAlongAWay,
@@ -31,6 +32,7 @@ import {
 } from './lessons.mjs';
 import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { PAIR } from './pair.mjs';
 import { comparesControllers, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
 import {
@@ -42,6 +44,7 @@ import {
   saysWhatIsMissing,
   turnsTheScene,
 } from './scene.mjs';
+import { PROOF } from './proof.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -312,32 +315,24 @@ async function looksRight({ lab, browser, server }) {
   await lab.button('Use light colours').click();
   await lab.screenshot('light');
   await lab.button('Use dark colours').click();
-  for (const colorScheme of ['dark', 'light']) {
-    const tablet = await Lab.open(browser, server.url, {
-      viewport: { width: 820, height: 1180 },
-      colorScheme,
-    });
-    await tablet.screenshot(`tablet-${colorScheme}`);
-    await tablet.page.close();
+  for (const [name, width, height] of [
+    ['wide', 1440, 900],
+    ['tablet', 820, 1180],
+  ]) {
+    for (const colorScheme of ['dark', 'light']) {
+      const other = await Lab.open(browser, server.url, {
+        viewport: { width, height },
+        colorScheme,
+      });
+      await other.screenshot(`${name}-${colorScheme}`);
+      await other.page.context().close();
+    }
   }
 }
 
-async function hasOneOperator({ lab, browser, server }) {
-  const second = await Lab.open(browser, server.url);
-  check((await second.text('role')) === 'viewer', 'a second browser became the operator');
-  check(await second.button('Run').isDisabled(), 'a viewer may run');
-  await lab.button('Release control').click();
-  await until('a viewer', async () => (await lab.text('role')) === 'viewer');
-  await second.button('Take control').click();
-  await until('the operator', async () => (await second.text('role')) === 'operator');
-  await second.page.close();
-  await lab.button('Take control').click();
-  await until('the operator again', async () => (await lab.text('role')) === 'operator');
-}
-
-async function isQuiet({ lab }) {
-  check(lab.complaints.length === 0, `the console says: ${lab.complaints.join(' | ')}`);
-  check(lab.strangers.length === 0, `requests left the server: ${lab.strangers.join(' ')}`);
+async function isQuiet({ watch: { complaints, strangers } }) {
+  check(complaints.length === 0, `the console says: ${complaints.join(' | ')}`);
+  check(strangers.length === 0, `requests left the server: ${strangers.join(' ')}`);
 }
 
 /** Last, because it ends the server. */
@@ -397,7 +392,9 @@ export const TESTS = [
   ['evaluates what is asked for by keyboard', evaluates],
   ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
   ['sets a failure up again', setsAFailureUpAgain],
-  ['has one operator', hasOneOperator],
+  ...PAIR,
+  ...PROOF,
+  ...BUDGET,
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],
 ];

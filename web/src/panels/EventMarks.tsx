@@ -1,11 +1,12 @@
 // The events on the timeline, each a button that opens its story.
 
-import { Index, Show, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
+import { Index, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import { clusters } from '../marks';
 import type { EventMessage } from '../protocol.gen';
 
-const GAP_PX = 24;
+/** The side of a mark, as `--target` has it. */
+const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
 /** How far a key moves along the marks. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
@@ -56,6 +57,7 @@ export function EventMarks(props: { lab: Lab; oldest: number; newest: number }):
             type="button"
             class="mark"
             data-kind={cluster().first.kind}
+            data-count={cluster().events.length > 1 ? cluster().events.length : undefined}
             style={{ left: `${cluster().px}px` }}
             tabindex={reached() === index ? 0 : -1}
             aria-label={cluster().name}
@@ -67,9 +69,6 @@ export function EventMarks(props: { lab: Lab; oldest: number; newest: number }):
             }}
           >
             {cluster().symbol}
-            <Show when={cluster().events.length > 1}>
-              <sub>{cluster().events.length}</sub>
-            </Show>
           </button>
         )}
       </Index>

@@ -4,6 +4,7 @@ import { For, Show, createEffect, type JSX } from 'solid-js';
 import { clock } from '../format';
 import type { Lab } from '../lab';
 import type { LogLine } from '../model';
+import type { EventMessage } from '../protocol.gen';
 import { eventTitle } from '../why';
 
 /** Nearer than this to the end counts as reading along. */
@@ -16,6 +17,9 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
+  /** Only what the timeline still has can be gone back to. */
+  const told = (event: EventMessage | undefined): EventMessage | undefined =>
+    event && lab.marks().includes(event) ? event : undefined;
   createEffect(() => {
     lab.log();
     if (following) box.scrollTop = box.scrollHeight;
@@ -39,7 +43,7 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
         {(line) => (
           <p class="log-line" data-kind={line.kind}>
             <span class="when number">
-              <Show when={line.event} fallback={when(line)}>
+              <Show when={told(line.event)} fallback={when(line)}>
                 {(event) => (
                   <button
                     type="button"

@@ -51,6 +51,7 @@ export function StageCanvas(props: {
   createEffect(() => {
     const state = lab.state();
     if (!state) return;
+    canvas.dataset.tick = String(state.tick);
     canvas.dataset.bead = state.bead_m.slice(0, 2).join(',');
     canvas.dataset.tool = state.tool_m.slice(0, 2).join(',');
     canvas.dataset.goal = state.goal_m?.slice(0, 2).join(',') ?? '';
