@@ -28,7 +28,7 @@ pub(super) struct Engine {
 
 /// Of 0 to 99; on Linux a niceness of 10, as the command `nice` gives. With the lowest, an evaluation stands still
 /// while anything else runs.
-const PRIORITY: u8 = 24;
+const PRIORITY: u8 = 22;
 
 /// The system prefers other threads to this one, and to those that it starts.
 pub(super) fn give_way() {

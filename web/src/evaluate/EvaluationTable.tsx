@@ -14,7 +14,7 @@ function Share(props: {
   interval: readonly [number, number];
 }): JSX.Element {
   return (
-    <td class="share">
+    <td class="count">
       <span class="counts">
         {props.count}/{props.of}
       </span>

@@ -33,7 +33,7 @@ function FailureRow(props: {
     <tr>
       <th scope="row">{props.failure.index}</th>
       <td>{label()}</td>
-      <td class="why">{reason(props.failure)}</td>
+      <td class="failure-why">{reason(props.failure)}</td>
       <td>{props.failure.steps}</td>
       <td>
         <button

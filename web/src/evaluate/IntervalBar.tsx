@@ -27,7 +27,7 @@ export function IntervalBar(props: {
         height="5"
       />
       <path
-        class="share"
+        class="at"
         d={`M${Math.min(WIDTH - 0.75, Math.max(0.75, WIDTH * props.share))} 0V${HEIGHT}`}
       />
     </svg>
