@@ -7,7 +7,8 @@ const COMPUTED_MS = 60_000;
 
 const isChecked = (_lab, locator) => locator.isChecked();
 const dialogs = (lab) => lab.page.getByRole('dialog').count();
-const title = async (lab) => (await dialogs(lab)) && lab.page.locator('#why-title').innerText();
+const title = async (lab) =>
+  (await dialogs(lab)) && lab.page.locator('#why-title, .why-sentence').allInnerTexts();
 const heading = (lab) => lab.page.locator('.lesson-head h3').count();
 const step = (lab) => lab.page.locator('.lesson-steps [aria-current=step]').allInnerTexts();
 const tab = (name) => (lab) => lab.page.getByRole('tab', { name }).click();
@@ -35,6 +36,14 @@ async function inspect(lab) {
   await lab.page.getByRole('dialog').waitFor();
 }
 
+/** They have come, and some way. */
+async function ghosts(lab) {
+  const time = lab.page.getByLabel('Time of the ghosts', { exact: true });
+  await time.waitFor({ timeout: COMPUTED_MS });
+  const span = () => time.evaluate((one) => one.max - one.min);
+  await until('ghosts', async () => (await span()) > 0, COMPUTED_MS);
+}
+
 async function withGhosts(lab) {
   if (await lab.button('Clear ghosts').count()) return;
   await anotherGoal(lab);
@@ -42,7 +51,7 @@ async function withGhosts(lab) {
     await lab.page.getByLabel(`Compare ${name}`, { exact: true }).uncheck();
   }
   await lab.button('Compare from here').click();
-  await until('ghosts', () => lab.button('Clear ghosts').count(), COMPUTED_MS);
+  await ghosts(lab);
 }
 
 async function withoutGhosts(lab) {
@@ -120,7 +129,7 @@ export const PAST = [
           lab.sent.fork = undefined;
           await inspect(lab);
         },
-        after: (lab) => until('ghosts', () => lab.button('Clear ghosts').count(), COMPUTED_MS),
+        after: ghosts,
       },
     },
     after: withoutGhosts,
@@ -137,10 +146,10 @@ export const PAST = [
       'button Compare from here': {
         see: compared,
         ready: async (lab) => {
-          await withGoal(lab);
+          await anotherGoal(lab);
           lab.sent.fork = undefined;
         },
-        after: (lab) => until('ghosts', () => lab.button('Clear ghosts').count(), COMPUTED_MS),
+        after: ghosts,
       },
       'slider Time of the ghosts': { see: ghostTime, ready: withGhosts },
       'button Play ghosts': { see: ghostTime, ready: withGhosts },
