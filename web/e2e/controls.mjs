@@ -5,6 +5,7 @@ import { until } from './harness.mjs';
 import { PARAMETERS, RESTORE } from './parameters.mjs';
 import { nearby, open, pause, run, withGoal, withHistory, withoutGoal } from './moments.mjs';
 import { PAST } from './controlsPast.mjs';
+import { TOOLS } from './controlsTools.mjs';
 
 const expanded = (_lab, locator) => locator.getAttribute('aria-expanded');
 const isSelected = (_lab, locator) => locator.getAttribute('aria-selected');
@@ -15,7 +16,6 @@ const role = (lab) => lab.text('role');
 const trial = (lab) => lab.scene.trial;
 const layers = (lab) =>
   lab.page.evaluate(() => JSON.parse(localStorage.getItem('ferry.layers'))?.sort());
-const disturbance = (lab) => JSON.stringify(lab.sent.disturb ?? null);
 
 const goTo = (name) => (lab) => lab.button(name).click();
 const wearing = (wish) => async (lab) => {
@@ -38,16 +38,6 @@ const asBefore = async (lab, hand) => {
   await choose('Attractor')(lab);
   await hand.press(lab.button('Restore defaults'));
 };
-
-/** Fields that go out with their button. */
-const amount = (button) => ({
-  see: disturbance,
-  act: async (hand, locator) => {
-    const value = Number(await locator.inputValue());
-    await hand.type(locator, String(value === 0.5 ? 0.7 : 0.5));
-    await hand.press(hand.lab.button(button));
-  },
-});
 
 const choose = (name) => async (lab) => {
   await lab.page.getByRole('radio', { name, exact: true }).check();
@@ -89,6 +79,7 @@ const LABORATORY = {
 
   'button Run': { see: (lab) => lab.state.running, ready: pause },
   'button Pause': { see: (lab) => lab.state.running, ready: run, after: pause },
+  'button Step ¼ s': { see: (lab) => lab.state.tick },
   'button Step': { see: (lab) => lab.state.tick },
   'slider Timeline': { see: (lab) => lab.state.tick, ready: withHistory },
   'button Reset': { see: trial },
@@ -149,25 +140,6 @@ const LAYERS = Object.fromEntries(
   ].map((name) => [`checkbox ${name}`, layer]),
 );
 
-const DISTURB = {
-  'combobox Direction of kick and push': {
-    see: disturbance,
-    act: async (hand, locator) => {
-      await hand.choose(locator);
-      await hand.press(hand.lab.button('Kick'));
-    },
-  },
-  'spinbutton Strength of the kick in mN·s': amount('Kick'),
-  'spinbutton Force of the push in mN': amount('Push'),
-  'spinbutton Duration of the push in seconds': amount('Push'),
-  'spinbutton Duration of the blindness in seconds': amount('Blind tracker'),
-  'button Kick': { see: (lab) => lab.events.length },
-  'button Push': { see: (lab) => lab.events.length },
-  'button Blind tracker': { see: (lab) => lab.events.length },
-};
-
-const magnetFact = (lab) => lab.page.locator('.magnet-words .facts').innerText();
-
 /** What to open before the rows can be gone through. */
 export const SECTIONS = [
   { rows: LABORATORY },
@@ -183,11 +155,6 @@ export const SECTIONS = [
     rows: LAYERS,
     after: (lab) => lab.page.keyboard.press('Escape'),
   },
-  { ready: open('Disturb'), rows: DISTURB, after: (lab) => lab.button('Disturb').click() },
-  {
-    ready: (lab) => lab.page.getByRole('tab', { name: 'Magnet' }).click(),
-    rows: { 'radio x': { see: magnetFact }, 'radio y': { see: magnetFact } },
-  },
   {
     rows: {
       'radio RL': controller('rl'),
@@ -195,6 +162,7 @@ export const SECTIONS = [
       'radio Attractor': controller('attractor'),
     },
   },
+  ...TOOLS,
   ...PAST,
   ...PARAMETERS.map(({ group, controller: name, rows }) => ({
     ready: async (lab) => {

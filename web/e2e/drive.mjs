@@ -21,7 +21,7 @@ function locate(page, key) {
       .filter({ hasText: new RegExp(`^${name}( \\d+ changed|\\d+ changed)?$`) });
   }
   const pattern = patternOf(name);
-  if (pattern) return page.getByRole(role, { name: pattern }).first();
+  if (pattern) return page.getByRole(role, { name: pattern });
   return page.getByRole(role, { name, exact: true });
 }
 
@@ -69,8 +69,14 @@ async function unpick(key, locator) {
 
 async function exercise(hand, key, row) {
   const { lab } = hand;
-  const locator = locate(lab.page, key);
+  const found = locate(lab.page, key);
+  // Of those that a pattern fits, one; a whole name has to be one control's alone.
+  const locator = key.includes(' /') ? found.first() : found;
+  if (row.elsewhere) return;
   await row.ready?.(lab);
+  // Not every session has such a thing.
+  if (row.least && (await locate(lab.page, key).count()) < row.least) return;
+  await row.before?.(lab);
   if (!(await unpick(key, locator))) return;
   const see = async () => JSON.stringify((await row.see(lab, locator)) ?? null);
   const act = row.act ?? ACTS[key.split(' ')[0]];

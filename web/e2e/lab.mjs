@@ -75,6 +75,8 @@ export class Lab {
     /** What this page last sent of each type, and every event that it heard of. */
     this.sent = {};
     this.events = [];
+    this.downloads = 0;
+    page.on('download', () => (this.downloads += 1));
     page.on('websocket', (socket) => {
       socket.on('framesent', ({ payload }) => {
         const message = JSON.parse(payload);

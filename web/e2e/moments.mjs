@@ -44,3 +44,9 @@ export const open = (name) => async (lab) => {
   const button = lab.button(name);
   if ((await button.getAttribute('aria-expanded')) === 'false') await button.click();
 };
+
+/** The 3-D view is open and draws. */
+export async function inSpace(lab) {
+  const scene = lab.page.getByLabel('Scene', { exact: true });
+  await until('a picture in space', () => scene.getAttribute('data-bead-px'), 30_000);
+}

@@ -97,13 +97,15 @@ async function restore(lab, hand) {
   await until('the defaults', () => isDefault(lab));
 }
 
+/** A control of one parameter: it follows, and the defaults can be had again. */
+export const bound = (name) => ({ see: (lab) => lab.scene.parameters[name], after: restore });
+
 function rowsOf(fields) {
   const rows = {};
   for (const [label, { name, roles }] of Object.entries(fields)) {
-    const see = (lab) => lab.scene.parameters[name];
     for (const role of roles) {
       const own = role === 'slider' ? `${label} slider` : label;
-      rows[`${role} ${own}`] = { see, after: restore };
+      rows[`${role} ${own}`] = bound(name);
     }
   }
   return rows;

@@ -31,7 +31,7 @@ async function settled(lab) {
 }
 
 /** Position on the page, in CSS pixels, of a point of the table. */
-async function px(lab, [x, y]) {
+export async function px(lab, [x, y]) {
   const m = await numbers(lab, 'px-from-table');
   const row = (i) => m[3 * i] * x + m[3 * i + 1] * y + m[3 * i + 2];
   const box = await canvasOf(lab).boundingBox();
@@ -45,7 +45,7 @@ async function beadPx(lab) {
 }
 
 /** A free point toward which a hand can go without leaving the picture. */
-async function freeInPicture(lab, least_m, most_m) {
+export async function freeInPicture(lab, least_m, most_m) {
   const box = await canvasOf(lab).boundingBox();
   for (const point of lab.freePoints(lab.state.bead_m, least_m, most_m)) {
     const [x, y] = await px(lab, point);

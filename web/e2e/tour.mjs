@@ -2,6 +2,7 @@
 // summaries open, each controller, and the moments in which the page looks different.
 
 import { until } from './harness.mjs';
+import { inSpace } from './moments.mjs';
 
 /** Ticks to have behind, so that there is a way back. */
 const HISTORY_TICKS = 250;
@@ -90,6 +91,14 @@ async function* moments(lab) {
   await lab.click(lab.wallPoint());
   await lab.notice('workspace').waitFor();
   yield { name: 'refusal', panel: page.locator('section.panel.workspace') };
+  await page.getByRole('radio', { name: '3-D', exact: true }).check();
+  await inSpace(lab);
+  yield { name: '3-D', panel: page.locator('section.panel.workspace') };
+  await page.getByRole('radio', { name: 'Plan', exact: true }).check();
+  await lab.button('Keyboard shortcuts').click();
+  await page.getByRole('dialog').waitFor();
+  yield { name: 'keyboard', panel: page.getByRole('dialog') };
+  await page.keyboard.press('Escape');
   await lab.run();
   await until('running', () => lab.state.running);
   yield { name: 'running', panel: page.locator('footer.bar') };
