@@ -1,12 +1,26 @@
 // The events on the timeline, each a button that opens its story.
 
-import { Index, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
+import {
+  Index,
+  createEffect,
+  createMemo,
+  createSignal,
+  onCleanup,
+  onMount,
+  type JSX,
+} from 'solid-js';
 import type { Lab } from '../lab';
+import { Limiter } from '../limiter';
 import { clusters } from '../marks';
 import type { EventMessage } from '../protocol.gen';
 
 /** The side of a mark, as `--target` has it. */
 const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
+/**
+ * While time runs all marks move, a little at each state: hundreds of them, which nobody needs sixty
+ * times a second.
+ */
+const LAYOUTS_PER_S = 4;
 /** How far a key moves along the marks. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
@@ -23,10 +37,16 @@ export function EventMarks(props: { lab: Lab; oldest: number; newest: number }):
       observer.disconnect();
     });
   });
+  const [line, setLine] = createSignal({ oldest: 0, newest: 0, marks: lab.marks() });
+  const layouts = new Limiter(1000 / LAYOUTS_PER_S, setLine);
+  createEffect(() => {
+    layouts.offer({ oldest: props.oldest, newest: props.newest, marks: lab.marks() });
+  });
   const found = createMemo(() => {
-    const span = Math.max(1, props.newest - props.oldest);
-    const px = (tick: number): number => (width_px() * Math.min(span, tick - props.oldest)) / span;
-    const held = lab.marks().filter((mark) => mark.tick >= props.oldest);
+    const { oldest, newest, marks } = line();
+    const span = Math.max(1, newest - oldest);
+    const px = (tick: number): number => (width_px() * Math.min(span, tick - oldest)) / span;
+    const held = marks.filter((mark) => mark.tick >= oldest);
     return width_px() > 0 ? clusters(held, px, GAP_PX) : [];
   });
   const [current, setCurrent] = createSignal<EventMessage>();
@@ -50,7 +70,7 @@ export function EventMarks(props: { lab: Lab; oldest: number; newest: number }):
   };
   return (
     <div ref={bar} class="event-marks" role="toolbar" aria-label="Events in time" onKeyDown={onKey}>
-      {/* By place and not by value: while time runs, every mark moves with each frame. */}
+      {/* By place and not by value: while time runs, every mark moves. */}
       <Index each={found()}>
         {(cluster, index) => (
           <button
