@@ -176,6 +176,8 @@ pub struct Hello {
     pub role: Role,
     /// Whether anybody is the operator.
     pub operator_present: bool,
+    /// Whether this browser is the operator and another one asks it to make way.
+    pub asked: bool,
     /// Graphics adapter that renders the camera.
     pub adapter: String,
 }

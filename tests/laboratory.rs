@@ -180,9 +180,7 @@ async fn one_operates_others_watch_and_a_hand_that_is_gone_lets_go() {
     second.send(json!({"type": "run"})).await;
     assert_eq!(second.error().await["code"], "not_operator");
     second.send(json!({"type": "take_control"})).await;
-    first
-        .until("the request", |m| m["type"] == "event" && m["text"].as_str().unwrap().contains("asks for control"))
-        .await;
+    first.until("the request", |m| m["type"] == "hello" && m["asked"] == true).await;
 
     first.send(json!({"type": "run"})).await;
     first.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.5})).await;

@@ -179,12 +179,14 @@ impl Hub {
     }
 
     pub fn hello(&self, connection: u64, seats: &Seats) -> Hello {
+        let operates = seats.operator == Some(connection);
         Hello {
             protocol: PROTOCOL_VERSION,
             session: self.id.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            role: if seats.operator == Some(connection) { Role::Operator } else { Role::Viewer },
+            role: if operates { Role::Operator } else { Role::Viewer },
             operator_present: seats.operator.is_some(),
+            asked: operates && seats.asking.is_some(),
             adapter: self.gpu.adapter_name().to_owned(),
         }
     }

@@ -16,7 +16,7 @@ use super::problem::Problem;
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, ServerMessage};
 use crate::scenario::ControllerName;
 use crate::session::Command;
-use crate::trial::{EventKind, Input};
+use crate::trial::Input;
 
 /// Largest message from a browser.
 const MESSAGE_LIMIT: usize = 64 * 1024;
@@ -98,9 +98,6 @@ impl Connection {
                     }
                     let now = *seats.borrow_and_update();
                     self.say(&ServerMessage::Hello(self.hub.hello(self.own, &now))).await?;
-                    if now.operator == Some(self.own) && now.asking.is_some() {
-                        self.say(&self.asked()).await?;
-                    }
                 }
                 message = self.socket.recv() => match message {
                     Some(Ok(Message::Text(text))) => self.hear(&text).await?,
@@ -192,16 +189,6 @@ impl Connection {
             }
         }
         Ok(())
-    }
-
-    fn asked(&self) -> ServerMessage {
-        let view = self.hub.session.watch().borrow().clone();
-        ServerMessage::Event(EventMessage {
-            tick: view.moment.tick,
-            sim_time_s: view.moment.sim_time_s(),
-            kind: EventKind::Session,
-            text: "another browser asks for control".to_owned(),
-        })
     }
 
     async fn say(&mut self, message: &ServerMessage) -> Result<(), axum::Error> {

@@ -52,6 +52,7 @@ async function handsOver(context) {
     // Asked for, control is given when the operator lets go of it.
     await viewer.button('Take control').click();
     await viewer.notice('session').getByText('has to release control').waitFor();
+    await lab.page.getByTestId('asked').waitFor();
     await lab.page.getByRole('log').getByText('asks for control').first().waitFor();
     check((await lab.text('role')) === 'operator', 'the operator lost control by being asked');
     await lab.button('Release control').click();

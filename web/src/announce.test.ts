@@ -32,6 +32,7 @@ describe('the news', () => {
       version: '',
       role,
       operator_present: true,
+      asked: false,
       adapter: '',
     });
     expect(roleWords(undefined, as('operator'))).toBeUndefined();

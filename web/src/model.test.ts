@@ -25,6 +25,7 @@ describe('messages', () => {
       version: '9',
       role: 'operator',
       operator_present: true,
+      asked: false,
       adapter: '',
     } as const;
     expect(play(message({ type: 'hello', ...hello })).link.kind).toBe('outdated');

@@ -192,12 +192,16 @@ function withState(model: Model, state: StateMessage): Model {
 
 function withMessage(model: Model, message: ServerMessage): Model {
   switch (message.type) {
-    case 'hello':
-      return {
+    case 'hello': {
+      const next: Model = {
         ...model,
         hello: message,
         link: message.protocol === PROTOCOL_VERSION ? model.link : { kind: 'outdated' },
       };
+      return message.asked && !model.hello?.asked
+        ? withLine(next, 'link', 'Another browser asks for control.', undefined)
+        : next;
+    }
     case 'scene': {
       // Another trial: what was seen, marked and complained about is over.
       const otherTrial = model.scene !== undefined && model.scene.trial !== message.trial;

@@ -399,6 +399,10 @@ role: Role,
  */
 operator_present: boolean, 
 /**
+ * Whether this browser is the operator and another one asks it to make way.
+ */
+asked: boolean, 
+/**
  * Graphics adapter that renders the camera.
  */
 adapter: string, };

@@ -60,12 +60,18 @@ function RoleBox(props: { lab: Lab }): JSX.Element {
         <button
           type="button"
           class="small"
+          classList={{ primary: lab.hello()?.asked ?? false }}
           onClick={() => {
             lab.send({ type: 'release_control' });
           }}
         >
           Release control
         </button>
+        <Show when={lab.hello()?.asked}>
+          <span class="asked" data-testid="asked">
+            another asks for it
+          </span>
+        </Show>
       </Show>
     </Show>
   );
