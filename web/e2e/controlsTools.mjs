@@ -210,7 +210,7 @@ const EVALUATE = {
     // What only some evaluations have; evaluate.mjs makes them have it.
     'button Run': { elsewhere: 'evaluates what is asked for by keyboard' },
     'button Cancel': { elsewhere: 'cancels an evaluation, which a viewer watches' },
-    'button /^Set up episode /': { elsewhere: 'sets a failure up again' },
+    'button /^Set it up: episode /': { elsewhere: 'sets a failure up again' },
     'button /a cell, seed/': {
       // The last one begun is shown, the first of the list; the last of the list is another one.
       least: 2,
@@ -225,7 +225,8 @@ const EVALUATE = {
       least: 1,
       see: (lab) => lab.page.getByRole('row').count(),
     },
-    'link /^Save/': { least: 1, see: downloads },
+    'link JSON': { least: 1, see: downloads },
+    'link CSV': { least: 1, see: downloads },
   },
   after: view('Laboratory'),
 };
