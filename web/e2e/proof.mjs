@@ -40,7 +40,8 @@ async function shoot(lab, place, theme) {
   }
   const panels = place.panel.locator('section.panel');
   for (const panel of await panels.all()) {
-    const [, name] = (await panel.getAttribute('class')).split(' ');
+    const label = await panel.getAttribute('aria-label');
+    const [, name = slug(label ?? 'panel')] = (await panel.getAttribute('class')).split(' ');
     await lab.shoot(panel, `panel-${name}-${theme}`);
   }
   await lab.screenshot(`${slug(place.name)}-${theme}`);
