@@ -17,6 +17,8 @@ describe('speeds', () => {
 
   it('tell when the machine is at its limit', () => {
     expect(achievedWords(1, 0.97)).toEqual({ text: 'achieved 0.97×', limited: false });
+    // Time has just begun to run.
+    expect(achievedWords(8, 0)).toEqual({ text: 'achieved –', limited: false });
     expect(achievedWords(64, 21.04)).toEqual({ text: 'achieved 21.0×', limited: true });
   });
 });

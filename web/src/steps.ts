@@ -22,11 +22,12 @@ export function ticksToControlStep(tick: number, tick_s: number): number {
   return due - tick;
 }
 
-/** What is achieved, and whether it is clearly less than what was asked. */
+/** What is achieved, and whether it is clearly less than what was asked; 0 before anything was measured. */
 export function achievedWords(
   target: number,
   achieved: number,
 ): { text: string; limited: boolean } {
+  if (achieved === 0) return { text: 'achieved –', limited: false };
   const limited = achieved < LIMITED * target;
   return { text: `achieved ${fixed(achieved, achieved < 10 ? 2 : 1)}×`, limited };
 }

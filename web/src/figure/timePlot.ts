@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 import { fixed } from '../format';
 import type { Palette } from '../palette';
+import { inside } from '../plotArea';
 import { partRange, type Part } from './parts';
 import type { Sample } from './sample';
 
@@ -21,16 +22,6 @@ const BEHIND_S = 0.02;
 /** Decimals that tell multiples of `step` apart. */
 export function decimals(step: number): number {
   return String(step).split('.')[1]?.length ?? 0;
-}
-
-function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, ratio: number) => void): void {
-  const { ctx, bbox } = u;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-  ctx.clip();
-  draw(ctx, window.devicePixelRatio);
-  ctx.restore();
 }
 
 /** Below the lines: when sub-controller 1 went after the bead. */

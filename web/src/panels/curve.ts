@@ -2,6 +2,7 @@
 
 import uPlot from 'uplot';
 import type { Palette } from '../palette';
+import { inside } from '../plotArea';
 
 export interface CurveLine {
   readonly label: string;
@@ -46,16 +47,6 @@ const FILL_ALPHA = '24';
 /** `#rrggbb` with an opacity; other notations as they are. */
 function translucent(color: string): string {
   return /^#[0-9a-f]{6}$/i.test(color) ? color + FILL_ALPHA : color;
-}
-
-function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, ratio: number) => void): void {
-  const { ctx, bbox } = u;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-  ctx.clip();
-  draw(ctx, window.devicePixelRatio);
-  ctx.restore();
 }
 
 function drawShades(u: uPlot, context: CurveContext): void {
