@@ -173,8 +173,10 @@ export async function obeysTheKeyboardInSpace({ lab }) {
 export async function frees({ lab, watch }) {
   const held = async () => {
     await settled(lab);
-    return [await numbers(lab, 'geometries'), await numbers(lab, 'textures')].join();
+    return [await numbers(lab, 'geometries'), await numbers(lab, 'textures')].flat();
   };
+  // What a reset leaves of the hand and the trails may go a frame later: fewer things are no leak.
+  const grew = (now, before) => now.some((count, i) => count > before[i]);
   await lab.reset();
   const first = await held();
   await lab.reset({ map: 'colon' });
@@ -185,7 +187,7 @@ export async function frees({ lab, watch }) {
   await lab.screenshot('scene-light');
   await lab.button('Use dark colours').click();
   await lab.reset();
-  check((await held()) === first, `the card keeps more: ${await held()} after ${first}`);
+  check(!grew(await held(), first), `the card keeps more: ${await held()} after ${first}`);
 
   const complaints = watch.complaints.length;
   for (let i = 0; i < TOGGLES; i++) {
@@ -196,7 +198,7 @@ export async function frees({ lab, watch }) {
     await until('the context to go', isLost);
     await open(lab);
   }
-  check((await held()) === first, 'another number of things than at first');
+  check(!grew(await held(), first), 'more things than at first');
   check(watch.complaints.length === complaints, `it says: ${watch.complaints.slice(complaints)}`);
 }
 
