@@ -3,6 +3,7 @@
 mod evaluate;
 mod map;
 mod render;
+mod replay;
 mod serve;
 mod sweep;
 mod train;
@@ -39,6 +40,8 @@ enum Command {
     Render(render::Arguments),
     /// Check a map and print what it is
     Map(map::Arguments),
+    /// Run an input log again and compare every hash
+    Replay(replay::Arguments),
     /// Take one camera image a centimetre of a map, as training looks at them
     Sweep(sweep::Arguments),
     /// Train a Rainbow-IQN policy: progress bar, checkpoints, learning curve
@@ -65,6 +68,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
+        Command::Replay(arguments) => replay::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Train(arguments) => train::run(&arguments),
     }

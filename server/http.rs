@@ -30,10 +30,10 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::camera::Gpu;
 use crate::evaluate::Queue;
-use crate::recording::{self, Recorder, Unrecorded};
+use crate::recording::{Archive, Options, Recorder, Retention, Unrecorded};
 use crate::scenario::Scenario;
-use crate::session::{Session, Sink};
-use crate::trial::TrialError;
+use crate::session::Session;
+use crate::trial::{Sink, TrialError};
 
 use hub::Hub;
 
@@ -74,8 +74,8 @@ pub enum ServeError {
 /// What every request sees.
 pub struct Server {
     gpu: Arc<Gpu>,
-    /// Folder of the recordings.
-    recordings: PathBuf,
+    /// The sessions' recordings.
+    recordings: Arc<Archive>,
     /// Maps as policies see them.
     atlases: values::Atlases,
     /// Evaluations in the background.
@@ -92,11 +92,16 @@ pub struct Server {
 
 impl Server {
     /// A server with the session `main`.
-    pub fn new(gpu: Arc<Gpu>, data: PathBuf, stopping: watch::Receiver<bool>) -> Result<Arc<Self>, ServeError> {
+    pub fn new(
+        gpu: Arc<Gpu>,
+        data: PathBuf,
+        retention: Retention,
+        stopping: watch::Receiver<bool>,
+    ) -> Result<Arc<Self>, ServeError> {
         let server = Arc::new(Self {
             evaluations: Queue::start(gpu.clone())?,
             gpu,
-            recordings: data.join("recordings"),
+            recordings: Archive::new(data.join("recordings"), retention),
             atlases: values::Atlases::in_folder(data.join("sweeps")),
             sessions: RwLock::default(),
             places: Arc::new(Semaphore::new(SESSION_CAP)),
@@ -110,17 +115,16 @@ impl Server {
 
     /// Starts a session under an id that is free. Blocks: it makes a file, a camera and a thread.
     fn open(&self, id: &str, scenario: Scenario, place: OwnedSemaphorePermit) -> Result<Arc<Hub>, ServeError> {
-        let name = recording::name(&jiff::Zoned::now(), id);
         // A recording that cannot begin is shown, and the session runs without.
-        let (sink, recording): (Box<dyn Sink>, _) = match Recorder::create(&self.recordings, &name) {
-            Ok(recorder) => (Box::new(recorder), Some(name)),
+        let sink: Box<dyn Sink> = match Recorder::in_archive(&self.recordings, id, Options::LIVE) {
+            Ok(recorder) => Box::new(recorder),
             Err(error) => {
                 tracing::warn!(%error, "session not recorded");
-                (Box::new(Unrecorded { reason: error.to_string() }), None)
+                Box::new(Unrecorded { reason: error.to_string() })
             }
         };
         let session = Session::start(id, scenario, self.gpu.clone(), sink)?;
-        let hub = Hub::start(id, session, recording, self.gpu.clone(), place);
+        let hub = Hub::start(id, session, self.gpu.clone(), place);
         self.sessions.write().expect("no holder panics").insert(id.to_owned(), hub.clone());
         Ok(hub)
     }

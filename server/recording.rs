@@ -1,33 +1,43 @@
-//! Recordings: every session is logged by Rerun to one `.rrd` file, off the session's thread.
+//! Recordings: a session, or an evaluated episode, as two files a part, written off the thread that runs it. Rerun's
+//! (`.rrd`) is to be looked at, the input log (`.ferry`) to be run again.
+//!
+//! A session that goes on for long is kept in parts: Rerun holds the index of an open file in memory, and old parts
+//! can be let go. Each part can be opened, and replayed, alone.
 
-mod files;
-mod log;
+mod archive;
+mod blueprint;
+mod entities;
+mod part;
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
-use rerun::RecordingStream;
+use crate::geometry::Point2;
+use crate::scenario::Scenario;
+use crate::trial::{
+    Arena, Beginning, Event, LogError, LoggedBeginning, LoggedTick, Moment, Sight, Sink, TickRecord, Trial,
+};
 
-use crate::session::{Scenery, Sink};
-use crate::trial::{Event, EventKind, Moment, TickRecord};
+pub use archive::{Archive, Listed, Retention};
+use part::{Keeper, Naming};
 
-pub use files::{Listed, list, name};
-
-/// Samples that may wait for the disk: seventeen simulated seconds of them.
-const QUEUE: usize = 512;
-/// Recording stops when the disk has less room than this.
-const ROOM_BYTES: u64 = 64 << 20;
-/// Messages between two looks at the room left: some seconds, and far less than the room.
-const ROOM_EVERY: usize = 64;
-/// Moments are logged at 25 Hz of simulated time; events and camera frames always.
+/// Messages that may wait for the disk: half a minute of a session, some seconds where it runs fast.
+const QUEUE: usize = 4096;
+/// Sights that may wait: each holds a camera frame of a megabyte.
+const SIGHTS: usize = 16;
+/// Moments are logged at 25 Hz of simulated time; events and control steps always.
 const TICKS_A_SAMPLE: u64 = 5;
+/// After a tick was lost, so many more are let go between two offers to begin again.
+const LOST_TICKS_AN_OFFER: u64 = 64;
 
-/// Why a recording could not begin.
+/// Why a recording could not begin or go on.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
-    /// The folder cannot be made or read.
+    /// A file or folder cannot be made, read or written.
     #[error("recording: {path}: {error}", path = path.display())]
     Io {
         /// The path.
@@ -35,143 +45,204 @@ pub enum RecordingError {
         /// What the system said.
         error: std::io::Error,
     },
+    /// The disk is nearly full.
+    #[error("recording: the disk has {left_mb} MB left, less than {least_mb}")]
+    Full {
+        /// What is left.
+        left_mb: u64,
+        /// What is asked for.
+        least_mb: u64,
+    },
+    /// The input log.
+    #[error("recording: {0}")]
+    Log(#[from] LogError),
     /// Rerun refused.
     #[error("recording: {0}")]
     Rerun(String),
 }
 
+impl From<rerun::RecordingStreamError> for RecordingError {
+    fn from(error: rerun::RecordingStreamError) -> Self {
+        Self::Rerun(error.to_string())
+    }
+}
+
+/// How a recording is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Whether whoever runs the trial waits for a slow disk; otherwise ticks are lost, counted, and shown.
+    pub waits: bool,
+    /// A part that is this old is followed by the next.
+    pub part: Duration,
+    /// Images come no closer together than this.
+    pub image_every: Duration,
+    /// Recording stops when the disk has less room than this.
+    pub least_room_bytes: u64,
+}
+
+impl Options {
+    /// For a session: it never waits, and runs for hours, perhaps many times as fast as time.
+    pub const LIVE: Self = Self {
+        waits: false,
+        part: Duration::from_secs(600),
+        image_every: Duration::from_millis(100),
+        least_room_bytes: 64 << 20,
+    };
+    /// For an episode: it is kept whole.
+    pub const EPISODE: Self = Self { waits: true, part: Duration::MAX, image_every: Duration::ZERO, ..Self::LIVE };
+}
+
 /// What the recording's thread is told.
 enum Message {
-    Begin { scenery: Box<Scenery>, tick: u64 },
-    Sample(Box<Sample>),
+    Begin(Box<Opening>),
+    Tick(Box<Told>),
     Note(Event),
 }
 
-/// One moment to be logged.
+/// A trial that begins, or goes on.
+struct Opening {
+    arena: Arc<Arena>,
+    scenario: Scenario,
+    logged: LoggedBeginning,
+    tick: u64,
+    goal_m: Option<Point2<f64>>,
+}
+
+/// A tick.
+struct Told {
+    logged: LoggedTick,
+    sample: Option<Sample>,
+}
+
+/// A moment to be looked at.
 struct Sample {
     moment: Moment,
     events: Vec<Event>,
-    /// The camera frame of a control step.
-    frame: Option<Arc<crate::image::CameraFrame>>,
+    /// Of a control step.
+    sight: Option<Sight>,
 }
 
-/// Writes one session to one file. Dropping it closes the file, footer and all.
+/// What both threads see.
+#[derive(Default)]
+struct Shared {
+    /// Why nothing more is written; set once.
+    stopped: OnceLock<String>,
+    /// The part is old enough: the next wants to begin.
+    part_is_over: AtomicBool,
+    /// Sights that wait in the queue.
+    sights: AtomicUsize,
+}
+
+/// Writes one session or episode. Dropping it closes the files.
 pub struct Recorder {
     queue: Option<SyncSender<Message>>,
     thread: Option<JoinHandle<()>>,
-    /// A beginning that found the queue full; samples wait for it, since they would be misread without.
-    owed: Option<Message>,
-    lost: u64,
-    /// Why the thread writes no more; set by it, shown to viewers.
-    stopped: Arc<OnceLock<String>>,
+    shared: Arc<Shared>,
+    waits: bool,
+    /// A tick was lost: those that follow make no sense in an input log until it is told where the trial stands.
+    gap: bool,
+    lost_ticks: u64,
 }
 
 impl Recorder {
-    /// Starts a file in `folder`; `id` becomes its name.
-    pub fn create(folder: &Path, id: &str) -> Result<Self, RecordingError> {
-        std::fs::create_dir_all(folder).map_err(|error| RecordingError::Io { path: folder.into(), error })?;
-        let path = folder.join(format!("{id}.rrd"));
-        let stream = rerun::RecordingStreamBuilder::new("ferry")
-            .recording_id(id)
-            .save(&path)
-            .and_then(|stream| {
-                // Without a name the viewer calls it unknown; the builder's own is lost on the way to a file.
-                stream.send_recording_name(id)?;
-                Ok(stream)
-            })
-            .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
+    /// Records a session among others.
+    pub fn in_archive(archive: &Arc<Archive>, session: &str, options: Options) -> Result<Self, RecordingError> {
+        Self::start(Naming::Archive { archive: archive.clone(), session: session.to_owned() }, options)
+    }
+
+    /// Records one episode as `NAME.rrd` and `NAME.ferry`.
+    pub fn to_folder(folder: &Path, name: &str) -> Result<Self, RecordingError> {
+        Self::start(Naming::Alone { folder: folder.to_owned(), name: name.to_owned() }, Options::EPISODE)
+    }
+
+    fn start(naming: Naming, options: Options) -> Result<Self, RecordingError> {
+        let keeper = Keeper::start(naming, options)?;
         let (queue, inbox) = sync_channel(QUEUE);
-        let stopped = Arc::new(OnceLock::new());
-        let (reason, folder) = (stopped.clone(), folder.to_owned());
+        let shared = Arc::new(Shared::default());
+        let seen = shared.clone();
         let thread = std::thread::Builder::new()
-            .name(format!("recording {id}"))
-            .spawn(move || write_all(stream, &inbox, &folder, &reason))
+            .name("recording".into())
+            .spawn(move || write_all(keeper, &inbox, &seen))
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;
-        Ok(Self { queue: Some(queue), thread: Some(thread), owed: None, lost: 0, stopped })
+        Ok(Self {
+            queue: Some(queue),
+            thread: Some(thread),
+            shared,
+            waits: options.waits,
+            gap: false,
+            lost_ticks: 0,
+        })
     }
 
-    /// Whether the message went; the simulation never waits for the disk, what is lost is counted and shown.
-    fn push(&mut self, message: Message) -> Result<(), Message> {
-        let Some(queue) = &self.queue else { return Ok(()) };
-        match queue.try_send(message) {
-            Ok(()) | Err(TrySendError::Disconnected(_)) => Ok(()),
-            Err(TrySendError::Full(message)) => {
-                self.lost += 1;
-                Err(message)
-            }
+    /// Whether the message went, or nobody will ever want it.
+    fn push(&self, message: Message) -> bool {
+        let Some(queue) = &self.queue else { return true };
+        if self.waits {
+            return queue.send(message).is_ok();
         }
+        !matches!(queue.try_send(message), Err(TrySendError::Full(_)))
     }
 
-    fn push_after_beginning(&mut self, message: Message) {
-        if let Some(owed) = self.owed.take() {
-            self.owed = self.push(owed).err();
+    /// A sight, if not too many wait already.
+    fn admit(&self, sight: Option<&Sight>) -> Option<Sight> {
+        let sight = sight?;
+        if !self.waits && self.shared.sights.load(Ordering::Relaxed) >= SIGHTS {
+            return None;
         }
-        if self.owed.is_none() {
-            // Counted in `push`; a sample that is lost is not sent later.
-            let _ = self.push(message);
-        }
+        self.shared.sights.fetch_add(1, Ordering::Relaxed);
+        Some(sight.clone())
     }
-}
-
-/// Writes until the queue's other end is gone, or the disk is nearly full: Rerun only logs what it could
-/// not write, so room is looked after before it is gone.
-fn write_all(stream: RecordingStream, inbox: &Receiver<Message>, folder: &Path, stopped: &OnceLock<String>) {
-    let mut writer = log::Writer::new(stream);
-    for (count, message) in inbox.iter().enumerate() {
-        if stopped.get().is_some() {
-            continue;
-        }
-        let written = match count % ROOM_EVERY {
-            0 => room(folder).and_then(|()| writer.write(message).map_err(|error| error.to_string())),
-            _ => writer.write(message).map_err(|error| error.to_string()),
-        };
-        if let Err(reason) = written {
-            tracing::error!(reason, "recording stopped");
-            // Set once: nothing is written after it.
-            let _ = stopped.set(format!("stopped: {reason}"));
-        }
-    }
-    if let Err(error) = writer.close() {
-        tracing::error!(%error, "recording could not be closed");
-    }
-}
-
-/// Whether the disk has room for more; where the system cannot tell, yes.
-fn room(folder: &Path) -> Result<(), String> {
-    #[cfg(unix)]
-    if let Ok(disk) = rustix::fs::statvfs(folder) {
-        let left_bytes = disk.f_bavail.saturating_mul(disk.f_frsize);
-        if left_bytes < ROOM_BYTES {
-            return Err(format!("the disk has {} MB left, less than {}", left_bytes >> 20, ROOM_BYTES >> 20));
-        }
-    }
-    let _ = folder;
-    Ok(())
 }
 
 impl Sink for Recorder {
-    fn begin(&mut self, scenery: &Scenery, tick: u64) {
-        let beginning = Message::Begin { scenery: Box::new(scenery.clone()), tick };
-        self.owed = self.push(beginning).err();
+    fn begin(&mut self, trial: &Trial, how: Beginning) {
+        let opening = Opening {
+            arena: trial.arena().clone(),
+            scenario: trial.scenario().clone(),
+            logged: LoggedBeginning::of(trial, how),
+            tick: trial.state().world.tick,
+            goal_m: trial.state().world.goal_m,
+        };
+        self.gap = !self.push(Message::Begin(Box::new(opening)));
     }
 
     fn record(&mut self, record: &TickRecord) {
-        let frame = record.sight.as_ref().map(|sight| sight.frame.clone());
-        if record.tick.is_multiple_of(TICKS_A_SAMPLE) || frame.is_some() || !record.events.is_empty() {
-            let sample = Sample { moment: record.moment.clone(), events: record.events.clone(), frame };
-            self.push_after_beginning(Message::Sample(Box::new(sample)));
+        if self.gap {
+            self.lost_ticks += 1;
+            return;
+        }
+        let worth = record.tick.is_multiple_of(TICKS_A_SAMPLE) || record.sight.is_some() || !record.events.is_empty();
+        let sample = worth.then(|| Sample {
+            moment: record.moment.clone(),
+            events: record.events.clone(),
+            sight: self.admit(record.sight.as_ref()),
+        });
+        let holds_sight = sample.as_ref().is_some_and(|sample| sample.sight.is_some());
+        self.gap = !self.push(Message::Tick(Box::new(Told { logged: LoggedTick::from(record), sample })));
+        if self.gap {
+            self.lost_ticks += 1;
+            self.shared.sights.fetch_sub(usize::from(holds_sight), Ordering::Relaxed);
         }
     }
 
     fn note(&mut self, event: &Event) {
-        self.push_after_beginning(Message::Note(event.clone()));
+        // Shown to viewers in any case; what is lost here is a line of text.
+        let _ = self.push(Message::Note(event.clone()));
+    }
+
+    fn wants_beginning(&mut self) -> bool {
+        if self.shared.stopped.get().is_some() {
+            return false;
+        }
+        let offers = self.gap && self.lost_ticks.is_multiple_of(LOST_TICKS_AN_OFFER);
+        offers || self.shared.part_is_over.swap(false, Ordering::Relaxed)
     }
 
     fn status(&self) -> String {
-        match (self.stopped.get(), self.lost) {
+        match (self.shared.stopped.get(), self.lost_ticks) {
             (Some(reason), _) => reason.clone(),
             (None, 0) => "recording".to_owned(),
-            (None, lost) => format!("recording, {lost} samples lost: the disk is slow"),
+            (None, lost) => format!("recording, {lost} ticks lost: the disk is slow"),
         }
     }
 }
@@ -185,6 +256,38 @@ impl Drop for Recorder {
     }
 }
 
+/// Writes until the queue's other end is gone, or something cannot be written.
+fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
+    loop {
+        let message = inbox.recv_timeout(keeper.wait());
+        if let Ok(Message::Tick(told)) = &message
+            && told.sample.as_ref().is_some_and(|sample| sample.sight.is_some())
+        {
+            shared.sights.fetch_sub(1, Ordering::Relaxed);
+        }
+        if shared.stopped.get().is_some() && !matches!(message, Err(RecvTimeoutError::Disconnected)) {
+            continue;
+        }
+        let done = match message {
+            Ok(message) => keeper.write(message),
+            Err(RecvTimeoutError::Timeout) => keeper.flush(),
+            Err(RecvTimeoutError::Disconnected) => break,
+        };
+        match done {
+            Ok(()) if keeper.wants_next() => shared.part_is_over.store(true, Ordering::Relaxed),
+            Ok(()) => {}
+            Err(error) => {
+                tracing::error!(%error, "recording stopped");
+                // Set once: nothing is written after it.
+                let _ = shared.stopped.set(format!("stopped: {error}"));
+            }
+        }
+    }
+    if let Err(error) = keeper.close() {
+        tracing::error!(%error, "recording could not be closed");
+    }
+}
+
 /// Takes a session's ticks and keeps nothing: the recording could not begin.
 pub struct Unrecorded {
     /// Why, shown to viewers.
@@ -192,20 +295,15 @@ pub struct Unrecorded {
 }
 
 impl Sink for Unrecorded {
-    fn begin(&mut self, _: &Scenery, _: u64) {}
+    fn begin(&mut self, _: &Trial, _: Beginning) {}
     fn record(&mut self, _: &TickRecord) {}
     fn note(&mut self, _: &Event) {}
 
+    fn wants_beginning(&mut self) -> bool {
+        false
+    }
+
     fn status(&self) -> String {
         format!("not recording: {}", self.reason)
-    }
-}
-
-/// Severity of an event in Rerun's text log.
-fn level(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::LiftOff | EventKind::Stopped => "ERROR",
-        EventKind::Disturbance | EventKind::Refused => "WARN",
-        _ => "INFO",
     }
 }

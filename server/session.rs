@@ -19,7 +19,7 @@ use crate::geometry::Point2;
 use crate::map::MapError;
 use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
-use crate::trial::{Arena, Event, Input, InputError, Moment, Sight, TickRecord, TrialError};
+use crate::trial::{Arena, Event, Input, InputError, Moment, Sight, Sink, TrialError};
 
 pub use pacing::{SPEED_MAX, SPEED_MIN};
 pub use past::{Past, Progress};
@@ -151,18 +151,6 @@ pub struct View {
     pub recording: String,
     /// Why the session ended, if it has.
     pub ended: Option<String>,
-}
-
-/// Takes every tick, in order; called in the session's thread, so it must not wait.
-pub trait Sink: Send {
-    /// A trial begins, at its start or at a moment gone back to.
-    fn begin(&mut self, scenery: &Scenery, tick: u64);
-    /// A tick, with its events.
-    fn record(&mut self, record: &TickRecord);
-    /// An event while time stands.
-    fn note(&mut self, event: &Event);
-    /// `recording`, or why not.
-    fn status(&self) -> String;
 }
 
 /// A running session. Dropping it ends the thread, after the sink.

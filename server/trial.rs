@@ -11,6 +11,8 @@ mod input;
 mod log;
 mod outcome;
 mod record;
+mod replay;
+mod sink;
 mod state;
 mod tally;
 
@@ -29,10 +31,12 @@ use crate::tracking::TrackerParameters;
 
 pub use disturb::Script;
 pub use input::{Input, InputError};
-pub use log::{InputLog, LogError, LoggedTick};
+pub use log::{Entry, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, LoggedTick};
 pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Event, EventKind, Moment, Sight, TickRecord};
-pub use state::{Counters, Decision, Mind, Motion, TrialState, World};
+pub use replay::{Eyes, ReplayError, Replayed, replay};
+pub use sink::{Beginning, Nowhere, Sink};
+pub use state::{Counters, Decision, Mind, Motion, TrialState, World, WorldHashes};
 pub use tally::Tally;
 
 /// The tool changes height no faster than this.

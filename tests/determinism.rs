@@ -7,7 +7,10 @@ use ferry::geometry::Point2;
 use ferry::image::CameraFrame;
 use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use ferry::trial::{Arena, Input, InputLog, LoggedTick, Source, Trial};
+use ferry::trial::{
+    Arena, Beginning, Entry, Input, InputLog, LogWriter, LoggedBeginning, LoggedTick, Motion, ReplayError, Replayed, Source,
+    Trial, World, replay,
+};
 use proptest::prelude::*;
 
 pub fn gpu() -> Arc<Gpu> {
@@ -143,27 +146,61 @@ proptest! {
         let mut trial = Trial::new(scenario(seed), posts()).unwrap();
         let recorded = run(&mut trial, &script, 400, &mut tape);
         let mut file = Vec::new();
-        InputLog::begin(trial.scenario(), &mut file).unwrap();
-        for tick in &recorded {
-            InputLog::append(tick, &mut file).unwrap();
+        let mut writer = LogWriter::new(&mut file).unwrap();
+        let first = Trial::new(scenario(seed), posts()).unwrap();
+        writer.append(vec![Entry::Begin(Box::new(LoggedBeginning::of(&first, Beginning::SetUp)))]).unwrap();
+        for ticks in recorded.chunks(31) {
+            writer.append(ticks.iter().cloned().map(Entry::Tick).collect()).unwrap();
         }
 
-        let log = InputLog::read(file.as_slice()).unwrap();
-        prop_assert_eq!(&log.ticks, &recorded);
-        let mut blind = Trial::new(log.scenario.clone(), posts()).unwrap();
-        let mut seeing = Trial::new(log.scenario, posts()).unwrap();
-        let mut playback = Playback(tape.frames.into_iter());
-        for tick in &log.ticks {
-            for input in &tick.inputs {
-                blind.apply(input.clone()).unwrap();
-                seeing.apply(input.clone()).unwrap();
-            }
-            let replayed = blind.tick(Source::Logged(tick.decision.clone())).unwrap();
-            prop_assert_eq!(replayed.world_hash, tick.world_hash, "tick {}", replayed.tick);
-            let decided = LoggedTick::from(&seeing.tick(Source::Eye(&mut playback)).unwrap());
-            prop_assert_eq!(&decided, tick);
-        }
+        let log = InputLog::read(&file).unwrap();
+        let all = Replayed { trials: 1, resumed: 0, ticks: 400 };
+        let mut seen = Vec::new();
+        prop_assert_eq!(replay(&log, None, &mut |record| seen.push(record.world.total())).unwrap(), all);
+        prop_assert_eq!(seen, recorded.iter().map(|tick| tick.world_hash).collect::<Vec<_>>());
+        let mut frames = Some(tape.frames);
+        let mut eyes = |_: &Arena| -> Result<Box<dyn Eye>, CameraError> {
+            Ok(Box::new(Playback(frames.take().expect("one trial").into_iter())))
+        };
+        prop_assert_eq!(replay(&log, Some(&mut eyes), &mut |_| {}).unwrap(), all);
     }
+}
+
+/// A log in which one thing is not as it was, though every frame is whole.
+fn forged(change: impl Fn(&mut LoggedTick)) -> ReplayError {
+    let mut trial = Trial::new(scenario(2), posts()).unwrap();
+    let mut entries = vec![Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::SetUp)))];
+    let nothing = Script(Vec::new());
+    let mut ticks = run(&mut trial, &nothing, 100, &mut camera());
+    // A control step.
+    change(&mut ticks[63]);
+    entries.extend(ticks.into_iter().map(Entry::Tick));
+    replay(&InputLog { entries, torn_bytes: 0 }, None, &mut |_| {}).expect_err("a forged log")
+}
+
+#[test]
+fn the_first_difference_is_told_by_tick_and_field() {
+    let told = |error: ReplayError| match error {
+        ReplayError::Differs { trial: 1, tick, fields } => (tick, fields),
+        error => panic!("{error}"),
+    };
+    let (tick, fields) = told(forged(|tick| tick.world_hash ^= 1));
+    assert_eq!((tick, fields.as_slice()), (64, &["world"][..]));
+    let (tick, fields) = told(forged(|tick| {
+        tick.world_hash ^= 1;
+        tick.fields[2 * World::FIELDS.iter().position(|&name| name == "bead").unwrap()] ^= 1;
+    }));
+    assert_eq!((tick, fields.as_slice()), (64, &["bead"][..]));
+    let (tick, fields) = told(forged(|tick| tick.inputs.push(Input::SetGoal { x_m: 0.05, y_m: -0.4 })));
+    assert_eq!(tick, 64);
+    assert!(fields.contains(&"goal") && !fields.contains(&"parameters"), "{fields:?}");
+    let (tick, fields) = told(forged(|tick| {
+        tick.decision.as_mut().unwrap().motion = Motion::Hold;
+    }));
+    assert_eq!(tick, 64);
+    assert!(fields.contains(&"motion"), "{fields:?}");
+    let refused = forged(|tick| tick.inputs.push(Input::SetGoal { x_m: 9.0, y_m: 0.0 })).to_string();
+    assert!(refused.contains("tick 64") && refused.contains("outside the workspace"), "{refused}");
 }
 
 /// Set for the child process of the test below.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use ferry::camera::Gpu;
 use ferry::http;
+use ferry::recording::Retention;
 use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
@@ -36,14 +37,13 @@ impl Laboratory {
         let (stop, stopping) = watch::channel(false);
         let listener = http::listen("127.0.0.1:0".parse().unwrap()).await.unwrap();
         let address = listener.local_addr().unwrap();
-        let server = http::Server::new(gpu, data.path().to_owned(), stopping).unwrap();
+        let server = http::Server::new(gpu, data.path().to_owned(), Retention::default(), stopping).unwrap();
         let served = tokio::spawn(async move { http::serve(listener, server).await.unwrap() });
         Self { address, data, stop, served }
     }
 
     pub async fn browser(&self) -> Browser {
-        let (socket, _) = connect_async(format!("ws://{}/api/sessions/main/live", self.address)).await.unwrap();
-        Browser { socket }
+        Browser::at(self.address).await
     }
 
     /// Status and body of a request.
@@ -88,6 +88,12 @@ pub struct Browser {
 }
 
 impl Browser {
+    /// Of the session `main` of a server.
+    pub async fn at(address: SocketAddr) -> Self {
+        let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
+        Self { socket }
+    }
+
     pub async fn send(&mut self, message: Value) {
         self.send_text(&message.to_string()).await;
     }

@@ -3,6 +3,7 @@
 mod answers;
 mod calculator;
 mod commands;
+mod crashes;
 mod determinism;
 mod disturbances;
 mod evaluations;
@@ -12,6 +13,7 @@ mod golden;
 mod house;
 mod laboratory;
 mod learned;
+mod logs;
 mod recordings;
 mod reference;
 mod rendering;

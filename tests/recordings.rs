@@ -1,9 +1,9 @@
 //! A closed session's recording is whole, and shows the arm moving: asked of Rerun's own tools.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::laboratory::Laboratory;
 
@@ -12,6 +12,25 @@ fn tool(name: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/venv/bin").join(name);
     assert!(path.exists(), "{} is missing; `make test` installs it", path.display());
     path
+}
+
+fn ferry() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_ferry"))
+}
+
+pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut found: Vec<_> = paths.filter(|path| path.extension().is_some_and(|found| found == ending)).collect();
+    found.sort();
+    found
+}
+
+/// What Rerun's own reader finds in files.
+pub fn read(files: &[PathBuf]) -> Vec<Value> {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/read_recording.py");
+    let read = Command::new(tool("python")).arg(script).args(files).output().unwrap();
+    assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
+    serde_json::from_slice(&read.stdout).unwrap()
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -28,17 +47,39 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
     let data = lab.close().await;
 
     let folder = data.path().join("recordings");
-    let file = std::fs::read_dir(folder).unwrap().next().unwrap().unwrap().path();
+    let file = files(&folder, "rrd").remove(0);
     let verified = Command::new(tool("rerun")).args(["rrd", "verify"]).arg(&file).output().unwrap();
     assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stderr));
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/read_recording.py");
-    let read = Command::new(tool("python")).arg(script).arg(&file).output().unwrap();
-    assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
-    let found: serde_json::Value = serde_json::from_slice(&read.stdout).unwrap();
+    let found = read(&[file.clone()]).remove(0);
     assert!(found["tool_path_m"].as_f64() > Some(0.1), "{found}");
-    assert!(found["camera_frames"].as_u64() >= Some(19), "{found}");
-    for entity in ["/world/arm", "/world/bead", "/world/goal", "/tracking_error/norm_m", "/mode", "/log", "/camera"] {
+    // In a hurry, not every control step's.
+    assert!(found["camera_frames"].as_u64() >= Some(1), "{found}");
+    for timeline in ["sim_time", "tick"] {
+        assert!(found["timelines"].as_array().unwrap().contains(&json!(timeline)), "{found}");
+    }
+    for entity in [
+        "/world/arm",
+        "/world/bead",
+        "/world/goal",
+        "/workspace/tool_and_bead",
+        "/camera",
+        "/observation",
+        "/tracking_error_mm",
+        "/mode",
+        "/phase",
+        "/log",
+    ] {
         assert!(found["entities"].as_array().unwrap().contains(&json!(entity)), "{entity}: {found}");
+    }
+    assert_eq!(found["blueprint_views"], json!(12), "{found}");
+
+    // The command, with the log's decisions and with the camera's.
+    let log = file.with_extension("ferry");
+    for options in [&[][..], &["--camera"]] {
+        let replayed = ferry().arg("replay").args(options).arg(&log).output().unwrap();
+        let told = String::from_utf8_lossy(&replayed.stdout);
+        assert!(replayed.status.success(), "{}", String::from_utf8_lossy(&replayed.stderr));
+        assert!(told.contains("600 ticks (4.8 s) of 2 trials are as they were"), "{told}");
     }
 }
 
@@ -69,5 +110,9 @@ async fn the_list_says_what_is_being_written_and_what_is_not_ours() {
     assert_eq!(file.header("content-length"), Some(closed["bytes"].to_string().as_str()));
     assert_eq!(file.body.len() as u64, closed["bytes"].as_u64().unwrap());
     assert!(file.body.starts_with(b"RRF2"));
+    let log = lab.bytes(&format!("/api/recordings/{}.ferry", closed["id"].as_str().unwrap())).await;
+    assert_eq!(log.len() as u64, closed["log_bytes"].as_u64().unwrap());
+    assert!(ferry::trial::InputLog::read(&log).is_ok());
+    assert_eq!(lab.ask("GET", "/api/recordings/mine.ferry", "").await.0, 404);
     lab.close().await;
 }

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use tokio::sync::watch;
 
 use crate::http;
+use crate::recording::Retention;
 
 /// Arguments of `ferry serve`.
 #[derive(clap::Args, Clone)]
@@ -17,6 +18,12 @@ pub struct Arguments {
     /// Folder of the recordings
     #[arg(long, default_value = "data")]
     data: PathBuf,
+    /// Recordings that are kept; a session writes one in ten minutes
+    #[arg(long, value_name = "COUNT", default_value_t = Retention::default().most)]
+    keep: usize,
+    /// Megabytes of recordings that are kept
+    #[arg(long, value_name = "MB", default_value_t = Retention::default().most_bytes >> 20)]
+    keep_mb: u64,
     /// Open the page in the default browser
     #[arg(long)]
     open: bool,
@@ -34,7 +41,8 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
     let gpu = super::open_gpu()?;
     tracing::info!(adapter = gpu.adapter_name(), "rendering");
     let (stop, stopping) = watch::channel(false);
-    let server = http::Server::new(gpu, arguments.data.clone(), stopping)?;
+    let retention = Retention { most: arguments.keep, most_bytes: arguments.keep_mb.saturating_mul(1 << 20) };
+    let server = http::Server::new(gpu, arguments.data.clone(), retention, stopping)?;
     println!("listening on http://{address}");
     if arguments.open
         && let Err(error) = opener::open(format!("http://{address}"))

@@ -17,7 +17,7 @@ use super::problem::Problem;
 use super::{MAIN_SESSION, SESSION_CAP, Server};
 use crate::map::{Map, MapError};
 use crate::protocol::{FlowField, FlowQuery, RecordingFile, RecordingList, StateMessage};
-use crate::recording;
+use crate::recording::Listed;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
 
@@ -166,27 +166,23 @@ pub async fn observation(State(server): State<Arc<Server>>, Path(id): Path<Strin
 }
 
 pub async fn recordings(State(server): State<Arc<Server>>) -> Result<Json<RecordingList>, Problem> {
-    let listed = recording::list(&server.recordings).map_err(Problem::internal)?;
-    let hubs = server.sessions.read().expect("no holder panics");
-    let written: Vec<&str> = hubs.values().filter_map(|hub| hub.recording.as_deref()).collect();
-    let recordings = listed.into_iter().map(|recording::Listed { id, session, started, bytes }| RecordingFile {
-        live: written.contains(&id.as_str()),
-        started: started.map(|started| started.to_string()),
-        id,
-        session,
-        bytes,
-    });
-    Ok(Json(RecordingList { recordings: recordings.collect() }))
+    let listed = server.recordings.list().map_err(Problem::internal)?;
+    Ok(Json(RecordingList { recordings: listed.into_iter().map(RecordingFile::from).collect() }))
 }
 
-/// Only names that the list holds are opened, so that no client path touches the file system.
-pub async fn recording(State(server): State<Arc<Server>>, Path(file): Path<String>) -> Result<Response, Problem> {
-    let known = recording::list(&server.recordings).map_err(Problem::internal)?;
-    let wanted = file.strip_suffix(".rrd");
-    let listed = known.into_iter().find(|listed| Some(listed.id.as_str()) == wanted);
-    let id = listed.ok_or_else(|| Problem::not_found("recording", &file))?.id;
-    let name = format!("{id}.rrd");
-    let opened = tokio::fs::File::open(server.recordings.join(&name)).await.map_err(Problem::internal)?;
+impl From<Listed> for RecordingFile {
+    fn from(listed: Listed) -> Self {
+        let Listed { id, session, started, bytes, log_bytes, live } = listed;
+        Self { id, session, started: started.map(|started| started.to_string()), bytes, log_bytes, live }
+    }
+}
+
+/// `GET /api/recordings/{id}.rrd`, and `.ferry`. Only names that the list holds are opened, so that no client path
+/// touches the file system.
+pub async fn recording(State(server): State<Arc<Server>>, Path(name): Path<String>) -> Result<Response, Problem> {
+    let path = server.recordings.file(&name).map_err(Problem::internal)?;
+    let path = path.ok_or_else(|| Problem::not_found("recording", &name))?;
+    let opened = tokio::fs::File::open(path).await.map_err(Problem::internal)?;
     // What is written while it is sent is left out, so that the length told is the length sent.
     let bytes = opened.metadata().await.map_err(Problem::internal)?.len();
     let body = Body::from_stream(ReaderStream::with_capacity(opened.take(bytes), CHUNK_BYTES));

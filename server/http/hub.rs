@@ -54,8 +54,6 @@ pub struct Seats {
 pub struct Hub {
     pub id: String,
     pub session: Session,
-    /// Id of the recording that its session writes, if it could begin.
-    pub recording: Option<String>,
     gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
@@ -75,7 +73,6 @@ impl Hub {
     pub fn start(
         id: &str,
         session: Session,
-        recording: Option<String>,
         gpu: Arc<Gpu>,
         place: OwnedSemaphorePermit,
     ) -> Arc<Self> {
@@ -86,7 +83,6 @@ impl Hub {
         Arc::new(Self {
             id: id.to_owned(),
             session,
-            recording,
             gpu,
             comparison: watch::Sender::new(Utf8Bytes::default()),
             forks: AtomicU64::new(0),

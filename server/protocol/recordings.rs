@@ -10,18 +10,22 @@ pub struct RecordingList {
     pub recordings: Vec<RecordingFile>,
 }
 
-/// A recording on disk; `GET /api/recordings/{id}.rrd` is its file.
+/// A part of a session's recording on disk; `GET /api/recordings/{id}.rrd` is Rerun's file, `{id}.ferry` its input
+/// log.
 #[derive(Clone, Debug, PartialEq, Serialize, TS)]
 pub struct RecordingFile {
-    /// Name of the file without its ending.
+    /// Name of the files without their endings.
     pub id: String,
     /// The session that it is of; none where the file was not named by Ferry.
     pub session: Option<String>,
     /// When it began, RFC 3339; none where the file was not named by Ferry.
     pub started: Option<String>,
-    /// Size of the file up to now.
+    /// Size of Rerun's file up to now.
     #[ts(type = "number")]
     pub bytes: u64,
-    /// Whether its session still runs: the file may grow, and has no footer yet.
+    /// Size of its input log, if it has one.
+    #[ts(type = "number | null")]
+    pub log_bytes: Option<u64>,
+    /// Whether it is being written: it grows, and has no footer yet.
     pub live: bool,
 }

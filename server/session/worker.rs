@@ -9,12 +9,14 @@ use tokio::sync::{broadcast, watch};
 
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, JOURNAL, Past, Request, STEP_MAX, Scenery, Sink, View};
+use super::{Command, CommandError, JOURNAL, Past, Request, STEP_MAX, Scenery, View};
 use crate::camera::{Camera, Gpu};
 use crate::control::step_is_due;
 use crate::geometry::Point2;
 use crate::scenario::Scenario;
-use crate::trial::{Arena, Event, EventKind, Input, InputError, Sight, Source, Trial, TrialError, TrialState};
+use crate::trial::{
+    Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError, TrialState,
+};
 
 /// Watchers get at most sixty views a second.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -49,7 +51,7 @@ impl Worker {
     ) -> Result<Self, TrialError> {
         let trial = Trial::new(scenario, arena)?;
         let scenery = Arc::new(scenery_of(&trial, 0, 0));
-        sink.begin(&scenery, 0);
+        sink.begin(&trial, Beginning::SetUp);
         let sight = Arc::new((0, trial.look(&mut camera)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
@@ -234,7 +236,7 @@ impl Worker {
                 self.hand_is_past = state.world.plant.hand.is_some();
                 self.trial.restore(state);
                 self.scenery = Arc::new(self.next_scenery(0));
-                self.sink.begin(&self.scenery, self.trial.state().world.tick);
+                self.sink.begin(&self.trial, Beginning::Resumed);
                 self.look()?;
             }
         }
@@ -288,7 +290,7 @@ impl Worker {
         self.running = false;
         self.hand_is_past = false;
         self.scenery = Arc::new(self.next_scenery(1));
-        self.sink.begin(&self.scenery, 0);
+        self.sink.begin(&self.trial, Beginning::SetUp);
         self.sight = Arc::new((0, sight));
         self.timeline = Timeline::default();
         self.timeline.keep(self.trial.snapshot());
@@ -331,6 +333,9 @@ impl Worker {
         }
         let mut record = self.trial.tick(Source::Eye(&mut self.camera))?;
         self.sink.record(&record);
+        if self.sink.wants_beginning() {
+            self.sink.begin(&self.trial, Beginning::Resumed);
+        }
         self.timeline.note(record.tick - 1, &record.inputs);
         for event in record.events.drain(..) {
             self.tell(event);

@@ -1,23 +1,36 @@
-//! The input log (`.ferry`): what a trial was told and what it decided, enough to run it again.
+//! The input log (`.ferry`): what trials were told and what they decided, enough to run them again.
 //!
-//! A file is a sequence of CBOR items (RFC 8949): a header, then an item a tick.
+//! A file is `ferrylog`, the format's version (32 bits, little-endian), and frames. A frame is its payload's length
+//! (32 bits), a check of that length (32 bits), the payload, and the payload's hash (64 bits). A payload is
+//! deflated (RFC 1951) and holds CBOR items (RFC 8949), each an [`Entry`] with its fields' names. Hashes are XXH3,
+//! each seeded with the one before: a file that was cut off is told from one that was edited, and no frame can be
+//! left out.
 
 use std::io::{Read, Write};
 
+use flate2::Compression;
+use flate2::read::DeflateDecoder;
+use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::xxh3_64_with_seed;
 
-use super::{Decision, Input, TickRecord};
+use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
+use crate::map::{Map, MapError};
 use crate::scenario::Scenario;
 
 /// Raised when an old reader would misunderstand a file.
-const VERSION: u32 = 4;
-const FORMAT: &str = "ferry input log";
+const VERSION: u32 = 5;
+const MAGIC: &[u8; 8] = b"ferrylog";
+/// Bytes before a frame's payload.
+const FRAME_HEAD: usize = 8;
+/// What a frame may come to: nothing that Ferry writes comes near.
+const FRAME_BYTES: u64 = 64 << 20;
 
 /// Why a log could not be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
-    /// Not a log, or torn in its header.
-    #[error("log: not a Ferry input log: {0}")]
+    /// Not a log.
+    #[error("log: not a Ferry input log: it begins with {0:?}")]
     Foreign(String),
     /// Written by another version.
     #[error("log: version {found}, this Ferry reads version {VERSION}")]
@@ -25,77 +38,328 @@ pub enum LogError {
         /// The version found.
         found: u32,
     },
+    /// A byte is not what was written.
+    #[error("log: damaged or edited after {ticks} whole ticks: the frame at byte {byte} is not as it was written ({what})")]
+    Damaged {
+        /// Where the frame begins.
+        byte: usize,
+        /// Ticks before it.
+        ticks: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// Nothing whole is in it.
+    #[error("log: it ends before its first trial")]
+    Empty,
     /// The disk or the pipe.
     #[error("log: {0}")]
-    Write(String),
+    Io(#[from] std::io::Error),
+    /// A value that has no CBOR form.
+    #[error("log: {0}")]
+    Encode(String),
 }
 
-#[derive(Serialize, Deserialize)]
-struct Header {
-    format: String,
-    version: u32,
-    scenario: Scenario,
+/// What a log is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Entry {
+    /// What follows is of this trial.
+    Begin(Box<LoggedBeginning>),
+    /// A tick of it.
+    Tick(LoggedTick),
+}
+
+/// How a trial, or the part of it that follows, began.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoggedBeginning {
+    /// How the trial was set up.
+    pub scenario: Scenario,
+    /// The map; left out where it is that of the beginning before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<LoggedMap>,
+    /// Where it goes on; left out, it is at its start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<Box<TrialState>>,
+}
+
+impl LoggedBeginning {
+    /// Of a trial that no input waits for.
+    pub fn of(trial: &Trial, how: Beginning) -> Self {
+        Self {
+            scenario: trial.scenario().clone(),
+            map: Some(LoggedMap::from(&trial.arena().map)),
+            state: (how == Beginning::Resumed).then(|| Box::new(trial.snapshot())),
+        }
+    }
+}
+
+/// A map as it was drawn: those that ship with Ferry may change.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoggedMap {
+    /// Name, for people.
+    pub name: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+impl From<&Map> for LoggedMap {
+    fn from(map: &Map) -> Self {
+        Self { name: map.name().to_owned(), svg: map.svg().to_owned() }
+    }
+}
+
+impl LoggedMap {
+    /// Ready for trials.
+    pub fn arena(&self) -> Result<std::sync::Arc<Arena>, MapError> {
+        Ok(Arena::of(Map::from_svg(&self.name, &self.svg)?))
+    }
 }
 
 /// One tick of a log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoggedTick {
+    /// Ticks since the start, this one included.
+    pub tick: u64,
     /// Inputs applied before the tick.
-    #[serde(rename = "i", default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<Input>,
     /// Decision of the control step, if one was due.
-    #[serde(rename = "d", default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decision: Option<Decision>,
     /// World hash after the tick.
-    #[serde(rename = "w")]
     pub world_hash: u64,
+    /// The lowest 16 bits of the hash of each of [`super::World::FIELDS`], little-endian.
+    #[serde(with = "serde_bytes")]
+    pub fields: Vec<u8>,
     /// Mind hash after the tick.
-    #[serde(rename = "m")]
     pub mind_hash: u64,
 }
 
 impl From<&TickRecord> for LoggedTick {
     fn from(record: &TickRecord) -> Self {
         Self {
+            tick: record.tick,
             inputs: record.inputs.clone(),
             decision: record.decision.clone(),
-            world_hash: record.world_hash,
+            world_hash: record.world.total(),
+            fields: record.world.fields.iter().flat_map(|hash| (*hash as u16).to_le_bytes()).collect(),
             mind_hash: record.mind_hash,
         }
     }
 }
 
-/// A whole log.
+/// Writes a log, frame by frame. What was written before a crash stays readable.
+#[derive(Debug)]
+pub struct LogWriter<W> {
+    out: W,
+    hash: u64,
+    /// The map of the beginning before.
+    map: Option<LoggedMap>,
+}
+
+impl<W: Write> LogWriter<W> {
+    /// Writes the head.
+    pub fn new(mut out: W) -> Result<Self, LogError> {
+        out.write_all(MAGIC)?;
+        out.write_all(&VERSION.to_le_bytes())?;
+        Ok(Self { out, hash: u64::from(VERSION), map: None })
+    }
+
+    /// Writes entries as one frame, in one piece.
+    pub fn append(&mut self, entries: Vec<Entry>) -> Result<(), LogError> {
+        let mut payload = DeflateEncoder::new(Vec::new(), Compression::fast());
+        for mut entry in entries {
+            if let Entry::Begin(beginning) = &mut entry {
+                self.leave_out_known_map(beginning);
+            }
+            ciborium::into_writer(&entry, &mut payload).map_err(|error| LogError::Encode(error.to_string()))?;
+        }
+        let payload = payload.finish()?;
+        let length = (payload.len() as u32).to_le_bytes();
+        let mut frame = Vec::with_capacity(payload.len() + 16);
+        frame.extend(length);
+        frame.extend(length_check(length, self.hash));
+        self.hash = xxh3_64_with_seed(&payload, self.hash);
+        frame.extend(payload);
+        frame.extend(self.hash.to_le_bytes());
+        self.out.write_all(&frame)?;
+        Ok(self.out.flush()?)
+    }
+
+    fn leave_out_known_map(&mut self, beginning: &mut LoggedBeginning) {
+        if beginning.map == self.map {
+            beginning.map = None;
+        } else {
+            self.map.clone_from(&beginning.map);
+        }
+    }
+}
+
+fn length_check(length: [u8; 4], seed: u64) -> [u8; 4] {
+    (xxh3_64_with_seed(&length, seed) as u32).to_le_bytes()
+}
+
+/// A whole log, read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputLog {
-    /// How the trial was set up.
-    pub scenario: Scenario,
-    /// Its ticks, from the first.
-    pub ticks: Vec<LoggedTick>,
+    /// What it holds: first a beginning.
+    pub entries: Vec<Entry>,
+    /// Bytes of a last frame that was not written to its end.
+    pub torn_bytes: usize,
 }
 
 impl InputLog {
-    /// Writes the header.
-    pub fn begin(scenario: &Scenario, out: impl Write) -> Result<(), LogError> {
-        let header = Header { format: FORMAT.into(), version: VERSION, scenario: scenario.clone() };
-        ciborium::into_writer(&header, out).map_err(|e| LogError::Write(e.to_string()))
+    /// Reads a log up to its end, or up to its last whole frame if it is torn.
+    pub fn read(bytes: &[u8]) -> Result<Self, LogError> {
+        let start = &bytes[..bytes.len().min(MAGIC.len())];
+        if !MAGIC.starts_with(start) {
+            return Err(LogError::Foreign(String::from_utf8_lossy(start).into_owned()));
+        }
+        let Some((version, mut rest)) = bytes.get(MAGIC.len()..).and_then(<[u8]>::split_first_chunk) else {
+            return Err(LogError::Empty);
+        };
+        let found = u32::from_le_bytes(*version);
+        if found != VERSION {
+            return Err(LogError::Version { found });
+        }
+        let (mut entries, mut hash) = (Vec::new(), u64::from(VERSION));
+        while let Some((payload, next_hash, after)) = whole_frame(rest, hash)
+            .map_err(|what| damaged(bytes.len() - rest.len(), &entries, what))?
+        {
+            read_entries(payload, &mut entries)
+                .map_err(|what| damaged(bytes.len() - rest.len(), &entries, &what))?;
+            (hash, rest) = (next_hash, after);
+        }
+        if entries.is_empty() {
+            return Err(LogError::Empty);
+        }
+        Ok(Self { entries, torn_bytes: rest.len() })
+    }
+}
+
+fn damaged(byte: usize, entries: &[Entry], what: &str) -> LogError {
+    let ticks = entries.iter().filter(|entry| matches!(entry, Entry::Tick(_))).count();
+    LogError::Damaged { byte, ticks, what: what.to_owned() }
+}
+
+/// The payload, its hash, and what follows; none where the frame is torn.
+type Frame<'a> = (&'a [u8], u64, &'a [u8]);
+
+fn whole_frame(bytes: &[u8], hash: u64) -> Result<Option<Frame<'_>>, &'static str> {
+    let Some((&head, rest)) = bytes.split_first_chunk::<FRAME_HEAD>() else { return Ok(None) };
+    let [a, b, c, d, check @ ..] = head;
+    let length = [a, b, c, d];
+    if check != length_check(length, hash) {
+        return Err("its length");
+    }
+    let Some((payload, rest)) = rest.split_at_checked(u32::from_le_bytes(length) as usize) else { return Ok(None) };
+    let Some((&written, rest)) = rest.split_first_chunk() else { return Ok(None) };
+    let hash = xxh3_64_with_seed(payload, hash);
+    if hash != u64::from_le_bytes(written) {
+        return Err("its hash");
+    }
+    Ok(Some((payload, hash, rest)))
+}
+
+fn read_entries(payload: &[u8], entries: &mut Vec<Entry>) -> Result<(), String> {
+    let mut inflated = Vec::new();
+    let mut decoder = DeflateDecoder::new(payload).take(FRAME_BYTES);
+    decoder.read_to_end(&mut inflated).map_err(|error| error.to_string())?;
+    let mut rest = inflated.as_slice();
+    while !rest.is_empty() {
+        let entry: Entry = ciborium::from_reader(&mut rest).map_err(|error| error.to_string())?;
+        if entries.is_empty() && !matches!(&entry, Entry::Begin(beginning) if beginning.map.is_some()) {
+            return Err("it begins with no trial".to_owned());
+        }
+        entries.push(entry);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tick(tick: u64) -> Entry {
+        Entry::Tick(LoggedTick {
+            tick,
+            inputs: vec![Input::SetGoal { x_m: 0.1, y_m: -0.3 + tick as f64 * 1e-3 }],
+            decision: None,
+            world_hash: 7 + tick,
+            fields: vec![1, 2, 3],
+            mind_hash: 9,
+        })
     }
 
-    /// Writes one tick.
-    pub fn append(tick: &LoggedTick, out: impl Write) -> Result<(), LogError> {
-        ciborium::into_writer(tick, out).map_err(|e| LogError::Write(e.to_string()))
+    fn beginning() -> Entry {
+        let map = Some(LoggedMap::from(&Map::shipped("open").unwrap()));
+        Entry::Begin(Box::new(LoggedBeginning { scenario: Scenario::idle("open", 3), map, state: None }))
     }
 
-    /// Reads a log up to its end, or up to its last whole tick if it is torn.
-    pub fn read(mut input: impl Read) -> Result<Self, LogError> {
-        let header: Header = ciborium::from_reader(&mut input).map_err(|e| LogError::Foreign(e.to_string()))?;
-        if header.format != FORMAT {
-            return Err(LogError::Foreign(format!("its format is {:?}", header.format)));
+    fn written() -> (Vec<u8>, Vec<usize>, Vec<Entry>) {
+        let (mut bytes, mut ends, mut entries) = (Vec::new(), Vec::new(), Vec::new());
+        let mut writer = LogWriter::new(&mut bytes).unwrap();
+        for frame in [vec![beginning(), tick(1)], vec![tick(2), tick(3)], vec![beginning(), tick(1)]] {
+            entries.extend(frame.clone());
+            writer.append(frame).unwrap();
+            ends.push(writer.out.len());
         }
-        if header.version != VERSION {
-            return Err(LogError::Version { found: header.version });
+        // The second time the map is known.
+        if let Entry::Begin(beginning) = &mut entries[4] {
+            beginning.map = None;
         }
-        let ticks = std::iter::from_fn(|| ciborium::from_reader(&mut input).ok()).collect();
-        Ok(Self { scenario: header.scenario, ticks })
+        (bytes, ends, entries)
+    }
+
+    #[test]
+    fn a_log_cut_anywhere_reads_up_to_its_last_whole_frame() {
+        let (bytes, ends, entries) = written();
+        assert_eq!(InputLog::read(&bytes).unwrap(), InputLog { entries: entries.clone(), torn_bytes: 0 });
+        for cut in 0..bytes.len() {
+            let whole = ends.iter().filter(|&&end| end <= cut).count();
+            match InputLog::read(&bytes[..cut]) {
+                Ok(log) => {
+                    assert_eq!(log.entries, entries[..2 * whole], "cut at {cut}");
+                    assert_eq!(log.torn_bytes, cut - ends[whole - 1]);
+                }
+                Err(LogError::Empty) => assert_eq!(whole, 0, "cut at {cut}"),
+                Err(error) => panic!("cut at {cut}: {error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn any_edited_bit_is_refused_with_its_place() {
+        let (bytes, ends, _) = written();
+        for at in 0..bytes.len() {
+            for bit in 0..8 {
+                let mut edited = bytes.clone();
+                edited[at] ^= 1 << bit;
+                let error = InputLog::read(&edited).expect_err("an edited log");
+                match error {
+                    LogError::Foreign(_) => assert!(at < 8),
+                    LogError::Version { .. } => assert!((8..12).contains(&at)),
+                    LogError::Damaged { byte, ticks, .. } => {
+                        let before = ends.iter().filter(|&&end| end <= at).count();
+                        let begin = if before == 0 { 12 } else { ends[before - 1] };
+                        assert_eq!((byte, ticks), (begin, [0, 1, 3][before]));
+                    }
+                    error => panic!("byte {at}: {error}"),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_frame_that_was_left_out_or_comes_from_elsewhere_is_refused() {
+        let (bytes, ends, _) = written();
+        let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();
+        assert!(matches!(InputLog::read(&without), Err(LogError::Damaged { ticks: 1, .. })));
+        let mut newer = bytes.clone();
+        newer[8] = 6;
+        let error = InputLog::read(&newer).unwrap_err().to_string();
+        assert!(error.contains("version 6") && error.contains("reads version 5"), "{error}");
+        let error = InputLog::read(b"RRF2 and so on").unwrap_err().to_string();
+        assert!(error.contains("RRF2"), "{error}");
     }
 }

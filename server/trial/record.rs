@@ -15,7 +15,7 @@ use crate::plant::{Hand, Load, Plant, Positioner};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 
-use super::state::{Counters, TrialState};
+use super::state::{Counters, TrialState, WorldHashes};
 
 /// Kinds of event, for the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
@@ -106,7 +106,7 @@ pub struct TickRecord {
     /// The moment after the tick.
     pub moment: Moment,
     /// See [`super::TrialState::world_hash`].
-    pub world_hash: u64,
+    pub world: WorldHashes,
     /// See [`super::TrialState::mind_hash`].
     pub mind_hash: u64,
 }
@@ -227,7 +227,7 @@ impl Trial {
             decision,
             sight,
             events: self.take_events(),
-            world_hash: self.state.world_hash(),
+            world: self.state.world.hashes(),
             mind_hash: self.state.mind_hash(),
             moment,
         }

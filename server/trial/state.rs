@@ -114,6 +114,86 @@ pub struct TrialState {
     pub mind: Mind,
 }
 
+impl World {
+    /// Names of what [`WorldHashes`] holds, in its order.
+    pub const FIELDS: [&'static str; 18] = [
+        "tick",
+        "parameters",
+        "goal",
+        "positioner",
+        "bead",
+        "hand",
+        "drift",
+        "tracker",
+        "random generator",
+        "reference place",
+        "reference",
+        "motion",
+        "switching",
+        "refusal",
+        "phase",
+        "reached tick",
+        "counters",
+        "script",
+    ];
+
+    /// Hashes of all that it holds.
+    pub fn hashes(&self) -> WorldHashes {
+        let Self {
+            tick,
+            parameters,
+            goal_m,
+            plant: PlantState { positioner, bead, hand, drift_n },
+            tracker,
+            rng,
+            reference_m,
+            reference,
+            motion,
+            switching,
+            refusal,
+            phase,
+            reached_tick,
+            counters,
+            script,
+        } = self;
+        let fields = [
+            hash(tick),
+            hash(parameters),
+            hash(goal_m),
+            hash(positioner),
+            hash(bead),
+            hash(hand),
+            hash(drift_n),
+            hash(tracker),
+            hash(rng),
+            hash(reference_m),
+            hash(reference),
+            hash(motion),
+            hash(switching),
+            hash(refusal),
+            hash(phase),
+            hash(reached_tick),
+            hash(counters),
+            hash(script),
+        ];
+        WorldHashes { fields }
+    }
+}
+
+/// A world in short: one hash for each of [`World::FIELDS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorldHashes {
+    /// In the order of the names.
+    pub fields: [u64; World::FIELDS.len()],
+}
+
+impl WorldHashes {
+    /// One hash of all.
+    pub fn total(&self) -> u64 {
+        hash(&self.fields)
+    }
+}
+
 impl TrialState {
     pub(super) fn at_start(scenario: &Scenario, workspace: &Rect, tool_m: Point3<f64>, positioner: Positioner) -> Self {
         let start = tool_m.xy();
@@ -151,7 +231,7 @@ impl TrialState {
 
     /// Hash of the world: equal in a replay from logged decisions.
     pub fn world_hash(&self) -> u64 {
-        hash(&self.world)
+        self.world.hashes().total()
     }
 
     /// Hash of the mind: equal in a re-run from frames.

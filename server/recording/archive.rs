@@ -1,0 +1,235 @@
+//! The folder of the sessions' recordings: what they are called, which there are, and which must go.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use jiff::civil::DateTime;
+use jiff::tz::TimeZone;
+use jiff::{Timestamp, Zoned};
+
+use super::RecordingError;
+
+/// How a name begins: the local clock, to the millisecond.
+const BEGINNING: &str = "%Y%m%d-%H%M%S-%3f";
+/// Characters of that.
+const BEGINNING_LENGTH: usize = "20250130-235959-999".len();
+
+/// Endings of a recording's files.
+const ENDINGS: [&str; 2] = ["rrd", "ferry"];
+
+/// Name of a part of a session's recording: it sorts by time.
+fn name(started: &Zoned, session: &str) -> String {
+    format!("{}-{session}", started.strftime(BEGINNING))
+}
+
+/// A finished or running recording on disk.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Listed {
+    /// Its id: the name of its files without their endings.
+    pub id: String,
+    /// The session that it is of, if Ferry named it.
+    pub session: Option<String>,
+    /// When it began, if Ferry named it.
+    pub started: Option<Timestamp>,
+    /// Size of Rerun's file.
+    pub bytes: u64,
+    /// Size of the input log, if there is one.
+    pub log_bytes: Option<u64>,
+    /// Whether it is being written.
+    pub live: bool,
+}
+
+impl Listed {
+    fn new(id: &str, bytes: u64, log_bytes: Option<u64>, live: bool, zone: &TimeZone) -> Self {
+        let (started, session) = started_and_session(id, zone).unzip();
+        Self { id: id.to_owned(), session, started, bytes, log_bytes, live }
+    }
+
+    fn all_bytes(&self) -> u64 {
+        self.bytes + self.log_bytes.unwrap_or_default()
+    }
+}
+
+fn started_and_session(id: &str, zone: &TimeZone) -> Option<(Timestamp, String)> {
+    let (beginning, rest) = id.split_at_checked(BEGINNING_LENGTH)?;
+    let clock = DateTime::strptime(BEGINNING, beginning).ok()?;
+    let session = rest.strip_prefix('-').filter(|session| !session.is_empty())?;
+    Some((zone.to_timestamp(clock).ok()?, session.to_owned()))
+}
+
+/// What is kept of old recordings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Retention {
+    /// So many parts at most.
+    pub most: usize,
+    /// So large together at most.
+    pub most_bytes: u64,
+}
+
+impl Default for Retention {
+    fn default() -> Self {
+        Self { most: 200, most_bytes: 4 << 30 }
+    }
+}
+
+/// A folder of recordings, some being written.
+#[derive(Debug)]
+pub struct Archive {
+    folder: PathBuf,
+    retention: Retention,
+    /// Names that are being written.
+    live: Mutex<BTreeSet<String>>,
+}
+
+impl Archive {
+    /// Of a folder that is made when it is first written to.
+    pub fn new(folder: PathBuf, retention: Retention) -> Arc<Self> {
+        Arc::new(Self { folder, retention, live: Mutex::default() })
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// A file of a recording that the list holds: no other name is ever opened.
+    pub fn file(&self, name: &str) -> Result<Option<PathBuf>, RecordingError> {
+        let Some((id, ending)) = name.rsplit_once('.').filter(|(_, ending)| ENDINGS.contains(ending)) else {
+            return Ok(None);
+        };
+        let listed = self.list()?.into_iter().find(|listed| listed.id == id);
+        let known = listed.filter(|listed| ending == ENDINGS[0] || listed.log_bytes.is_some());
+        Ok(known.map(|listed| self.folder.join(format!("{}.{ending}", listed.id))))
+    }
+
+    /// The recordings, newest name first; an absent folder holds none.
+    pub fn list(&self) -> Result<Vec<Listed>, RecordingError> {
+        let failed = |error| RecordingError::Io { path: self.folder.clone(), error };
+        let entries = match std::fs::read_dir(&self.folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(error) => return Err(failed(error)),
+        };
+        let zone = TimeZone::system();
+        let live = self.lock().clone();
+        let mut found = Vec::new();
+        for entry in entries {
+            let name = entry.map_err(failed)?.file_name();
+            let Some(id) = name.to_str().and_then(|name| name.strip_suffix(".rrd")) else { continue };
+            // One that was let go meanwhile is no longer there.
+            let Some(bytes) = self.size(id, ENDINGS[0]) else { continue };
+            found.push(Listed::new(id, bytes, self.size(id, ENDINGS[1]), live.contains(id), &zone));
+        }
+        found.sort_by(|a, b| b.id.cmp(&a.id));
+        Ok(found)
+    }
+
+    fn size(&self, id: &str, ending: &str) -> Option<u64> {
+        std::fs::metadata(self.folder.join(format!("{id}.{ending}"))).ok().map(|data| data.len())
+    }
+
+    /// A name for a new part of a session's recording, and room for it: what is too old goes.
+    pub(super) fn claim(&self, session: &str) -> Result<String, RecordingError> {
+        std::fs::create_dir_all(&self.folder)
+            .map_err(|error| RecordingError::Io { path: self.folder.clone(), error })?;
+        let id = name(&Zoned::now(), session);
+        self.lock().insert(id.clone());
+        self.prune()?;
+        Ok(id)
+    }
+
+    /// It is written no more.
+    pub(super) fn release(&self, id: &str) {
+        self.lock().remove(id);
+    }
+
+    /// Lets the oldest go until no more are left than may be, the one about to begin counted. What Ferry did not
+    /// name, and what is being written, stays.
+    fn prune(&self) -> Result<(), RecordingError> {
+        let listed = self.list()?;
+        let ours = |listed: &&Listed| listed.session.is_some();
+        let mut count = 1 + listed.iter().filter(ours).count();
+        let mut bytes: u64 = listed.iter().filter(ours).map(Listed::all_bytes).sum();
+        for old in listed.iter().rev().filter(ours).filter(|listed| !listed.live) {
+            if count <= self.retention.most && bytes <= self.retention.most_bytes {
+                break;
+            }
+            for ending in ENDINGS {
+                let path = self.folder.join(format!("{}.{ending}", old.id));
+                match std::fs::remove_file(&path) {
+                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                        return Err(RecordingError::Io { path, error });
+                    }
+                    _ => {}
+                }
+            }
+            tracing::info!(id = old.id, "an old recording was let go");
+            count -= 1;
+            bytes -= old.all_bytes();
+        }
+        Ok(())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeSet<String>> {
+        self.live.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_tells_when_and_whose() {
+        let zone = TimeZone::fixed(jiff::tz::offset(2));
+        let started: Timestamp = "2026-03-01T21:04:09.045Z".parse().unwrap();
+        let id = name(&started.to_zoned(zone.clone()), "session-2");
+        assert_eq!(id, "20260301-230409-045-session-2");
+        let listed = Listed::new(&id, 5, None, false, &zone);
+        assert_eq!((listed.started, listed.session.as_deref()), (Some(started), Some("session-2")));
+        for other in [
+            "",
+            "mine",
+            "20260301-230409-045",
+            "20260301-230409-045-",
+            "20261301-230409-045-main",
+            "ä".repeat(12).as_str(),
+        ] {
+            let listed = Listed::new(other, 5, None, false, &zone);
+            assert_eq!((listed.started, listed.session), (None, None), "{other}");
+        }
+    }
+
+    fn put(folder: &Path, id: &str, bytes: usize) {
+        for ending in ENDINGS {
+            std::fs::write(folder.join(format!("{id}.{ending}")), vec![0; bytes]).unwrap();
+        }
+    }
+
+    fn ids(archive: &Archive) -> Vec<String> {
+        archive.list().unwrap().into_iter().map(|listed| listed.id).collect()
+    }
+
+    #[test]
+    fn the_oldest_go_by_count_and_by_size_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let olds = ["20200101-000000-000-main", "20200101-000001-000-main", "20200101-000002-000-main"];
+        for id in olds {
+            put(folder.path(), id, 1000);
+        }
+        put(folder.path(), "mine", 100_000);
+        let archive = |most, most_bytes| Archive::new(folder.path().to_owned(), Retention { most, most_bytes });
+        let by_count = archive(3, u64::MAX);
+        by_count.live.lock().unwrap().insert(olds[0].to_owned());
+        // The one that begins is the fourth; the first is being written.
+        let new = by_count.claim("main").unwrap();
+        assert_eq!(ids(&by_count), ["mine", olds[2], olds[0]]);
+        assert!(!folder.path().join(format!("{}.ferry", olds[1])).exists());
+        put(folder.path(), &new, 500);
+        assert!(by_count.list().unwrap()[1].live);
+
+        archive(100, 4000).claim("main").unwrap();
+        assert_eq!(ids(&by_count), ["mine", &new, olds[2]], "5000 bytes are too many, 3000 are not");
+    }
+}

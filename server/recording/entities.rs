@@ -1,0 +1,290 @@
+//! What is logged for Rerun, entity by entity. Timelines: `tick` counts on through resets, `sim_time` is the
+//! trial's own time.
+//!
+//! The plan is in the map's own units, millimetres with y down, since Rerun draws plans that way.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use rerun::archetypes::{
+    BarChart, Boxes2D, Clear, EncodedImage, LineStrips2D, LineStrips3D, Points2D, Points3D, Scalars, SeriesLines,
+    StateChange, TextLog,
+};
+use rerun::components::Color;
+use rerun::log::ChunkBatcherConfig;
+use rerun::sink::SinkFlushError;
+use rerun::{AsComponents, RecordingStream};
+
+use super::blueprint::blueprint;
+use super::{Opening, RecordingError, Sample};
+use crate::control::switching::Mode;
+use crate::control::transport::Carrier;
+use crate::control::transport::errt::{Errt, Tree};
+use crate::geometry::{Point2, Polygon};
+use crate::map::WALL_HEIGHT_M;
+use crate::perception::ObstacleMap;
+use crate::plant::BEAD_RADIUS_M;
+use crate::policy::Judgement;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::trial::{Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
+
+const JPEG_QUALITY: u8 = 85;
+/// Rerun writes what it was told this often; a crash loses no more.
+const FLUSH_EVERY: Duration = Duration::from_millis(250);
+/// Asked whether its file can be written, Rerun is given this long to answer.
+const CHECK_TIMEOUT: Duration = Duration::from_secs(1);
+
+const WALL: [u8; 3] = [190, 90, 80];
+const TOOL: [u8; 3] = [60, 130, 220];
+const BEAD: [u8; 3] = [250, 190, 60];
+const GOAL: [u8; 3] = [80, 200, 120];
+const ARM: [u8; 3] = [120, 160, 210];
+const TREE: [u8; 3] = [130, 130, 140];
+
+/// Where a recording is on its timelines; it goes on from part to part.
+#[derive(Debug, Default)]
+pub(super) struct Course {
+    /// What the recording's ticks are ahead of the present trial's.
+    offset: i64,
+    last: i64,
+}
+
+/// Writes to one file.
+pub(super) struct Writer {
+    stream: RecordingStream,
+    image_every: Duration,
+    imaged: Option<Instant>,
+    /// What was last told of that which changes seldom.
+    goal_m: Option<Point2<f64>>,
+    mode: Option<Mode>,
+    phase: Option<Phase>,
+    plans: Option<u32>,
+}
+
+impl Writer {
+    /// Begins a file; `recording` is the same for all parts, `name` this part's.
+    pub(super) fn create(
+        path: &Path,
+        recording: &str,
+        name: &str,
+        image_every: Duration,
+    ) -> Result<Self, RecordingError> {
+        let stream = rerun::RecordingStreamBuilder::new("ferry")
+            .recording_id(recording)
+            .batcher_config(ChunkBatcherConfig { flush_tick: FLUSH_EVERY, ..ChunkBatcherConfig::DEFAULT })
+            .with_blueprint(blueprint())
+            .save(path)
+            .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
+        // Without a name the viewer calls it unknown; the builder's own is lost on the way to a file.
+        stream.send_recording_name(name)?;
+        let names = |names: &[&'static str]| SeriesLines::new().with_names(names.iter().copied());
+        stream.log_static("tracking_error_mm", &names(&["in x", "in y", "distance"]))?;
+        stream.log_static("action_values", &names(&["+x", "-x", "+y", "-y"]))?;
+        stream.log_static("forces", &names(&["lift ratio", "hand, N"]))?;
+        let joints = ["shoulder pan", "shoulder lift", "elbow", "wrist 1", "wrist 2", "wrist 3"];
+        stream.log_static("joints_rad", &names(&joints))?;
+        Ok(Self { stream, image_every, imaged: None, goal_m: None, mode: None, phase: None, plans: None })
+    }
+
+    /// Whether the file still takes what it is told: Rerun only logs that it does not.
+    pub(super) fn check(&self) -> Result<(), RecordingError> {
+        match self.stream.flush_with_timeout(CHECK_TIMEOUT) {
+            // A slow disk is seen elsewhere.
+            Ok(()) | Err(SinkFlushError::Timeout) => Ok(()),
+            Err(error) => Err(RecordingError::Rerun(error.to_string())),
+        }
+    }
+
+    pub(super) fn close(self) -> Result<(), RecordingError> {
+        self.stream.flush_blocking().map_err(|error| RecordingError::Rerun(error.to_string()))?;
+        self.stream.disconnect();
+        Ok(())
+    }
+
+    pub(super) fn begin(&mut self, opening: &Opening, course: &mut Course) -> Result<(), RecordingError> {
+        // A trial that begins at a later tick, after going back, follows on without a gap.
+        course.offset = course.last - opening.tick as i64;
+        self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, course);
+        (self.mode, self.phase, self.plans) = (None, None, None);
+        let map = &opening.arena.map;
+        let rings = || map.walls().iter().chain(map.free()).flat_map(Polygon::rings);
+        let closed = |ring: &[[f64; 2]]| ring.iter().chain(ring.first()).copied().collect::<Vec<_>>();
+        let at = |height_m: f64| {
+            rings().map(move |ring| {
+                closed(ring).iter().map(|&[x, y]| [x as f32, y as f32, height_m as f32]).collect::<Vec<_>>()
+            })
+        };
+        let walls = LineStrips3D::new(at(0.0).chain(at(WALL_HEIGHT_M))).with_colors([color(WALL)]);
+        self.log("world/walls", &walls)?;
+        let plan = rings().map(|ring| {
+            closed(ring).into_iter().map(|[x, y]| plan_mm(Point2::new(x, y))).collect::<Vec<_>>()
+        });
+        self.log("workspace/walls", &LineStrips2D::new(plan).with_colors([color(WALL)]))?;
+        self.goal(opening.goal_m)?;
+        let scenario = &opening.scenario;
+        let text =
+            format!("trial: map {}, controller {}, seed {}", map.name(), scenario.controller.as_str(), scenario.seed);
+        self.log("log", &TextLog::new(text).with_level("INFO"))
+    }
+
+    pub(super) fn event(&self, event: &Event) -> Result<(), RecordingError> {
+        self.log("log", &TextLog::new(event.text.as_str()).with_level(level(event.kind)))
+    }
+
+    pub(super) fn sample(&mut self, sample: &Sample, course: &mut Course) -> Result<(), RecordingError> {
+        let moment = &sample.moment;
+        self.at(moment.tick, moment.sim_time_s(), course);
+        self.places(moment)?;
+        self.numbers(moment)?;
+        if let Some(sight) = &sample.sight {
+            self.images(sight)?;
+            self.thoughts(sight)?;
+        }
+        sample.events.iter().try_for_each(|event| self.event(event))
+    }
+
+    fn at(&self, tick: u64, sim_time_s: f64, course: &mut Course) {
+        let here = course.offset + tick as i64;
+        course.last = course.last.max(here);
+        self.stream.set_time_sequence("tick", here);
+        self.stream.set_duration_secs("sim_time", sim_time_s);
+    }
+
+    fn log(&self, entity: &str, what: &impl AsComponents) -> Result<(), RecordingError> {
+        Ok(self.stream.log(entity, what)?)
+    }
+
+    fn places(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+        if let Some(frames) = moment.positioner.link_frames() {
+            let joints = frames.map(|frame| frame.translation.vector);
+            let arm = std::iter::once(nalgebra::Vector3::zeros()).chain(joints).chain([moment.tool_m.coords]);
+            let arm: Vec<[f32; 3]> = arm.map(|p| p.cast::<f32>().into()).collect();
+            self.log("world/arm", &LineStrips3D::new([arm]).with_radii([0.02]).with_colors([color(ARM)]))?;
+        }
+        self.log("world/tool", &point(moment.tool_m.coords, 0.006, TOOL))?;
+        self.log("world/bead", &point(moment.bead_m.coords, BEAD_RADIUS_M, BEAD))?;
+        let plan = Points2D::new([plan_mm(moment.tool_m.xy()), plan_mm(moment.bead_m.xy())])
+            .with_radii([6.0, (BEAD_RADIUS_M * 1e3) as f32])
+            .with_colors([color(TOOL), color(BEAD)]);
+        self.log("workspace/tool_and_bead", &plan)?;
+        if moment.goal_m != self.goal_m {
+            self.goal(moment.goal_m)?;
+        }
+        Ok(())
+    }
+
+    fn goal(&mut self, goal_m: Option<Point2<f64>>) -> Result<(), RecordingError> {
+        self.goal_m = goal_m;
+        let Some(goal) = goal_m else {
+            self.log("world/goal", &Clear::flat())?;
+            return self.log("workspace/goal", &Clear::flat());
+        };
+        self.log("world/goal", &point(nalgebra::Vector3::new(goal.x, goal.y, 0.0), GOAL_RADIUS_M, GOAL))?;
+        let radius_mm = (GOAL_RADIUS_M * 1e3) as f32;
+        self.log(
+            "workspace/goal",
+            &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]),
+        )
+    }
+
+    fn numbers(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+        let error_mm = moment.tracking_error_m() * 1e3;
+        self.log("tracking_error_mm", &Scalars::new([error_mm.x, error_mm.y, error_mm.norm()]))?;
+        self.log("forces", &Scalars::new([moment.load.lift_ratio(), moment.hand_force_n]))?;
+        if let Some(joints_rad) = moment.positioner.joints_rad() {
+            self.log("joints_rad", &Scalars::new(joints_rad))?;
+        }
+        let mode = moment.switching.mode;
+        if self.mode.replace(mode) != Some(mode) {
+            let name = match mode {
+                Mode::Approach => "1: fetch",
+                Mode::Transport => "2: carry",
+            };
+            self.log("mode", &StateChange::new().with_state([name]))?;
+        }
+        if self.phase.replace(moment.phase) != Some(moment.phase) {
+            self.log("phase", &StateChange::new().with_state([moment.phase.to_string()]))?;
+        }
+        Ok(())
+    }
+
+    fn images(&mut self, sight: &Sight) -> Result<(), RecordingError> {
+        if self.imaged.is_some_and(|last| last.elapsed() < self.image_every) {
+            return Ok(());
+        }
+        self.imaged = Some(Instant::now());
+        let encode = |error: &dyn std::fmt::Display| RecordingError::Rerun(error.to_string());
+        let jpeg = sight.frame.picture.to_jpeg(JPEG_QUALITY).map_err(|error| encode(&error))?;
+        self.log("camera", &EncodedImage::from_file_contents(jpeg))?;
+        let png = sight.observation().side_by_side().to_png().map_err(|error| encode(&error))?;
+        self.log("observation", &EncodedImage::from_file_contents(png))
+    }
+
+    /// What the controller made of what it saw.
+    fn thoughts(&mut self, sight: &Sight) -> Result<(), RecordingError> {
+        match &sight.carrier {
+            Carrier::Rl(rl) => match rl.judged() {
+                Some((judgement, _)) => self.judgement(judgement),
+                None => Ok(()),
+            },
+            Carrier::Errt(errt) if self.plans != Some(errt.plans()) => {
+                self.plans = Some(errt.plans());
+                self.plan(errt, &sight.known)
+            }
+            Carrier::Errt(_) => Ok(()),
+            Carrier::Attractor(_) => {
+                if self.plans.take().is_some() {
+                    self.log("workspace/planner", &Clear::recursive())?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn judgement(&self, judgement: &Judgement) -> Result<(), RecordingError> {
+        let quantiles: Vec<f32> = judgement.quantiles.concat();
+        self.log("quantiles", &BarChart::new(quantiles))?;
+        self.log("action_values", &Scalars::new(judgement.values().map(f64::from)))
+    }
+
+    fn plan(&self, errt: &Errt, known: &ObstacleMap) -> Result<(), RecordingError> {
+        let edges = errt.planner().tree().into_iter().flat_map(Tree::edges);
+        let edges: Vec<[[f32; 2]; 2]> = edges.map(|edge| edge.map(plan_mm)).collect();
+        self.log("workspace/planner/tree", &LineStrips2D::new(edges).with_colors([color(TREE)]))?;
+        let way: Vec<[f32; 2]> =
+            errt.way().map(|way| way.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
+        self.log("workspace/planner/way", &LineStrips2D::new([way]).with_colors([color(GOAL)]))?;
+        let corners = known.rectangles().into_iter().map(|rect| {
+            // Down is up: the highest y is the least.
+            let min = plan_mm(Point2::new(rect.x_min_m, rect.y_max_m));
+            let max = plan_mm(Point2::new(rect.x_max_m, rect.y_min_m));
+            (min, [max[0] - min[0], max[1] - min[1]])
+        });
+        let (mins, sizes): (Vec<_>, Vec<_>) = corners.unzip();
+        let seen = Boxes2D::from_mins_and_sizes(mins, sizes).with_colors([color(WALL)]);
+        self.log("workspace/planner/seen", &seen)
+    }
+}
+
+fn color([red, green, blue]: [u8; 3]) -> Color {
+    Color::from_rgb(red, green, blue)
+}
+
+/// Metres on the table to the map's own units.
+fn plan_mm(place: Point2<f64>) -> [f32; 2] {
+    [(place.x * 1e3) as f32, (-place.y * 1e3) as f32]
+}
+
+fn point(place: nalgebra::Vector3<f64>, radius_m: f64, rgb: [u8; 3]) -> Points3D {
+    let position: [f32; 3] = place.cast::<f32>().into();
+    Points3D::new([position]).with_radii([radius_m as f32]).with_colors([color(rgb)])
+}
+
+/// Severity of an event in Rerun's text log.
+fn level(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::LiftOff | EventKind::Stopped => "ERROR",
+        EventKind::Disturbance | EventKind::Refused => "WARN",
+        _ => "INFO",
+    }
+}

@@ -1,0 +1,169 @@
+//! Running a log again: the same trial, from the same inputs, compared at every tick.
+
+use std::sync::Arc;
+
+use super::log::{Entry, InputLog, LoggedBeginning, LoggedTick};
+use super::{Arena, InputError, Source, TickRecord, Trial, TrialError, TrialState, World};
+use crate::camera::{CameraError, Eye};
+use crate::map::MapError;
+
+/// What a replay came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Replayed {
+    /// Trials that were set up.
+    pub trials: u32,
+    /// Times that a trial went on from another state: after a moment gone back to, or at a file's start.
+    pub resumed: u32,
+    /// Ticks, all of them equal.
+    pub ticks: u64,
+}
+
+/// Why a replay ended before its log.
+#[derive(Debug, thiserror::Error)]
+pub enum ReplayError {
+    /// The map in the log is none.
+    #[error("trial {trial}: {error}")]
+    Map {
+        /// Which trial of the log, from 1.
+        trial: u32,
+        /// What is wrong.
+        error: MapError,
+    },
+    /// A trial could not be set up or go on.
+    #[error("trial {trial}, tick {tick}: {error}")]
+    Trial {
+        /// Which trial of the log, from 1.
+        trial: u32,
+        /// Its tick.
+        tick: u64,
+        /// What is wrong.
+        error: TrialError,
+    },
+    /// What was done then is refused now.
+    #[error("trial {trial}, tick {tick}: an input of the log is refused: {error}")]
+    Refused {
+        /// Which trial of the log, from 1.
+        trial: u32,
+        /// Its tick.
+        tick: u64,
+        /// Why.
+        error: InputError,
+    },
+    /// The first tick that is not as it was.
+    #[error("trial {trial}: the first difference is at tick {tick}, in {}", fields.join(", "))]
+    Differs {
+        /// Which trial of the log, from 1.
+        trial: u32,
+        /// Its tick.
+        tick: u64,
+        /// What differs.
+        fields: Vec<&'static str>,
+    },
+}
+
+/// Makes eyes for the arenas of a log.
+pub type Eyes<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn Eye>, CameraError>;
+
+/// Runs a log again, from its decisions; with eyes, from what they see, so that every decision is made again and
+/// the controller compared too. `watch` sees each tick.
+pub fn replay(
+    log: &InputLog,
+    mut eyes: Option<Eyes<'_>>,
+    watch: &mut dyn FnMut(&TickRecord),
+) -> Result<Replayed, ReplayError> {
+    let mut replayed = Replayed::default();
+    let mut arena: Option<Arc<Arena>> = None;
+    let mut running: Option<(Trial, Option<Box<dyn Eye>>)> = None;
+    for entry in &log.entries {
+        match entry {
+            Entry::Begin(beginning) => {
+                match beginning.state {
+                    Some(_) => replayed.resumed += 1,
+                    None => replayed.trials += 1,
+                }
+                let number = replayed.trials.max(1);
+                if let Some(map) = &beginning.map {
+                    arena = Some(map.arena().map_err(|error| ReplayError::Map { trial: number, error })?);
+                }
+                // A log that was read begins with a map.
+                let Some(arena) = &arena else { continue };
+                running = Some(begin(beginning, arena, &mut eyes).map_err(|error| {
+                    let tick = beginning.state.as_ref().map_or(0, |state| state.world.tick);
+                    ReplayError::Trial { trial: number, tick, error }
+                })?);
+            }
+            Entry::Tick(logged) => {
+                let Some((trial, eye)) = &mut running else { continue };
+                let record = repeat(trial, eye.as_deref_mut(), logged, replayed.trials.max(1))?;
+                replayed.ticks += 1;
+                watch(&record);
+            }
+        }
+    }
+    Ok(replayed)
+}
+
+fn begin(
+    beginning: &LoggedBeginning,
+    arena: &Arc<Arena>,
+    eyes: &mut Option<Eyes<'_>>,
+) -> Result<(Trial, Option<Box<dyn Eye>>), TrialError> {
+    let mut trial = Trial::new(beginning.scenario.clone(), arena.clone())?;
+    trial.take_events();
+    if let Some(state) = &beginning.state {
+        trial.restore(TrialState::clone(state));
+    }
+    let eye = eyes.as_mut().map(|make| make(arena)).transpose()?;
+    Ok((trial, eye))
+}
+
+fn repeat(
+    trial: &mut Trial,
+    eye: Option<&mut (dyn Eye + 'static)>,
+    logged: &LoggedTick,
+    number: u32,
+) -> Result<TickRecord, ReplayError> {
+    let tick = trial.state().world.tick + 1;
+    for input in &logged.inputs {
+        trial
+            .apply(input.clone())
+            .map_err(|error| ReplayError::Refused { trial: number, tick, error })?;
+    }
+    let sees = eye.is_some();
+    let source = match eye {
+        Some(eye) => Source::Eye(eye),
+        None => Source::Logged(logged.decision.clone()),
+    };
+    let record =
+        trial.tick(source).map_err(|error| ReplayError::Trial { trial: number, tick, error })?;
+    let found = LoggedTick::from(&record);
+    let same = found.tick == logged.tick
+        && found.inputs == logged.inputs
+        && found.decision == logged.decision
+        && found.world_hash == logged.world_hash
+        && (!sees || found.mind_hash == logged.mind_hash);
+    if same {
+        return Ok(record);
+    }
+    Err(ReplayError::Differs { trial: number, tick, fields: differences(&found, logged, sees) })
+}
+
+fn differences(found: &LoggedTick, logged: &LoggedTick, sees: bool) -> Vec<&'static str> {
+    let mut fields = Vec::new();
+    let mut note = |differs: bool, name| {
+        if differs {
+            fields.push(name);
+        }
+    };
+    note(found.decision != logged.decision, "decision");
+    let hashes = found.fields.chunks(2).zip(logged.fields.chunks(2));
+    for (name, (found, logged)) in World::FIELDS.iter().zip(hashes) {
+        note(found != logged, name);
+    }
+    note(sees && found.mind_hash != logged.mind_hash, "mind");
+    if fields.is_empty() {
+        // Two hashes in 65,536 are alike in their lowest bits.
+        fields.push("world");
+    }
+    fields
+}

@@ -1,0 +1,169 @@
+//! What sessions record can be run again, whatever an operator does; what was changed since is found out.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use ferry::plant::{BeadMotion, PositionerKind};
+use ferry::recording::{Archive, Options, Recorder, Retention};
+use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
+use ferry::session::{Command, Session};
+use ferry::trial::{InputLog, Input, LogError, Replayed, replay};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use crate::determinism::gpu;
+
+/// Sessions that the long test records; `FERRY_SESSIONS=100` is what was promised.
+fn sessions() -> u64 {
+    std::env::var("FERRY_SESSIONS").map_or(24, |count| count.parse().expect("FERRY_SESSIONS is a count"))
+}
+
+fn place(rng: &mut impl Rng) -> (f64, f64) {
+    (rng.random_range(-0.32..0.30), rng.random_range(-0.56..-0.19))
+}
+
+/// Anything that an operator may do; much of it is refused.
+fn action(rng: &mut impl Rng, tick: u64) -> Command {
+    let (x_m, y_m) = place(rng);
+    Command::Input(match rng.random_range(0..15) {
+        0 | 1 => Input::SetGoal { x_m, y_m },
+        2 | 3 => Input::Drag { x_m, y_m, lift: rng.random() },
+        4 => Input::Release,
+        5 => Input::ClearGoal,
+        6 => Input::Place { x_m, y_m },
+        7 => Input::SelectController(ControllerName::ALL[rng.random_range(0..3)]),
+        8 => Input::Disturb(Disturbance::Displace { x_m, y_m }),
+        9 => Input::Disturb(Disturbance::Impulse { x_n_s: x_m * 1e-2, y_n_s: y_m * 1e-2 }),
+        10 => Input::Configure(Box::new(Parameters {
+            bead_motion: if rng.random() { BeadMotion::Rolling } else { BeadMotion::Sliding },
+            ..Parameters::default()
+        })),
+        11 => return Command::Rewind(rng.random_range(0..=tick)),
+        12 => return Command::Reset(rng.random::<bool>().then_some(x_m.to_bits() >> 12)),
+        13 => {
+            return Command::Load {
+                map: ["posts", "open", "colon"][rng.random_range(0..3)].into(),
+                controller: None,
+                positioner: rng.random::<bool>().then_some(PositionerKind::PlanarStage),
+                seed: Some(3),
+                start_m: None,
+                goal_m: None,
+                parameters: None,
+                disturbances: 2,
+                script: Vec::new(),
+            };
+        }
+        // While time runs, inputs come between any two ticks.
+        _ => return Command::Run,
+    })
+}
+
+/// Records a session that an operator plays with at random; returns how many ticks ran in it.
+fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let name = format!("random-{seed}");
+    let recorder = Recorder::in_archive(archive, &name, options).unwrap();
+    let scenario = Scenario { controller: ControllerName::ALL[seed as usize % 3], ..Scenario::idle("posts", seed) };
+    let session = Session::start(&name, scenario, gpu(), Box::new(recorder)).unwrap();
+    let obey = |command| pollster::block_on(session.send(command));
+    obey(Command::SetSpeed(8.0)).unwrap();
+    for _ in 0..25 {
+        let tick = session.watch().borrow().moment.tick;
+        // Refusals are part of the game.
+        let runs = match action(&mut rng, tick) {
+            Command::Run => obey(Command::Run).is_ok(),
+            command => {
+                let _ = obey(command);
+                false
+            }
+        };
+        if runs {
+            std::thread::sleep(Duration::from_millis(30));
+            let _ = obey(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.33 }));
+            let _ = obey(Command::Input(Input::Drag { x_m: 0.0, y_m: -0.4, lift: true }));
+            std::thread::sleep(Duration::from_millis(30));
+            obey(Command::Pause).unwrap();
+        } else {
+            obey(Command::Step(rng.random_range(1..40))).unwrap();
+        }
+    }
+    let ended = session.watch().borrow().ended.clone();
+    assert_eq!(ended, None, "seed {seed}");
+}
+
+fn logs(folder: &Path) -> Vec<Vec<u8>> {
+    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "ferry"));
+    paths.sort();
+    paths.iter().map(|path| std::fs::read(path).unwrap()).collect()
+}
+
+fn replayed(bytes: &[u8]) -> Replayed {
+    let log = InputLog::read(bytes).unwrap();
+    assert_eq!(log.torn_bytes, 0);
+    replay(&log, None, &mut |_| {}).unwrap()
+}
+
+#[test]
+fn whatever_an_operator_does_is_reproduced_and_an_edited_byte_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let archive = Archive::new(folder.path().to_owned(), Retention::default());
+    (0..sessions()).into_par_iter().for_each(|seed| play(&archive, seed, Options::LIVE));
+    let logs = logs(folder.path());
+    assert_eq!(logs.len() as u64, sessions());
+    let all: Vec<Replayed> = logs.par_iter().map(|bytes| replayed(bytes)).collect();
+    let sum = |of: fn(&Replayed) -> u64| all.iter().map(of).sum::<u64>();
+    // Resets and loads, moments gone back to, and enough ticks to say something.
+    assert!(sum(|one| u64::from(one.trials)) > 2 * sessions(), "{all:?}");
+    assert!(sum(|one| u64::from(one.resumed)) > sessions() / 2, "{all:?}");
+    assert!(sum(|one| one.ticks) > 300 * sessions(), "{all:?}");
+
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    for bytes in &logs {
+        let mut edited = bytes.clone();
+        let at = rng.random_range(0..edited.len());
+        edited[at] ^= 1 << rng.random_range(0..8);
+        let error = InputLog::read(&edited).expect_err("an edited log");
+        let named = matches!(error, LogError::Damaged { .. } | LogError::Foreign(_) | LogError::Version { .. });
+        assert!(named, "byte {at}: {error}");
+    }
+}
+
+#[test]
+fn parts_follow_each_other_without_a_gap_and_each_replays_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let archive = Archive::new(folder.path().to_owned(), Retention::default());
+    let options = Options { part: Duration::from_millis(250), ..Options::LIVE };
+    let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
+    let session = Session::start("main", Scenario::idle("posts", 1), gpu(), Box::new(recorder)).unwrap();
+    let obey = |command| pollster::block_on(session.send(command)).unwrap();
+    obey(Command::Input(Input::SetGoal { x_m: 0.12, y_m: -0.33 }));
+    for _ in 0..30 {
+        obey(Command::Step(20));
+        std::thread::sleep(Duration::from_millis(30));
+    }
+    assert_eq!(session.watch().borrow().recording, "recording");
+    drop(session);
+    let logs = logs(folder.path());
+    assert!(logs.len() > 2, "{} parts", logs.len());
+    let mut ticks = Vec::new();
+    for (index, bytes) in logs.iter().enumerate() {
+        let log = InputLog::read(bytes).unwrap();
+        let found = replay(&log, None, &mut |record| ticks.push(record.tick)).unwrap();
+        assert_eq!((found.trials, found.resumed), if index == 0 { (1, 0) } else { (0, 1) });
+    }
+    assert_eq!(ticks, (1..=600).collect::<Vec<_>>());
+    assert_eq!(archive.list().unwrap().iter().filter(|listed| listed.live).count(), 0);
+}
+
+#[test]
+fn without_room_a_recording_does_not_begin_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let archive = Archive::new(folder.path().to_owned(), Retention::default());
+    let options = Options { least_room_bytes: u64::MAX, ..Options::LIVE };
+    let error = Recorder::in_archive(&archive, "main", options).err().expect("no disk has so much").to_string();
+    assert!(error.contains("MB left, less than 17592186044415"), "{error}");
+    assert!(archive.list().unwrap().is_empty());
+}
