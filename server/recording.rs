@@ -164,14 +164,7 @@ impl Recorder {
             .name("recording".into())
             .spawn(move || write_all(keeper, &inbox, &seen))
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;
-        Ok(Self {
-            queue: Some(queue),
-            thread: Some(thread),
-            shared,
-            waits: options.waits,
-            gap: false,
-            lost_ticks: 0,
-        })
+        Ok(Self { queue: Some(queue), thread: Some(thread), shared, waits: options.waits, gap: false, lost_ticks: 0 })
     }
 
     /// Whether the message went, or nobody will ever want it.

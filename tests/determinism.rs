@@ -8,8 +8,8 @@ use ferry::image::CameraFrame;
 use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
 use ferry::trial::{
-    Arena, Beginning, Entry, Input, InputLog, LogWriter, LoggedBeginning, LoggedTick, Motion, ReplayError, Replayed, Source,
-    Trial, World, replay,
+    Arena, Beginning, Entry, Input, InputLog, LogWriter, LoggedBeginning, LoggedTick, Motion, ReplayError, Replayed,
+    Source, Trial, World, replay,
 };
 use proptest::prelude::*;
 

@@ -8,7 +8,7 @@ use ferry::plant::{BeadMotion, PositionerKind};
 use ferry::recording::{Archive, Options, Recorder, Retention};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry::session::{Command, Session};
-use ferry::trial::{InputLog, Input, LogError, Replayed, replay};
+use ferry::trial::{Input, InputLog, LogError, Replayed, replay};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

@@ -70,12 +70,7 @@ pub struct Hub {
 
 impl Hub {
     /// Starts encoding a session's views.
-    pub fn start(
-        id: &str,
-        session: Session,
-        gpu: Arc<Gpu>,
-        place: OwnedSemaphorePermit,
-    ) -> Arc<Self> {
+    pub fn start(id: &str, session: Session, gpu: Arc<Gpu>, place: OwnedSemaphorePermit) -> Arc<Self> {
         let views = session.watch();
         let first = Encoder::default().encode(&views.borrow(), true);
         let (publish, encoded) = watch::channel(first);

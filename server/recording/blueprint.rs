@@ -9,10 +9,9 @@ use rerun::blueprint::{
 /// Scene, plan and camera above; errors, modes and what the controller thought below; the log beside.
 pub(super) fn blueprint() -> Blueprint {
     let scene = Spatial3DView::new("Scene").with_origin("world");
-    let plan = Spatial2DView::new("Workspace, mm (y down)").with_origin("workspace").with_contents([
-        "+ $origin/**",
-        "- $origin/planner/**",
-    ]);
+    let plan = Spatial2DView::new("Workspace, mm (y down)")
+        .with_origin("workspace")
+        .with_contents(["+ $origin/**", "- $origin/planner/**"]);
     let planner = Spatial2DView::new("Planner, mm (y down)").with_origin("workspace");
     let camera = Spatial2DView::new("Camera").with_origin("camera");
     let observation = Spatial2DView::new("Observation").with_origin("observation");
@@ -30,7 +29,7 @@ pub(super) fn blueprint() -> Blueprint {
     ])
     .with_column_shares([4.0, 4.0, 2.0]);
     let below = Horizontal::new([
-        ContainerLike::from(Vertical::new([errors.into(), mode.into()]).with_row_shares([2.0, 1.0])),
+        ContainerLike::from(Vertical::new([errors.into(), mode.into()]).with_row_shares([3.0, 2.0])),
         Tabs::new([quantiles.into(), values.into(), forces.into(), joints.into()]).into(),
         log.into(),
     ])

@@ -116,9 +116,8 @@ impl Writer {
         };
         let walls = LineStrips3D::new(at(0.0).chain(at(WALL_HEIGHT_M))).with_colors([color(WALL)]);
         self.log("world/walls", &walls)?;
-        let plan = rings().map(|ring| {
-            closed(ring).into_iter().map(|[x, y]| plan_mm(Point2::new(x, y))).collect::<Vec<_>>()
-        });
+        let plan =
+            rings().map(|ring| closed(ring).into_iter().map(|[x, y]| plan_mm(Point2::new(x, y))).collect::<Vec<_>>());
         self.log("workspace/walls", &LineStrips2D::new(plan).with_colors([color(WALL)]))?;
         self.goal(opening.goal_m)?;
         let scenario = &opening.scenario;
@@ -181,10 +180,7 @@ impl Writer {
         };
         self.log("world/goal", &point(nalgebra::Vector3::new(goal.x, goal.y, 0.0), GOAL_RADIUS_M, GOAL))?;
         let radius_mm = (GOAL_RADIUS_M * 1e3) as f32;
-        self.log(
-            "workspace/goal",
-            &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]),
-        )
+        self.log("workspace/goal", &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]))
     }
 
     fn numbers(&mut self, moment: &Moment) -> Result<(), RecordingError> {

@@ -37,8 +37,7 @@ impl Naming {
         match self {
             Self::Archive { archive, session } => archive.claim(session),
             Self::Alone { folder, name } => {
-                std::fs::create_dir_all(folder)
-                    .map_err(|error| RecordingError::Io { path: folder.clone(), error })?;
+                std::fs::create_dir_all(folder).map_err(|error| RecordingError::Io { path: folder.clone(), error })?;
                 Ok(name.clone())
             }
         }
@@ -192,10 +191,7 @@ fn check_room(folder: &Path, options: &Options) -> Result<(), RecordingError> {
     if let Ok(disk) = rustix::fs::statvfs(folder) {
         let left_bytes = disk.f_bavail.saturating_mul(disk.f_frsize);
         if left_bytes < options.least_room_bytes {
-            return Err(RecordingError::Full {
-                left_mb: left_bytes >> 20,
-                least_mb: options.least_room_bytes >> 20,
-            });
+            return Err(RecordingError::Full { left_mb: left_bytes >> 20, least_mb: options.least_room_bytes >> 20 });
         }
     }
     let _ = (folder, options);

@@ -39,7 +39,9 @@ pub enum LogError {
         found: u32,
     },
     /// A byte is not what was written.
-    #[error("log: damaged or edited after {ticks} whole ticks: the frame at byte {byte} is not as it was written ({what})")]
+    #[error(
+        "log: damaged or edited after {ticks} whole ticks: the frame at byte {byte} is not as it was written ({what})"
+    )]
     Damaged {
         /// Where the frame begins.
         byte: usize,
@@ -223,11 +225,10 @@ impl InputLog {
             return Err(LogError::Version { found });
         }
         let (mut entries, mut hash) = (Vec::new(), u64::from(VERSION));
-        while let Some((payload, next_hash, after)) = whole_frame(rest, hash)
-            .map_err(|what| damaged(bytes.len() - rest.len(), &entries, what))?
+        while let Some((payload, next_hash, after)) =
+            whole_frame(rest, hash).map_err(|what| damaged(bytes.len() - rest.len(), &entries, what))?
         {
-            read_entries(payload, &mut entries)
-                .map_err(|what| damaged(bytes.len() - rest.len(), &entries, &what))?;
+            read_entries(payload, &mut entries).map_err(|what| damaged(bytes.len() - rest.len(), &entries, &what))?;
             (hash, rest) = (next_hash, after);
         }
         if entries.is_empty() {

@@ -125,17 +125,14 @@ fn repeat(
 ) -> Result<TickRecord, ReplayError> {
     let tick = trial.state().world.tick + 1;
     for input in &logged.inputs {
-        trial
-            .apply(input.clone())
-            .map_err(|error| ReplayError::Refused { trial: number, tick, error })?;
+        trial.apply(input.clone()).map_err(|error| ReplayError::Refused { trial: number, tick, error })?;
     }
     let sees = eye.is_some();
     let source = match eye {
         Some(eye) => Source::Eye(eye),
         None => Source::Logged(logged.decision.clone()),
     };
-    let record =
-        trial.tick(source).map_err(|error| ReplayError::Trial { trial: number, tick, error })?;
+    let record = trial.tick(source).map_err(|error| ReplayError::Trial { trial: number, tick, error })?;
     let found = LoggedTick::from(&record);
     let same = found.tick == logged.tick
         && found.inputs == logged.inputs

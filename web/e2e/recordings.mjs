@@ -32,6 +32,11 @@ export async function listsRecordings({ lab }) {
   const bytes = await readFile(await download.path());
   check(bytes.subarray(0, 4).toString() === 'RRF2', 'no recording came down');
 
+  const log = lab.page.waitForEvent('download');
+  await row.getByRole('link', { name: 'Download the input log of main' }).click();
+  const logged = await readFile(await (await log).path());
+  check(logged.subarray(0, 8).toString() === 'ferrylog', 'no input log came down');
+
   await lab.screenshot('recordings');
   await lab.page.setViewportSize({ width: 820, height: 1180 });
   await lab.screenshot('recordings-tablet');

@@ -1238,11 +1238,12 @@ spacing_m: number,
 velocity_m_s: Array<[number, number] | null>, };
 
 /**
- * A recording on disk; `GET /api/recordings/{id}.rrd` is its file.
+ * A part of a session's recording on disk; `GET /api/recordings/{id}.rrd` is Rerun's file, `{id}.ferry` its input
+ * log.
  */
 export type RecordingFile = { 
 /**
- * Name of the file without its ending.
+ * Name of the files without their endings.
  */
 id: string, 
 /**
@@ -1254,11 +1255,15 @@ session: string | null,
  */
 started: string | null, 
 /**
- * Size of the file up to now.
+ * Size of Rerun's file up to now.
  */
 bytes: number, 
 /**
- * Whether its session still runs: the file may grow, and has no footer yet.
+ * Size of its input log, if it has one.
+ */
+log_bytes: number | null, 
+/**
+ * Whether it is being written: it grows, and has no footer yet.
  */
 live: boolean, };
 

@@ -23,7 +23,7 @@ test('a time is told by the clock of the place', () => {
 });
 
 test('a stray file is called by its name', () => {
-  const stray = { id: 'a b', session: null, started: null, bytes: 1, live: false };
+  const stray = { id: 'a b', session: null, started: null, bytes: 1, log_bytes: null, live: false };
   expect(title(stray)).toBe('a b');
-  expect(fileAddress(stray.id)).toBe('/api/recordings/a%20b.rrd');
+  expect(fileAddress(stray.id, 'rrd')).toBe('/api/recordings/a%20b.rrd');
 });

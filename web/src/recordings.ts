@@ -41,9 +41,12 @@ export function title({ id, session, started }: RecordingFile): string {
   return `${session}, ${day}, ${time}`;
 }
 
+/** Rerun's file, to be looked at, and the input log, to be run again. */
+export type Ending = 'rrd' | 'ferry';
+
 /** Where its file is. */
-export function fileAddress(id: string): string {
-  return `/api/recordings/${encodeURIComponent(id)}.rrd`;
+export function fileAddress(id: string, ending: Ending): string {
+  return `/api/recordings/${encodeURIComponent(id)}.${ending}`;
 }
 
 export interface Recordings {

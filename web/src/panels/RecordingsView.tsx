@@ -2,7 +2,7 @@
 
 import { For, Show, createSignal, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../protocol.gen';
-import { createRecordings, fileAddress, size, startedAt, title } from '../recordings';
+import { createRecordings, fileAddress, size, startedAt, title, type Ending } from '../recordings';
 import type { Theme } from '../theme';
 import { ViewerFrame } from './ViewerFrame';
 
@@ -10,6 +10,21 @@ interface RowProps {
   readonly file: RecordingFile;
   readonly isOpen: boolean;
   readonly onOpen: () => void;
+}
+
+function Download(props: { file: RecordingFile; ending: Ending; words: string }): JSX.Element {
+  const what = (): string => (props.ending === 'ferry' ? 'the input log of ' : '');
+  return (
+    <a
+      class="button small"
+      href={fileAddress(props.file.id, props.ending)}
+      download={`${props.file.id}.${props.ending}`}
+      title={props.ending === 'ferry' ? 'Input log: ferry replay runs it again' : undefined}
+      aria-label={`Download ${what()}${title(props.file)}`}
+    >
+      {props.words}
+    </a>
+  );
 }
 
 function Row(props: RowProps): JSX.Element {
@@ -42,14 +57,10 @@ function Row(props: RowProps): JSX.Element {
         >
           Open
         </button>
-        <a
-          class="button small"
-          href={fileAddress(props.file.id)}
-          download={`${props.file.id}.rrd`}
-          aria-label={`Download ${title(props.file)}`}
-        >
-          Download
-        </a>
+        <Download file={props.file} ending="rrd" words="Download" />
+        <Show when={props.file.log_bytes !== null}>
+          <Download file={props.file} ending="ferry" words="Log" />
+        </Show>
       </td>
     </tr>
   );
