@@ -1,6 +1,7 @@
 //! What is set up before a trial: one serde type behind links, files, forks and lessons.
 
 mod disturbance;
+mod link;
 mod parameters;
 mod random;
 mod shipped;

@@ -19,7 +19,7 @@ use crate::geometry::Point2;
 use crate::map::MapError;
 use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
-use crate::trial::{Arena, Event, Input, InputError, Moment, Sight, Sink, TrialError};
+use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, TrialError};
 
 pub use pacing::{SPEED_MAX, SPEED_MIN};
 pub use past::{Past, Progress};
@@ -95,8 +95,11 @@ pub enum CommandError {
         /// What is allowed.
         allowed: String,
     },
+    /// The trial began longer ago than is kept.
+    #[error("the trial's beginning is kept no more; reset, and keep a case within ten minutes")]
+    Forgotten,
     /// No goal, nothing to carry the bead to.
-    #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare")]
+    #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare or to expect")]
     NoGoal {
         /// The tick asked for.
         tick: u64,
@@ -165,6 +168,7 @@ pub struct Session {
 enum Request {
     Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
     Recall { tick: u64, answer: oneshot::Sender<Result<Past, CommandError>> },
+    Case { answer: oneshot::Sender<Result<Case, CommandError>> },
 }
 
 impl Session {
@@ -194,6 +198,13 @@ impl Session {
     pub async fn recall(&self, tick: u64) -> Result<Past, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Recall { tick, answer })?;
+        answered.await.unwrap_or(Err(CommandError::Ended))
+    }
+
+    /// The trial and all that it was told, as a case; changes nothing.
+    pub async fn case(&self) -> Result<Case, CommandError> {
+        let (answer, answered) = oneshot::channel();
+        self.ask(Request::Case { answer })?;
         answered.await.unwrap_or(Err(CommandError::Ended))
     }
 

@@ -5,6 +5,7 @@
 //! clock and draws only from the generator in its own state. The camera comes in from outside through
 //! [`Eye`], so that recorded frames, or recorded decisions, can stand in for it.
 
+mod case;
 mod decide;
 mod disturb;
 mod input;
@@ -29,6 +30,7 @@ use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, RlPolicy, Scenario, start_point};
 use crate::tracking::TrackerParameters;
 
+pub use case::{Case, CaseOutcome, Expectation, Timed};
 pub use disturb::Script;
 pub use input::{Input, InputError};
 pub use log::{Entry, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, LoggedTick};
@@ -200,6 +202,11 @@ impl Trial {
     /// Where it takes place.
     pub fn arena(&self) -> &Arc<Arena> {
         &self.arena
+    }
+
+    /// Inputs that wait for the next tick.
+    pub fn waiting_inputs(&self) -> &[Input] {
+        &self.inputs
     }
 
     /// Its whole state, to be kept.

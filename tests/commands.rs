@@ -2,6 +2,8 @@
 
 use std::process::{Command, Output};
 
+use ferry::trial::{InputLog, replay};
+
 fn ferry(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ferry"));
     command.args(arguments);
@@ -42,6 +44,106 @@ fn the_same_seed_gives_the_same_row_but_for_the_timings() {
         row.clone()
     };
     assert_eq!(row(), row());
+}
+
+#[test]
+fn every_controller_meets_the_same_trials_and_pushes_and_each_trial_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let [csv, html, record] = ["rows.csv", "report.html", "records"].map(|name| folder.path().join(name));
+    let mut command = ferry(&["evaluate", "--map", "posts,open", "--controller", "errt,attractor", "--json"]);
+    command.args(["--disturbances", "0,2", "--episodes", "3", "--seed", "4", "--record"]).arg(&record);
+    let output = command.arg("--csv").arg(&csv).arg("--html").arg(&html).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let ratio = row["path_ratio_mean"].as_f64().unwrap();
+        assert!((0.97..2.0).contains(&ratio), "{row}");
+    }
+    let comparisons = report["comparisons"].as_array().unwrap();
+    assert_eq!(comparisons.len(), 4);
+    assert_eq!((&comparisons[0]["controller"], &comparisons[0]["against"]), (&"errt".into(), &"attractor".into()));
+
+    // The pushes, as they were logged: the n-th puts the bead in the same place, whoever carries it.
+    let places = |name: &str| -> Vec<[f64; 2]> {
+        let bytes = std::fs::read(record.join(format!("{name}.ferry"))).unwrap();
+        let log = InputLog::read(&bytes).unwrap();
+        let (mut before, mut places) = (0, Vec::new());
+        replay(&log, None, &mut |record| {
+            let struck = record.moment.counters.disturbances;
+            if std::mem::replace(&mut before, struck) < struck {
+                let bead = record.moment.bead_m;
+                places.push([(bead.x * 1e3).round(), (bead.y * 1e3).round()]);
+            }
+        })
+        .unwrap();
+        places
+    };
+    let alike = (0..3).filter(|index| {
+        let [first, second] = ["errt", "attractor"].map(|name| places(&format!("posts-{name}-2-{index:04}")));
+        assert_eq!((first.len(), second.len()), (2, 2));
+        let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 5.0;
+        first.iter().zip(&second).all(|(a, b)| near(a, b))
+    });
+    // A place too near to where one controller has the bead is drawn again for it alone.
+    assert!(alike.count() >= 2);
+    assert_eq!(std::fs::read_dir(&record).unwrap().count(), 2 * 8 * 3);
+
+    let rows = std::fs::read_to_string(&csv).unwrap();
+    assert_eq!(rows.lines().count(), 9);
+    assert!(rows.starts_with("controller,map,disturbances,episodes,successes,"), "{rows}");
+    let page = std::fs::read_to_string(&html).unwrap();
+    assert_eq!(page.matches("<figure>").count(), 8);
+    for foreign in ["src=", "<link", "@import", "url("] {
+        assert!(!page.contains(foreign), "it needs {foreign}");
+    }
+
+    // One trial again.
+    let again =
+        ferry(&["evaluate", "--map", "posts", "--controller", "errt", "--disturbances", "2", "--episodes", "3"])
+            .args(["--seed", "4", "--episode", "1", "--record"])
+            .arg(folder.path().join("again"))
+            .output()
+            .unwrap();
+    assert!(again.status.success());
+    let log = |of: &str| std::fs::read(folder.path().join(of).join("posts-errt-2-0001.ferry")).unwrap();
+    let ticks = |bytes: &[u8]| InputLog::read(bytes).unwrap().entries;
+    assert_eq!(ticks(&log("again")), ticks(&log("records")));
+}
+
+#[test]
+fn what_replay_cannot_read_is_refused_and_what_was_cut_off_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let recorded = ferry(&["evaluate", "--map", "open", "--episodes", "1", "--record"]).arg(folder.path()).output();
+    assert!(recorded.unwrap().status.success());
+    let whole = std::fs::read(folder.path().join("open-attractor-0-0000.ferry")).unwrap();
+    let path = folder.path().join("changed.ferry");
+    let replayed = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        ferry(&["replay"]).arg(&path).output().unwrap()
+    };
+    let torn = replayed(&whole[..whole.len() - 7]);
+    let told = String::from_utf8_lossy(&torn.stdout).into_owned();
+    assert!(
+        torn.status.success() && told.contains("was cut off") && told.contains("every world hash is equal"),
+        "{told}"
+    );
+    let mut edited = whole.clone();
+    edited[whole.len() / 2] ^= 4;
+    let mut newer = whole.clone();
+    newer[8] += 1;
+    for (bytes, parts) in [
+        (edited.as_slice(), &["changed.ferry", "damaged or edited after", "whole ticks"][..]),
+        (&newer, &["version 6, this Ferry reads version 5"]),
+        (b"<svg></svg>", &["not a Ferry input log", "<svg></s"]),
+        (&whole[..9], &["ends before its first trial"]),
+    ] {
+        let refused = replayed(bytes);
+        assert!(!refused.status.success());
+        let error = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+    }
 }
 
 #[test]

@@ -19,7 +19,7 @@ const LOST_TICKS: u64 = 62;
 
 /// How often the server is killed; `FERRY_KILLS=50` is what was promised.
 fn kills() -> u32 {
-    std::env::var("FERRY_KILLS").map_or(6, |count| count.parse().expect("FERRY_KILLS is a count"))
+    std::env::var("FERRY_KILLS").map_or(10, |count| count.parse().expect("FERRY_KILLS is a count"))
 }
 
 /// A server in a process of its own.

@@ -112,6 +112,32 @@ async fn a_failure_set_up_again_fails_again() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn what_it_came_to_comes_down_as_files() {
+    let lab = Laboratory::open().await;
+    let asked = json!({"controllers": ["attractor", "errt"], "maps": ["colon"], "seed": 2});
+    let path = lab.begin(asked).await;
+    let report = lab.ended(&path).await;
+    let comparison = &report["comparisons"][0];
+    let count = |name: &str| comparison[name].as_u64().unwrap();
+    assert_eq!(count("both") + count("first_only") + count("second_only") + count("neither"), 4);
+    let row = |index: usize| report["rows"][index]["delivered"].as_u64().unwrap();
+    assert_eq!((count("both") + count("first_only"), count("both") + count("second_only")), (row(0), row(1)));
+
+    let file = async |name: &str| String::from_utf8(lab.bytes(&format!("{path}/{name}")).await).unwrap();
+    let from_json: Value = serde_json::from_str(&file("report.json").await).unwrap();
+    assert_eq!(from_json["rows"], report["rows"]);
+    assert_eq!(from_json["comparisons"], report["comparisons"]);
+    assert_eq!(file("report.csv").await.lines().count(), 3);
+    let page = file("report.html").await;
+    // The page that a link opens is this server's.
+    let link = from_json["failures"][0]["link"].as_str().unwrap();
+    assert!(page.contains(&format!("href=\"http://{}/{}\"", lab.address, link.replace('&', "&amp;"))), "{link}");
+    assert_eq!(lab.ask("GET", &format!("{path}/report.pdf"), "").await.0, 404);
+    assert_eq!(lab.ask("GET", "/api/evaluations/nobody/report.csv", "").await.0, 404);
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn one_runs_few_wait_and_all_can_be_cancelled() {
     let lab = Laboratory::open().await;
     let long = lab.begin(json!({"controllers": ["errt", "attractor"], "episodes": LONG})).await;

@@ -4,21 +4,22 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use ferry::camera::Camera;
-use ferry::evaluate::{Episode, Trace, episode};
+use ferry::evaluate::{Episode, Trace, Venue, episode};
 use ferry::map::Map;
 use ferry::scenario::{ControllerName, Scenario, Shipped};
-use ferry::trial::{Arena, Phase, Source, StopReason, TickRecord, Trial};
+use ferry::trial::{Arena, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
 
 use crate::determinism::gpu;
 
 fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
+    let venue = Venue::of(arena.clone());
     let mut camera = arena.camera(&gpu()).unwrap();
     let mut trace = Trace::of(&arena.map, &scenario);
     let watch = &mut |record: &TickRecord| {
         trace.add(record);
         ControlFlow::Continue(())
     };
-    let episode = episode(0, scenario, arena, &mut camera, watch).unwrap();
+    let episode = episode(scenario, &venue, &mut camera, &mut Nowhere, watch).unwrap();
     (episode, trace.to_svg().unwrap())
 }
 
@@ -33,7 +34,7 @@ fn the_papers_examples_end_at_their_goals() {
         assert_eq!(episode.disturbances, expected, "{name}");
         // Gone to fetch it, and back, each time.
         assert!(episode.switches >= 2 * expected, "{name}: {} switches", episode.switches);
-        assert!(episode.tracking_error_mean_m < 0.04, "{name}: {}", episode.tracking_error_mean_m);
+        assert!(episode.tally.mean_m() < 0.04, "{name}: {}", episode.tally.mean_m());
         assert!(figure.starts_with("<svg") && figure.contains("tracking error"), "{name}");
     }
 }

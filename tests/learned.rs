@@ -1,10 +1,12 @@
 //! The trained policies, and training from the command line.
 
 use std::process::Command;
+use std::sync::atomic::AtomicBool;
 
-use ferry::evaluate::{Experiment, run};
+use ferry::evaluate::{Cell, Experiment, Venue, Watch, run, unrecorded};
 use ferry::policy::Policy;
 use ferry::scenario::{ControllerName, Parameters};
+use ferry::trial::Arena;
 
 use crate::determinism::gpu;
 
@@ -24,17 +26,18 @@ fn every_shipped_policy_is_whole_and_says_where_it_comes_from() {
 
 #[test]
 fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
+    let venue = Venue::of(Arena::open("colon").unwrap());
     for (disturbances, least) in [(0, 39), (3, 38)] {
         let experiment = Experiment {
+            cell: Cell { controller: ControllerName::Rl, map: "colon".to_owned(), disturbances },
+            venue: venue.clone(),
             map: "colon".to_owned(),
-            controller: ControllerName::Rl,
             episodes: 40,
-            disturbances,
             seed: 7,
             parameters: Parameters::default(),
-            policy: None,
         };
-        let episodes = run(&experiment, &gpu(), &|_| ()).unwrap();
+        let watch = Watch { stop: &AtomicBool::new(false), progress: &|_, _| (), recorders: &unrecorded };
+        let episodes = run(&[experiment], &gpu(), &watch).unwrap().remove(0);
         let delivered = episodes.iter().filter(|episode| episode.delivered).count();
         assert!(delivered >= least, "{delivered} of 40 with {disturbances} disturbances");
         let struck: u32 = episodes.iter().map(|episode| episode.disturbances).sum();

@@ -2,6 +2,7 @@
 
 mod answers;
 mod calculator;
+mod cases;
 mod commands;
 mod crashes;
 mod determinism;

@@ -2,80 +2,167 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use anyhow::Context;
+use comfy_table::{CellAlignment, Table, TableStyle};
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
 
-use crate::evaluate::{Episode, Experiment, Row, run as run_experiment, summarize};
-use crate::map::Map;
+use crate::camera::Gpu;
+use crate::evaluate::{
+    Cell, Comparison, Episode, EvaluateError, Experiment, Failure, PairedMean, Report, Row, Venue, Watch, run, run_one,
+};
 use crate::policy::Policy;
+use crate::recording::Recorder;
 use crate::scenario::{ControllerName, Parameters};
+use crate::trial::{Arena, Nowhere, Sink};
 
 /// Arguments of `ferry evaluate`.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// A map's name, or the path of an SVG
-    #[arg(long, default_value = "posts")]
-    map: String,
+    /// Maps by name, or paths of SVGs, separated by commas
+    #[arg(long, value_delimiter = ',', default_value = "posts")]
+    map: Vec<String>,
     /// Controllers, separated by commas
     #[arg(long, value_delimiter = ',', default_value = "attractor")]
     controller: Vec<ControllerName>,
-    /// Trials a controller
+    /// Scripted disturbances a trial; several numbers, separated by commas, are as many rows
+    #[arg(long, value_delimiter = ',', default_value = "0")]
+    disturbances: Vec<u32>,
+    /// Trials a row
     #[arg(long, default_value_t = 30)]
     episodes: u32,
-    /// Scripted disturbances a trial
-    #[arg(long, default_value_t = 0)]
-    disturbances: u32,
-    /// Seed of the trials
+    /// Seed of the trials: the same starts, goals and pushes for every controller
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// This trial of each row alone, as the list of failures numbers them
+    #[arg(long, value_name = "INDEX")]
+    episode: Option<u32>,
     /// A parameter that is not to have its default, as in attractor_law=literal; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// A policy's file, in place of the shipped ones
     #[arg(long)]
     policy: Option<PathBuf>,
+    /// Record every trial to this folder: .rrd for Rerun, .ferry for `ferry replay`
+    #[arg(long, value_name = "FOLDER")]
+    record: Option<PathBuf>,
     /// Print one JSON object and nothing else
     #[arg(long)]
     json: bool,
+    /// Write the rows to this file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write rows, differences, failures and figures to this file, which needs no other
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Address of the page that the report's links open
+    #[arg(long, value_name = "ADDRESS", default_value = "http://127.0.0.1:8080")]
+    page: String,
 }
 
-#[derive(Serialize)]
-struct Table {
-    rows: Vec<Row>,
-}
-
-pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let map = Map::open(&arguments.map)?;
+pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let experiments = experiments(arguments)?;
+    // Before anything runs: what cannot be written is said now.
+    for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
+        std::fs::write(path, "").with_context(|| path.display().to_string())?;
+    }
     let gpu = super::open_gpu()?;
-    let parameters = parameters_with(&Parameters::default(), &arguments.set)?;
-    let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
-    let mut rows = Vec::new();
-    for &controller in &arguments.controller {
-        let experiment = Experiment {
-            map: arguments.map.clone(),
-            controller,
-            episodes: arguments.episodes,
-            disturbances: arguments.disturbances,
-            seed: arguments.seed,
-            parameters: parameters.clone(),
-            policy: policy.clone(),
-        };
-        let bar = ProgressBar::new(u64::from(arguments.episodes))
-            .with_style(ProgressStyle::with_template("{msg} {bar:30} {pos}/{len} {eta} left")?)
-            .with_message(controller.as_str());
-        let episodes = run_experiment(&experiment, &gpu, &|_| bar.inc(1))?;
-        bar.finish_and_clear();
-        report_failures(&episodes);
-        rows.push(summarize(&experiment, map.name(), &episodes));
+    let episodes = evaluate(arguments, &experiments, &gpu)?;
+    let done: Vec<(&Cell, &[Episode])> =
+        experiments.iter().map(|one| &one.cell).zip(episodes.iter().map(Vec::as_slice)).collect();
+    let report = Report::of(gpu.adapter_name(), arguments.seed, &done);
+    if let Some(path) = &arguments.csv {
+        std::fs::write(path, report.to_csv()?).with_context(|| path.display().to_string())?;
+    }
+    if let Some(path) = &arguments.html {
+        std::fs::write(path, report.to_html(&arguments.page)).with_context(|| path.display().to_string())?;
     }
     if arguments.json {
-        println!("{}", serde_json::to_string(&Table { rows })?);
-    } else {
-        print_table(&rows, arguments.seed, gpu.adapter_name());
+        println!("{}", serde_json::to_string(&report)?);
+        return Ok(ExitCode::SUCCESS);
     }
+    println!("seed {}, rendered by {}", report.seed, report.adapter);
+    println!("{}", rows_table(&report.rows));
+    if !report.comparisons.is_empty() {
+        println!("\npaired differences, first minus second, with 95 % intervals");
+        println!("{}", comparisons_table(&report.comparisons));
+    }
+    print_failures(&report.failures, &arguments.page);
     Ok(ExitCode::SUCCESS)
+}
+
+/// A row each, the controllers of a map side by side.
+fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
+    let parameters = parameters_with(&Parameters::default(), &arguments.set)?;
+    let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
+    let mut experiments = Vec::new();
+    for map in &arguments.map {
+        let arena = Arena::open(map)?;
+        let arena = match &policy {
+            Some(policy) => arena.with_policy(policy.clone()),
+            None => arena,
+        };
+        let venue = Venue::of(arena);
+        let name = venue.arena.map.name().to_owned();
+        for &disturbances in &arguments.disturbances {
+            experiments.extend(arguments.controller.iter().map(|&controller| Experiment {
+                cell: Cell { controller, map: name.clone(), disturbances },
+                venue: venue.clone(),
+                map: map.clone(),
+                episodes: arguments.episodes,
+                seed: arguments.seed,
+                parameters: parameters.clone(),
+            }));
+        }
+    }
+    Ok(experiments)
+}
+
+/// Runs what is asked for, on all cores, behind a bar.
+fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Vec<Episode>>> {
+    let trials = match arguments.episode {
+        Some(_) => experiments.len() as u64,
+        None => experiments.len() as u64 * u64::from(arguments.episodes),
+    };
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} trials, {msg}{elapsed}, {eta} left")?;
+    let bar = ProgressBar::new(trials).with_style(style);
+    bar.enable_steady_tick(std::time::Duration::from_millis(500));
+    let failed = std::sync::atomic::AtomicU32::new(0);
+    let watch = Watch {
+        stop: &AtomicBool::new(false),
+        progress: &|_, episode| {
+            if !episode.delivered {
+                let count = failed.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+                bar.set_message(format!("{count} failed, "));
+            }
+            bar.inc(1);
+        },
+        recorders: &|experiment, index| recorder(arguments, experiment, index),
+    };
+    let episodes = match arguments.episode {
+        Some(index) => experiments
+            .iter()
+            .enumerate()
+            .map(|(number, experiment)| {
+                let episode = run_one(experiment, index, gpu, &watch)?;
+                (watch.progress)(number, &episode);
+                Ok(vec![episode])
+            })
+            .collect::<Result<_, EvaluateError>>()?,
+        None => run(experiments, gpu, &watch)?,
+    };
+    bar.finish_and_clear();
+    Ok(episodes)
+}
+
+fn recorder(arguments: &Arguments, experiment: &Experiment, index: u32) -> Result<Box<dyn Sink>, EvaluateError> {
+    let Some(folder) = &arguments.record else { return Ok(Box::new(Nowhere)) };
+    let Cell { controller, map, disturbances } = &experiment.cell;
+    let name = format!("{map}-{}-{disturbances}-{index:04}", controller.as_str());
+    let recorder = Recorder::to_folder(folder, &name).map_err(|error| EvaluateError::Recording(error.to_string()))?;
+    Ok(Box::new(recorder))
 }
 
 /// Parameters with some values of their own.
@@ -85,33 +172,22 @@ pub fn parameters_with(parameters: &Parameters, changes: &[String]) -> anyhow::R
     Ok(parameters)
 }
 
-/// Each failure with what it takes to look at it again.
-fn report_failures(episodes: &[Episode]) {
-    for episode in episodes.iter().filter(|e| !e.delivered) {
-        let place =
-            |p: Option<crate::geometry::Point2<f64>>| p.map_or("?".into(), |p| format!("{:.3},{:.3}", p.x, p.y));
-        eprintln!(
-            "trial {}: {}{} (from {} to {}, seed {}, {} steps, {} disturbances)",
-            episode.index,
-            episode.outcome,
-            [&episode.trouble, &episode.refusal]
-                .into_iter()
-                .flatten()
-                .map(|why| format!("; {why}"))
-                .collect::<String>(),
-            place(episode.scenario.start_m),
-            place(episode.scenario.goal_m),
-            episode.scenario.seed,
-            episode.steps,
-            episode.disturbances,
-        );
+/// A table of text, the first `left` columns as words, the others as numbers.
+fn table(head: &[&str], left: usize) -> Table {
+    let mut table = Table::new();
+    table.load_style(TableStyle::new()).set_header(head.to_vec());
+    for column in table.column_iter_mut().skip(left) {
+        column.set_cell_alignment(CellAlignment::Right);
     }
+    table
 }
 
-fn print_table(rows: &[Row], seed: u64, adapter: &str) {
-    println!("seed {seed}, rendered by {adapter}");
-    println!(
-        "{:<10} {:<17} {:>5} {:>9} {:>15} {:>9} {:>15} {:>9} {:>7} {:>7} {:>6} {:>8} {:>15}",
+fn interval([low, high]: [f64; 2]) -> String {
+    format!("{low:.3} to {high:.3}")
+}
+
+fn rows_table(rows: &[Row]) -> Table {
+    let head = [
         "controller",
         "map",
         "dist.",
@@ -120,28 +196,84 @@ fn print_table(rows: &[Row], seed: u64, adapter: &str) {
         "delivered",
         "95 % Wilson",
         "error mm",
-        "max x",
-        "max y",
+        "in x, y",
+        "max x, y",
+        "way/shortest",
         "steps",
         "switches",
-        "ms/step p50 p99"
-    );
+        "ms/step p50 p99",
+    ];
+    let mut table = table(&head, 2);
     for row in rows {
-        println!(
-            "{:<10} {:<17} {:>5} {:>9} {:>15} {:>9} {:>15} {:>9.1} {:>7.1} {:>7.1} {:>6.1} {:>8.2} {:>15}",
-            row.controller,
-            row.map,
-            row.disturbances,
+        let pair = |x_m: f64, y_m: f64| format!("{:.1} {:.1}", x_m * 1e3, y_m * 1e3);
+        table.add_row(vec![
+            row.controller.clone(),
+            row.map.clone(),
+            row.disturbances.to_string(),
             format!("{}/{}", row.successes, row.episodes),
-            format!("{:.3} to {:.3}", row.successes_wilson95[0], row.successes_wilson95[1]),
+            interval(row.successes_wilson95),
             format!("{}/{}", row.delivered, row.episodes),
-            format!("{:.3} to {:.3}", row.wilson95[0], row.wilson95[1]),
-            row.tracking_error_mean_m * 1e3,
-            row.tracking_error_max_x_m * 1e3,
-            row.tracking_error_max_y_m * 1e3,
-            row.steps_mean,
-            row.switches_mean,
+            interval(row.wilson95),
+            format!("{:.1}", row.tracking_error_mean_m * 1e3),
+            pair(row.tracking_error_mean_x_m, row.tracking_error_mean_y_m),
+            pair(row.tracking_error_max_x_m, row.tracking_error_max_y_m),
+            row.path_ratio_mean.map_or("-".to_owned(), |ratio| format!("{ratio:.3}")),
+            format!("{:.1}", row.steps_mean),
+            format!("{:.2}", row.switches_mean),
             format!("{:.1} {:.1}", row.decision_ms_p50, row.decision_ms_p99),
+        ]);
+    }
+    table
+}
+
+fn comparisons_table(comparisons: &[Comparison]) -> Table {
+    let head = [
+        "first - second",
+        "map",
+        "dist.",
+        "both, first, second, neither",
+        "delivered, points",
+        "steps",
+        "error mm",
+        "way/shortest",
+    ];
+    let mut table = table(&head, 2);
+    let signed = |mean: f64, [low, high]: [f64; 2], scale: f64, digits: usize| {
+        let [mean, low, high] = [mean, low, high].map(|value| value * scale);
+        format!("{mean:+.digits$} ({low:+.digits$} to {high:+.digits$})")
+    };
+    let paired = |mean: Option<PairedMean>, scale: f64, digits: usize| {
+        mean.map_or("-".to_owned(), |mean| signed(mean.mean, mean.interval95, scale, digits))
+    };
+    for one in comparisons {
+        table.add_row(vec![
+            format!("{} - {}", one.controller, one.against),
+            one.map.clone(),
+            one.disturbances.to_string(),
+            format!("{}, {}, {}, {}", one.both, one.first_only, one.second_only, one.neither),
+            signed(one.delivered_difference, one.delivered_difference95, 100.0, 1),
+            paired(one.steps, 1.0, 1),
+            paired(one.tracking_error_mean_m, 1e3, 1),
+            paired(one.path_ratio, 1.0, 3),
+        ]);
+    }
+    table
+}
+
+/// Each failure, why, and how to see it again.
+fn print_failures(failures: &[Failure], page: &str) {
+    for failure in failures {
+        println!(
+            "\n{} on {}, {} disturbances, trial {}: {} ({} steps)",
+            failure.controller,
+            failure.map,
+            failure.disturbances,
+            failure.index,
+            failure.reason(),
+            failure.steps,
         );
+        if let Some(link) = &failure.link {
+            println!("  {page}/{link}");
+        }
     }
 }

@@ -8,11 +8,11 @@ use anyhow::Context;
 
 use crate::camera::Subject;
 use crate::control::limits::Limits;
-use crate::evaluate::{self, Trace};
+use crate::evaluate::Trace;
 use crate::geometry::{Point2, Point3};
 use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::nearest_fit};
-use crate::scenario::{ControllerName, Parameters, Shipped};
-use crate::trial::Arena;
+use crate::scenario::{ControllerName, Parameters};
+use crate::trial::{Arena, Case, Tally};
 
 /// Arguments of `ferry render`.
 #[derive(clap::Args)]
@@ -67,24 +67,28 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
 }
 
-/// Runs a scenario, draws it, and prints what became of it beside the paper's figures.
+/// Runs a scenario, with what is done in it, draws it, and prints what became of it beside the paper's figures.
 fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let mut scenario = Shipped::open(name)?.scenario;
+    let mut case = Case::open(name)?;
+    let scenario = &mut case.scenario;
     scenario.controller = arguments.controller.unwrap_or(scenario.controller);
     scenario.parameters = super::evaluate::parameters_with(&scenario.parameters, &arguments.set)?;
     let arena = Arena::open(&scenario.map)?;
     let mut camera = arena.camera(&super::open_gpu()?)?;
-    let mut trace = Trace::of(&arena.map, &scenario);
-    let episode = evaluate::episode(0, scenario, &arena, &mut camera, &mut |record| {
+    let (mut trace, mut tally) = (Trace::of(&arena.map, scenario), Tally::default());
+    let outcome = case.run(&arena, &mut camera, &mut |record| {
         trace.add(record);
+        tally.add(&record.moment);
         ControlFlow::Continue(())
     })?;
     std::fs::write(&arguments.out, trace.to_svg()?).with_context(|| arguments.out.display().to_string())?;
-    println!("{name}: {}, {} steps, {} switches", episode.outcome, episode.steps, episode.switches);
-    let [mean_m, x_m, y_m] =
-        [episode.tracking_error_mean_m, episode.tracking_error_max_x_m, episode.tracking_error_max_y_m];
+    println!("{name}: {}, {} steps, {} switches", outcome.phase, outcome.counters.steps, outcome.counters.switches);
+    for (tick, error) in &outcome.refused {
+        println!("not done at tick {tick}: {error}");
+    }
+    let (mean_m, [x_m, y_m]) = (tally.mean_m(), tally.max_m());
     println!("tracking error: mean {mean_m:.3} m (paper .02), most {x_m:.3} in x (.08), {y_m:.3} in y (.09)");
-    Ok(ExitCode::SUCCESS)
+    Ok(if outcome.meets(&case) { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {

@@ -7,7 +7,7 @@ use std::time::Instant;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-use super::{CellResult, EvaluateError, Evaluation, Stage, run_in};
+use super::{CellResult, EvaluateError, Evaluation, Stage, Venue, Watch, run, unrecorded};
 use crate::camera::{CameraError, Gpu};
 use crate::map::Map;
 use crate::trial::Arena;
@@ -61,11 +61,16 @@ impl Engine {
     fn run_cells(&self, evaluation: &Evaluation) -> Result<(), EvaluateError> {
         for (index, cell) in evaluation.cells.iter().enumerate() {
             let began = Instant::now();
-            let arena = Arena::of(Map::shipped(&cell.map)?);
-            let experiment = evaluation.experiment(cell);
-            let note = |episode: &_| evaluation.note(index, began, episode);
-            let episodes = self.pool.install(|| run_in(&arena, &experiment, &self.gpu, evaluation.stop(), &note))?;
-            evaluation.add(CellResult::of(&experiment, &episodes));
+            let venue = Venue::of(Arena::of(Map::shipped(&cell.map)?));
+            let experiment = evaluation.experiment(cell, &venue);
+            let watch = Watch {
+                stop: evaluation.stop(),
+                progress: &|_, episode| evaluation.note(index, began, episode),
+                recorders: &unrecorded,
+            };
+            let one = std::slice::from_ref(&experiment);
+            let episodes = self.pool.install(|| run(one, &self.gpu, &watch))?;
+            evaluation.add(CellResult::of(cell, episodes.into_iter().flatten().collect()));
         }
         Ok(())
     }

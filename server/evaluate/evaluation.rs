@@ -5,8 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, MutexGuard, PoisonError};
 use std::time::Instant;
 
-use super::{Cell, Episode, EvaluationQuery, Experiment, Row, summarize};
-use crate::geometry::Point2;
+use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Row, Venue};
 use crate::scenario::Parameters;
 
 /// An evaluation. Whoever runs it writes, all others look.
@@ -69,61 +68,32 @@ pub struct CellProgress {
 }
 
 /// What came of a cell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct CellResult {
     /// Its row of the table.
     pub row: Row,
     /// Trials whose bead did not arrive.
     pub failures: Vec<Failure>,
-}
-
-/// A trial whose bead did not arrive, with what it takes to set it up again in its cell.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// Which trial of the seed.
-    pub index: u32,
-    /// Seed of the trial itself.
-    pub seed: u64,
-    /// Bead and tool at the start.
-    pub start_m: Option<Point2<f64>>,
-    /// Goal.
-    pub goal_m: Option<Point2<f64>>,
-    /// Whether the tool came to the goal.
-    pub reached: bool,
-    /// How it ended.
-    pub outcome: String,
-    /// What kept sub-controller 2 from the goal, if anything did.
-    pub trouble: Option<String>,
-    /// Why the arm held in the end, if it did.
-    pub refusal: Option<String>,
-    /// Control steps.
-    pub steps: u32,
-    /// Disturbances that struck.
-    pub disturbances: u32,
-}
-
-impl From<&Episode> for Failure {
-    fn from(episode: &Episode) -> Self {
-        Self {
-            index: episode.index,
-            seed: episode.scenario.seed,
-            start_m: episode.scenario.start_m,
-            goal_m: episode.scenario.goal_m,
-            reached: episode.reached,
-            outcome: episode.outcome.clone(),
-            trouble: episode.trouble.clone(),
-            refusal: episode.refusal.clone(),
-            steps: episode.steps,
-            disturbances: episode.disturbances,
-        }
-    }
+    /// All its trials, in their order, without the times of their steps.
+    pub episodes: Vec<Episode>,
 }
 
 impl CellResult {
     /// Adds a cell's episodes up.
-    pub(super) fn of(experiment: &Experiment, episodes: &[Episode]) -> Self {
-        let failed = episodes.iter().filter(|episode| !episode.delivered);
-        Self { row: summarize(experiment, &experiment.map, episodes), failures: failed.map(Failure::from).collect() }
+    pub(super) fn of(cell: &Cell, mut episodes: Vec<Episode>) -> Self {
+        let row = Row::of(cell, &episodes);
+        for episode in &mut episodes {
+            episode.decision_s = Vec::new();
+        }
+        let failures = episodes.iter().filter_map(|episode| Failure::of(cell, episode)).collect();
+        Self { row, failures, episodes }
+    }
+}
+
+impl Progress {
+    /// The cells that are through, with their trials.
+    pub fn done<'a>(&'a self, cells: &'a [Cell]) -> Vec<(&'a Cell, &'a [Episode])> {
+        cells.iter().zip(&self.results).map(|(cell, result)| (cell, result.episodes.as_slice())).collect()
     }
 }
 
@@ -190,15 +160,14 @@ impl Evaluation {
     }
 
     /// What the table's row of a cell comes from.
-    pub(super) fn experiment(&self, cell: &Cell) -> Experiment {
+    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Experiment {
         Experiment {
+            cell: cell.clone(),
+            venue: venue.clone(),
             map: cell.map.clone(),
-            controller: cell.controller,
             episodes: self.query.episodes,
-            disturbances: cell.disturbances,
             seed: self.query.seed,
             parameters: Parameters::default(),
-            policy: None,
         }
     }
 

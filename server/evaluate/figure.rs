@@ -17,6 +17,8 @@ const MARK: RGBColor = RGBColor(198, 40, 40);
 const FONT: &str = "sans-serif";
 /// The bead has jumped, by somebody's hand, when it is this far from where it was 8 ms before.
 const JUMP_M: f64 = 0.02;
+/// Of the samples of a curve, every fifth is drawn: 40 ms are less than a pixel.
+const DRAWN_EVERY: usize = 5;
 
 /// A figure could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -85,7 +87,7 @@ impl Trace {
         self.locus(&above)?;
         let panels = below.split_evenly((1, 3));
         let of = |value: fn(&Sample) -> f64| -> Vec<(f64, f64)> {
-            self.samples.iter().map(|sample| (sample.time_s, value(sample))).collect()
+            drawn(&self.samples).map(|sample| (sample.time_s, value(sample))).collect()
         };
         let axis = [(TOOL, "tool"), (BEAD, "bead")];
         self.lines(&panels[0], "x, m", axis, [of(|s| s.tool_m.x), of(|s| s.bead_m.x)])?;
@@ -118,14 +120,14 @@ impl Trace {
         chart.configure_mesh().disable_mesh().label_style((FONT, 13)).draw()?;
         // Where somebody carries the bead away, it draws no line.
         for carried in self.samples.chunk_by(|a, b| (a.bead_m - b.bead_m).norm() < JUMP_M) {
-            let course = carried.iter().map(|sample| (sample.bead_m.x, sample.bead_m.y));
+            let course = drawn(carried).map(|sample| (sample.bead_m.x, sample.bead_m.y));
             chart.draw_series(LineSeries::new(course, BEAD.stroke_width(2)))?;
         }
         for pair in self.samples.windows(2).filter(|pair| (pair[0].bead_m - pair[1].bead_m).norm() >= JUMP_M) {
             let ends = [pair[0].bead_m, pair[1].bead_m].map(|at| (at.x, at.y));
             chart.draw_series(DashedLineSeries::new(ends, 6, 5, MARK.stroke_width(1)))?;
         }
-        let tool = self.samples.iter().map(|sample| (sample.tool_m.x, sample.tool_m.y));
+        let tool = drawn(&self.samples).map(|sample| (sample.tool_m.x, sample.tool_m.y));
         chart.draw_series(LineSeries::new(tool, TOOL.stroke_width(1)))?;
         let at = |place: Point2<f64>| (place.x, place.y);
         chart.draw_series(self.start_m.map(at).map(|place| Circle::new(place, 6, BEAD.stroke_width(2))))?;
@@ -164,6 +166,12 @@ impl Trace {
         }
         chart.configure_series_labels().label_font((FONT, 12)).background_style(WHITE.mix(0.8)).draw()
     }
+}
+
+/// What is drawn of a curve, its last sample with it.
+fn drawn(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
+    let last = samples.len().saturating_sub(1);
+    samples.iter().enumerate().filter(move |&(at, _)| at % DRAWN_EVERY == 0 || at == last).map(|(_, sample)| sample)
 }
 
 fn outlines(map: &Map) -> Vec<(Vec<[f64; 2]>, bool)> {

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Path, State};
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::Server;
-use super::api::parse;
+use super::api::{attachment, parse};
 use super::body::WholeBody;
 use super::problem::Problem;
-use crate::evaluate::{Evaluation, EvaluationQuery, QueryError, SubmitError};
+use crate::evaluate::{Evaluation, EvaluationQuery, QueryError, Report, SubmitError};
 use crate::protocol::{EvaluationReport, EvaluationSummary, Evaluations};
 
 /// `GET /api/evaluations`: what runs, waits, and ended last.
@@ -37,6 +37,26 @@ pub async fn report(
     Path(id): Path<String>,
 ) -> Result<Json<EvaluationReport>, Problem> {
     Ok(Json(EvaluationReport::from(&*find(&server, &id)?)))
+}
+
+/// `GET /api/evaluations/{id}/report.html`, `.csv` and `.json`: the same as files, as `ferry evaluate` writes them.
+pub async fn file(
+    State(server): State<Arc<Server>>,
+    Path((id, name)): Path<(String, String)>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let evaluation = find(&server, &id)?;
+    let progress = evaluation.progress();
+    let report = Report::of(server.gpu.adapter_name(), evaluation.query.seed, &progress.done(&evaluation.cells));
+    // Whoever reads it came by this address.
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
+    let (kind, text) = match name.as_str() {
+        "report.html" => ("text/html; charset=utf-8", report.to_html(&format!("http://{host}"))),
+        "report.csv" => ("text/csv; charset=utf-8", report.to_csv().map_err(Problem::internal)?),
+        "report.json" => ("application/json", serde_json::to_string(&report).map_err(Problem::internal)?),
+        _ => return Err(Problem::not_found("report", &name)),
+    };
+    Ok(attachment(kind, &format!("{id}-{name}"), text))
 }
 
 /// `DELETE /api/evaluations/{id}`: breaks it off; what it came to stays.

@@ -8,6 +8,7 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::Server;
+use super::api::attachment;
 use super::problem::Problem;
 use crate::image::EncodeError;
 use crate::protocol::MomentMessage;
@@ -69,6 +70,15 @@ pub async fn observation(
     let (_, _, record) = relive(&server, &id, tick).await?;
     let sight = record.sight.ok_or_else(|| no_step(tick))?;
     png(sight.observation().side_by_side().to_png())
+}
+
+/// `GET /api/sessions/{id}/case.json`: the trial with all that it was told, to be kept among `tests/cases`.
+pub async fn case(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
+    let hub = server.find(&id).ok_or_else(|| Problem::not_found("session", &id))?;
+    let case = hub.session.case().await.map_err(|error| Problem::from(&error))?;
+    let name = format!("{}-{}-seed-{}.json", case.scenario.map, case.scenario.controller.as_str(), case.scenario.seed);
+    let text = serde_json::to_string_pretty(&case).map_err(Problem::internal)? + "\n";
+    Ok(attachment("application/json", &name, text))
 }
 
 fn png(encoded: Result<Vec<u8>, EncodeError>) -> Result<Response, Problem> {

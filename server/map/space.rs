@@ -1,6 +1,6 @@
 //! Free space on a grid: what is connected to what, how far it is to walk, and fair sampling.
 
-use pathfinding::prelude::dijkstra_all;
+use pathfinding::prelude::astar;
 use rand::{Rng, RngExt};
 
 use super::Map;
@@ -115,13 +115,7 @@ impl FreeSpace {
 
     /// Component of the cell under `point`; if that cell is not free, of the nearest free one.
     pub fn component_at(&self, point: Point2<f64>) -> Option<u32> {
-        if let Some(component) = self.cell(point).and_then(|cell| self.component[cell]) {
-            return Some(component);
-        }
-        (0..self.component.len())
-            .filter(|&cell| self.component[cell].is_some())
-            .min_by(|&a, &b| (self.center(a) - point).norm().total_cmp(&(self.center(b) - point).norm()))
-            .and_then(|cell| self.component[cell])
+        self.nearest_free(point).and_then(|cell| self.component[cell])
     }
 
     /// A uniform point of the free space, of one component if asked, exact to the map's clearance.
@@ -143,13 +137,70 @@ impl FreeSpace {
         if start == end {
             return Some((to - from).norm());
         }
+        let (_, length_um) = self.grid_way(start, end)?;
+        Some(f64::from(length_um) * 1e-6)
+    }
+
+    /// The shortest way between two points, pulled taut: the grid's, then straight from each point on it to the
+    /// farthest that is seen from there. From a point that is not free it starts at the nearest that is. `None` if
+    /// there is none.
+    pub fn taut_way(&self, from: Point2<f64>, to: Point2<f64>) -> Option<Vec<Point2<f64>>> {
+        let (start, end) = (self.nearest_free(from)?, self.nearest_free(to)?);
+        let (cells, _) = self.grid_way(start, end)?;
+        let mut points: Vec<Point2<f64>> = cells.into_iter().map(|cell| self.center(cell)).collect();
+        let last = points.len() - 1;
+        points[0] = from;
+        points[last] = to;
+        if last == 0 {
+            points = vec![from, to];
+        }
+        // Once forward, and once back, since what one end sees the other may see better.
+        for _ in 0..2 {
+            points = self.shortened(&points);
+            points.reverse();
+        }
+        Some(points)
+    }
+
+    fn shortened(&self, points: &[Point2<f64>]) -> Vec<Point2<f64>> {
+        let (mut kept, mut at) = (vec![points[0]], 0);
+        while at + 1 < points.len() {
+            let seen = (at + 2..points.len()).rev().find(|&next| self.sees(points[at], points[next]));
+            at = seen.unwrap_or(at + 1);
+            kept.push(points[at]);
+        }
+        kept
+    }
+
+    /// Whether all cells on the straight line are free.
+    fn sees(&self, from: Point2<f64>, to: Point2<f64>) -> bool {
+        let way = to - from;
+        let steps = (way.norm() / (0.25 * CELL_M)).ceil().max(1.0) as usize;
+        (0..=steps).all(|step| {
+            let place = from + way * (step as f64 / steps as f64);
+            self.cell(place).is_some_and(|cell| self.component[cell].is_some())
+        })
+    }
+
+    fn nearest_free(&self, point: Point2<f64>) -> Option<usize> {
+        if let Some(cell) = self.cell(point).filter(|&cell| self.component[cell].is_some()) {
+            return Some(cell);
+        }
+        let distance_m = |&cell: &usize| (self.center(cell) - point).norm();
+        let free = (0..self.component.len()).filter(|&cell| self.component[cell].is_some());
+        free.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)))
+    }
+
+    /// The shortest way over free cells, both ends with it, and its length in micrometres.
+    fn grid_way(&self, start: usize, end: usize) -> Option<(Vec<usize>, u32)> {
         if self.component[start].is_none() || self.component[start] != self.component[end] {
             return None;
         }
-        let reached = dijkstra_all(&start, |&cell| {
-            self.neighbours(cell).filter(|&(n, _)| self.component[n].is_some()).collect::<Vec<_>>()
-        });
-        reached.get(&end).map(|&(_, length_um)| f64::from(length_um) * 1e-6)
+        let free = |&cell: &usize| self.neighbours(cell).filter(|&(n, _)| self.component[n].is_some());
+        let goal = self.center(end);
+        // A little less than the straight line: a diagonal step is rounded down.
+        let left_um = |&cell: &usize| ((goal - self.center(cell)).norm() * 0.999e6) as u32;
+        astar(&start, |cell| free(cell).collect::<Vec<_>>(), left_um, |&cell| cell == end)
     }
 }
 
@@ -175,6 +226,38 @@ mod tests {
         assert_eq!(space.geodesic_m(left, right), None);
         let there = space.geodesic_m(Point2::new(-0.05, -0.35), Point2::new(-0.05, -0.25)).unwrap();
         assert!((there - 0.1).abs() < 0.01, "{there}");
+    }
+
+    fn length_m(points: &[Point2<f64>]) -> f64 {
+        points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+    }
+
+    #[test]
+    fn a_taut_way_is_as_long_as_geometry_says() {
+        // A wall from below up to y = -0.25: the shortest way is over its tip, 5 mm wide with the clearance of 10.
+        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
+            <rect x="-5" y="250" width="10" height="150"/></svg>"#;
+        let space = FreeSpace::new(&Map::from_svg("wall", svg).unwrap(), 0.01);
+        let (from, to) = (Point2::new(-0.15, -0.35), Point2::new(0.15, -0.35));
+        // Around two corners that keep 10 mm: two tangents and two arcs of that radius.
+        let (dx, dy, radius_m) = (0.145, 0.1, 0.01_f64);
+        let distance_m = f64::hypot(dx, dy);
+        let tangent_m = (distance_m * distance_m - radius_m * radius_m).sqrt();
+        let arc_rad = std::f64::consts::FRAC_PI_2 + (dx / distance_m).acos() - (radius_m / distance_m).acos();
+        let expected_m = 2.0 * (tangent_m + arc_rad * radius_m) + 0.01;
+        let found_m = length_m(&space.taut_way(from, to).unwrap());
+        assert!((found_m / expected_m - 1.0).abs() < 0.02, "{found_m} {expected_m}");
+        assert!(found_m < space.geodesic_m(from, to).unwrap());
+
+        let near = Point2::new(-0.149, -0.35);
+        assert!((length_m(&space.taut_way(from, near).unwrap()) - 0.001).abs() < 1e-12);
+        let straight = space.taut_way(Point2::new(-0.15, -0.22), Point2::new(0.15, -0.23)).unwrap();
+        assert_eq!(straight.len(), 2);
+        // Within a wall, it starts at the nearest place outside.
+        assert!(space.taut_way(Point2::new(0.0, -0.3), to).is_some());
+        assert!(
+            FreeSpace::new(&two_rooms(), 0.012).taut_way(Point2::new(-0.05, -0.3), Point2::new(0.05, -0.3)).is_none()
+        );
     }
 
     #[test]

@@ -87,6 +87,7 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::Trial(_) => ("trial_failed", None),
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
+            CommandError::Forgotten => ("forgotten", None),
             CommandError::Busy => ("busy", None),
             CommandError::Ended => ("ended", None),
         };

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use ts_rs::TS;
 
-use crate::evaluate::{Cell, Evaluation, EvaluationQuery, Failure, Progress, Row, Stage};
+use crate::evaluate::{Cell, Comparison, Evaluation, EvaluationQuery, Failure, PaperRow, Progress, Row, Stage};
 
 /// How an evaluation stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS)]
@@ -33,6 +33,8 @@ pub struct EvaluationCell {
     pub delivered: u32,
     /// How long it ran, to the last trial that ended.
     pub elapsed_s: f64,
+    /// The paper's numbers for it, if it has any.
+    pub paper: Option<PaperRow>,
 }
 
 /// An evaluation without its rows.
@@ -88,6 +90,8 @@ pub struct EvaluationReport {
     pub summary: EvaluationSummary,
     /// Rows of the cells that are through, in the order of the cells; those of `ferry evaluate --json`.
     pub rows: Vec<Row>,
+    /// Every two controllers of the same map and disturbances among them.
+    pub comparisons: Vec<Comparison>,
     /// Their trials whose bead did not arrive.
     pub failures: Vec<EvaluationFailure>,
 }
@@ -122,6 +126,7 @@ impl EvaluationSummary {
             message,
             cells: cells
                 .map(|(cell, at)| EvaluationCell {
+                    paper: PaperRow::of(&cell),
                     cell,
                     done: at.done,
                     delivered: at.delivered,
@@ -143,6 +148,7 @@ impl From<&Evaluation> for EvaluationReport {
             .flat_map(|(result, cell)| result.failures.iter().map(move |failure| EvaluationFailure::of(cell, failure)));
         Self {
             failures: failures.collect(),
+            comparisons: Comparison::all(&progress.done(&evaluation.cells)),
             rows: results.iter().map(|result| result.row.clone()).collect(),
             summary: EvaluationSummary::at(evaluation, progress),
         }
@@ -162,7 +168,7 @@ impl EvaluationFailure {
             trouble: failure.trouble.clone(),
             refusal: failure.refusal.clone(),
             steps: failure.steps,
-            disturbances: failure.disturbances,
+            disturbances: failure.disturbances_struck,
         }
     }
 }

@@ -3,7 +3,7 @@
 use ts_rs::{Config, TS};
 
 use super::*;
-use crate::evaluate::{Cell, EvaluationQuery, Row};
+use crate::evaluate::{Cell, Comparison, EvaluationQuery, PairedMean, PaperRow, Row};
 use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
 use crate::plant::{BeadMotion, BlockOrientation};
 use crate::scenario::{AttractorLaw, RlPolicy, SwitchingLaw, When};
@@ -72,9 +72,12 @@ fn generated() -> String {
         declaration::<EvaluationQuery>(c),
         declaration::<Cell>(c),
         declaration::<EvaluationStage>(c),
+        declaration::<PaperRow>(c),
         declaration::<EvaluationCell>(c),
         declaration::<EvaluationSummary>(c),
         declaration::<Row>(c),
+        declaration::<PairedMean>(c),
+        declaration::<Comparison>(c),
         declaration::<EvaluationFailure>(c),
         declaration::<EvaluationReport>(c),
         declaration::<Evaluations>(c),

@@ -64,7 +64,7 @@ impl Scenario {
             map: map_name.to_owned(),
             controller,
             positioner: None,
-            seed: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(index),
+            seed: trial_seed(seed, index),
             parameters: Parameters::default(),
             start_m: Some(start),
             goal_m: Some(goal),
@@ -72,6 +72,12 @@ impl Scenario {
             script: Vec::new(),
         })
     }
+}
+
+/// A trial's own seed: of 53 bits, so that links and pages hold it as a number.
+fn trial_seed(seed: u64, index: u64) -> u64 {
+    const BITS: u32 = 53;
+    (seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (u64::BITS - BITS)).wrapping_add(index) & ((1 << BITS) - 1)
 }
 
 fn draw_pair(map: &Map, space: &FreeSpace, rng: &mut impl Rng) -> Option<(Point2<f64>, Point2<f64>)> {

@@ -47,17 +47,13 @@ impl Shipped {
         names
     }
 
-    /// A shipped scenario by name, or a file when `name_or_path` ends in `.json`.
-    pub fn open(name_or_path: &str) -> Result<Self, ShippedError> {
-        let unreadable = |reason: String| ShippedError::Unreadable { path: name_or_path.to_owned(), reason };
-        let bytes = if name_or_path.ends_with(".json") {
-            std::fs::read(name_or_path).map_err(|error| unreadable(error.to_string()))?
-        } else {
-            let file = Files::get(&format!("{name_or_path}.json"));
-            file.ok_or_else(|| ShippedError::Unknown { name: name_or_path.to_owned() })?.data.into_owned()
-        };
+    /// A shipped scenario by name.
+    pub fn open(name: &str) -> Result<Self, ShippedError> {
+        let file = Files::get(&format!("{name}.json"));
+        let bytes = file.ok_or_else(|| ShippedError::Unknown { name: name.to_owned() })?.data;
         let mut reader = serde_json::Deserializer::from_slice(&bytes);
-        serde_path_to_error::deserialize(&mut reader).map_err(|error| unreadable(error.to_string()))
+        let read = serde_path_to_error::deserialize(&mut reader);
+        read.map_err(|error| ShippedError::Unreadable { path: name.to_owned(), reason: error.to_string() })
     }
 }
 

@@ -27,7 +27,7 @@ impl Timeline {
         }
         self.moments.push_back(state);
         let oldest = self.moments.front().map_or(0, |state| state.world.tick);
-        while self.inputs.front().is_some_and(|&(tick, _)| tick <= oldest) {
+        while self.inputs.front().is_some_and(|&(tick, _)| tick < oldest) {
             self.inputs.pop_front();
         }
     }
@@ -41,6 +41,12 @@ impl Timeline {
     pub fn inputs_after(&self, tick: u64) -> Vec<(u64, Input)> {
         let after = self.inputs.partition_point(|&(at, _)| at <= tick);
         self.inputs.range(after..).cloned().collect()
+    }
+
+    /// All inputs since the trial was set up, while its beginning is kept.
+    pub fn inputs_from_start(&self) -> Option<Vec<(u64, Input)>> {
+        let (first, _) = self.range()?;
+        (first == 0).then(|| self.inputs.iter().cloned().collect())
     }
 
     /// Drops what lies after a tick.

@@ -15,7 +15,8 @@ use crate::control::step_is_due;
 use crate::geometry::Point2;
 use crate::scenario::Scenario;
 use crate::trial::{
-    Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError, TrialState,
+    Arena, Beginning, Case, Event, EventKind, Input, InputError, Sight, Sink, Source, Timed, Trial, TrialError,
+    TrialState,
 };
 
 /// Watchers get at most sixty views a second.
@@ -152,8 +153,21 @@ impl Worker {
             Request::Recall { tick, answer } => {
                 let _ = answer.send(self.recall(tick));
             }
+            Request::Case { answer } => {
+                let _ = answer.send(self.case());
+            }
         }
         Ok(())
+    }
+
+    /// The trial as a case, with all that it was told.
+    fn case(&self) -> Result<Case, CommandError> {
+        let tick = self.trial.state().world.tick;
+        let told = self.timeline.inputs_from_start().ok_or(CommandError::Forgotten)?;
+        let waiting = self.trial.waiting_inputs().iter().map(|input| (tick, input.clone()));
+        let inputs = told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting);
+        let inputs = inputs.map(|(tick, input)| Timed { tick, input }).collect();
+        Case::of(&self.trial, inputs).ok_or(CommandError::NoGoal { tick })
     }
 
     fn recall(&self, tick: u64) -> Result<Past, CommandError> {

@@ -1,5 +1,6 @@
 //! Disturbances: those of the scenario's script, those that strike at random, and the operator's.
 
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +19,8 @@ const LEAST_DISPLACEMENT_M: f64 = 0.15;
 pub struct Script {
     /// How many random displacements.
     pub remaining: u32,
+    /// How many of them have struck.
+    pub struck: u32,
     /// At which step of the present leg the next one strikes; drawn when the leg begins.
     pub at_leg_step: Option<u32>,
     /// The scenario's own that have not struck yet.
@@ -28,6 +31,29 @@ pub struct Script {
     pub drift_until: u64,
     /// Tick at which the tracker sees again.
     pub dropout_until: u64,
+}
+
+/// What is drawn for a random displacement.
+#[derive(Clone, Copy, Debug)]
+enum Draw {
+    Step,
+    Place,
+}
+
+impl Script {
+    /// The next displacement's generator: its own, so that every controller meets the same, whatever else was drawn.
+    fn draws(&self, seed: u64, draw: Draw) -> ChaCha8Rng {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        // The trial's own generator has stream 0.
+        rng.set_stream(1 + 2 * u64::from(self.struck) + draw as u64);
+        rng
+    }
+
+    /// Draws the step of a leg of `least_steps` at which the next displacement strikes.
+    pub(super) fn draw_step(&mut self, seed: u64, least_steps: u32) {
+        let share: f64 = self.draws(seed, Draw::Step).random();
+        self.at_leg_step = Some(1 + (share * f64::from(least_steps)) as u32);
+    }
 }
 
 impl Trial {
@@ -125,10 +151,12 @@ impl Trial {
     /// A random displacement: the bead is lifted to a free point far away and put down.
     pub(super) fn strike_at_random(&mut self) {
         let world = &mut self.state.world;
+        let mut rng = world.script.draws(self.scenario.seed, Draw::Place);
         world.script.at_leg_step = None;
         world.script.remaining -= 1;
+        world.script.struck += 1;
         let (map, space) = (&self.arena.map, &self.arena.space);
-        match far_point(map, space, world.plant.bead.position_m, &mut world.rng) {
+        match far_point(map, space, world.plant.bead.position_m, &mut rng) {
             Some(to) => self.strike(&Disturbance::Displace { x_m: to.x, y_m: to.y }),
             None => {
                 let text = "no disturbance: no free place is far enough from the bead";

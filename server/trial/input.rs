@@ -12,6 +12,7 @@ use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterEr
 
 /// One action; stands in the log at the tick that follows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
     SetGoal {

@@ -130,11 +130,10 @@ impl Trial {
         world.counters.leg_steps = 0;
         world.script.at_leg_step = None;
         if let (Some(goal), true) = (world.goal_m, world.script.remaining > 0) {
-            use rand::RngExt;
             // No path is shorter than the straight line, so a step before its end always comes.
             let step_m = world.parameters.transport_speed_m_s * crate::control::CONTROL_PERIOD_S;
             let least_steps = (((goal - tool).norm() - GOAL_RADIUS_M) / step_m).floor().max(1.0) as u32;
-            world.script.at_leg_step = Some(world.rng.random_range(1..=least_steps));
+            world.script.draw_step(self.scenario.seed, least_steps);
         }
     }
 

@@ -7,6 +7,8 @@ use crate::control::switching::Mode;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     sum_m: f64,
+    sum_x_m: f64,
+    sum_y_m: f64,
     ticks: u32,
     max_x_m: f64,
     max_y_m: f64,
@@ -20,6 +22,8 @@ impl Tally {
         }
         let error = moment.tracking_error_m();
         self.sum_m += error.norm();
+        self.sum_x_m += error.x.abs();
+        self.sum_y_m += error.y.abs();
         self.ticks += 1;
         self.max_x_m = self.max_x_m.max(error.x.abs());
         self.max_y_m = self.max_y_m.max(error.y.abs());
@@ -28,6 +32,11 @@ impl Tally {
     /// Mean distance of tool and bead; 0 before any tick of transport.
     pub fn mean_m(&self) -> f64 {
         self.sum_m / f64::from(self.ticks.max(1))
+    }
+
+    /// Mean difference in x and in y, without its sign.
+    pub fn mean_axes_m(&self) -> [f64; 2] {
+        [self.sum_x_m, self.sum_y_m].map(|sum_m| sum_m / f64::from(self.ticks.max(1)))
     }
 
     /// Largest difference in x and in y.

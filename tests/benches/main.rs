@@ -7,6 +7,7 @@ mod magnetics;
 mod perception;
 mod plant;
 mod policy;
+mod recording;
 
 use criterion::{criterion_group, criterion_main};
 
@@ -18,6 +19,7 @@ criterion_group!(
     camera::benches,
     perception::benches,
     errt::benches,
-    policy::benches
+    policy::benches,
+    recording::benches
 );
 criterion_main!(speed);

@@ -112,6 +112,7 @@ export const PAST = [
       // In the toolbar of the timeline.
       'button /^(?!Why)[A-Z][a-z -]* at \\d/': { see: dialogs, after: close },
       'button /^Why: /': { see: dialogs, after: close },
+      'link Keep as test case': { see: (lab) => lab.downloads },
       'button Previous event': { see: title, ready: inspect, after: close },
       'button Next event': { see: title, ready: inspect, after: close },
       'button Close': { see: dialogs, ready: inspect },

@@ -225,6 +225,7 @@ const EVALUATE = {
       least: 1,
       see: (lab) => lab.page.getByRole('row').count(),
     },
+    'link HTML': { least: 1, see: downloads },
     'link JSON': { least: 1, see: downloads },
     'link CSV': { least: 1, see: downloads },
   },

@@ -114,6 +114,7 @@ export async function evaluates({ lab, watch }) {
       cm(row.tracking_error_mean_m),
       cm(row.tracking_error_max_x_m),
       cm(row.tracking_error_max_y_m),
+      row.path_ratio_mean.toFixed(3),
       row.steps_mean.toFixed(1),
       row.switches_mean.toFixed(2),
       `${row.decision_ms_p50.toFixed(1)} · ${row.decision_ms_p99.toFixed(1)}`,
@@ -132,6 +133,9 @@ export async function evaluates({ lab, watch }) {
   for await (const chunk of await file.createReadStream()) chunks.push(chunk);
   const downloaded = JSON.parse(chunks.join(''));
   check(JSON.stringify(downloaded.rows) === JSON.stringify(report.rows), 'the file has other rows');
+  check((await page.getByTestId('comparison').count()) === 1, 'no paired difference');
+  const difference = await page.getByTestId('comparison').innerText();
+  check(difference.includes('ERRT − Attractor'), `the difference says: ${difference}`);
 }
 
 export async function cancelsAnEvaluation({ lab, browser, server }) {

@@ -1,5 +1,6 @@
 // Going back: why a switch came, and what other controllers would have done from a moment on.
 
+import { readFile } from 'node:fs/promises';
 import { check, until } from './harness.mjs';
 import { distance } from './lab.mjs';
 
@@ -115,4 +116,18 @@ export async function comparesControllers({ lab }) {
   await lab.button('Compare from here').click();
   await lab.notice('compare').waitFor({ timeout: 5000 });
   await lab.page.getByRole('tab', { name: 'Plots' }).click();
+}
+
+/** What was dragged a moment ago, as a file that the tests can repeat. */
+export async function keepsADragAsACase({ lab }) {
+  await lab.page.getByRole('tab', { name: 'Events' }).click();
+  const coming = lab.page.waitForEvent('download');
+  await lab.page.getByRole('link', { name: 'Keep as test case' }).click();
+  const download = await coming;
+  check(/-seed-\d+\.json$/.test(download.suggestedFilename()), download.suggestedFilename());
+  const kept = JSON.parse(await readFile(await download.path(), 'utf8'));
+  check(kept.scenario.map === lab.scene.map, 'another map');
+  const what = kept.inputs.map(({ input }) => Object.keys(input)[0]);
+  check(what.includes('set_goal') && what.includes('place'), `it holds ${what.join()}`);
+  check(kept.expect.deliveries >= 1, 'it expects nothing');
 }

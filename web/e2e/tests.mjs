@@ -33,7 +33,7 @@ import {
 import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
 import { PAIR } from './pair.mjs';
-import { comparesControllers, tellsWhy } from './past.mjs';
+import { comparesControllers, keepsADragAsACase, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
 import {
   disturbsInSpace,
@@ -366,6 +366,7 @@ export const TESTS = [
   ['kicks the bead', kicksTheBead],
   ['goes back in time', goesBackInTime],
   ['tells why a switch came', tellsWhy],
+  ['keeps a drag as a test case', keepsADragAsACase],
   ['compares controllers from a moment on', comparesControllers],
   ['shows that the bead can be taken', showsThatTheBeadCanBeTaken],
   ['puts the bead down while paused', placesTheBeadWhilePaused],

@@ -112,6 +112,24 @@ describe('a link', () => {
     }
   });
 
+  it('reads what the server writes beside a failure', () => {
+    // `server/scenario/link.rs` has the same line.
+    const text =
+      '#v=1&map=colon&controller=errt&seed=9007199254740991&start=-0.1234567890123,-0.3' +
+      '&goal=0.1,0.0000001&attractor_law=literal&threshold_m=0.08&disturbances=3';
+    const read = experimentFrom(text, KNOWN);
+    expect(read).toMatchObject({
+      kind: 'experiment',
+      experiment: {
+        seed: Number.MAX_SAFE_INTEGER,
+        start_m: [-0.1234567890123, -0.3],
+        goal_m: [0.1, 1e-7],
+        parameters: { attractor_law: 'literal', threshold_m: 0.08 },
+        disturbances: 3,
+      },
+    });
+  });
+
   it('reads well', () => {
     const scene = sceneOf('colon');
     scene.seed = 7;

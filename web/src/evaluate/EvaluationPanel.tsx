@@ -1,8 +1,9 @@
 // One evaluation: how far it is, its rows, its failures.
 
-import { Show, createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
-import type { EvaluationReport, EvaluationSummary } from '../protocol.gen';
+import type { EvaluationSummary } from '../protocol.gen';
+import { ComparisonTable } from './ComparisonTable';
 import { createReport, type EvaluationList } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
@@ -17,28 +18,7 @@ import {
   episodesDone,
   episodesInAll,
 } from './progress';
-import { csv, fileName, json } from './table';
-
-function Download(props: {
-  report: EvaluationReport;
-  ending: 'json' | 'csv';
-  type: string;
-  text: string;
-}): JSX.Element {
-  const [href, setHref] = createSignal<string>();
-  createEffect(() => {
-    const made = URL.createObjectURL(new Blob([props.text], { type: props.type }));
-    setHref(made);
-    onCleanup(() => {
-      URL.revokeObjectURL(made);
-    });
-  });
-  return (
-    <a class="button small" href={href()} download={fileName(props.report, props.ending)}>
-      {props.ending.toUpperCase()}
-    </a>
-  );
-}
+import { REPORTS, reportAddress } from './table';
 
 function Progress(props: {
   summary: EvaluationSummary;
@@ -127,9 +107,9 @@ export function EvaluationPanel(props: {
       </div>
       <EvaluationTable summary={props.summary} rows={report()?.rows ?? []} />
       <p class="hint">
-        Controllers of a map get the same starts, goals and seeds. The paper counts RL alone, on its
-        robot and in one maze, after which <em>colon</em> is drawn: 30 episodes without disturbances
-        and 30 with; how many each had it does not say, its figure shows three.
+        Controllers of a map get the same starts, goals, seeds and pushes. The paper counts RL
+        alone, on its robot and in one maze, after which <em>colon</em> is drawn: 30 episodes
+        without disturbances and 30 with; how many each had it does not say, its figure shows three.
       </p>
       <Show when={report()}>
         {(now) => (
@@ -137,14 +117,18 @@ export function EvaluationPanel(props: {
             <Show when={now().rows.length > 0}>
               <div class="downloads">
                 <span class="hint">Download</span>
-                <Download report={now()} ending="json" type="application/json" text={json(now())} />
-                <Download
-                  report={now()}
-                  ending="csv"
-                  type="text/csv"
-                  text={csv(now().rows, now().query.seed)}
-                />
+                <For each={REPORTS}>
+                  {(ending) => (
+                    <a class="button small" href={reportAddress(now().id, ending)} download="">
+                      {ending.toUpperCase()}
+                    </a>
+                  )}
+                </For>
               </div>
+            </Show>
+            <Show when={now().comparisons.length > 0}>
+              <h3>Paired differences</h3>
+              <ComparisonTable comparisons={now().comparisons} />
             </Show>
             <h3>Failures</h3>
             <FailureList lab={lab} report={now()} onLaboratory={props.onLaboratory} />

@@ -3,10 +3,9 @@
 import { For, Show, type JSX } from 'solid-js';
 import { fixed } from '../format';
 import { CONTROLLER_LABELS } from '../parameters';
-import type { EvaluationCell, EvaluationSummary, Row } from '../protocol.gen';
+import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../protocol.gen';
 import { IntervalBar } from './IntervalBar';
-import { paperRow, wilson95, type PaperRow } from './paper';
-import { cm, decisionWords, percentRange } from './table';
+import { cm, decisionWords, percentRange, ratio } from './table';
 
 function Share(props: {
   count: number;
@@ -52,6 +51,7 @@ function Ours(props: { row: Row }): JSX.Element {
       <td>{cm(props.row.tracking_error_mean_m)}</td>
       <td>{cm(props.row.tracking_error_max_x_m)}</td>
       <td>{cm(props.row.tracking_error_max_y_m)}</td>
+      <td>{ratio(props.row.path_ratio_mean)}</td>
       <td>{fixed(props.row.steps_mean, 1)}</td>
       <td>{fixed(props.row.switches_mean, 2)}</td>
       <td>{decisionWords(props.row)}</td>
@@ -70,25 +70,28 @@ function Pending(props: { cell: EvaluationCell; summary: EvaluationSummary }): J
     return ended ? `broken off after ${counted}` : `${counted} so far`;
   };
   return (
-    <td class="pending" colspan="8">
+    <td class="pending" colspan="9">
       {words()}
     </td>
   );
 }
 
 function Paper(props: { paper: PaperRow }): JSX.Element {
-  const interval = (): readonly [number, number] =>
-    wilson95(props.paper.successes, props.paper.episodes);
   return (
     <tr class="paper">
       <th scope="row" colspan="3">
         paper, {props.paper.section}: “{props.paper.printed}”
       </th>
-      <Share count={props.paper.successes} of={props.paper.episodes} interval={interval()} />
+      <Share
+        count={props.paper.successes}
+        of={props.paper.episodes}
+        interval={props.paper.successes_wilson95}
+      />
       <td class="none">–</td>
       <td>{cm(props.paper.tracking_error_mean_m)}</td>
       <td>{cm(props.paper.tracking_error_max_x_m)}</td>
       <td>{cm(props.paper.tracking_error_max_y_m)}</td>
+      <td class="none">–</td>
       <td class="none">–</td>
       <td class="none">–</td>
       <td class="none">–</td>
@@ -137,6 +140,11 @@ export function EvaluationTable(props: {
               unit="cm"
               title="Largest difference in y during transport, mean over the episodes"
             />
+            <Head
+              name="Way"
+              unit="of shortest"
+              title="The tool's way while it carries, over the shortest that the bead has room for; mean over the episodes that delivered"
+            />
             <Head name="Steps" title="Control steps, mean over the episodes" />
             <Head
               name="Switches"
@@ -166,7 +174,7 @@ export function EvaluationTable(props: {
                         {(row) => <Ours row={row()} />}
                       </Show>
                     </tr>
-                    <Show when={paperRow(cell())}>{(paper) => <Paper paper={paper()} />}</Show>
+                    <Show when={cell().paper}>{(paper) => <Paper paper={paper()} />}</Show>
                   </>
                 )}
               </Show>

@@ -10,6 +10,7 @@ export function cellOf(change: Partial<EvaluationCell> = {}): EvaluationCell {
     done: 0,
     delivered: 0,
     elapsed_s: 0,
+    paper: null,
     ...change,
   };
 }
@@ -36,8 +37,11 @@ export const ROW: Row = {
   delivered: 28,
   wilson95: [0.787, 0.982],
   tracking_error_mean_m: 0.0141,
+  tracking_error_mean_x_m: 0.009,
+  tracking_error_mean_y_m: 0.0085,
   tracking_error_max_x_m: 0.05,
   tracking_error_max_y_m: 0.0649,
+  path_ratio_mean: 1.043,
   steps_mean: 62.5,
   switches_mean: 6.1,
   disturbances_struck: 88,
@@ -46,5 +50,11 @@ export const ROW: Row = {
 };
 
 export function reportOf(change: Partial<EvaluationReport> = {}): EvaluationReport {
-  return { ...summaryOf({ stage: 'done', rows_done: 1 }), rows: [ROW], failures: [], ...change };
+  return {
+    ...summaryOf({ stage: 'done', rows_done: 1 }),
+    rows: [ROW],
+    comparisons: [],
+    failures: [],
+    ...change,
+  };
 }

@@ -24,48 +24,70 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
     lab.log();
     if (following) box.scrollTop = box.scrollHeight;
   });
+  /** Something is to be delivered, or was: a case can expect it. */
+  const caseAddress = (): string | undefined => {
+    const state = lab.state();
+    const session = lab.hello()?.session;
+    if (!state || session === undefined || (!state.goal_m && state.deliveries === 0))
+      return undefined;
+    return `/api/sessions/${encodeURIComponent(session)}/case.json`;
+  };
   return (
-    <div
-      ref={box}
-      class="log-lines"
-      role="log"
-      aria-live="off"
-      aria-label="Events"
-      tabindex="0"
-      onScroll={() => {
-        following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
-      }}
-    >
-      <Show when={lab.log().length === 0}>
-        <p class="placeholder">Nothing has happened yet.</p>
-      </Show>
-      <For each={lab.log()}>
-        {(line) => (
-          <p class="log-line" data-kind={line.kind}>
-            <span class="when number">
-              <Show when={told(line.event)} fallback={when(line)}>
-                {(event) => (
-                  <button
-                    type="button"
-                    class="link-like"
-                    aria-label={`Why: ${eventTitle(event())}`}
-                    title="Why?"
-                    onClick={() => {
-                      lab.inspect(event());
-                    }}
-                  >
-                    {when(line)}
-                  </button>
-                )}
-              </Show>
-            </span>
-            <span class="what">
-              {line.text}
-              <Show when={line.count > 1}> (×{line.count})</Show>
-            </span>
-          </p>
+    <div class="log">
+      <div
+        ref={box}
+        class="log-lines"
+        role="log"
+        aria-live="off"
+        aria-label="Events"
+        tabindex="0"
+        onScroll={() => {
+          following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
+        }}
+      >
+        <Show when={lab.log().length === 0}>
+          <p class="placeholder">Nothing has happened yet.</p>
+        </Show>
+        <For each={lab.log()}>
+          {(line) => (
+            <p class="log-line" data-kind={line.kind}>
+              <span class="when number">
+                <Show when={told(line.event)} fallback={when(line)}>
+                  {(event) => (
+                    <button
+                      type="button"
+                      class="link-like"
+                      aria-label={`Why: ${eventTitle(event())}`}
+                      title="Why?"
+                      onClick={() => {
+                        lab.inspect(event());
+                      }}
+                    >
+                      {when(line)}
+                    </button>
+                  )}
+                </Show>
+              </span>
+              <span class="what">
+                {line.text}
+                <Show when={line.count > 1}> (×{line.count})</Show>
+              </span>
+            </p>
+          )}
+        </For>
+      </div>
+      <Show when={caseAddress()}>
+        {(address) => (
+          <a
+            class="button small"
+            href={address()}
+            download=""
+            title="The trial with all that was done in it, as a file: put into tests/cases, the tests repeat it"
+          >
+            Keep as test case
+          </a>
         )}
-      </For>
+      </Show>
     </div>
   );
 }

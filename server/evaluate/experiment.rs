@@ -1,0 +1,276 @@
+//! Random trials in bulk: the same starts, goals, seeds and pushes for every controller.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::Cell;
+use super::course::Course;
+use super::figure::Trace;
+use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
+use crate::image::CameraFrame;
+use crate::map::{FreeSpace, MapError};
+use crate::plant::BEAD_RADIUS_M;
+use crate::scenario::{Parameters, Scenario};
+use crate::trial::{Arena, Beginning, Nowhere, Phase, Sink, Source, Tally, TickRecord, Trial, TrialError};
+
+/// A map ready for many trials.
+pub struct Venue {
+    /// Where they take place.
+    pub arena: Arc<Arena>,
+    /// What the bead has room in, for shortest ways.
+    room: FreeSpace,
+    /// A camera a worker: they are cheap beside the trials, and none waits for another.
+    cameras: Mutex<Vec<Camera>>,
+}
+
+impl Venue {
+    /// Makes an arena ready.
+    pub fn of(arena: Arc<Arena>) -> Arc<Self> {
+        let room = FreeSpace::new(&arena.map, BEAD_RADIUS_M);
+        Arc::new(Self { arena, room, cameras: Mutex::default() })
+    }
+
+    /// What looks at this map; given back by [`Self::keep`].
+    fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
+        let kept = self.cameras.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        kept.map_or_else(|| self.arena.camera(gpu), Ok)
+    }
+
+    fn keep(&self, camera: Camera) {
+        self.cameras.lock().unwrap_or_else(PoisonError::into_inner).push(camera);
+    }
+}
+
+/// The trials of one row of the table.
+#[derive(Clone)]
+pub struct Experiment {
+    /// What the row is about.
+    pub cell: Cell,
+    /// Where.
+    pub venue: Arc<Venue>,
+    /// Name or path of the map, as scenarios tell it.
+    pub map: String,
+    /// How many trials.
+    pub episodes: u32,
+    /// Seed of the trials: the same for every controller.
+    pub seed: u64,
+    /// Parameters of all trials.
+    pub parameters: Parameters,
+}
+
+impl Experiment {
+    /// The trial of an index: whatever the controller, it starts and goes to the same places.
+    pub fn scenario(&self, index: u32) -> Result<Scenario, TrialError> {
+        let arena = &self.venue.arena;
+        let random = Scenario::random(
+            &arena.map,
+            &self.map,
+            &arena.space,
+            self.cell.controller,
+            self.cell.disturbances,
+            self.seed,
+            u64::from(index),
+        )?;
+        Ok(Scenario { parameters: self.parameters.clone(), ..random })
+    }
+}
+
+/// One trial's result.
+#[derive(Clone, Debug)]
+pub struct Episode {
+    /// Which trial of the seed.
+    pub index: u32,
+    /// How it was set up.
+    pub scenario: Scenario,
+    /// Whether the tool came within 2 cm of the goal: the paper's success.
+    pub reached: bool,
+    /// Whether the bead did: ours.
+    pub delivered: bool,
+    /// How it ended.
+    pub outcome: String,
+    /// What kept sub-controller 2 from the goal in the end, if anything did.
+    pub trouble: Option<String>,
+    /// Why the arm held in the end, if it did.
+    pub refusal: Option<String>,
+    /// Tracking errors during transport.
+    pub tally: Tally,
+    /// Way of the tool over the shortest, of a trial that delivered.
+    pub path_ratio: Option<f64>,
+    /// Control steps.
+    pub steps: u32,
+    /// Switches of the active sub-controller.
+    pub switches: u32,
+    /// Disturbances that struck.
+    pub disturbances: u32,
+    /// Seconds a control step, camera and decision, on the wall clock.
+    pub decision_s: Vec<f64>,
+    /// Its course, to be drawn: of a row's first trial.
+    pub trace: Option<Box<Trace>>,
+}
+
+/// Why an experiment could not run.
+#[derive(Debug, thiserror::Error)]
+pub enum EvaluateError {
+    /// `episodes` is zero or absurd.
+    #[error("episodes is {0}, it must be 1 to 100000")]
+    Episodes(u32),
+    /// There is no such trial.
+    #[error("episode is {index}, it must be 0 to {}", episodes - 1)]
+    Episode {
+        /// The index asked for.
+        index: u32,
+        /// How many there are.
+        episodes: u32,
+    },
+    /// A trial could not be made or go on.
+    #[error(transparent)]
+    Trial(#[from] TrialError),
+    /// No camera.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// A recording could not begin.
+    #[error("{0}")]
+    Recording(String),
+    /// Somebody wanted no more of it.
+    #[error("stopped before its end")]
+    Stopped,
+}
+
+impl From<MapError> for EvaluateError {
+    fn from(error: MapError) -> Self {
+        Self::Trial(error.into())
+    }
+}
+
+/// Makes what an episode is recorded to.
+pub type Recorders<'a> = &'a (dyn Fn(&Experiment, u32) -> Result<Box<dyn Sink>, EvaluateError> + Sync);
+
+/// Records nothing.
+pub fn unrecorded(_: &Experiment, _: u32) -> Result<Box<dyn Sink>, EvaluateError> {
+    Ok(Box::new(Nowhere))
+}
+
+/// Who wants to know, while an experiment runs.
+pub struct Watch<'a> {
+    /// Turns true when nobody wants more of it: [`EvaluateError::Stopped`].
+    pub stop: &'a AtomicBool,
+    /// Called after each trial, with the number of its experiment.
+    pub progress: &'a (dyn Fn(usize, &Episode) + Sync),
+    /// What each trial is recorded to.
+    pub recorders: Recorders<'a>,
+}
+
+/// An eye that notes whether somebody looked.
+struct Noting<'a> {
+    eye: &'a mut dyn Eye,
+    looked: bool,
+}
+
+impl Eye for Noting<'_> {
+    fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
+        self.looked = true;
+        self.eye.capture(subject)
+    }
+}
+
+/// Runs a trial to its end; `watch` sees every tick, and may break it off: [`EvaluateError::Stopped`].
+pub fn episode(
+    scenario: Scenario,
+    venue: &Venue,
+    eye: &mut dyn Eye,
+    sink: &mut dyn Sink,
+    watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
+) -> Result<Episode, EvaluateError> {
+    let mut trial = Trial::new(scenario.clone(), venue.arena.clone())?;
+    sink.begin(&trial, Beginning::SetUp);
+    let (mut tally, mut course, mut decision_s) = (Tally::default(), Course::default(), Vec::new());
+    loop {
+        let mut noting = Noting { eye, looked: false };
+        let started = Instant::now();
+        let record = trial.tick(Source::Eye(&mut noting))?;
+        if noting.looked {
+            decision_s.push(started.elapsed().as_secs_f64());
+        }
+        if watch(&record).is_break() {
+            return Err(EvaluateError::Stopped);
+        }
+        sink.record(&record);
+        let moment = &record.moment;
+        tally.add(moment);
+        course.add(moment);
+        if !moment.phase.is_final() {
+            continue;
+        }
+        let (counters, delivered) = (moment.counters, moment.phase == Phase::Delivered);
+        return Ok(Episode {
+            index: 0,
+            reached: trial.state().world.reached_tick.is_some(),
+            delivered,
+            outcome: moment.phase.to_string(),
+            trouble: trial.state().mind.carrier.trouble().map(|trouble| trouble.to_string()),
+            refusal: moment.refusal.clone(),
+            tally,
+            path_ratio: scenario.goal_m.filter(|_| delivered).and_then(|goal| course.ratio(&venue.room, goal)),
+            steps: counters.steps,
+            switches: counters.switches,
+            disturbances: counters.disturbances,
+            decision_s,
+            trace: None,
+            scenario,
+        });
+    }
+}
+
+/// Runs experiments on all threads of the present pool, and returns the episodes of each.
+pub fn run(experiments: &[Experiment], gpu: &Arc<Gpu>, watch: &Watch<'_>) -> Result<Vec<Vec<Episode>>, EvaluateError> {
+    let mut wanted = Vec::new();
+    for (number, experiment) in experiments.iter().enumerate() {
+        if !(1..=100_000).contains(&experiment.episodes) {
+            return Err(EvaluateError::Episodes(experiment.episodes));
+        }
+        wanted.extend((0..experiment.episodes).map(|index| (number, index)));
+    }
+    let done = wanted.into_par_iter().map(|(number, index)| {
+        let episode = run_one(&experiments[number], index, gpu, watch)?;
+        (watch.progress)(number, &episode);
+        Ok((number, episode))
+    });
+    let mut of_each: Vec<Vec<Episode>> = experiments.iter().map(|_| Vec::new()).collect();
+    for (number, episode) in done.collect::<Result<Vec<_>, EvaluateError>>()? {
+        of_each[number].push(episode);
+    }
+    Ok(of_each)
+}
+
+/// Runs one trial of an experiment, with a camera of its venue.
+pub fn run_one(
+    experiment: &Experiment,
+    index: u32,
+    gpu: &Arc<Gpu>,
+    watch: &Watch<'_>,
+) -> Result<Episode, EvaluateError> {
+    if index >= experiment.episodes {
+        return Err(EvaluateError::Episode { index, episodes: experiment.episodes });
+    }
+    let stopped = || watch.stop.load(Ordering::Relaxed);
+    if stopped() {
+        return Err(EvaluateError::Stopped);
+    }
+    let venue = &experiment.venue;
+    let scenario = experiment.scenario(index)?;
+    let mut trace = (index == 0).then(|| Box::new(Trace::of(&venue.arena.map, &scenario)));
+    let mut camera = venue.camera(gpu)?;
+    let mut sink = (watch.recorders)(experiment, index)?;
+    let ran = episode(scenario, venue, &mut camera, &mut *sink, &mut |record| {
+        if let Some(trace) = &mut trace {
+            trace.add(record);
+        }
+        if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    venue.keep(camera);
+    Ok(Episode { index, trace, ..ran })
+}

@@ -1,0 +1,129 @@
+//! What an evaluation came to, for people and programs.
+
+mod html;
+
+use serde::Serialize;
+
+use super::{Cell, Comparison, Episode, Failure, PaperRow, Row};
+
+/// A table of rows, and what belongs to it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Version of Ferry.
+    pub ferry: String,
+    /// What rendered.
+    pub adapter: String,
+    /// Seed of the trials.
+    pub seed: u64,
+    /// Rows in the order of the cells.
+    pub rows: Vec<Row>,
+    /// Every two controllers of the same map and disturbances.
+    pub comparisons: Vec<Comparison>,
+    /// Trials whose bead did not arrive.
+    pub failures: Vec<Failure>,
+    /// One a row: the paper's numbers.
+    #[serde(skip)]
+    paper: Vec<Option<PaperRow>>,
+    /// One a row: its first trial as a figure.
+    #[serde(skip)]
+    figures: Vec<Option<String>>,
+}
+
+/// A file could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The CSV writer's words.
+    #[error("report: {0}")]
+    Csv(#[from] csv::Error),
+    /// The CSV writer's buffer.
+    #[error("report: {0}")]
+    Buffer(String),
+}
+
+impl Report {
+    /// Of cells and their episodes.
+    pub fn of(adapter: &str, seed: u64, done: &[(&Cell, &[Episode])]) -> Self {
+        let figure = |episodes: &[Episode]| episodes.iter().find_map(|e| e.trace.as_ref())?.to_svg().ok();
+        let failures =
+            done.iter().flat_map(|(cell, episodes)| episodes.iter().filter_map(|episode| Failure::of(cell, episode)));
+        Self {
+            ferry: env!("CARGO_PKG_VERSION").to_owned(),
+            adapter: adapter.to_owned(),
+            seed,
+            rows: done.iter().map(|(cell, episodes)| Row::of(cell, episodes)).collect(),
+            comparisons: Comparison::all(done),
+            failures: failures.collect(),
+            paper: done.iter().map(|(cell, _)| PaperRow::of(cell)).collect(),
+            figures: done.iter().map(|(_, episodes)| figure(episodes)).collect(),
+        }
+    }
+
+    /// The rows as CSV (RFC 4180), with a head.
+    pub fn to_csv(&self) -> Result<String, ReportError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in &self.rows {
+            writer.serialize(CsvRow::from(row))?;
+        }
+        let bytes = writer.into_inner().map_err(|error| ReportError::Buffer(error.to_string()))?;
+        String::from_utf8(bytes).map_err(|error| ReportError::Buffer(error.to_string()))
+    }
+
+    /// One HTML file that needs no other; `page` is the address of a laboratory's page, for the links.
+    pub fn to_html(&self, page: &str) -> String {
+        html::document(self, page)
+    }
+}
+
+/// A row without lists, which CSV has none of.
+#[derive(Serialize)]
+struct CsvRow<'a> {
+    controller: &'a str,
+    map: &'a str,
+    disturbances: u32,
+    episodes: u32,
+    successes: u32,
+    successes_wilson95_low: f64,
+    successes_wilson95_high: f64,
+    delivered: u32,
+    delivered_wilson95_low: f64,
+    delivered_wilson95_high: f64,
+    tracking_error_mean_m: f64,
+    tracking_error_mean_x_m: f64,
+    tracking_error_mean_y_m: f64,
+    tracking_error_max_x_m: f64,
+    tracking_error_max_y_m: f64,
+    path_ratio_mean: Option<f64>,
+    steps_mean: f64,
+    switches_mean: f64,
+    disturbances_struck: u32,
+    decision_ms_p50: f64,
+    decision_ms_p99: f64,
+}
+
+impl<'a> From<&'a Row> for CsvRow<'a> {
+    fn from(row: &'a Row) -> Self {
+        Self {
+            controller: &row.controller,
+            map: &row.map,
+            disturbances: row.disturbances,
+            episodes: row.episodes,
+            successes: row.successes,
+            successes_wilson95_low: row.successes_wilson95[0],
+            successes_wilson95_high: row.successes_wilson95[1],
+            delivered: row.delivered,
+            delivered_wilson95_low: row.wilson95[0],
+            delivered_wilson95_high: row.wilson95[1],
+            tracking_error_mean_m: row.tracking_error_mean_m,
+            tracking_error_mean_x_m: row.tracking_error_mean_x_m,
+            tracking_error_mean_y_m: row.tracking_error_mean_y_m,
+            tracking_error_max_x_m: row.tracking_error_max_x_m,
+            tracking_error_max_y_m: row.tracking_error_max_y_m,
+            path_ratio_mean: row.path_ratio_mean,
+            steps_mean: row.steps_mean,
+            switches_mean: row.switches_mean,
+            disturbances_struck: row.disturbances_struck,
+            decision_ms_p50: row.decision_ms_p50,
+            decision_ms_p99: row.decision_ms_p99,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Intervals for what was counted and measured.
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// The standard normal's quantile for 95 %.
+const Z: f64 = 1.959_963_984_540_054;
+
+/// Wilson's score interval at 95 % for `k` of `n` (Wilson 1927).
+pub fn wilson95(k: u32, n: u32) -> [f64; 2] {
+    let (k, n) = (f64::from(k), f64::from(n));
+    let (p, z2) = (k / n, Z * Z);
+    let center = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    let half = Z / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+    [(center - half).max(0.0), (center + half).min(1.0)]
+}
+
+/// How often two succeed and fail at the same trials.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairedCounts {
+    /// Both succeeded.
+    pub both: u32,
+    /// The first alone.
+    pub first: u32,
+    /// The second alone.
+    pub second: u32,
+    /// Neither.
+    pub neither: u32,
+}
+
+impl PairedCounts {
+    /// Share of successes of the first minus that of the second, and its interval at 95 % (Newcombe 1998,
+    /// "Improved confidence intervals for the difference between binomial proportions based on paired data", method
+    /// 10: Wilson's intervals joined, with a correlation corrected for continuity).
+    pub fn difference95(self) -> (f64, [f64; 2]) {
+        let [a, b, c, d] = [self.both, self.first, self.second, self.neither].map(f64::from);
+        let n = a + b + c + d;
+        let (p1, p2) = ((a + b) / n, (a + c) / n);
+        let total = self.both + self.first + self.second + self.neither;
+        let [l1, u1] = wilson95(self.both + self.first, total);
+        let [l2, u2] = wilson95(self.both + self.second, total);
+        let product = (a + b) * (c + d) * (a + c) * (b + d);
+        let correlation = match a * d - b * c {
+            _ if product == 0.0 => 0.0,
+            excess if excess > n / 2.0 => (excess - n / 2.0) / product.sqrt(),
+            excess if excess >= 0.0 => 0.0,
+            excess => excess / product.sqrt(),
+        };
+        let joined = |x: f64, y: f64| (x * x - 2.0 * correlation * x * y + y * y).max(0.0).sqrt();
+        let difference = p1 - p2;
+        let [low, high] = [difference - joined(p1 - l1, u2 - p2), difference + joined(u1 - p1, p2 - l2)];
+        (difference, [low.max(-1.0), high.min(1.0)])
+    }
+}
+
+/// Mean of differences, and its interval at 95 % by Student's t; `None` for fewer than two.
+pub fn mean95(values: &[f64]) -> Option<(f64, [f64; 2])> {
+    let n = values.len() as f64;
+    if values.len() < 2 {
+        return None;
+    }
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    let t = StudentsT::new(0.0, 1.0, n - 1.0).ok()?.inverse_cdf(0.975);
+    let half = t * (variance / n).sqrt();
+    Some((mean, [mean - half, mean + half]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wilson_agrees_with_published_values() {
+        // statsmodels proportion_confint(29, 30, method="wilson"); Brown, Cai & DasGupta (2001).
+        let [low, high] = wilson95(29, 30);
+        assert!((low - 0.83329).abs() < 1e-4 && (high - 0.99409).abs() < 1e-4, "{low} {high}");
+        let [low, high] = wilson95(30, 30);
+        assert!((low - 0.88649).abs() < 1e-4 && (high - 1.0).abs() < 1e-12, "{low} {high}");
+    }
+
+    #[test]
+    fn newcombe_agrees_with_published_values() {
+        // The worked example of Altman et al., "Statistics with Confidence" (2000), §6: 0.20 (0.056 to 0.329).
+        let counts = PairedCounts { both: 20, first: 12, second: 2, neither: 16 };
+        let (difference, [low, high]) = counts.difference95();
+        assert!((difference - 0.2).abs() < 1e-12);
+        assert!((low - 0.0562).abs() < 1e-4 && (high - 0.3290).abs() < 1e-4, "{low} {high}");
+    }
+
+    #[test]
+    fn a_difference_turned_round_is_its_negative_and_none_is_not_certain() {
+        let counts = PairedCounts { both: 150, first: 30, second: 3, neither: 17 };
+        let turned = PairedCounts { first: counts.second, second: counts.first, ..counts };
+        let ((d, [low, high]), (t, [t_low, t_high])) = (counts.difference95(), turned.difference95());
+        assert!((d + t).abs() < 1e-12 && (low + t_high).abs() < 1e-12 && (high + t_low).abs() < 1e-12);
+        assert!(low < d && d < high && low > 0.0);
+        // All of 200 delivered by both says little about what lies below 2 %.
+        let (d, [low, high]) = PairedCounts { both: 200, ..PairedCounts::default() }.difference95();
+        assert!(d == 0.0 && (-0.03..-0.01).contains(&low) && (low + high).abs() < 1e-12, "{low} {high}");
+    }
+
+    #[test]
+    fn means_agree_with_students_table() {
+        // t of 0.975 with 4 degrees of freedom is 2.776.
+        let (mean, [low, high]) = mean95(&[1.0, 2.0, 3.0, 4.0, 5.0]).unwrap();
+        let half = 2.776_445 * (2.5_f64 / 5.0).sqrt();
+        assert!((mean - 3.0).abs() < 1e-12 && (low - (3.0 - half)).abs() < 1e-5 && (high - (3.0 + half)).abs() < 1e-5);
+        assert_eq!(mean95(&[1.0]), None);
+    }
+}

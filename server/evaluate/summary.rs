@@ -1,0 +1,155 @@
+//! Episodes added up: the rows of the table.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use super::statistics::wilson95;
+use super::{Cell, Episode};
+use crate::geometry::Point2;
+
+/// One row of the table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+pub struct Row {
+    /// Sub-controller 2.
+    pub controller: String,
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances a trial.
+    pub disturbances: u32,
+    /// Trials.
+    pub episodes: u32,
+    /// Trials whose tool reached the goal (paper's test).
+    pub successes: u32,
+    /// Wilson 95 % interval of `successes / episodes`.
+    pub successes_wilson95: [f64; 2],
+    /// Trials whose bead reached the goal.
+    pub delivered: u32,
+    /// Wilson 95 % interval of `delivered / episodes`.
+    pub wilson95: [f64; 2],
+    /// Mean over trials of the mean distance of tool and bead during transport.
+    pub tracking_error_mean_m: f64,
+    /// Mean over trials of the mean difference in x during transport, without its sign.
+    pub tracking_error_mean_x_m: f64,
+    /// The same in y.
+    pub tracking_error_mean_y_m: f64,
+    /// Mean over trials of the largest difference in x during transport.
+    pub tracking_error_max_x_m: f64,
+    /// The same in y.
+    pub tracking_error_max_y_m: f64,
+    /// Mean over trials that delivered of the tool's way over the shortest; none if none did.
+    pub path_ratio_mean: Option<f64>,
+    /// Mean control steps.
+    pub steps_mean: f64,
+    /// Mean switches.
+    pub switches_mean: f64,
+    /// Disturbances that struck, all trials together.
+    pub disturbances_struck: u32,
+    /// Median milliseconds a control step, camera included.
+    pub decision_ms_p50: f64,
+    /// 99th percentile.
+    pub decision_ms_p99: f64,
+}
+
+impl Row {
+    /// Adds the episodes of a cell up.
+    pub fn of(cell: &Cell, episodes: &[Episode]) -> Self {
+        let count = episodes.len() as u32;
+        let mean = |value: &dyn Fn(&Episode) -> f64| mean(episodes.iter().map(value)).unwrap_or_default();
+        let total = |flag: &dyn Fn(&Episode) -> bool| episodes.iter().filter(|e| flag(e)).count() as u32;
+        let mut decisions: Vec<f64> = episodes.iter().flat_map(|e| e.decision_s.iter().copied()).collect();
+        decisions.sort_by(f64::total_cmp);
+        let last = decisions.len().saturating_sub(1) as f64;
+        let quantile_ms = |q: f64| decisions.get((last * q).round() as usize).map_or(0.0, |s| s * 1e3);
+        let (reached, delivered) = (total(&|e| e.reached), total(&|e| e.delivered));
+        Self {
+            controller: cell.controller.as_str().to_owned(),
+            map: cell.map.clone(),
+            disturbances: cell.disturbances,
+            episodes: count,
+            successes: reached,
+            successes_wilson95: wilson95(reached, count),
+            delivered,
+            wilson95: wilson95(delivered, count),
+            tracking_error_mean_m: mean(&|e| e.tally.mean_m()),
+            tracking_error_mean_x_m: mean(&|e| e.tally.mean_axes_m()[0]),
+            tracking_error_mean_y_m: mean(&|e| e.tally.mean_axes_m()[1]),
+            tracking_error_max_x_m: mean(&|e| e.tally.max_m()[0]),
+            tracking_error_max_y_m: mean(&|e| e.tally.max_m()[1]),
+            path_ratio_mean: self::mean(episodes.iter().filter_map(|e| e.path_ratio)),
+            steps_mean: mean(&|e| f64::from(e.steps)),
+            switches_mean: mean(&|e| f64::from(e.switches)),
+            disturbances_struck: episodes.iter().map(|e| e.disturbances).sum(),
+            decision_ms_p50: quantile_ms(0.5),
+            decision_ms_p99: quantile_ms(0.99),
+        }
+    }
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+/// A trial whose bead did not arrive, with what it takes to set it up again.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Failure {
+    /// Sub-controller 2.
+    pub controller: String,
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances.
+    pub disturbances: u32,
+    /// Which trial of the evaluation's seed.
+    pub index: u32,
+    /// Seed of the trial itself.
+    pub seed: u64,
+    /// Bead and tool at the start.
+    pub start_m: Option<Point2<f64>>,
+    /// Goal.
+    pub goal_m: Option<Point2<f64>>,
+    /// Whether the tool came to the goal.
+    pub reached: bool,
+    /// How it ended.
+    pub outcome: String,
+    /// What kept sub-controller 2 from the goal, if anything did.
+    pub trouble: Option<String>,
+    /// Why the arm held in the end, if it did.
+    pub refusal: Option<String>,
+    /// Control steps.
+    pub steps: u32,
+    /// Disturbances that struck.
+    pub disturbances_struck: u32,
+    /// The trial as the part of the page's address after `#`; none for a map that the page does not have.
+    pub link: Option<String>,
+}
+
+impl Failure {
+    /// Of a trial that failed; `None` of one that delivered.
+    pub fn of(cell: &Cell, episode: &Episode) -> Option<Self> {
+        if episode.delivered {
+            return None;
+        }
+        Some(Self {
+            controller: cell.controller.as_str().to_owned(),
+            map: cell.map.clone(),
+            disturbances: cell.disturbances,
+            index: episode.index,
+            seed: episode.scenario.seed,
+            start_m: episode.scenario.start_m,
+            goal_m: episode.scenario.goal_m,
+            reached: episode.reached,
+            outcome: episode.outcome.clone(),
+            trouble: episode.trouble.clone(),
+            refusal: episode.refusal.clone(),
+            steps: episode.steps,
+            disturbances_struck: episode.disturbances,
+            link: episode.scenario.link(),
+        })
+    }
+
+    /// Why, in one line.
+    pub fn reason(&self) -> String {
+        let more = [&self.trouble, &self.refusal].into_iter().flatten().map(|why| format!("; {why}"));
+        format!("{}{}", self.outcome, more.collect::<String>())
+    }
+}

@@ -1,0 +1,135 @@
+//! Cases: a scenario, what an operator did in it, and what is expected of it. A drag on the page becomes one.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Arena, Counters, Input, InputError, Source, TickRecord, Trial, TrialError};
+use crate::camera::Eye;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::{Scenario, Shipped, ShippedError};
+
+/// What is not delivered yet has so long to be.
+const TIME_TO_DELIVER_S: f64 = 60.0;
+/// What is delivered already may come so much later: with another adapter images differ, and decisions with them.
+const SLACK_S: f64 = 10.0;
+
+/// A trial that can be run again with whatever the controllers have become.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// What it shows.
+    pub about: String,
+    /// How the trial is set up.
+    pub scenario: Scenario,
+    /// What is done in it, in order of ticks.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<Timed>,
+    /// What must come of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expect: Option<Expectation>,
+}
+
+/// An input and its time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Timed {
+    /// It comes before the tick after this one.
+    pub tick: u64,
+    /// What.
+    pub input: Input,
+}
+
+/// So many deliveries by then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expectation {
+    /// Deliveries since the start.
+    pub deliveries: u32,
+    /// The last tick that counts.
+    pub by_tick: u64,
+}
+
+/// What a case came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseOutcome {
+    /// Its last tick.
+    pub tick: u64,
+    /// How it stood then.
+    pub phase: String,
+    /// Counters then.
+    pub counters: Counters,
+    /// Inputs that the trial's course made impossible.
+    pub refused: Vec<(u64, InputError)>,
+}
+
+impl CaseOutcome {
+    /// Whether it is what was expected; without an expectation, always.
+    pub fn meets(&self, case: &Case) -> bool {
+        case.expect.is_none_or(|expect| self.counters.deliveries >= expect.deliveries && self.tick <= expect.by_tick)
+    }
+}
+
+impl Case {
+    /// A shipped scenario by name, or a file when `name_or_path` ends in `.json`.
+    pub fn open(name_or_path: &str) -> Result<Self, ShippedError> {
+        if !name_or_path.ends_with(".json") {
+            let Shipped { about, scenario } = Shipped::open(name_or_path)?;
+            return Ok(Self { about, scenario, inputs: Vec::new(), expect: None });
+        }
+        let unreadable = |reason: String| ShippedError::Unreadable { path: name_or_path.to_owned(), reason };
+        let bytes = std::fs::read(name_or_path).map_err(|error| unreadable(error.to_string()))?;
+        let mut reader = serde_json::Deserializer::from_slice(&bytes);
+        serde_path_to_error::deserialize(&mut reader).map_err(|error| unreadable(error.to_string()))
+    }
+
+    /// Of a trial and all that it was told: what is under way is expected to be delivered. `None` if there is nothing
+    /// to expect.
+    pub fn of(trial: &Trial, inputs: Vec<Timed>) -> Option<Self> {
+        let world = &trial.state().world;
+        let ticks = |time_s: f64| (time_s / SERVO_PERIOD_S) as u64;
+        let under_way = world.goal_m.is_some() && world.counters.goal_steps > 0;
+        let deliveries = world.counters.deliveries + u32::from(under_way);
+        let time_s = if under_way { TIME_TO_DELIVER_S } else { SLACK_S };
+        let scenario = trial.scenario().clone();
+        let about = format!("{} on {}, with what a hand did.", scenario.controller.as_str(), scenario.map);
+        let expect = Expectation { deliveries, by_tick: world.tick + ticks(time_s) };
+        (deliveries > 0).then_some(Self { about, scenario, inputs, expect: Some(expect) })
+    }
+
+    /// Runs it in an arena made of its map, until what is expected has come, or its time is over; without an
+    /// expectation, until it rests. `watch` sees every tick and may stop it.
+    pub fn run(
+        &self,
+        arena: &Arc<Arena>,
+        eye: &mut dyn Eye,
+        watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
+    ) -> Result<CaseOutcome, TrialError> {
+        let mut trial = Trial::new(self.scenario.clone(), arena.clone())?;
+        let mut inputs = self.inputs.iter().peekable();
+        let mut refused = Vec::new();
+        loop {
+            let tick = trial.state().world.tick;
+            while let Some(Timed { tick, input }) = inputs.next_if(|timed| timed.tick <= tick) {
+                if let Err(error) = trial.apply(input.clone()) {
+                    refused.push((*tick, error));
+                }
+            }
+            let record = trial.tick(Source::Eye(eye))?;
+            let stopped = watch(&record).is_break();
+            let moment = &record.moment;
+            let rests = moment.phase.is_final() && moment.hand.is_none();
+            let over = match self.expect {
+                Some(Expectation { deliveries, by_tick }) => {
+                    moment.counters.deliveries >= deliveries || record.tick >= by_tick
+                }
+                None => rests,
+            };
+            if stopped || (over && inputs.peek().is_none()) {
+                let (phase, counters) = (moment.phase.to_string(), moment.counters);
+                return Ok(CaseOutcome { tick: record.tick, phase, counters, refused });
+            }
+        }
+    }
+}
