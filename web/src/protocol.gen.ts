@@ -1325,6 +1325,43 @@ disturbances: number, };
 export type EvaluationStage = "waiting" | "running" | "done" | "cancelled" | "failed";
 
 /**
+ * The paper's numbers for a row.
+ */
+export type PaperRow = { 
+/**
+ * Where they stand.
+ */
+section: string, 
+/**
+ * Trials.
+ */
+episodes: number, 
+/**
+ * Trials whose tool reached the goal.
+ */
+successes: number, 
+/**
+ * Wilson 95 % interval of `successes / episodes`.
+ */
+successes_wilson95: [number, number], 
+/**
+ * As printed.
+ */
+printed: string, 
+/**
+ * Mean tracking error in both axes.
+ */
+tracking_error_mean_m: number | null, 
+/**
+ * Mean over trials of the largest in x.
+ */
+tracking_error_max_x_m: number | null, 
+/**
+ * The same in y.
+ */
+tracking_error_max_y_m: number | null, };
+
+/**
  * A cell of an evaluation, and how far it is.
  */
 export type EvaluationCell = { 
@@ -1340,6 +1377,10 @@ delivered: number,
  * How long it ran, to the last trial that ended.
  */
 elapsed_s: number, 
+/**
+ * The paper's numbers for it, if it has any.
+ */
+paper: PaperRow | null, 
 /**
  * Sub-controller 2.
  */
@@ -1423,6 +1464,14 @@ wilson95: [number, number],
  */
 tracking_error_mean_m: number, 
 /**
+ * Mean over trials of the mean difference in x during transport, without its sign.
+ */
+tracking_error_mean_x_m: number, 
+/**
+ * The same in y.
+ */
+tracking_error_mean_y_m: number, 
+/**
  * Mean over trials of the largest difference in x during transport.
  */
 tracking_error_max_x_m: number, 
@@ -1430,6 +1479,10 @@ tracking_error_max_x_m: number,
  * The same in y.
  */
 tracking_error_max_y_m: number, 
+/**
+ * Mean over trials that delivered of the tool's way over the shortest; none if none did.
+ */
+path_ratio_mean: number | null, 
 /**
  * Mean control steps.
  */
@@ -1450,6 +1503,80 @@ decision_ms_p50: number,
  * 99th percentile.
  */
 decision_ms_p99: number, };
+
+/**
+ * A mean difference.
+ */
+export type PairedMean = { 
+/**
+ * Mean.
+ */
+mean: number, 
+/**
+ * Its 95 % interval (Student's t).
+ */
+interval95: [number, number], };
+
+/**
+ * The first controller against the second, trial by trial: the same start, goal, seed and pushes.
+ */
+export type Comparison = { 
+/**
+ * Map.
+ */
+map: string, 
+/**
+ * Scripted disturbances a trial.
+ */
+disturbances: number, 
+/**
+ * The first.
+ */
+controller: string, 
+/**
+ * The second.
+ */
+against: string, 
+/**
+ * Trials.
+ */
+episodes: number, 
+/**
+ * Trials that both delivered.
+ */
+both: number, 
+/**
+ * That the first alone delivered.
+ */
+first_only: number, 
+/**
+ * That the second alone delivered.
+ */
+second_only: number, 
+/**
+ * That neither delivered.
+ */
+neither: number, 
+/**
+ * Share delivered by the first minus that by the second.
+ */
+delivered_difference: number, 
+/**
+ * Its 95 % interval (Newcombe 1998, method 10).
+ */
+delivered_difference95: [number, number], 
+/**
+ * Control steps of the first minus those of the second, where both delivered.
+ */
+steps: PairedMean | null, 
+/**
+ * The same of the mean distance of tool and bead during transport.
+ */
+tracking_error_mean_m: PairedMean | null, 
+/**
+ * The same of the way over the shortest.
+ */
+path_ratio: PairedMean | null, };
 
 /**
  * A trial whose bead did not arrive. With map, controller and disturbances of its cell, seed, start and goal set it
@@ -1509,6 +1636,10 @@ export type EvaluationReport = {
  * Rows of the cells that are through, in the order of the cells; those of `ferry evaluate --json`.
  */
 rows: Array<Row>, 
+/**
+ * Every two controllers of the same map and disturbances among them.
+ */
+comparisons: Array<Comparison>, 
 /**
  * Their trials whose bead did not arrive.
  */
