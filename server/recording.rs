@@ -8,6 +8,7 @@ mod archive;
 mod blueprint;
 mod entities;
 mod part;
+mod samples;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -31,6 +32,8 @@ const QUEUE: usize = 4096;
 const SIGHTS: usize = 16;
 /// Moments are logged at 25 Hz of simulated time; events and control steps always.
 const TICKS_A_SAMPLE: u64 = 5;
+/// Messages are taken from the queue this often at most.
+const GATHER: Duration = Duration::from_millis(20);
 /// After a tick was lost, so many more are let go between two offers to begin again.
 const LOST_TICKS_AN_OFFER: u64 = 64;
 
@@ -63,8 +66,13 @@ pub enum RecordingError {
 
 impl From<rerun::RecordingStreamError> for RecordingError {
     fn from(error: rerun::RecordingStreamError) -> Self {
-        Self::Rerun(error.to_string())
+        trouble(error)
     }
+}
+
+/// Rerun's, or an encoder's, in its own words.
+fn trouble(error: impl std::fmt::Display) -> RecordingError {
+    RecordingError::Rerun(error.to_string())
 }
 
 /// How a recording is kept.
@@ -249,35 +257,45 @@ impl Drop for Recorder {
     }
 }
 
-/// Writes until the queue's other end is gone, or something cannot be written.
+/// Writes until the queue's other end is gone, or something cannot be written. What comes soon after a message is
+/// taken together: to wake for every tick would cost a fast trial more than the writing.
 fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
     loop {
-        let message = inbox.recv_timeout(keeper.wait());
-        if let Ok(Message::Tick(told)) = &message
-            && told.sample.as_ref().is_some_and(|sample| sample.sight.is_some())
-        {
-            shared.sights.fetch_sub(1, Ordering::Relaxed);
-        }
-        if shared.stopped.get().is_some() && !matches!(message, Err(RecvTimeoutError::Disconnected)) {
-            continue;
-        }
-        let done = match message {
-            Ok(message) => keeper.write(message),
-            Err(RecvTimeoutError::Timeout) => keeper.flush(),
+        match inbox.recv_timeout(keeper.wait()) {
+            Ok(message) => write(&mut keeper, message, shared),
+            Err(RecvTimeoutError::Timeout) => note(keeper.flush(), shared),
             Err(RecvTimeoutError::Disconnected) => break,
-        };
-        match done {
-            Ok(()) if keeper.wants_next() => shared.part_is_over.store(true, Ordering::Relaxed),
-            Ok(()) => {}
-            Err(error) => {
-                tracing::error!(%error, "recording stopped");
-                // Set once: nothing is written after it.
-                let _ = shared.stopped.set(format!("stopped: {error}"));
-            }
+        }
+        std::thread::sleep(GATHER);
+        for message in inbox.try_iter() {
+            write(&mut keeper, message, shared);
+        }
+        if keeper.wants_next() {
+            shared.part_is_over.store(true, Ordering::Relaxed);
         }
     }
     if let Err(error) = keeper.close() {
         tracing::error!(%error, "recording could not be closed");
+    }
+}
+
+fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {
+    if let Message::Tick(told) = &message
+        && told.sample.as_ref().is_some_and(|sample| sample.sight.is_some())
+    {
+        shared.sights.fetch_sub(1, Ordering::Relaxed);
+    }
+    if shared.stopped.get().is_none() {
+        note(keeper.write(message), shared);
+    }
+}
+
+/// After the first failure nothing more is written.
+fn note(done: Result<(), RecordingError>, shared: &Shared) {
+    if let Err(error) = done {
+        tracing::error!(%error, "recording stopped");
+        // Set once.
+        let _ = shared.stopped.set(format!("stopped: {error}"));
     }
 }
 

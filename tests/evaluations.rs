@@ -89,7 +89,7 @@ async fn rows_are_those_of_the_command_line_every_time() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_failure_set_up_again_fails_again() {
     let lab = Laboratory::open().await;
-    let report = lab.begin(json!({"maps": ["colon"], "disturbances": [1], "seed": 2})).await;
+    let report = lab.begin(json!({"maps": ["colon"], "disturbances": [1], "seed": 4})).await;
     let report = lab.ended(&report).await;
     let failure = &report["failures"][0];
     let row = &report["rows"][0];

@@ -18,7 +18,7 @@ def read(path):
         timelines |= set(batch.schema.names) & {"tick", "sim_time", "log_tick", "log_time"}
         if "tick" in batch.schema.names:
             ticks += [tick for tick in batch.column("tick").to_pylist() if tick is not None]
-        if chunk.entity_path == "/world/tool":
+        if chunk.entity_path == "/world/tool" and "tick" in batch.schema.names:
             tool += [(tick, np.array(place[0])) for tick, place in zip(
                 batch.column("tick").to_pylist(), batch.column("Points3D:positions").to_pylist()) if place]
     for entry in reader.blueprints():

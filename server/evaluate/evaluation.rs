@@ -74,19 +74,15 @@ pub struct CellResult {
     pub row: Row,
     /// Trials whose bead did not arrive.
     pub failures: Vec<Failure>,
-    /// All its trials, in their order, without the times of their steps.
+    /// All its trials, in their order.
     pub episodes: Vec<Episode>,
 }
 
 impl CellResult {
     /// Adds a cell's episodes up.
-    pub(super) fn of(cell: &Cell, mut episodes: Vec<Episode>) -> Self {
-        let row = Row::of(cell, &episodes);
-        for episode in &mut episodes {
-            episode.decision_s = Vec::new();
-        }
+    pub(super) fn of(cell: &Cell, episodes: Vec<Episode>) -> Self {
         let failures = episodes.iter().filter_map(|episode| Failure::of(cell, episode)).collect();
-        Self { row, failures, episodes }
+        Self { row: Row::of(cell, &episodes), failures, episodes }
     }
 }
 

@@ -16,14 +16,14 @@ use rerun::sink::SinkFlushError;
 use rerun::{AsComponents, RecordingStream};
 
 use super::blueprint::blueprint;
-use super::{Opening, RecordingError, Sample};
+use super::samples::Samples;
+use super::{Opening, RecordingError, Sample, trouble};
 use crate::control::switching::Mode;
 use crate::control::transport::Carrier;
 use crate::control::transport::errt::{Errt, Tree};
 use crate::geometry::{Point2, Polygon};
 use crate::map::WALL_HEIGHT_M;
 use crate::perception::ObstacleMap;
-use crate::plant::BEAD_RADIUS_M;
 use crate::policy::Judgement;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::trial::{Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
@@ -35,10 +35,10 @@ const FLUSH_EVERY: Duration = Duration::from_millis(250);
 const CHECK_TIMEOUT: Duration = Duration::from_secs(1);
 
 const WALL: [u8; 3] = [190, 90, 80];
-const TOOL: [u8; 3] = [60, 130, 220];
-const BEAD: [u8; 3] = [250, 190, 60];
+pub(super) const TOOL: [u8; 3] = [60, 130, 220];
+pub(super) const BEAD: [u8; 3] = [250, 190, 60];
 const GOAL: [u8; 3] = [80, 200, 120];
-const ARM: [u8; 3] = [120, 160, 210];
+pub(super) const ARM: [u8; 3] = [120, 160, 210];
 const TREE: [u8; 3] = [130, 130, 140];
 
 /// Where a recording is on its timelines; it goes on from part to part.
@@ -52,6 +52,7 @@ pub(super) struct Course {
 /// Writes to one file.
 pub(super) struct Writer {
     stream: RecordingStream,
+    samples: Samples,
     image_every: Duration,
     imaged: Option<Instant>,
     /// What was last told of that which changes seldom.
@@ -83,7 +84,14 @@ impl Writer {
         stream.log_static("forces", &names(&["lift ratio", "hand, N"]))?;
         let joints = ["shoulder pan", "shoulder lift", "elbow", "wrist 1", "wrist 2", "wrist 3"];
         stream.log_static("joints_rad", &names(&joints))?;
-        Ok(Self { stream, image_every, imaged: None, goal_m: None, mode: None, phase: None, plans: None })
+        Samples::introduce(&stream)?;
+        let samples = Samples::default();
+        Ok(Self { stream, samples, image_every, imaged: None, goal_m: None, mode: None, phase: None, plans: None })
+    }
+
+    /// Hands to Rerun what was collected.
+    pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
+        self.samples.write(&self.stream)
     }
 
     /// Whether the file still takes what it is told: Rerun only logs that it does not.
@@ -91,17 +99,19 @@ impl Writer {
         match self.stream.flush_with_timeout(CHECK_TIMEOUT) {
             // A slow disk is seen elsewhere.
             Ok(()) | Err(SinkFlushError::Timeout) => Ok(()),
-            Err(error) => Err(RecordingError::Rerun(error.to_string())),
+            Err(error) => Err(trouble(error)),
         }
     }
 
-    pub(super) fn close(self) -> Result<(), RecordingError> {
-        self.stream.flush_blocking().map_err(|error| RecordingError::Rerun(error.to_string()))?;
+    pub(super) fn close(mut self) -> Result<(), RecordingError> {
+        self.flush()?;
+        self.stream.flush_blocking().map_err(trouble)?;
         self.stream.disconnect();
         Ok(())
     }
 
     pub(super) fn begin(&mut self, opening: &Opening, course: &mut Course) -> Result<(), RecordingError> {
+        self.flush()?;
         // A trial that begins at a later tick, after going back, follows on without a gap.
         course.offset = course.last - opening.tick as i64;
         self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, course);
@@ -133,8 +143,8 @@ impl Writer {
     pub(super) fn sample(&mut self, sample: &Sample, course: &mut Course) -> Result<(), RecordingError> {
         let moment = &sample.moment;
         self.at(moment.tick, moment.sim_time_s(), course);
-        self.places(moment)?;
-        self.numbers(moment)?;
+        self.samples.add(course.last, moment);
+        self.changes(moment)?;
         if let Some(sight) = &sample.sight {
             self.images(sight)?;
             self.thoughts(sight)?;
@@ -153,25 +163,6 @@ impl Writer {
         Ok(self.stream.log(entity, what)?)
     }
 
-    fn places(&mut self, moment: &Moment) -> Result<(), RecordingError> {
-        if let Some(frames) = moment.positioner.link_frames() {
-            let joints = frames.map(|frame| frame.translation.vector);
-            let arm = std::iter::once(nalgebra::Vector3::zeros()).chain(joints).chain([moment.tool_m.coords]);
-            let arm: Vec<[f32; 3]> = arm.map(|p| p.cast::<f32>().into()).collect();
-            self.log("world/arm", &LineStrips3D::new([arm]).with_radii([0.02]).with_colors([color(ARM)]))?;
-        }
-        self.log("world/tool", &point(moment.tool_m.coords, 0.006, TOOL))?;
-        self.log("world/bead", &point(moment.bead_m.coords, BEAD_RADIUS_M, BEAD))?;
-        let plan = Points2D::new([plan_mm(moment.tool_m.xy()), plan_mm(moment.bead_m.xy())])
-            .with_radii([6.0, (BEAD_RADIUS_M * 1e3) as f32])
-            .with_colors([color(TOOL), color(BEAD)]);
-        self.log("workspace/tool_and_bead", &plan)?;
-        if moment.goal_m != self.goal_m {
-            self.goal(moment.goal_m)?;
-        }
-        Ok(())
-    }
-
     fn goal(&mut self, goal_m: Option<Point2<f64>>) -> Result<(), RecordingError> {
         self.goal_m = goal_m;
         let Some(goal) = goal_m else {
@@ -183,12 +174,10 @@ impl Writer {
         self.log("workspace/goal", &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]))
     }
 
-    fn numbers(&mut self, moment: &Moment) -> Result<(), RecordingError> {
-        let error_mm = moment.tracking_error_m() * 1e3;
-        self.log("tracking_error_mm", &Scalars::new([error_mm.x, error_mm.y, error_mm.norm()]))?;
-        self.log("forces", &Scalars::new([moment.load.lift_ratio(), moment.hand_force_n]))?;
-        if let Some(joints_rad) = moment.positioner.joints_rad() {
-            self.log("joints_rad", &Scalars::new(joints_rad))?;
+    /// What changes seldom, when it does.
+    fn changes(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+        if moment.goal_m != self.goal_m {
+            self.goal(moment.goal_m)?;
         }
         let mode = moment.switching.mode;
         if self.mode.replace(mode) != Some(mode) {
@@ -209,10 +198,9 @@ impl Writer {
             return Ok(());
         }
         self.imaged = Some(Instant::now());
-        let encode = |error: &dyn std::fmt::Display| RecordingError::Rerun(error.to_string());
-        let jpeg = sight.frame.picture.to_jpeg(JPEG_QUALITY).map_err(|error| encode(&error))?;
+        let jpeg = sight.frame.picture.to_jpeg(JPEG_QUALITY).map_err(trouble)?;
         self.log("camera", &EncodedImage::from_file_contents(jpeg))?;
-        let png = sight.observation().side_by_side().to_png().map_err(|error| encode(&error))?;
+        let png = sight.observation().side_by_side().to_png().map_err(trouble)?;
         self.log("observation", &EncodedImage::from_file_contents(png))
     }
 
@@ -262,12 +250,12 @@ impl Writer {
     }
 }
 
-fn color([red, green, blue]: [u8; 3]) -> Color {
+pub(super) fn color([red, green, blue]: [u8; 3]) -> Color {
     Color::from_rgb(red, green, blue)
 }
 
 /// Metres on the table to the map's own units.
-fn plan_mm(place: Point2<f64>) -> [f32; 2] {
+pub(super) fn plan_mm(place: Point2<f64>) -> [f32; 2] {
     [(place.x * 1e3) as f32, (-place.y * 1e3) as f32]
 }
 

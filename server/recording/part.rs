@@ -164,13 +164,14 @@ impl Keeper {
         self.waiting.push(entry);
     }
 
-    /// Writes what waits; Rerun flushes by itself. The room left is looked after before it is gone.
+    /// Writes what waits; Rerun does so by itself with what it was handed. The room left is looked after before it is gone.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
         if self.checked.elapsed() >= CHECK_EVERY {
             self.checked = Instant::now();
             check_room(self.naming.folder(), &self.options)?;
             self.part.writer.check()?;
         }
+        self.part.writer.flush()?;
         if !self.waiting.is_empty() {
             self.part.log.append(std::mem::take(&mut self.waiting))?;
         }

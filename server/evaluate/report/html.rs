@@ -9,9 +9,11 @@ use crate::evaluate::{Comparison, Failure, PaperRow, Row};
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8886; --mark: #0a63c2; --paper: #c85a00; }
 @media (prefers-color-scheme: dark) { :root { --mark: #7ab8ff; --paper: #ffa45c; } }
-body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 80rem; padding: 0 1rem; }
+body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 96rem; padding: 0 1rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1rem 0; }
 th, td { border-bottom: 1px solid var(--line); padding: .3rem .6rem; text-align: right; vertical-align: top; }
+td, tbody th { white-space: nowrap; }
+td.long { white-space: normal; }
 th:first-child, td:first-child, .text { text-align: left; }
 thead th { vertical-align: bottom; }
 tr.paper { color: var(--paper); }
@@ -221,7 +223,7 @@ fn failures(failures: &[Failure], page: &str) -> Markup {
                                     None => (failure.index),
                                 }
                             }
-                            td.text { (failure.reason()) @if failure.reached { " (reached)" } }
+                            td.text.long { (failure.reason()) @if failure.reached { " (reached)" } }
                             td { (failure.steps) }
                         }
                     }

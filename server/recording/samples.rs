@@ -1,0 +1,100 @@
+//! What is told many times a second, collected and written in columns: a tenth of what it costs row by row.
+
+use rerun::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
+use rerun::{RecordingStream, SerializedComponentColumn, TimeColumn};
+
+use super::entities::{ARM, BEAD, TOOL, color, plan_mm};
+use super::{RecordingError, trouble};
+use crate::plant::BEAD_RADIUS_M;
+use crate::trial::Moment;
+
+/// Joints of the arm as three names and three.
+const JOINTS: usize = 6;
+
+/// Moments that wait to be written; all have an arm, or none has.
+#[derive(Default)]
+pub(super) struct Samples {
+    ticks: Vec<i64>,
+    times_s: Vec<f64>,
+    arms: Vec<Vec<[f32; 3]>>,
+    joints_rad: Vec<[f64; JOINTS]>,
+    tools: Vec<[f32; 3]>,
+    beads: Vec<[f32; 3]>,
+    plans_mm: Vec<[f32; 2]>,
+    errors_mm: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+impl Samples {
+    /// What all samples share, once a file.
+    pub(super) fn introduce(stream: &RecordingStream) -> Result<(), RecordingError> {
+        let arm = LineStrips3D::update_fields().with_radii([0.02]).with_colors([color(ARM)]);
+        stream.log_static("world/arm", &arm)?;
+        let dot =
+            |radius_m: f64, rgb| Points3D::update_fields().with_radii([radius_m as f32]).with_colors([color(rgb)]);
+        stream.log_static("world/tool", &dot(0.006, TOOL))?;
+        stream.log_static("world/bead", &dot(BEAD_RADIUS_M, BEAD))?;
+        let plan = Points2D::update_fields()
+            .with_radii([6.0, (BEAD_RADIUS_M * 1e3) as f32])
+            .with_colors([color(TOOL), color(BEAD)]);
+        Ok(stream.log_static("workspace/tool_and_bead", &plan)?)
+    }
+
+    /// Takes a moment in, at a tick of the recording's.
+    pub(super) fn add(&mut self, tick: i64, moment: &Moment) {
+        let place = |place: nalgebra::Vector3<f64>| -> [f32; 3] { place.cast::<f32>().into() };
+        self.ticks.push(tick);
+        self.times_s.push(moment.sim_time_s());
+        if let Some(frames) = moment.positioner.link_frames() {
+            let joints = frames.map(|frame| frame.translation.vector);
+            let points = std::iter::once(nalgebra::Vector3::zeros()).chain(joints).chain([moment.tool_m.coords]);
+            self.arms.push(points.map(place).collect());
+        }
+        self.joints_rad.extend(moment.positioner.joints_rad());
+        self.tools.push(place(moment.tool_m.coords));
+        self.beads.push(place(moment.bead_m.coords));
+        self.plans_mm.extend([plan_mm(moment.tool_m.xy()), plan_mm(moment.bead_m.xy())]);
+        let error_mm = moment.tracking_error_m() * 1e3;
+        self.errors_mm.extend([error_mm.x, error_mm.y, error_mm.norm()]);
+        self.forces.extend([moment.load.lift_ratio(), moment.hand_force_n]);
+    }
+
+    /// Writes them, and is empty.
+    pub(super) fn write(&mut self, stream: &RecordingStream) -> Result<(), RecordingError> {
+        let Self { ticks, times_s, arms, joints_rad, tools, beads, plans_mm, errors_mm, forces } = std::mem::take(self);
+        if ticks.is_empty() {
+            return Ok(());
+        }
+        let times = [
+            TimeColumn::new_sequence("tick", ticks.iter().copied()),
+            TimeColumn::new_duration_secs("sim_time", times_s),
+        ];
+        let send = |entity: &str, columns: Vec<SerializedComponentColumn>| {
+            stream.send_columns(entity, times.clone(), columns).map_err(RecordingError::from)
+        };
+        let count = ticks.len();
+        let one = std::iter::repeat_n(1, count);
+        let points = |points: Vec<[f32; 3]>| {
+            let columns = Points3D::update_fields().with_positions(points).columns(one.clone());
+            columns.map(Iterator::collect).map_err(trouble)
+        };
+        let scalars = |values: Vec<f64>| {
+            let each = values.len() / count;
+            let columns = Scalars::update_fields().with_scalars(values).columns(std::iter::repeat_n(each, count));
+            columns.map(Iterator::collect).map_err(trouble)
+        };
+        if arms.len() == count {
+            let columns = LineStrips3D::update_fields().with_strips(arms).columns(one.clone()).map_err(trouble)?;
+            send("world/arm", columns.collect())?;
+        }
+        if joints_rad.len() == count {
+            send("joints_rad", scalars(joints_rad.into_flattened())?)?;
+        }
+        send("world/tool", points(tools)?)?;
+        send("world/bead", points(beads)?)?;
+        let plan = Points2D::update_fields().with_positions(plans_mm).columns(std::iter::repeat_n(2, count));
+        send("workspace/tool_and_bead", plan.map_err(trouble)?.collect())?;
+        send("tracking_error_mm", scalars(errors_mm)?)?;
+        send("forces", scalars(forces)?)
+    }
+}
