@@ -85,11 +85,11 @@ async fn a_killed_server_loses_half_a_second_at_most() {
     for ((rrd, &seen), found) in rrds.iter().zip(&seen).zip(read(&rrds)) {
         let logged = found["last_tick"].as_u64().unwrap();
         let log = InputLog::read(&std::fs::read(rrd.with_extension("ferry")).unwrap()).unwrap();
-        let whole = log.entries.iter().filter_map(|entry| match entry {
+        let mut whole = log.entries.iter().filter_map(|entry| match entry {
             Entry::Tick(tick) => Some(tick.tick),
             Entry::Begin(_) => None,
         });
-        let whole = whole.last().unwrap_or(0);
+        let whole = whole.next_back().unwrap_or(0);
         let mut last = 0;
         replay(&log, None, &mut |record| last = record.tick).unwrap();
         assert_eq!(last, whole);

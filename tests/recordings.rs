@@ -50,7 +50,7 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
     let file = files(&folder, "rrd").remove(0);
     let verified = Command::new(tool("rerun")).args(["rrd", "verify"]).arg(&file).output().unwrap();
     assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stderr));
-    let found = read(&[file.clone()]).remove(0);
+    let found = read(std::slice::from_ref(&file)).remove(0);
     assert!(found["tool_path_m"].as_f64() > Some(0.1), "{found}");
     // In a hurry, not every control step's.
     assert!(found["camera_frames"].as_u64() >= Some(1), "{found}");
