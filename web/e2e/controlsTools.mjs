@@ -7,6 +7,11 @@ import { freeInPicture, px } from './scene.mjs';
 const value = (_lab, locator) => locator.inputValue();
 const isChecked = (_lab, locator) => locator.isChecked();
 const isPressed = (_lab, locator) => locator.getAttribute('aria-pressed');
+/** What has come is on the page. */
+const drawn = (lab) =>
+  lab.page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
 const downloads = (lab) => lab.downloads;
 const box = { see: isChecked, isToggle: true };
 const tab = (name) => (lab) => lab.page.getByRole('tab', { name, exact: true }).click();
@@ -70,7 +75,8 @@ const DISTURB = {
     'spinbutton Distance from the place in cm': { see: value, ready: time('near') },
     'button Add to script and restart': { see: script, ready: time('time') },
     'button /^Remove and restart: /': { see: script },
-    'spinbutton Number of random moves': typed,
+    // The restart of the row before sets it once more, a frame after the message.
+    'spinbutton Number of random moves': { ...typed, ready: drawn },
     'button Set and restart': {
       see: (lab) => lab.scene.trial,
       ready: async (lab) => {
