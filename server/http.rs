@@ -30,10 +30,10 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
 use crate::camera::Gpu;
 use crate::evaluate::Queue;
-use crate::recording::{Archive, Options, Recorder, Retention, Unrecorded};
+use crate::recording::{Archive, Options, Recorder, Retention};
 use crate::scenario::Scenario;
 use crate::session::Session;
-use crate::trial::{Sink, TrialError};
+use crate::trial::{Nowhere, Sink, TrialError};
 
 use hub::Hub;
 
@@ -120,7 +120,7 @@ impl Server {
             Ok(recorder) => Box::new(recorder),
             Err(error) => {
                 tracing::warn!(%error, "session not recorded");
-                Box::new(Unrecorded { reason: error.to_string() })
+                Box::new(Nowhere { reason: error.to_string() })
             }
         };
         let session = Session::start(id, scenario, self.gpu.clone(), sink)?;

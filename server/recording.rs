@@ -298,23 +298,3 @@ fn note(done: Result<(), RecordingError>, shared: &Shared) {
         let _ = shared.stopped.set(format!("stopped: {error}"));
     }
 }
-
-/// Takes a session's ticks and keeps nothing: the recording could not begin.
-pub struct Unrecorded {
-    /// Why, shown to viewers.
-    pub reason: String,
-}
-
-impl Sink for Unrecorded {
-    fn begin(&mut self, _: &Trial, _: Beginning) {}
-    fn record(&mut self, _: &TickRecord) {}
-    fn note(&mut self, _: &Event) {}
-
-    fn wants_beginning(&mut self) -> bool {
-        false
-    }
-
-    fn status(&self) -> String {
-        format!("not recording: {}", self.reason)
-    }
-}

@@ -19,7 +19,7 @@ fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
         trace.add(record);
         ControlFlow::Continue(())
     };
-    let episode = episode(scenario, &venue, &mut camera, &mut Nowhere, watch).unwrap();
+    let episode = episode(scenario, &venue, &mut camera, &mut Nowhere::default(), watch).unwrap();
     (episode, trace.to_svg().unwrap())
 }
 

@@ -158,7 +158,7 @@ fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -
 }
 
 fn recorder(arguments: &Arguments, experiment: &Experiment, index: u32) -> Result<Box<dyn Sink>, EvaluateError> {
-    let Some(folder) = &arguments.record else { return Ok(Box::new(Nowhere)) };
+    let Some(folder) = &arguments.record else { return Ok(Box::new(Nowhere::default())) };
     let Cell { controller, map, disturbances } = &experiment.cell;
     let name = format!("{map}-{}-{disturbances}-{index:04}", controller.as_str());
     let recorder = Recorder::to_folder(folder, &name).map_err(|error| EvaluateError::Recording(error.to_string()))?;

@@ -151,7 +151,7 @@ pub type Recorders<'a> = &'a (dyn Fn(&Experiment, u32) -> Result<Box<dyn Sink>, 
 
 /// Records nothing.
 pub fn unrecorded(_: &Experiment, _: u32) -> Result<Box<dyn Sink>, EvaluateError> {
-    Ok(Box::new(Nowhere))
+    Ok(Box::new(Nowhere::default()))
 }
 
 /// Who wants to know, while an experiment runs.

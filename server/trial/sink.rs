@@ -26,8 +26,11 @@ pub trait Sink: Send {
 }
 
 /// Keeps nothing.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Nowhere;
+#[derive(Clone, Debug, Default)]
+pub struct Nowhere {
+    /// Why, shown to viewers; empty where nobody asked for a recording.
+    pub reason: String,
+}
 
 impl Sink for Nowhere {
     fn begin(&mut self, _: &Trial, _: Beginning) {}
@@ -39,6 +42,7 @@ impl Sink for Nowhere {
     }
 
     fn status(&self) -> String {
-        "not recording".to_owned()
+        let colon = if self.reason.is_empty() { "" } else { ": " };
+        format!("not recording{colon}{}", self.reason)
     }
 }

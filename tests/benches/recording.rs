@@ -33,7 +33,7 @@ pub fn benches(_: &mut Criterion) {
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let mut ratios: Vec<f64> = (0..TURNS)
         .map(|_| {
-            let without_s = run_s(&arena, &mut camera, &mut Nowhere);
+            let without_s = run_s(&arena, &mut camera, &mut Nowhere::default());
             let mut recorder = Recorder::in_archive(&archive, "bench", Options::LIVE).unwrap();
             let with_s = run_s(&arena, &mut camera, &mut recorder);
             assert_eq!(recorder.status(), "recording");
