@@ -4,6 +4,7 @@ use std::io::Read;
 
 use crate::answers::Answer;
 use crate::laboratory::Laboratory;
+use crate::recordings::files;
 
 fn unpacked(answer: &Answer) -> Vec<u8> {
     let mut plain = Vec::new();
@@ -51,7 +52,7 @@ async fn it_has_the_version_that_records() {
     let lab = Laboratory::open().await;
     let viewer = unpacked(&lab.fetch("GET", "/rerun/re_viewer_bg.wasm", &[("accept-encoding", "gzip")]).await);
     let data = lab.close().await;
-    let recording = std::fs::read_dir(data.path().join("recordings")).unwrap().next().unwrap().unwrap().path();
+    let recording = files(&data.path().join("recordings"), "rrd").remove(0);
     let head = std::fs::read(recording).unwrap();
     assert_eq!(&head[..4], b"RRF2");
     let version = format!("{}.{}.{}", head[4], head[5], head[6]);
