@@ -314,6 +314,11 @@ impl Camera {
 
 impl Eye for Camera {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
+        fault_point!("render");
+        #[cfg(test)]
+        if crate::faults::strikes("hang") {
+            std::thread::sleep(std::time::Duration::from_secs(14));
+        }
         Camera::capture(self, subject)
     }
 }

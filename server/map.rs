@@ -2,6 +2,7 @@
 //!
 //! A [`Map`] knows geometry only. Controllers never see it: they see camera images.
 
+mod library;
 mod outline;
 mod report;
 mod space;
@@ -13,9 +14,11 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
+use crate::files::{ReadError, read_at_most};
 use crate::geometry::{Point2, Polygon, Rect, Vector2};
 use outline::Outline;
 
+pub use library::{ADDED_MAPS, Library};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
 
@@ -74,13 +77,12 @@ impl Map {
         if !name_or_path.ends_with(".svg") {
             return Self::shipped(name_or_path);
         }
-        let io = |error| MapError::Io { path: name_or_path.to_owned(), error };
         let path = std::path::Path::new(name_or_path);
-        let bytes = std::fs::metadata(path).map_err(io)?.len() as usize;
-        if bytes > MAX_SVG_BYTES {
-            return Err(MapError::TooLarge { bytes });
-        }
-        let text = std::fs::read_to_string(path).map_err(io)?;
+        let bytes = read_at_most(path, MAX_SVG_BYTES as u64).map_err(|error| match error {
+            ReadError::Io(error) => MapError::Io { path: name_or_path.to_owned(), error },
+            ReadError::TooLarge { bytes, .. } => MapError::TooLarge { bytes: bytes as usize },
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| MapError::Svg(error.to_string()))?;
         let name = path.file_stem().map_or("map".into(), |stem| stem.to_string_lossy());
         Self::from_svg(&name, &text)
     }

@@ -116,6 +116,7 @@ impl Policy {
     /// # Errors
     /// [`PolicyError::Network`], which only a network that [`Policy`] should have refused gives.
     pub fn judge(&self, observation: &Observation) -> Result<Judgement, PolicyError> {
+        fault_point!("inference");
         let features = self.features(&[&observation.bytes])?;
         Ok(self.judge_from(&features, &[observation.places()])?.remove(0))
     }

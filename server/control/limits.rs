@@ -4,18 +4,24 @@ use super::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Point3, Rect};
 use crate::perception::Percept;
 use crate::plant::{Positioner, TOOL_LENGTH_M, ToolOrientation};
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::robot::{self, jacobian};
 
 /// Poses with less manipulability are kept away from.
 pub const LEAST_MANIPULABILITY_M3: f64 = 2e-3;
+
+/// The tool rises and sinks no faster.
+pub const LIFT_SPEED_M_S: f64 = 0.05;
 
 /// The limits of one trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// The tool stays in here.
     pub workspace: Rect,
-    /// Fastest tool.
+    /// Fastest tool of a transport step.
     pub speed_m_s: f64,
+    /// Fastest tool of a flight to the bead.
+    pub flight_speed_m_s: f64,
     /// How the arm holds its flange.
     pub tool_orientation: ToolOrientation,
 }
@@ -47,6 +53,26 @@ impl Limits {
             return Err(Refusal::Singular { manipulability_m3, least_m3: LEAST_MANIPULABILITY_M3 });
         }
         Ok(found)
+    }
+
+    /// One servo period of the tool's reference, from `from_m` towards `wanted_m`: whoever asks, controller or operator,
+    /// it moves no faster than the faster limit in the plane and [`LIFT_SPEED_M_S`] up and down, and only to where
+    /// [`Self::position`] lets it.
+    pub fn advance(
+        &self,
+        from_m: Point3<f64>,
+        wanted_m: Point3<f64>,
+        seed: &Positioner,
+    ) -> Result<(Point3<f64>, Positioner), Refusal> {
+        let way = wanted_m.xy() - from_m.xy();
+        let most_m = self.speed_m_s.max(self.flight_speed_m_s) * SERVO_PERIOD_S;
+        // What is within the limit stays as it is, to the bit.
+        let place_m =
+            if way.norm() > most_m * (1.0 + 1e-9) { from_m.xy() + way.cap_magnitude(most_m) } else { wanted_m.xy() };
+        let most_rise_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
+        let rise_m = (wanted_m.z - from_m.z).clamp(-most_rise_m, most_rise_m);
+        let next_m = Point3::new(place_m.x, place_m.y, from_m.z + rise_m);
+        Ok((next_m, self.position(next_m, seed)?))
     }
 
     /// Checks a transport step: the position, the speed, and the camera's view of the whole step.
@@ -88,7 +114,7 @@ mod tests {
 
     fn limits() -> Limits {
         let workspace = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -1.2, y_max_m: -0.05 };
-        Limits { workspace, speed_m_s: 0.04, tool_orientation: ToolOrientation::Vertical }
+        Limits { workspace, speed_m_s: 0.04, flight_speed_m_s: 0.25, tool_orientation: ToolOrientation::Vertical }
     }
 
     fn position(x_m: f64, y_m: f64) -> Result<Positioner, Refusal> {
@@ -112,6 +138,21 @@ mod tests {
         let at = |y_m: f64| limits().position(Point3::new(0.0, y_m, 0.1), &stage);
         assert!(at(-1.1).is_ok() && at(-0.06).is_ok());
         assert!(matches!(at(-1.3), Err(Refusal::OutsideWorkspace { .. })));
+    }
+
+    #[test]
+    fn the_reference_advances_no_faster_than_it_may_and_never_out() {
+        let seed = limits().position(Point3::new(0.0, -0.3, 0.1), &HOME).unwrap();
+        let from = Point3::new(0.0, -0.3, 0.1);
+        let near = Point3::new(0.001, -0.3, 0.1);
+        assert_eq!(limits().advance(from, near, &seed).unwrap().0, near);
+        let (next, _) = limits().advance(from, Point3::new(0.2, -0.5, 0.3), &seed).unwrap();
+        assert!(((next - from).xy().norm() - 0.25 * SERVO_PERIOD_S).abs() < 1e-12, "{next}");
+        assert!((next.z - from.z - LIFT_SPEED_M_S * SERVO_PERIOD_S).abs() < 1e-12, "{next}");
+        let edge = Point3::new(0.2799, -0.3, 0.1);
+        let out = limits().advance(edge, Point3::new(1.0, -0.3, 0.1), &seed);
+        assert!(matches!(out, Err(Refusal::OutsideWorkspace { .. })));
+        assert!(limits().advance(from, Point3::new(f64::NAN, -0.3, 0.1), &seed).is_err());
     }
 
     #[test]

@@ -6,12 +6,18 @@ use std::sync::Arc;
 use candle_core::Tensor;
 
 use super::learner::{features_of, features_of_all};
-use super::sweep::{STEP_M, Sweep, SweepError};
+use super::sweep::{STEP_M, Sweep, SweepError, cells};
 use super::terrain::{Terrain, TerrainError};
 use crate::camera::Gpu;
 use crate::geometry::Point2;
 use crate::policy::{Fusion, Judgement, Policy, PolicyError};
 use crate::trial::Arena;
+
+/// Most cells of a map, free or not: twice the paper's table. Distances grow with their square, and a picture of
+/// each takes milliseconds.
+pub const CELLS_MOST: usize = 4000;
+/// Cells judged at once: each has 32 fractions of 128 features.
+const BATCH: usize = 256;
 
 /// A map seen from everywhere, once and for all goals.
 pub struct Atlas {
@@ -24,6 +30,12 @@ pub struct Atlas {
 /// Why there is no atlas.
 #[derive(Debug, thiserror::Error)]
 pub enum AtlasError {
+    /// Too large a map.
+    #[error("the map has {cells} places a centimetre apart, and {CELLS_MOST} at most can be judged")]
+    TooLarge {
+        /// How many it has.
+        cells: usize,
+    },
     /// No images.
     #[error(transparent)]
     Sweep(#[from] SweepError),
@@ -42,6 +54,10 @@ impl Atlas {
     /// # Errors
     /// [`AtlasError`].
     pub fn of(arena: &Arena, policy: Arc<Policy>, gpu: &Arc<Gpu>, folder: &Path) -> Result<Self, AtlasError> {
+        let (columns, rows) = cells(arena);
+        if columns * rows > CELLS_MOST {
+            return Err(AtlasError::TooLarge { cells: columns * rows });
+        }
         let sweep = Sweep::open(arena, gpu, folder, &|| ())?;
         let terrain = Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, policy.manifest().clearance_m)?;
         let features = match policy.manifest().architecture.fusion {
@@ -68,16 +84,20 @@ impl Atlas {
     /// [`AtlasError::Policy`].
     pub fn judge(&self, goal_m: Point2<f64>) -> Result<Vec<(Point2<f64>, Judgement)>, AtlasError> {
         let cells: Vec<u16> = (0..self.terrain.cells() as u16).collect();
-        let places: Vec<[f32; 4]> = cells.iter().map(|&cell| self.terrain.places(goal_m, cell)).collect();
-        let judgements = match &self.features {
-            Some(features) => self.policy.judge_from(features, &places)?,
-            None => {
-                let terrains = std::slice::from_ref(&self.terrain);
-                let cells: Vec<(u8, u16)> = cells.iter().map(|&cell| (0, cell)).collect();
-                let features = features_of(self.policy.network(), terrains, &cells, &places);
-                self.policy.judge_from(&features.map_err(PolicyError::from)?, &places)?
-            }
-        };
-        Ok(cells.into_iter().map(|cell| self.terrain.center_m(cell)).zip(judgements).collect())
+        let mut judged = Vec::with_capacity(cells.len());
+        for (batch, cells) in cells.chunks(BATCH).enumerate() {
+            let places: Vec<[f32; 4]> = cells.iter().map(|&cell| self.terrain.places(goal_m, cell)).collect();
+            let features = match &self.features {
+                Some(features) => features.narrow(0, batch * BATCH, cells.len()),
+                None => {
+                    let terrains = std::slice::from_ref(&self.terrain);
+                    let cells: Vec<(u8, u16)> = cells.iter().map(|&cell| (0, cell)).collect();
+                    features_of(self.policy.network(), terrains, &cells, &places)
+                }
+            };
+            let judgements = self.policy.judge_from(&features.map_err(PolicyError::from)?, &places)?;
+            judged.extend(cells.iter().map(|&cell| self.terrain.center_m(cell)).zip(judgements));
+        }
+        Ok(judged)
     }
 }

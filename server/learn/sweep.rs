@@ -25,6 +25,8 @@ pub const STEP_M: f64 = 0.01;
 pub const IMAGE_BYTES: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
 /// Raised when the same map gives other images: new colours, another observation, another layout of the file.
 const VERSION: u32 = 2;
+/// Sweeps kept in a folder; one has some thirteen megabytes.
+const KEPT: usize = 32;
 /// A sweep has no bead: it lies where no camera sees it.
 const OUT_OF_SIGHT_M: f64 = 100.0;
 
@@ -130,6 +132,7 @@ impl Sweep {
             return Ok(kept);
         }
         let sweep = Self::take(arena, gpu, progress)?;
+        prune(folder);
         sweep.write(folder, &path).map_err(|error| SweepError::Io { path, error })?;
         Ok(sweep)
     }
@@ -149,6 +152,20 @@ impl Sweep {
         file.write_all(&bytes)?;
         file.into_inner()?.sync_all()?;
         std::fs::rename(part, path)
+    }
+}
+
+/// Makes room for one more: the oldest go. Who cannot look into the folder keeps what is there.
+fn prune(folder: &Path) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let is_sweep = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "sweep" || ending == "part");
+    let mut kept: Vec<_> = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()).filter(is_sweep))
+        .map(|path| (std::fs::metadata(&path).and_then(|data| data.modified()).ok(), path))
+        .collect();
+    kept.sort();
+    for (_, path) in kept.iter().take((kept.len() + 1).saturating_sub(KEPT)) {
+        let _ = std::fs::remove_file(path);
     }
 }
 
@@ -187,7 +204,7 @@ fn content_hash(arena: &Arena) -> u64 {
 }
 
 /// Columns and rows of whole cells.
-fn cells(arena: &Arena) -> (usize, usize) {
+pub(super) fn cells(arena: &Arena) -> (usize, usize) {
     let size_m = arena.map.workspace().size_m();
     let count = |side_m: f64| (side_m / STEP_M + 1e-6).floor().max(1.0) as usize;
     (count(size_m.x), count(size_m.y))

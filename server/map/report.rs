@@ -78,6 +78,12 @@ pub enum MapError {
         /// Its size.
         bytes: usize,
     },
+    /// No room for another.
+    #[error("map: {most} maps were added already, take one out first")]
+    TooMany {
+        /// How many there may be.
+        most: usize,
+    },
     /// Not well-formed, or not SVG.
     #[error("map: not a readable SVG: {0}")]
     Svg(String),

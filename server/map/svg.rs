@@ -47,7 +47,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, MapError> {
     };
     let screened = screen::screen(&xml, &view_box.attribute())?;
     let tree = usvg::Tree::from_str(&screened.text, &usvg::Options::default()).map_err(unreadable)?;
-    let sketch = sketch::sketch(&tree, view_box.user_from_pixels(), &screened)?;
+    let sketch = sketch::sketch(&tree, view_box.user_from_pixels(), view_box.diagonal_mm(), &screened)?;
 
     let border = vec![view_box.ring_m()];
     let walls = border.overlay_as::<i64>(&sketch.rings, OverlayRule::Intersect, FillRule::NonZero);
@@ -144,6 +144,10 @@ impl ViewBox {
 
     fn attribute(&self) -> String {
         format!("viewBox=\"{} {} {} {}\"", self.x, self.y, self.width, self.height)
+    }
+
+    fn diagonal_mm(&self) -> f64 {
+        self.width.hypot(self.height)
     }
 
     /// From usvg's units, which start at the viewBox's corner, to the drawing's.

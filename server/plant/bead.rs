@@ -20,7 +20,7 @@ const KICKED_M_S: f64 = 4.1;
 const SPHERE_INERTIA: f64 = 0.4;
 
 /// How the bead moves over the table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BeadMotion {
     /// The field holds its moment, and with it the sphere: it slides (specification §2).
@@ -114,7 +114,13 @@ impl Plant {
             bead.velocity_m_s *= HAND_SPEED_LIMIT_M_S / speed_m_s;
         }
         if is_lifted {
-            bead.position_m += bead.velocity_m_s * dt_s;
+            // Over walls, but not over the table's edge.
+            let next_m = bead.position_m + bead.velocity_m_s * dt_s;
+            let w = map.workspace();
+            bead.position_m = Point2::new(next_m.x.clamp(w.x_min_m, w.x_max_m), next_m.y.clamp(w.y_min_m, w.y_max_m));
+            if bead.position_m != next_m {
+                bead.velocity_m_s = Vector2::zeros();
+            }
         } else {
             contact::advance(bead, map, dt_s);
         }

@@ -13,6 +13,8 @@ const WALL_FRICTION: f64 = 0.1;
 const PASSES: usize = 4;
 /// Rounding allowed when a contact is checked.
 const SLOP_M: f64 = 1e-9;
+/// What a search for room does not skip on account of rounding.
+const SKIP_MM: f64 = 1e-3;
 /// A bead this near to a wall leans on it.
 const TOUCH_M: f64 = 1e-7;
 /// Slower than this into the wall that it touches, the bead leans and does not bounce: what the strongest
@@ -99,19 +101,76 @@ fn corner(a: Contact, b: Contact) -> Option<Point2<f64>> {
 /// The nearest point to `wanted` at which the bead fits, to a millimetre, searched outward on circles;
 /// `None` only if it fits nowhere.
 pub fn nearest_fit(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
-    let fits = |p: &Point2<f64>| map.clearance_m(*p) >= BEAD_RADIUS_M;
-    if fits(&wanted) {
+    // Where so much room is lacking, it fits nowhere nearer than that: a large map that is all wall but for a far
+    // corner would be searched for a minute.
+    let lacking_m = |p: Point2<f64>| BEAD_RADIUS_M - map.clearance_m(p);
+    let here_m = lacking_m(wanted);
+    if here_m <= 0.0 {
         return Some(wanted);
     }
+    let nearest_mm = ((here_m * 1e3 - SKIP_MM) as u32).max(1);
     let farthest_mm = (map.workspace().size_m().norm() * 1e3).ceil() as u32;
-    (1..=farthest_mm).find_map(|radius_mm| {
+    (nearest_mm..=farthest_mm).find_map(|radius_mm| {
         // A millimetre apart on the circle too.
         let count = (std::f64::consts::TAU * f64::from(radius_mm)).ceil().max(16.0) as u32;
-        (0..count)
-            .map(|k| {
+        let mut k = 0;
+        while k < count {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(count)).sin_cos();
+            let place = wanted + Vector2::new(cos, sin) * (f64::from(radius_mm) * 1e-3);
+            let lacking_m = lacking_m(place);
+            if lacking_m <= 0.0 {
+                return Some(place);
+            }
+            k += ((lacking_m * 1e3 - SKIP_MM) as u32).max(1);
+        }
+        None
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    /// The search without what it skips.
+    fn plainly(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
+        let fits = |p: &Point2<f64>| map.clearance_m(*p) >= BEAD_RADIUS_M;
+        let on_circle = |radius_mm: u32| {
+            let count = (std::f64::consts::TAU * f64::from(radius_mm)).ceil().max(16.0) as u32;
+            (0..count).map(move |k| {
                 let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(count)).sin_cos();
                 wanted + Vector2::new(cos, sin) * (f64::from(radius_mm) * 1e-3)
             })
-            .find(fits)
-    })
+        };
+        std::iter::once(wanted).chain((1..600).flat_map(on_circle)).find(fits)
+    }
+
+    #[test]
+    fn the_nearest_room_is_found_as_if_nothing_were_skipped() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut moved = 0;
+        for name in ["colon", "posts"] {
+            let map = Map::shipped(name).unwrap();
+            for _ in 0..500 {
+                let wanted = Point2::new(rng.random_range(-0.35..0.35), rng.random_range(-0.6..-0.15));
+                let found = nearest_fit(&map, wanted);
+                assert_eq!(found, plainly(&map, wanted), "{name} {wanted}");
+                moved += usize::from(found != Some(wanted));
+            }
+        }
+        assert!(moved > 300, "{moved}");
+    }
+
+    #[test]
+    fn room_in_the_far_corner_of_a_large_map_takes_no_minute_to_find() {
+        let svg = r#"<svg viewBox="0 0 4000 4000"><path d="M0 0H4000V4000H20V3980H0Z"/></svg>"#;
+        let map = Map::from_svg("far", svg).unwrap();
+        let begun = std::time::Instant::now();
+        let found = nearest_fit(&map, Point2::new(3.99, -0.01)).unwrap();
+        assert!(found.x < 0.02 && found.y < -3.98, "{found}");
+        // It took a minute and more, and takes milliseconds.
+        assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
+    }
 }

@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::TOOL_LENGTH_M;
 use crate::geometry::{Isometry3, Point3, Rect, Translation3, UnitQuaternion, Vector3};
@@ -24,7 +25,7 @@ const HOME_RAD: Joints = [-FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, FRAC_P
 const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
 
 /// Which of the two.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
     /// The UR5.
@@ -42,7 +43,7 @@ impl PositionerKind {
 }
 
 /// How the arm holds its flange.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolOrientation {
     /// Straight down.

@@ -1,8 +1,6 @@
 //! A policy's file: safetensors whose metadata hold the manifest.
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -13,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::network::{Architecture, Network, TensorSpec};
 use super::{OBSERVATION_SIZE_PX, Policy};
+use crate::files::{ReadError, read_at_most};
 
 /// Key of the manifest in the metadata.
 const KEY: &str = "ferry";
@@ -20,6 +19,8 @@ const KEY: &str = "ferry";
 const VERSION: u32 = 1;
 /// A larger file is no policy.
 const BYTES_MOST: u64 = 16 << 20;
+/// A longer header is none: those of Ferry have 3 KiB.
+const HEADER_MOST: u64 = 64 << 10;
 
 #[derive(RustEmbed)]
 #[folder = "assets/policies"]
@@ -80,6 +81,12 @@ pub enum PolicyError {
     #[error("policy: the file has {bytes} bytes, the limit is {BYTES_MOST}")]
     TooLarge {
         /// Bytes of the file.
+        bytes: u64,
+    },
+    /// The header is longer than a policy's can be.
+    #[error("policy: the header has {bytes} bytes by its own account, the limit is {HEADER_MOST}")]
+    Header {
+        /// What the file's first eight bytes say.
         bytes: u64,
     },
     /// Not safetensors.
@@ -155,19 +162,11 @@ impl Policy {
     /// # Errors
     /// [`PolicyError`]; nothing of a file over 16 MiB is read.
     pub fn open(path: &Path) -> Result<Self, PolicyError> {
-        let io = |error| PolicyError::Io { path: path.display().to_string(), error };
-        let file = File::open(path).map_err(io)?;
-        let bytes = file.metadata().map_err(io)?.len();
-        if bytes > BYTES_MOST {
-            return Err(PolicyError::TooLarge { bytes });
-        }
-        // A device or a pipe says nothing of its length, and a file may grow.
-        let mut read = Vec::with_capacity(bytes as usize);
-        file.take(BYTES_MOST + 1).read_to_end(&mut read).map_err(io)?;
-        match read.len() as u64 {
-            bytes if bytes > BYTES_MOST => Err(PolicyError::TooLarge { bytes }),
-            _ => Self::from_bytes(&read),
-        }
+        let read = read_at_most(path, BYTES_MOST).map_err(|error| match error {
+            ReadError::Io(error) => PolicyError::Io { path: path.display().to_string(), error },
+            ReadError::TooLarge { bytes, .. } => PolicyError::TooLarge { bytes },
+        })?;
+        Self::from_bytes(&read)
     }
 
     /// Reads a policy; what does not fit is refused with the tensor named.
@@ -175,6 +174,11 @@ impl Policy {
     /// # Errors
     /// [`PolicyError`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PolicyError> {
+        // Before anything is parsed: the file's word is not taken for how much to read.
+        let header = bytes.first_chunk().map_or(0, |length| u64::from_le_bytes(*length));
+        if header > HEADER_MOST {
+            return Err(PolicyError::Header { bytes: header });
+        }
         let file = SafeTensors::deserialize(bytes)?;
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
         let text = metadata.metadata().as_ref().and_then(|entries| entries.get(KEY));

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
+use utoipa::ToSchema;
 
 /// Most disturbances of one script.
 pub const SCRIPT_LIMIT: usize = 64;
@@ -15,7 +16,7 @@ const MOST_DRIFT_N: f64 = 0.01;
 const MOST_SECONDS: f64 = 60.0;
 
 /// One disturbance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
     /// The bead is lifted and put down here, or where it fits nearest.
@@ -49,7 +50,7 @@ pub enum Disturbance {
 }
 
 /// When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// Before this tick.
@@ -78,7 +79,7 @@ impl When {
 }
 
 /// A disturbance and its time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scripted {
     /// When.

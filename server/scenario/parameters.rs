@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::image::CameraMount;
 use crate::plant::{BeadMotion, BlockOrientation, PlantParameters, ToolOrientation};
 
 /// Which switching law runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SwitchingLaw {
     /// Sub-controller 1 keeps control until the bead is within `fetch_radius_m`.
@@ -17,7 +18,7 @@ pub enum SwitchingLaw {
 }
 
 /// Which attractor law runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AttractorLaw {
     /// The paper's law to the letter; it can stick behind a flat face.
@@ -27,7 +28,7 @@ pub enum AttractorLaw {
 }
 
 /// Which trained policy runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RlPolicy {
     /// The one trained on the map, else the general one.
@@ -39,7 +40,7 @@ pub enum RlPolicy {
 }
 
 /// Everything an operator can tune. Ranges are in [`Parameters::check`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Parameters {
     /// How the block is turned.

@@ -26,10 +26,16 @@ pub struct RandomTrialError {
     pub map: String,
 }
 
-/// Where the bead starts when nothing is said: a seeded free point.
-pub fn start_point(map: &Map, space: &FreeSpace, seed: u64) -> Result<Point2<f64>, RandomTrialError> {
+/// Where the bead starts when nothing is said: the first seeded free point that the arm comes to.
+pub fn start_point(
+    map: &Map,
+    space: &FreeSpace,
+    seed: u64,
+    is_reached: &dyn Fn(Point2<f64>) -> bool,
+) -> Result<Point2<f64>, RandomTrialError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    space.sample(map, None, &mut rng).ok_or_else(|| RandomTrialError { map: map.name().to_owned() })
+    let mut drawn = (0..DRAWS).map_while(|_| space.sample(map, None, &mut rng));
+    drawn.find(|&point| is_reached(point)).ok_or_else(|| RandomTrialError { map: map.name().to_owned() })
 }
 
 impl Scenario {
@@ -92,6 +98,17 @@ fn draw_pair(map: &Map, space: &FreeSpace, rng: &mut impl Rng) -> Option<(Point2
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_start_out_of_reach_is_drawn_again() {
+        let map = Map::shipped("posts").unwrap();
+        let space = FreeSpace::new(&map, CLEARANCE_M);
+        let any = start_point(&map, &space, 7, &|_| true).unwrap();
+        let other = start_point(&map, &space, 7, &|point| point != any).unwrap();
+        assert!(other != any && map.clearance_m(other) >= CLEARANCE_M);
+        assert_eq!(start_point(&map, &space, 7, &|point| point == other).unwrap(), other);
+        assert!(start_point(&map, &space, 7, &|_| false).is_err());
+    }
 
     #[test]
     fn trials_keep_their_promises_and_do_not_depend_on_each_other() {

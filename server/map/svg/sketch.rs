@@ -20,6 +20,11 @@ const FLATNESS_MM: f64 = 0.05;
 /// where a bead needs 24 mm to pass; loading such a drawing takes a fifth of a second.
 pub(super) const MAX_VERTICES: usize = 50_000;
 
+/// Length of all outlines together, in diagonals of the viewBox; of an edge no more than one counts. Corridors that a
+/// bead can pass have a third of it at most. Edges that are nearly as long as the drawing, by the ten thousand, cost
+/// the union a gigabyte, and each question about the nearest wall a search through most of them.
+const MAX_DIAGONALS: f64 = 1000.0;
+
 /// Coordinates beyond this would cost the others their precision.
 const MAX_EXTENT_MM: f64 = 1e5;
 
@@ -30,12 +35,19 @@ pub(super) struct Sketch {
     pub repairs: Vec<Repair>,
 }
 
-pub(super) fn sketch(tree: &usvg::Tree, to_mm: Transform, screened: &Screened) -> Result<Sketch, MapError> {
+pub(super) fn sketch(
+    tree: &usvg::Tree,
+    to_mm: Transform,
+    diagonal_mm: f64,
+    screened: &Screened,
+) -> Result<Sketch, MapError> {
     let mut pen = Pen {
         screened,
         to_mm,
         budget: Budget::new(),
         vertices: 0,
+        diagonal_mm,
+        diagonals: 0.0,
         rings: Vec::new(),
         places: Vec::new(),
         drawn: HashSet::new(),
@@ -58,6 +70,9 @@ struct Pen<'a> {
     to_mm: Transform,
     budget: Budget,
     vertices: usize,
+    diagonal_mm: f64,
+    /// Length of the outlines so far, as [`MAX_DIAGONALS`] counts it.
+    diagonals: f64,
     rings: Vec<Ring>,
     /// Whose each ring is.
     places: Vec<&'a Place>,
@@ -178,6 +193,14 @@ impl<'a> Pen<'a> {
         self.vertices = vertices.get();
         if self.vertices > MAX_VERTICES {
             return Err(refused(place, format!("with it the drawing has more than {MAX_VERTICES} vertices")));
+        }
+        let length = |[[ax, ay], [bx, by]]: [[f64; 2]; 2]| ((bx - ax).hypot(by - ay) / self.diagonal_mm).min(1.0);
+        let edges =
+            |ring: &Ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| length([a, b])).sum::<f64>();
+        self.diagonals += flat.rings_mm.iter().map(edges).sum::<f64>();
+        if self.diagonals > MAX_DIAGONALS {
+            let reason = format!("with it the outlines are longer than {MAX_DIAGONALS} times the viewBox's diagonal");
+            return Err(refused(place, reason));
         }
         Ok(flat)
     }

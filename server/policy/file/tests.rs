@@ -173,6 +173,20 @@ fn a_manifest_that_does_not_fit_is_refused_with_the_reason() {
 }
 
 #[test]
+fn a_header_that_claims_to_be_large_is_refused_before_it_is_looked_at() {
+    let mut bytes = file_of(&plain(), &kept());
+    for claimed in [HEADER_MOST + 1, 100 << 30, u64::MAX] {
+        bytes[..8].copy_from_slice(&claimed.to_le_bytes());
+        let error = Policy::from_bytes(&bytes).unwrap_err();
+        assert!(matches!(error, PolicyError::Header { bytes } if bytes == claimed), "{error}");
+    }
+    // A tensor that claims a hundred gigabytes.
+    let header = br#"{"x":{"dtype":"F32","shape":[26843545600],"data_offsets":[0,107374182400]}}"#;
+    let bytes = [&(header.len() as u64).to_le_bytes()[..], header, &[0; 64]].concat();
+    assert!(matches!(Policy::from_bytes(&bytes), Err(PolicyError::Format(_))));
+}
+
+#[test]
 fn a_file_too_large_is_refused_unread() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("large");

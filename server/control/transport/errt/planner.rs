@@ -2,7 +2,8 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::cache::Cache;
 use super::clearance::{Clearance, End, Obstacles};
@@ -69,6 +70,27 @@ impl Default for PlannerParameters {
 }
 
 impl PlannerParameters {
+    /// Those of a file, which may lie: none may ask for more memory or time than a search has.
+    fn checked<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let found = Self::deserialize(deserializer)?;
+        let ranges = [
+            ("goal_probability", found.goal_probability, 1.0),
+            ("waypoint_probability", found.waypoint_probability, 1.0),
+            ("waypoints", found.waypoints as f64, 1000.0),
+            ("beta_most", found.beta_most, 1.0),
+            ("beta_step", found.beta_step, 1.0),
+            ("step_m", found.step_m, 0.1),
+            ("shortcuts", found.shortcuts.unwrap_or(0) as f64, 1000.0),
+            ("clearance_m", found.clearance_m, 0.03),
+            ("least_clearance_m", found.least_clearance_m, 0.03),
+            ("most_attempts", found.most_attempts as f64, 1e6),
+        ];
+        match ranges.into_iter().find(|&(_, value, most)| !(0.0..=most).contains(&value)) {
+            Some((field, value, most)) => Err(D::Error::custom(format!("{field} is {value}, it must be 0 to {most}"))),
+            None => Ok(found),
+        }
+    }
+
     /// The plain rapidly exploring random tree (LaValle 1998) with a share of extensions toward the goal.
     pub fn plain() -> Self {
         Self { waypoints: 0, beta_most: 0.0, sample_where_clear: false, shortcuts: None, ..Self::default() }
@@ -105,6 +127,7 @@ pub struct Planner {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Search {
+    #[serde(deserialize_with = "PlannerParameters::checked")]
     parameters: PlannerParameters,
     /// Of the obstacles that the tree keeps clear of.
     version: u64,

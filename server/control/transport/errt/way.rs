@@ -1,7 +1,8 @@
 //! A way from start to goal, and how it is made shorter.
 
 use rand::{Rng, RngExt};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::clearance::{Clearance, Obstacles};
 use crate::geometry::Point2;
@@ -10,9 +11,19 @@ use crate::geometry::Point2;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Way {
     /// Corners, start and goal included. If the tool was over a wall, the first is where it gets off.
+    #[serde(deserialize_with = "ends_and_corners")]
     pub points: Vec<Point2<f64>>,
     /// What all of it kept when it was found.
     pub clearance: Clearance,
+}
+
+/// A file may lie.
+fn ends_and_corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Point2<f64>>, D::Error> {
+    let points = Vec::deserialize(deserializer)?;
+    if points.len() < 2 {
+        return Err(D::Error::invalid_length(points.len(), &"a start and a goal"));
+    }
+    Ok(points)
 }
 
 impl Way {
