@@ -14,6 +14,7 @@ mod statistics;
 mod summary;
 
 pub use comparison::{Comparison, PairedMean};
+pub(crate) use engine::gentle_pool;
 pub use evaluation::{CellProgress, CellResult, Evaluation, Progress, Stage};
 pub use experiment::{Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, run, run_one, unrecorded};
 pub use figure::{FigureError, Trace};

@@ -10,6 +10,7 @@ mod entities;
 mod part;
 mod samples;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
@@ -164,13 +165,19 @@ impl Recorder {
     }
 
     fn start(naming: Naming, options: Options) -> Result<Self, RecordingError> {
+        let name = format!("recording {}", naming.subject());
         let keeper = Keeper::start(naming, options)?;
         let (queue, inbox) = sync_channel(QUEUE);
         let shared = Arc::new(Shared::default());
         let seen = shared.clone();
         let thread = std::thread::Builder::new()
-            .name("recording".into())
-            .spawn(move || write_all(keeper, &inbox, &seen))
+            .name(name)
+            .spawn(move || {
+                // A fault in here stops the recording, visibly, and never what is recorded.
+                if catch_unwind(AssertUnwindSafe(|| write_all(keeper, &inbox, &seen))).is_err() {
+                    note(Err(trouble("its thread failed; the log has more")), &seen);
+                }
+            })
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;
         Ok(Self { queue: Some(queue), thread: Some(thread), shared, waits: options.waits, gap: false, lost_ticks: 0 })
     }
@@ -285,6 +292,7 @@ fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {
     {
         shared.sights.fetch_sub(1, Ordering::Relaxed);
     }
+    fault_point!("write");
     if shared.stopped.get().is_none() {
         note(keeper.write(message), shared);
     }

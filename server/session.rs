@@ -3,20 +3,24 @@
 //! The thread is the only one that touches the trial. Whoever holds a [`Session`] may send commands
 //! (bounded; a full queue refuses) and watch. A slow watcher sees the newest view and no other.
 
+#[cfg(test)]
+mod command_tests;
 mod pacing;
 mod past;
 mod timeline;
 mod worker;
 
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
 use crate::geometry::Point2;
-use crate::map::MapError;
+use crate::map::{Library, MapError};
 use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
 use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, TrialError};
@@ -32,6 +36,8 @@ const EVENT_QUEUE: usize = 256;
 pub const JOURNAL: usize = 500;
 /// Most ticks of one `Step`.
 const STEP_MAX: u32 = 12_500;
+/// Longer than the most steps take on a slow machine: a session that hangs must not hold whoever asks it.
+const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 
 /// What a session can be told.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,6 +113,9 @@ pub enum CommandError {
     /// More commands than the session can take.
     #[error("the session is busy: more than {COMMAND_QUEUE} commands wait")]
     Busy,
+    /// Nothing came back.
+    #[error("the session has not answered for {} s; what was asked may still happen", ANSWER_WITHIN.as_secs())]
+    Unanswered,
     /// The session has ended.
     #[error("the session has ended")]
     Ended,
@@ -119,6 +128,8 @@ pub struct Scenery {
     pub version: u64,
     /// Raised when a trial is set up anew.
     pub trial: u64,
+    /// Maps that can be loaded.
+    pub library: Arc<Library>,
     /// Map and free space.
     pub arena: Arc<Arena>,
     /// How the trial was set up.
@@ -142,6 +153,10 @@ pub struct View {
     pub speed_target: f64,
     /// Achieved ones, over the last half second; 0 while paused.
     pub speed_achieved: f64,
+    /// How late the latest tick of the last half second came; zero while paused.
+    pub lateness: Duration,
+    /// How often the session fell so far behind that lost time was let go, since it began.
+    pub missed_deadlines: u64,
     /// Ticks that a rewind reaches, first and last.
     pub rewind_ticks: (u64, u64),
     /// What stands still.
@@ -158,10 +173,13 @@ pub struct View {
 
 /// A running session. Dropping it ends the thread, after the sink.
 pub struct Session {
-    commands: Option<SyncSender<Request>>,
+    /// None once it was closed.
+    commands: Mutex<Option<SyncSender<Request>>>,
     view: watch::Receiver<Arc<View>>,
     events: broadcast::Sender<Event>,
-    thread: Option<JoinHandle<()>>,
+    thread: Mutex<Option<JoinHandle<()>>>,
+    /// Shared with the thread, which looks at it before each step that a command asks for.
+    interrupted: Arc<AtomicBool>,
 }
 
 /// What is asked of the thread, and where the answer goes.
@@ -172,44 +190,52 @@ enum Request {
 }
 
 impl Session {
-    /// Starts a session, paused.
-    pub fn start(name: &str, scenario: Scenario, gpu: Arc<Gpu>, sink: Box<dyn Sink>) -> Result<Self, TrialError> {
-        let arena = Arena::open(&scenario.map)?;
-        let camera = arena.camera(&gpu)?;
+    /// Starts a session, paused; it may load any map of the library.
+    pub fn start(
+        name: &str,
+        scenario: Scenario,
+        library: Arc<Library>,
+        gpu: Arc<Gpu>,
+        sink: Box<dyn Sink>,
+    ) -> Result<Self, TrialError> {
+        let arena = Arena::of(library.find(&scenario.map)?);
+        let make_eye = Box::new(move |arena: &Arena| arena.camera(&gpu));
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
-        let worker = worker::Worker::new(scenario, arena, gpu, camera, sink, events.clone())?;
+        let worker = worker::Worker::new(scenario, arena, library, make_eye, sink, events.clone())?;
         let (publish, view) = watch::channel(Arc::new(worker.view()));
+        let interrupted = worker.interrupted.clone();
         let thread = std::thread::Builder::new()
             .name(format!("session {name}"))
             .spawn(move || worker.run(&inbox, &publish))
             .map_err(|error| TrialError::Thread(error.to_string()))?;
-        Ok(Self { commands: Some(commands), view, events, thread: Some(thread) })
+        Ok(Self { commands: Mutex::new(Some(commands)), view, events, thread: Mutex::new(Some(thread)), interrupted })
     }
 
-    /// Sends a command and waits for its answer.
+    /// Sends a command and waits for its answer, on a runtime with a clock.
     pub async fn send(&self, command: Command) -> Result<(), CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Obey { command, answer })?;
-        answered.await.unwrap_or(Err(CommandError::Ended))
+        answer_of(answered).await
     }
 
     /// The last moment kept at or before a tick; changes nothing.
     pub async fn recall(&self, tick: u64) -> Result<Past, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Recall { tick, answer })?;
-        answered.await.unwrap_or(Err(CommandError::Ended))
+        answer_of(answered).await
     }
 
     /// The trial and all that it was told, as a case; changes nothing.
     pub async fn case(&self) -> Result<Case, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Case { answer })?;
-        answered.await.unwrap_or(Err(CommandError::Ended))
+        answer_of(answered).await
     }
 
     fn ask(&self, request: Request) -> Result<(), CommandError> {
-        let commands = self.commands.as_ref().ok_or(CommandError::Ended)?;
+        let commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
+        let commands = commands.as_ref().ok_or(CommandError::Ended)?;
         commands.try_send(request).map_err(|error| match error {
             TrySendError::Full(_) => CommandError::Busy,
             TrySendError::Disconnected(_) => CommandError::Ended,
@@ -227,12 +253,31 @@ impl Session {
     }
 }
 
-impl Drop for Session {
-    fn drop(&mut self) {
-        self.commands = None;
-        if let Some(thread) = self.thread.take() {
+impl Session {
+    /// Breaks off steps asked for: the session is to end.
+    pub fn interrupt(&self) {
+        self.interrupted.store(true, Ordering::Relaxed);
+    }
+
+    /// Ends the thread after the tick that it computes at the moment, and closes the sink. Blocks; does nothing the
+    /// second time.
+    pub fn close(&self) {
+        self.interrupt();
+        drop(self.commands.lock().unwrap_or_else(PoisonError::into_inner).take());
+        if let Some(thread) = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take() {
             // The worker catches its own panics.
             let _ = thread.join();
         }
+    }
+}
+
+async fn answer_of<T>(answered: oneshot::Receiver<Result<T, CommandError>>) -> Result<T, CommandError> {
+    let answer = tokio::time::timeout(ANSWER_WITHIN, answered).await.map_err(|_| CommandError::Unanswered)?;
+    answer.unwrap_or(Err(CommandError::Ended))
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.close();
     }
 }

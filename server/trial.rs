@@ -13,6 +13,7 @@ mod log;
 mod outcome;
 mod record;
 mod replay;
+mod resume;
 mod sink;
 mod state;
 mod tally;
@@ -37,12 +38,10 @@ pub use log::{Entry, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, 
 pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Event, EventKind, Moment, Sight, TickRecord};
 pub use replay::{Eyes, ReplayError, Replayed, replay};
+pub use resume::StateError;
 pub use sink::{Beginning, Nowhere, Sink};
 pub use state::{Counters, Decision, Mind, Motion, TrialState, World, WorldHashes};
 pub use tally::Tally;
-
-/// The tool changes height no faster than this.
-const LIFT_SPEED_M_S: f64 = 0.05;
 
 /// Why a trial could not be made or go on.
 #[derive(Debug, thiserror::Error)]
@@ -73,12 +72,23 @@ pub enum TrialError {
         /// How many.
         entries: usize,
     },
+    /// The state in a file is none.
+    #[error(transparent)]
+    State(#[from] StateError),
     /// No picture.
     #[error(transparent)]
     Camera(#[from] CameraError),
     /// The system gives no thread to run in.
     #[error("the session's thread could not start: {0}")]
     Thread(String),
+    /// The simulation has left the numbers; the state is of no use any more.
+    #[error("tick {tick}: {what} is not a finite number any more")]
+    NotFinite {
+        /// The tick.
+        tick: u64,
+        /// What.
+        what: &'static str,
+    },
     /// A replay needs a decision at this tick and the log has none.
     #[error("log: no decision at tick {tick}")]
     MissingDecision {
@@ -135,6 +145,7 @@ impl Arena {
         Limits {
             workspace: *self.map.workspace(),
             speed_m_s: parameters.transport_speed_m_s,
+            flight_speed_m_s: parameters.approach_speed_m_s,
             tool_orientation: parameters.tool_orientation,
         }
     }
@@ -171,18 +182,19 @@ impl Trial {
     /// Sets up a scenario in an arena that was made from its map.
     pub fn new(scenario: Scenario, arena: Arc<Arena>) -> Result<Self, TrialError> {
         scenario.parameters.check()?;
+        let limits = arena.limits(&scenario.parameters);
+        let kind = scenario.positioner.unwrap_or_else(|| PositionerKind::of(&arena.map));
+        let above = |start: Point2<f64>| {
+            let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
+            limits.position(tool_m, &Positioner::home(kind, tool_m)).map(|positioner| (tool_m, positioner))
+        };
         let start = match scenario.start_m {
             Some(start) => start,
-            None => start_point(&arena.map, &arena.space, scenario.seed)?,
+            None => start_point(&arena.map, &arena.space, scenario.seed, &|start| above(start).is_ok())?,
         };
         input::check_place("start_m", start, &arena.map)?;
         Self::check_script(&scenario.script, &arena.map)?;
-        let limits = arena.limits(&scenario.parameters);
-        let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
-        let kind = scenario.positioner.unwrap_or_else(|| PositionerKind::of(&arena.map));
-        let home = Positioner::home(kind, tool_m);
-        let positioner =
-            limits.position(tool_m, &home).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
+        let (tool_m, positioner) = above(start).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
         let plant = Plant::new(scenario.parameters.plant());
         let state = TrialState::at_start(&scenario, arena.map.workspace(), tool_m, positioner);
         let mut trial = Self { arena, plant, state, inputs: Vec::new(), events: Vec::new(), scenario };
@@ -256,6 +268,7 @@ impl Trial {
 
     /// Advances one servo period of 8 ms. When the camera fails, nothing has changed.
     pub fn tick(&mut self, source: Source<'_>) -> Result<TickRecord, TrialError> {
+        fault_point!("step");
         let tick = self.state.world.tick;
         let mut decision = None;
         let mut seen = None;
@@ -276,6 +289,11 @@ impl Trial {
         }
         self.strike_as_scripted(None);
         self.advance_reference();
+        #[cfg(test)]
+        if crate::faults::strikes("not a number") {
+            self.state.world.plant.bead.position_m.x = f64::NAN;
+        }
+        self.check_finite(tick)?;
         self.sense();
         self.state.world.tick += 1;
         self.judge();
@@ -299,16 +317,27 @@ impl Trial {
                 limits.keep_in(here + velocity * SERVO_PERIOD_S)
             }
         };
-        let rise_m = world.parameters.tool_height_m - world.reference_m.z;
-        let most_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
-        let next_m = Point3::new(wanted.x, wanted.y, world.reference_m.z + rise_m.clamp(-most_m, most_m));
         let reference = world.reference;
-        if let Ok(next) = limits.position(next_m, &reference) {
+        let wanted_m = Point3::new(wanted.x, wanted.y, world.parameters.tool_height_m);
+        // A flight over the edge of the reach waits at the edge.
+        if let Ok((next_m, next)) = limits.advance(world.reference_m, wanted_m, &reference) {
             world.reference_m = next_m;
             world.reference = next;
         }
-        // A flight over the edge of the reach waits at the edge.
         self.plant.step(&mut world.plant, &self.arena.map, &reference, &world.reference);
+    }
+
+    fn check_finite(&self, tick: u64) -> Result<(), TrialError> {
+        let world = &self.state.world;
+        let is_finite = |coordinates: &[f64]| coordinates.iter().all(|value| value.is_finite());
+        let what = if !is_finite(world.plant.bead.position_m.coords.as_slice()) {
+            "the bead's position"
+        } else if !is_finite(self.tool_m().coords.as_slice()) {
+            "the tool's position"
+        } else {
+            return Ok(());
+        };
+        Err(TrialError::NotFinite { tick, what })
     }
 
     fn sense(&mut self) {

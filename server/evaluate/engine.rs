@@ -36,21 +36,25 @@ pub(super) fn give_way() {
         set_current_thread_priority(ThreadPriority::Crossplatform(value)).map_err(|error| error.to_string())
     });
     if let Err(error) = lowered {
-        tracing::warn!(%error, "evaluations run at the priority of everything else");
+        tracing::warn!(%error, "what runs in the background has the priority of everything else");
     }
+}
+
+/// All cores but one, behind what others do on them.
+pub(crate) fn gentle_pool(name: &'static str) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
+    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    ThreadPoolBuilder::new()
+        .num_threads(cores.saturating_sub(1).max(1))
+        .thread_name(move |index| format!("{name} {index}"))
+        .start_handler(|_| give_way())
+        .build()
 }
 
 impl Engine {
     /// All cores but one, and a device like `gpu`. To be called in a thread that gives way: a driver that draws on
     /// the processor does so in threads that it starts here, and they inherit that.
     pub(super) fn new(gpu: &Gpu) -> Result<Self, EngineError> {
-        let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(cores.saturating_sub(1).max(1))
-            .thread_name(|index| format!("evaluate {index}"))
-            .start_handler(|_| give_way())
-            .build()?;
-        Ok(Self { pool, gpu: gpu.another()? })
+        Ok(Self { pool: gentle_pool("evaluate")?, gpu: gpu.another()? })
     }
 
     /// Runs an evaluation to its end, whatever that is.

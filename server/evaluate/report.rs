@@ -3,11 +3,12 @@
 mod html;
 
 use serde::Serialize;
+use utoipa::ToSchema;
 
 use super::{Cell, Comparison, Episode, Failure, PaperRow, Row};
 
 /// A table of rows, and what belongs to it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
 pub struct Report {
     /// Version of Ferry.
     pub ferry: String,

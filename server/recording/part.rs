@@ -32,6 +32,14 @@ impl Naming {
         }
     }
 
+    /// Whose recording it is.
+    pub(super) fn subject(&self) -> &str {
+        match self {
+            Self::Archive { session, .. } => session,
+            Self::Alone { name, .. } => name,
+        }
+    }
+
     /// The next part's name.
     fn claim(&self) -> Result<String, RecordingError> {
         match self {

@@ -21,12 +21,25 @@ pub struct Pace {
     window_start: Instant,
     window_ticks: u32,
     achieved: f64,
+    /// Latest tick of this window, and of the last.
+    latest: Duration,
+    lateness: Duration,
+    missed: u64,
 }
 
 impl Pace {
     /// A pace that starts now.
     pub fn new(factor: f64, now: Instant) -> Self {
-        Self { factor, due: now, window_start: now, window_ticks: 0, achieved: 0.0 }
+        Self {
+            factor,
+            due: now,
+            window_start: now,
+            window_ticks: 0,
+            achieved: 0.0,
+            latest: Duration::ZERO,
+            lateness: Duration::ZERO,
+            missed: 0,
+        }
     }
 
     /// The factor asked for.
@@ -39,14 +52,24 @@ impl Pace {
         self.achieved
     }
 
+    /// How late the latest tick of the last half second came.
+    pub fn lateness(&self) -> Duration {
+        self.lateness
+    }
+
+    /// How often lost time was let go.
+    pub fn missed(&self) -> u64 {
+        self.missed
+    }
+
     /// Another factor, from now on.
     pub fn set_factor(&mut self, factor: f64, now: Instant) {
-        *self = Self { achieved: self.achieved, ..Self::new(factor, now) };
+        *self = Self { achieved: self.achieved, missed: self.missed, ..Self::new(factor, now) };
     }
 
     /// Starts again after a pause.
     pub fn restart(&mut self, now: Instant) {
-        *self = Self::new(self.factor, now);
+        *self = Self { missed: self.missed, ..Self::new(self.factor, now) };
     }
 
     /// Time left until the next tick; zero when it is due.
@@ -56,14 +79,17 @@ impl Pace {
 
     /// A tick was done.
     pub fn ticked(&mut self, now: Instant) {
+        self.latest = self.latest.max(now.saturating_duration_since(self.due));
         self.due += Duration::from_secs_f64(SERVO_PERIOD_S / self.factor);
         if now.saturating_duration_since(self.due) > CATCH_UP {
             self.due = now;
+            self.missed += 1;
         }
         self.window_ticks += 1;
         let span = now.saturating_duration_since(self.window_start);
         if span >= WINDOW {
             self.achieved = f64::from(self.window_ticks) * SERVO_PERIOD_S / span.as_secs_f64();
+            self.lateness = std::mem::take(&mut self.latest);
             self.window_start = now;
             self.window_ticks = 0;
         }
@@ -83,7 +109,10 @@ mod tests {
         }
         assert_eq!(pace.wait(start), Duration::from_millis(40));
         let late = start + Duration::from_secs(5);
+        assert_eq!(pace.missed(), 0);
         pace.ticked(late);
+        assert_eq!(pace.missed(), 1);
+        assert_eq!(pace.lateness(), Duration::from_millis(5000 - 40));
         assert_eq!(pace.wait(late), Duration::ZERO);
         pace.ticked(late);
         assert_eq!(pace.wait(late), Duration::from_millis(4));

@@ -49,6 +49,12 @@ impl Timeline {
         (first == 0).then(|| self.inputs.iter().cloned().collect())
     }
 
+    /// Whether anything lies after a tick.
+    pub fn reaches_past(&self, tick: u64) -> bool {
+        self.moments.back().is_some_and(|last| last.world.tick > tick)
+            || self.inputs.back().is_some_and(|&(at, _)| at > tick)
+    }
+
     /// Drops what lies after a tick.
     pub fn forget_after(&mut self, tick: u64) {
         while self.moments.back().is_some_and(|last| last.world.tick > tick) {

@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -10,57 +11,65 @@ use tokio::sync::{broadcast, watch};
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
 use super::{Command, CommandError, JOURNAL, Past, Request, STEP_MAX, Scenery, View};
-use crate::camera::{Camera, Gpu};
+use crate::camera::{CameraError, Eye};
 use crate::control::step_is_due;
 use crate::geometry::Point2;
+use crate::map::Library;
 use crate::scenario::Scenario;
 use crate::trial::{
     Arena, Beginning, Case, Event, EventKind, Input, InputError, Sight, Sink, Source, Timed, Trial, TrialError,
     TrialState,
 };
 
-/// Watchers get at most sixty views a second.
+/// Watchers get about sixty views a second, and one more after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
 /// While ticks are due without a pause, commands still wait no longer than this.
 const DRAIN_EVERY: Duration = Duration::from_millis(4);
 
-pub(super) struct Worker {
-    trial: Trial,
-    gpu: Arc<Gpu>,
-    camera: Camera,
+/// Makes a camera that looks at an arena.
+pub(super) type MakeEye<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
+
+pub(super) struct Worker<E> {
+    pub(super) trial: Trial,
+    make_eye: MakeEye<E>,
+    eye: E,
     sink: Box<dyn Sink>,
     events: broadcast::Sender<Event>,
     timeline: Timeline,
-    scenery: Arc<Scenery>,
+    pub(super) scenery: Arc<Scenery>,
     sight: Arc<(u64, Sight)>,
-    running: bool,
+    pub(super) running: bool,
     /// Whether the trial's hand is that of a moment gone back to, which holds nothing any more.
     hand_is_past: bool,
     pace: Pace,
     journal: Arc<Vec<Event>>,
-    ended: Option<String>,
+    /// A command was carried out as far as this let it: the session ends.
+    pub(super) broken: Option<TrialError>,
+    /// The session is to end: nothing more is begun.
+    pub(super) interrupted: Arc<AtomicBool>,
 }
 
-impl Worker {
+impl<E: Eye> Worker<E> {
     pub(super) fn new(
         scenario: Scenario,
         arena: Arc<Arena>,
-        gpu: Arc<Gpu>,
-        mut camera: Camera,
+        library: Arc<Library>,
+        make_eye: MakeEye<E>,
         mut sink: Box<dyn Sink>,
         events: broadcast::Sender<Event>,
     ) -> Result<Self, TrialError> {
+        let mut eye = make_eye(&arena)?;
         let trial = Trial::new(scenario, arena)?;
-        let scenery = Arc::new(scenery_of(&trial, 0, 0));
+        let scenery = Arc::new(scenery_of(&trial, library, 0, 0));
         sink.begin(&trial, Beginning::SetUp);
-        let sight = Arc::new((0, trial.look(&mut camera)?));
+        let sight = Arc::new((0, trial.look(&mut eye)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
         let pace = Pace::new(1.0, Instant::now());
         Ok(Self {
             trial,
-            gpu,
-            camera,
+            make_eye,
+            eye,
             sink,
             events,
             timeline,
@@ -70,7 +79,8 @@ impl Worker {
             hand_is_past: false,
             pace,
             journal: Arc::default(),
-            ended: None,
+            broken: None,
+            interrupted: Arc::default(),
         })
     }
 
@@ -81,12 +91,14 @@ impl Worker {
             running: self.running,
             speed_target: self.pace.factor(),
             speed_achieved: if self.running { self.pace.achieved() } else { 0.0 },
+            lateness: if self.running { self.pace.lateness() } else { Duration::ZERO },
+            missed_deadlines: self.pace.missed(),
             rewind_ticks: self.timeline.range().unwrap_or_default(),
             scenery: self.scenery.clone(),
             sight: self.sight.clone(),
             journal: self.journal.clone(),
             recording: self.sink.status(),
-            ended: self.ended.clone(),
+            ended: None,
         }
     }
 
@@ -110,7 +122,7 @@ impl Worker {
     }
 
     fn serve(&mut self, inbox: &Receiver<Request>, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
-        let mut published = Instant::now();
+        let mut publish_at = Instant::now();
         loop {
             let now = Instant::now();
             let wait = if self.running { self.pace.wait(now) } else { Duration::from_secs(3600) };
@@ -134,9 +146,11 @@ impl Worker {
                     Err(std::sync::mpsc::TryRecvError::Disconnected) => return Ok(()),
                 }
             }
-            if published.elapsed() >= PUBLISH_EVERY {
+            let now = Instant::now();
+            if now >= publish_at {
                 publish.send_replace(Arc::new(self.view()));
-                published = Instant::now();
+                // Ticks come every 8 ms: what is due between two of them must not wait for the third.
+                publish_at = (publish_at + PUBLISH_EVERY).max(now - PUBLISH_EVERY / 2);
             }
         }
     }
@@ -157,7 +171,7 @@ impl Worker {
                 let _ = answer.send(self.case());
             }
         }
-        Ok(())
+        self.broken.take().map_or(Ok(()), Err)
     }
 
     /// The trial as a case, with all that it was told.
@@ -187,7 +201,10 @@ impl Worker {
         })
     }
 
-    fn obey(&mut self, command: Command) -> Result<(), CommandError> {
+    pub(super) fn obey(&mut self, command: Command) -> Result<(), CommandError> {
+        if self.interrupted.load(Ordering::Relaxed) && !matches!(command, Command::Pause) {
+            return Err(CommandError::Ended);
+        }
         match command {
             Command::Input(input) => self.input(input)?,
             Command::Run => {
@@ -202,7 +219,13 @@ impl Worker {
                 }
                 self.running = false;
                 for _ in 0..ticks {
-                    self.tick()?;
+                    if self.interrupted.load(Ordering::Relaxed) {
+                        break;
+                    }
+                    if let Err(error) = self.tick() {
+                        self.broken = Some(error);
+                        break;
+                    }
                 }
             }
             Command::SetSpeed(factor) => {
@@ -224,7 +247,7 @@ impl Worker {
             }
             Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, disturbances, script } => {
                 // A name only: no client path touches the file system.
-                let arena = Arena::of(crate::map::Map::shipped(&map)?);
+                let arena = Arena::of(self.scenery.library.find(&map)?);
                 let present = self.trial.state();
                 let scenario = Scenario {
                     map,
@@ -237,10 +260,10 @@ impl Worker {
                     disturbances,
                     script,
                 };
-                let camera = arena.camera(&self.gpu).map_err(TrialError::from)?;
-                let before = std::mem::replace(&mut self.camera, camera);
+                let eye = (self.make_eye)(&arena).map_err(TrialError::from)?;
+                let before = std::mem::replace(&mut self.eye, eye);
                 if let Err(error) = self.set_up(scenario, arena) {
-                    self.camera = before;
+                    self.eye = before;
                     return Err(error);
                 }
             }
@@ -251,7 +274,7 @@ impl Worker {
                 self.trial.restore(state);
                 self.scenery = Arc::new(self.next_scenery(0));
                 self.sink.begin(&self.trial, Beginning::Resumed);
-                self.look()?;
+                self.look();
             }
         }
         Ok(())
@@ -259,7 +282,9 @@ impl Worker {
 
     /// While time stands a release puts the bead where the pointer is, since nothing else could.
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
-        let before = self.hashes();
+        let tick = self.trial.state().world.tick;
+        // Hashes cost more than most inputs, and matter only where time was gone back in.
+        let before = self.timeline.reaches_past(tick).then(|| self.hashes());
         let as_it_was = self.hand_is_past.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
             self.drop_past_hand()?;
@@ -270,14 +295,14 @@ impl Worker {
             self.hand_is_past = true;
         }
         let configures = done?;
-        if self.hashes() != before {
-            self.timeline.forget_after(self.trial.state().world.tick);
+        if before.is_some_and(|before| before != self.hashes()) {
+            self.timeline.forget_after(tick);
         }
         if configures {
             self.scenery = Arc::new(self.next_scenery(0));
         }
         if !self.running {
-            self.look()?;
+            self.look();
         }
         Ok(())
     }
@@ -299,7 +324,7 @@ impl Worker {
 
     fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {
         let trial = Trial::new(scenario, arena)?;
-        let sight = trial.look(&mut self.camera).map_err(TrialError::from)?;
+        let sight = trial.look(&mut self.eye).map_err(TrialError::from)?;
         self.trial = trial;
         self.running = false;
         self.hand_is_past = false;
@@ -318,14 +343,16 @@ impl Worker {
     }
 
     fn next_scenery(&self, new_trials: u64) -> Scenery {
-        scenery_of(&self.trial, self.scenery.version + 1, self.scenery.trial + new_trials)
+        let (version, trial) = (self.scenery.version + 1, self.scenery.trial + new_trials);
+        scenery_of(&self.trial, self.scenery.library.clone(), version, trial)
     }
 
     /// Shows what the camera sees now, without a control step.
-    fn look(&mut self) -> Result<(), CommandError> {
-        let sight = self.trial.look(&mut self.camera).map_err(TrialError::from)?;
-        self.sight = Arc::new((self.trial.state().world.tick, sight));
-        Ok(())
+    fn look(&mut self) {
+        match self.trial.look(&mut self.eye) {
+            Ok(sight) => self.sight = Arc::new((self.trial.state().world.tick, sight)),
+            Err(error) => self.broken = Some(error.into()),
+        }
     }
 
     fn hashes(&self) -> (u64, u64) {
@@ -340,12 +367,12 @@ impl Worker {
         Ok(())
     }
 
-    fn tick(&mut self) -> Result<(), TrialError> {
+    pub(super) fn tick(&mut self) -> Result<(), TrialError> {
         self.drop_past_hand()?;
         if step_is_due(self.trial.state().world.tick) {
             self.timeline.keep(self.trial.snapshot());
         }
-        let mut record = self.trial.tick(Source::Eye(&mut self.camera))?;
+        let mut record = self.trial.tick(Source::Eye(&mut self.eye))?;
         self.sink.record(&record);
         if self.sink.wants_beginning() {
             self.sink.begin(&self.trial, Beginning::Resumed);
@@ -383,10 +410,11 @@ impl Worker {
     }
 }
 
-fn scenery_of(trial: &Trial, version: u64, number: u64) -> Scenery {
+fn scenery_of(trial: &Trial, library: Arc<Library>, version: u64, number: u64) -> Scenery {
     Scenery {
         version,
         trial: number,
+        library,
         arena: trial.arena().clone(),
         scenario: trial.scenario().clone(),
         positioner: trial.state().world.plant.positioner.kind(),

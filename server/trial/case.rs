@@ -1,12 +1,15 @@
 //! Cases: a scenario, what an operator did in it, and what is expected of it. A drag on the page becomes one.
 
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::{Arena, Counters, Input, InputError, Source, TickRecord, Trial, TrialError};
 use crate::camera::Eye;
+use crate::files::read_at_most;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Scenario, Shipped, ShippedError};
 
@@ -14,9 +17,13 @@ use crate::scenario::{Scenario, Shipped, ShippedError};
 const TIME_TO_DELIVER_S: f64 = 60.0;
 /// What is delivered already may come so much later: with another adapter images differ, and decisions with them.
 const SLACK_S: f64 = 10.0;
+/// A larger file is no case: an hour of dragging comes to a tenth of it.
+const BYTES_MOST: u64 = 64 << 20;
+/// A day of ticks: whoever waits for a later one waits for ever.
+const TICKS_MOST: u64 = 24 * 3600 * 125;
 
 /// A trial that can be run again with whatever the controllers have become.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// What it shows.
@@ -32,7 +39,7 @@ pub struct Case {
 }
 
 /// An input and its time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
     /// It comes before the tick after this one.
@@ -42,7 +49,7 @@ pub struct Timed {
 }
 
 /// So many deliveries by then.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Deliveries since the start.
@@ -79,9 +86,24 @@ impl Case {
             return Ok(Self { about, scenario, inputs: Vec::new(), expect: None });
         }
         let unreadable = |reason: String| ShippedError::Unreadable { path: name_or_path.to_owned(), reason };
-        let bytes = std::fs::read(name_or_path).map_err(|error| unreadable(error.to_string()))?;
-        let mut reader = serde_json::Deserializer::from_slice(&bytes);
-        serde_path_to_error::deserialize(&mut reader).map_err(|error| unreadable(error.to_string()))
+        let bytes = read_at_most(Path::new(name_or_path), BYTES_MOST).map_err(|error| unreadable(error.to_string()))?;
+        Self::from_json(&bytes).map_err(unreadable)
+    }
+
+    /// Reads a case.
+    ///
+    /// # Errors
+    /// What is wrong with it, the field named.
+    pub fn from_json(bytes: &[u8]) -> Result<Self, String> {
+        let mut reader = serde_json::Deserializer::from_slice(bytes);
+        let case: Self = serde_path_to_error::deserialize(&mut reader).map_err(|error| error.to_string())?;
+        reader.end().map_err(|error| error.to_string())?;
+        let last = case.inputs.iter().map(|timed| ("inputs: tick", timed.tick)).max_by_key(|&(_, tick)| tick);
+        let by = case.expect.map(|expect| ("expect.by_tick", expect.by_tick));
+        match last.into_iter().chain(by).find(|&(_, tick)| tick > TICKS_MOST) {
+            Some((field, tick)) => Err(format!("{field} is {tick}, it must be at most {TICKS_MOST}, a day")),
+            None => Ok(case),
+        }
     }
 
     /// Of a trial and all that it was told: what is under way is expected to be delivered. `None` if there is nothing
@@ -131,5 +153,24 @@ impl Case {
                 return Ok(CaseOutcome { tick: record.tick, phase, counters, refused });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_that_would_never_end_is_refused() {
+        let scenario = serde_json::to_string(&Scenario::idle("open", 1)).unwrap();
+        let case = |rest: &str| Case::from_json(format!(r#"{{"about":"","scenario":{scenario}{rest}}}"#).as_bytes());
+        assert!(case("").is_ok());
+        assert!(case(r#","inputs":[{"tick":10800000,"input":"release"}]"#).is_ok());
+        let error = case(r#","inputs":[{"tick":10800001,"input":"release"}]"#).unwrap_err();
+        assert_eq!(error, "inputs: tick is 10800001, it must be at most 10800000, a day");
+        let error = case(r#","expect":{"deliveries":1,"by_tick":18446744073709551615}"#).unwrap_err();
+        assert!(error.starts_with("expect.by_tick is 18446744073709551615, it must be at most"), "{error}");
+        let error = case(r#","inputs":[{"tick":1,"input":"fly"}]"#).unwrap_err();
+        assert!(error.starts_with("inputs[0].input: unknown variant `fly`"), "{error}");
     }
 }

@@ -153,7 +153,7 @@ impl Trial {
         let world = &mut self.state.world;
         let mut rng = world.script.draws(self.scenario.seed, Draw::Place);
         world.script.at_leg_step = None;
-        world.script.remaining -= 1;
+        world.script.remaining = world.script.remaining.saturating_sub(1);
         world.script.struck += 1;
         let (map, space) = (&self.arena.map, &self.arena.space);
         match far_point(map, space, world.plant.bead.position_m, &mut rng) {

@@ -10,8 +10,11 @@ use crate::map::Map;
 use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
 use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters};
 
+/// Most inputs before one tick: a quarter of an hour of dragging while time stands. All stand in the log.
+const WAITING_MOST: usize = 50_000;
+
 /// One action; stands in the log at the tick that follows it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
@@ -94,6 +97,9 @@ pub enum InputError {
     /// A disturbance that cannot be.
     #[error("disturbance: {0}")]
     Disturbance(#[from] DisturbanceError),
+    /// Time stands, and what was told already waits for the next tick.
+    #[error("time stands, and {WAITING_MOST} inputs wait for its next tick; let it run first")]
+    TooManyWait,
 }
 
 impl InputError {
@@ -106,6 +112,7 @@ impl InputError {
             Self::Reach { .. } => "out_of_reach",
             Self::Parameter(_) => "parameter_out_of_range",
             Self::Disturbance(_) => "disturbance_out_of_range",
+            Self::TooManyWait => "too_many_wait",
         }
     }
 
@@ -118,6 +125,7 @@ impl InputError {
             | Self::Reach { field, .. } => field,
             Self::Parameter(error) => error.field,
             Self::Disturbance(error) => error.field,
+            Self::TooManyWait => "type",
         }
     }
 }
@@ -149,6 +157,10 @@ fn check_finite(field: &'static str, point: Point2<f64>) -> Result<(), InputErro
 impl Trial {
     /// Applies one input between two ticks, or refuses it and changes nothing.
     pub fn apply(&mut self, input: Input) -> Result<(), InputError> {
+        // A hand may always let go.
+        if self.inputs.len() >= WAITING_MOST && !matches!(input, Input::Release) {
+            return Err(InputError::TooManyWait);
+        }
         match &input {
             Input::SetGoal { x_m, y_m } => self.set_goal(Point2::new(*x_m, *y_m))?,
             Input::ClearGoal => self.clear_goal(),
@@ -268,5 +280,28 @@ impl Trial {
         self.plant = Plant::new(parameters.plant());
         self.state.world.parameters = parameters.clone();
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use crate::trial::{Arena, Source};
+
+    #[test]
+    fn while_time_stands_so_many_inputs_wait_and_no_more() {
+        let mut trial = Trial::new(Scenario::idle("open", 1), Arena::open("open").unwrap()).unwrap();
+        for _ in 0..WAITING_MOST {
+            trial.apply(Input::ClearGoal).unwrap();
+        }
+        let before = trial.state().world_hash();
+        let goal = Input::SetGoal { x_m: 0.1, y_m: -0.3 };
+        assert_eq!(trial.apply(goal.clone()), Err(InputError::TooManyWait));
+        assert_eq!(trial.state().world_hash(), before);
+        trial.apply(Input::Release).unwrap();
+        let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
+        assert_eq!(trial.tick(Source::Eye(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);
+        trial.apply(goal).unwrap();
     }
 }

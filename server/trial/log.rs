@@ -7,6 +7,7 @@
 //! left out.
 
 use std::io::{Read, Write};
+use std::path::Path;
 
 use flate2::Compression;
 use flate2::read::DeflateDecoder;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64_with_seed;
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
+use crate::files::{ReadError, read_at_most};
 use crate::map::{Map, MapError};
 use crate::scenario::Scenario;
 
@@ -23,8 +25,11 @@ const VERSION: u32 = 5;
 const MAGIC: &[u8; 8] = b"ferrylog";
 /// Bytes before a frame's payload.
 const FRAME_HEAD: usize = 8;
-/// What a frame may come to: nothing that Ferry writes comes near.
-const FRAME_BYTES: u64 = 64 << 20;
+/// A larger file is no log: ten minutes, after which a session begins another, come to a third of it at 64 times the
+/// speed of time.
+const BYTES_MOST: u64 = 1 << 30;
+/// What all frames together may unpack to: a few bytes may stand for very many.
+const UNPACKED_MOST: u64 = 2 << 30;
 
 /// Why a log could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -56,6 +61,17 @@ pub enum LogError {
     /// The disk or the pipe.
     #[error("log: {0}")]
     Io(#[from] std::io::Error),
+    /// More than a log holds.
+    #[error("log: {0}")]
+    Unread(#[from] ReadError),
+    /// More than a log holds, unpacked.
+    #[error("log: the frame at byte {byte} and those before it unpack to more than the limit of {most} bytes")]
+    TooLong {
+        /// Where the frame begins.
+        byte: usize,
+        /// The limit.
+        most: u64,
+    },
     /// A value that has no CBOR form.
     #[error("log: {0}")]
     Encode(String),
@@ -211,8 +227,20 @@ pub struct InputLog {
 }
 
 impl InputLog {
+    /// Reads a log's file.
+    ///
+    /// # Errors
+    /// Those of [`Self::read`]; nothing of a file over 1 GiB is read.
+    pub fn open(path: &Path) -> Result<Self, LogError> {
+        Self::read(&read_at_most(path, BYTES_MOST)?)
+    }
+
     /// Reads a log up to its end, or up to its last whole frame if it is torn.
     pub fn read(bytes: &[u8]) -> Result<Self, LogError> {
+        Self::read_at_most(bytes, UNPACKED_MOST)
+    }
+
+    fn read_at_most(bytes: &[u8], most: u64) -> Result<Self, LogError> {
         let start = &bytes[..bytes.len().min(MAGIC.len())];
         if !MAGIC.starts_with(start) {
             return Err(LogError::Foreign(String::from_utf8_lossy(start).into_owned()));
@@ -225,10 +253,14 @@ impl InputLog {
             return Err(LogError::Version { found });
         }
         let (mut entries, mut hash) = (Vec::new(), u64::from(VERSION));
+        let mut left = most;
         while let Some((payload, next_hash, after)) =
             whole_frame(rest, hash).map_err(|what| damaged(bytes.len() - rest.len(), &entries, what))?
         {
-            read_entries(payload, &mut entries).map_err(|what| damaged(bytes.len() - rest.len(), &entries, &what))?;
+            let byte = bytes.len() - rest.len();
+            let unpacked = unpack(payload, left).map_err(|error| damaged(byte, &entries, &error.to_string()))?;
+            left = left.checked_sub(unpacked.len() as u64).ok_or(LogError::TooLong { byte, most })?;
+            read_entries(&unpacked, &mut entries).map_err(|what| damaged(byte, &entries, &what))?;
             (hash, rest) = (next_hash, after);
         }
         if entries.is_empty() {
@@ -262,11 +294,14 @@ fn whole_frame(bytes: &[u8], hash: u64) -> Result<Option<Frame<'_>>, &'static st
     Ok(Some((payload, hash, rest)))
 }
 
-fn read_entries(payload: &[u8], entries: &mut Vec<Entry>) -> Result<(), String> {
-    let mut inflated = Vec::new();
-    let mut decoder = DeflateDecoder::new(payload).take(FRAME_BYTES);
-    decoder.read_to_end(&mut inflated).map_err(|error| error.to_string())?;
-    let mut rest = inflated.as_slice();
+/// A byte more than `most` at most.
+fn unpack(payload: &[u8], most: u64) -> std::io::Result<Vec<u8>> {
+    let mut unpacked = Vec::new();
+    DeflateDecoder::new(payload).take(most + 1).read_to_end(&mut unpacked)?;
+    Ok(unpacked)
+}
+
+fn read_entries(mut rest: &[u8], entries: &mut Vec<Entry>) -> Result<(), String> {
     while !rest.is_empty() {
         let entry: Entry = ciborium::from_reader(&mut rest).map_err(|error| error.to_string())?;
         if entries.is_empty() && !matches!(&entry, Entry::Begin(beginning) if beginning.map.is_some()) {
@@ -349,6 +384,28 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_few_bytes_that_stand_for_very_many_are_refused() {
+        let (bytes, ends, _) = written();
+        let whole = unpack(&bytes[12 + FRAME_HEAD..ends[0] - 8], 1 << 20).unwrap().len() as u64;
+        let error = InputLog::read_at_most(&bytes, whole).unwrap_err();
+        assert!(matches!(error, LogError::TooLong { byte, most } if (byte, most) == (ends[0], whole)), "{error}");
+        // Stopped on the way: of a billion bytes no more than one too many is unpacked.
+        let mut packed = DeflateEncoder::new(Vec::new(), Compression::best());
+        packed.write_all(&[0; 1 << 20]).unwrap();
+        let packed = packed.finish().unwrap();
+        assert!(packed.len() < 2000 && unpack(&packed, 100).unwrap().len() == 101);
+    }
+
+    #[test]
+    fn a_file_too_large_is_refused_unread() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("large.ferry");
+        std::fs::File::create(&path).unwrap().set_len(BYTES_MOST + 1).unwrap();
+        let error = InputLog::open(&path).unwrap_err();
+        assert!(matches!(error, LogError::Unread(ReadError::TooLarge { .. })), "{error}");
     }
 
     #[test]

@@ -109,7 +109,7 @@ impl Trial {
                 let text = format!("delivered: the bead is {:.0} mm from the goal", left_m * 1e3);
                 self.events.push(Event::new(tick, EventKind::Delivered, text));
             }
-            Phase::Settling { since_tick } if (tick - since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S => {
+            Phase::Settling { since_tick } if tick.saturating_sub(since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S => {
                 self.stop(StopReason::Settle);
             }
             _ => {}

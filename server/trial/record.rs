@@ -18,7 +18,7 @@ use crate::scenario::ControllerName;
 use super::state::{Counters, TrialState, WorldHashes};
 
 /// Kinds of event, for the timeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EventKind {
     /// The switching law changed the active sub-controller.

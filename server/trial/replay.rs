@@ -111,7 +111,7 @@ fn begin(
     let mut trial = Trial::new(beginning.scenario.clone(), arena.clone())?;
     trial.take_events();
     if let Some(state) = &beginning.state {
-        trial.restore(TrialState::clone(state));
+        trial.resume(TrialState::clone(state))?;
     }
     let eye = eyes.as_mut().map(|make| make(arena)).transpose()?;
     Ok((trial, eye))

@@ -1,0 +1,143 @@
+//! Going on from a state that was read from a file: anyone may have written it.
+
+use ciborium::Value;
+
+use super::{Trial, TrialError, TrialState};
+
+/// Lengths in metres, speeds, angles: nothing in a laboratory comes to more.
+const REAL_MOST: f64 = 100.0;
+/// Counters and numbers of cells: so far from where they would overflow that no run gets there.
+const COUNT_MOST: u64 = 1 << 30;
+/// Ticks, likewise.
+const TICK_MOST: u64 = 1 << 53;
+
+/// Fields that hold ticks, or what grows no faster.
+const TICKS: [&str; 6] = ["tick", "since_tick", "reached_tick", "drift_until", "dropout_until", "version"];
+/// Fields that may hold any number, or are checked by themselves.
+const ANY: [&str; 8] = ["rng", "seen", "known", "parameters", "pending", "refusal", "judged", "remaining"];
+
+/// A state that no trial has been in.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("state: {field} is {value}, it must be {allowed}")]
+pub struct StateError {
+    /// The path of the field at fault.
+    pub field: String,
+    /// Its value.
+    pub value: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+impl Trial {
+    /// Goes on from a state that comes from elsewhere, as [`Self::restore`] does from one of its own.
+    ///
+    /// # Errors
+    /// A number in it is out of range, or it belongs to another map; nothing has changed then.
+    pub fn resume(&mut self, state: TrialState) -> Result<(), TrialError> {
+        state.world.parameters.check()?;
+        Self::check_script(&state.world.script.pending, &self.arena.map)?;
+        let (own, workspace) = (self.arena.map.workspace(), state.mind.known.workspace());
+        if workspace != own {
+            let (value, allowed) = (format!("{workspace:?}"), format!("the map's, {own:?}"));
+            return Err(StateError { field: "mind.known.workspace".to_owned(), value, allowed }.into());
+        }
+        let version = state.mind.known.version();
+        if version > TICK_MOST {
+            let (value, allowed) = (version.to_string(), format!("0 to {TICK_MOST}"));
+            return Err(StateError { field: "mind.known.version".to_owned(), value, allowed }.into());
+        }
+        // Of the state's many types each would have to tell of its numbers; their common form shows them all.
+        let form = Value::serialized(&state).expect("plain data serialises");
+        check(&form, "", "")?;
+        self.restore(state);
+        Ok(())
+    }
+}
+
+/// Looks at every number below `value`, which has this path and this name.
+fn check(value: &Value, path: &str, name: &str) -> Result<(), StateError> {
+    let refused = |value: String, allowed: String| {
+        Err(StateError { field: path.trim_start_matches('.').to_owned(), value, allowed })
+    };
+    match value {
+        Value::Float(number) if number.is_nan() || number.abs() > REAL_MOST => {
+            refused(number.to_string(), format!("-{REAL_MOST} to {REAL_MOST}"))
+        }
+        Value::Integer(number) => {
+            let most = if TICKS.contains(&name) { TICK_MOST } else { COUNT_MOST };
+            let number = i128::from(*number);
+            if number.unsigned_abs() > u128::from(most) {
+                return refused(number.to_string(), format!("-{most} to {most}"));
+            }
+            Ok(())
+        }
+        Value::Array(values) => {
+            values.iter().enumerate().try_for_each(|(index, value)| check(value, &format!("{path}[{index}]"), name))
+        }
+        Value::Map(fields) => fields.iter().try_for_each(|(key, value)| match key.as_text().unwrap_or_default() {
+            name if ANY.contains(&name) => Ok(()),
+            name => check(value, &format!("{path}.{name}"), name),
+        }),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point2;
+    use crate::map::Map;
+    use crate::perception::ObstacleMap;
+    use crate::scenario::{ControllerName, Scenario};
+    use crate::trial::Arena;
+
+    fn trial(map: &str) -> Trial {
+        let arena = Arena::of(Map::shipped(map).unwrap());
+        let scenario = Scenario { controller: ControllerName::Errt, ..Scenario::idle(map, 1) };
+        Trial::new(scenario, arena).unwrap()
+    }
+
+    /// The same cells; only a file can say so.
+    fn with_version(known: &ObstacleMap, version: u64) -> ObstacleMap {
+        let mut form = Value::serialized(known).unwrap();
+        let fields = form.as_map_mut().unwrap();
+        fields.iter_mut().find(|(key, _)| key.as_text() == Some("version")).unwrap().1 = version.into();
+        form.deserialized().unwrap()
+    }
+
+    fn refusal(change: impl Fn(&mut TrialState)) -> String {
+        let mut trial = trial("posts");
+        let mut state = trial.snapshot();
+        change(&mut state);
+        let before = trial.state().world_hash();
+        let error = trial.resume(state).unwrap_err().to_string();
+        assert_eq!(trial.state().world_hash(), before);
+        error
+    }
+
+    #[test]
+    fn a_state_of_ones_own_is_taken() {
+        let mut trial = trial("posts");
+        trial.resume(trial.snapshot()).unwrap();
+    }
+
+    #[test]
+    fn what_no_trial_comes_to_is_refused_by_name() {
+        // A bead so fast would take for ever to move in hops shorter than its radius.
+        let error = refusal(|state| state.world.plant.bead.velocity_m_s.y = 1e300);
+        assert!(error.starts_with("state: world.plant.bead.velocity_m_s[1] is 1000000000"), "{error}");
+        let error = refusal(|state| state.world.goal_m = Some(Point2::new(f64::NAN, 0.0)));
+        assert_eq!(error, "state: world.goal_m[0] is NaN, it must be -100 to 100");
+        let error = refusal(|state| state.world.counters.steps = u32::MAX);
+        assert!(error.starts_with("state: world.counters.steps is 4294967295"), "{error}");
+        let error = refusal(|state| state.world.tick = u64::MAX);
+        assert!(error.starts_with("state: world.tick is 18446744073709551615"), "{error}");
+        let error = refusal(|state| state.world.parameters.tracker_noise_m = f64::INFINITY);
+        assert!(error.starts_with("parameters: tracker_noise_m is inf"), "{error}");
+        // Fuzzed: it would grow by one at the next look.
+        let error = refusal(|state| state.mind.known = with_version(&state.mind.known, u64::MAX));
+        assert!(error.starts_with("state: mind.known.version is 18446744073709551615"), "{error}");
+        let error = refusal(|state| state.mind.known = trial("attractor-example").snapshot().mind.known);
+        assert!(error.starts_with("state: mind.known.workspace is Rect"), "{error}");
+    }
+}
