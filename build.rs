@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "web/index.html",
     "web/package.json",
     "web/package-lock.json",
@@ -14,6 +14,7 @@ const SOURCES: [&str; 8] = [
     "web/vite.config.ts",
     "web/src",
     "web/viewer",
+    "web/login",
 ];
 
 fn main() {

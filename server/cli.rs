@@ -44,6 +44,8 @@ enum Command {
     Replay(replay::Arguments),
     /// Take one camera image a centimetre of a map, as training looks at them
     Sweep(sweep::Arguments),
+    /// Print a new token, for `ferry serve --token-file`
+    Token,
     /// Train a Rainbow-IQN policy: progress bar, checkpoints, learning curve
     Train(train::Arguments),
 }
@@ -57,12 +59,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
             return Ok(ExitCode::from(usage.exit_code() as u8));
         }
     };
-    tracing_subscriber::fmt()
-        .with_env_filter(
-            tracing_subscriber::EnvFilter::try_from_env("FERRY_LOG").unwrap_or_else(|_| "ferry=info,warn".into()),
-        )
-        .with_writer(std::io::stderr)
-        .init();
+    begin_logging()?;
     match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
@@ -70,8 +67,27 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Map(arguments) => map::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Token => {
+            println!("{}", crate::http::Token::generate()?);
+            Ok(ExitCode::SUCCESS)
+        }
         Command::Train(arguments) => train::run(&arguments),
     }
+}
+
+/// Logs to standard error what `FERRY_LOG` asks for, as text or, with `FERRY_LOG_FORMAT=json`, as one object a line.
+fn begin_logging() -> anyhow::Result<()> {
+    let filter = match std::env::var("FERRY_LOG") {
+        Ok(filter) => filter.parse().with_context(|| format!("FERRY_LOG is {filter:?}"))?,
+        Err(_) => tracing_subscriber::EnvFilter::new("ferry=info,warn"),
+    };
+    let logging = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr);
+    match std::env::var("FERRY_LOG_FORMAT").as_deref() {
+        Ok("json") => logging.json().init(),
+        Ok("text") | Err(_) => logging.init(),
+        Ok(other) => anyhow::bail!("FERRY_LOG_FORMAT is {other:?}, it must be text or json"),
+    }
+    Ok(())
 }
 
 /// Opens the graphics adapter; `FERRY_ADAPTER` (auto, vulkan, gl) overrides the choice.

@@ -3,7 +3,7 @@
 //! The map of the house, ground floor first. A module imports only from floors below it; the test
 //! `tests/house.rs` walks the imports. `ARCHITECTURE.md` says what each must never know.
 //!
-//! - floor 1: [`geometry`], [`image`]: frames, poses, shapes; camera frames and gray images.
+//! - floor 1: [`geometry`], [`image`], [`files`]: frames, poses, shapes; camera frames and gray images; bounded files.
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
 //! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: what is set up, seen and measured.
@@ -17,10 +17,23 @@
 
 #![warn(missing_docs)]
 
+/// Panics here when a test has asked for it (see `faults`); nothing in any other build.
+macro_rules! fault_point {
+    ($name:literal) => {
+        #[cfg(test)]
+        if crate::faults::strikes($name) {
+            panic!("injected: {}", $name);
+        }
+    };
+}
+
 pub mod camera;
 pub mod cli;
 pub mod control;
 pub mod evaluate;
+#[cfg(test)]
+mod faults;
+pub mod files;
 pub mod geometry;
 pub mod http;
 pub mod image;

@@ -7,10 +7,11 @@
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
+use utoipa::ToSchema;
 
+use crate::geometry::schema::{Numbers2, Numbers3, Numbers6, Rows3};
 use crate::geometry::{Polygon, Rect};
-use crate::plant::{PositionerKind, ToolOrientation};
-use crate::robot::workspace::ManipulabilityMap;
+use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
 use crate::trial::EventKind;
 
@@ -23,6 +24,7 @@ mod recordings;
 mod seed;
 #[cfg(test)]
 mod typescript;
+mod workspace;
 
 pub use evaluations::{
     EvaluationCell, EvaluationFailure, EvaluationReport, EvaluationStage, EvaluationSummary, Evaluations,
@@ -33,9 +35,10 @@ pub use layers::{
 };
 pub use past::{Branch, ComparisonMessage, MomentMessage};
 pub use recordings::{RecordingFile, RecordingList};
+pub use workspace::{WorkspaceMap, WorkspaceQuery};
 
 /// Raised when an old page could misread the server.
-pub const PROTOCOL_VERSION: u32 = 5;
+pub const PROTOCOL_VERSION: u32 = 6;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.
@@ -43,7 +46,7 @@ pub const BINARY_OBSERVATION: u8 = 2;
 
 /// What a browser may send. Fields are named and measured as everywhere: metres in `base`.
 #[allow(missing_docs)]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[ts(tag = "type", rename_all = "snake_case")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ClientMessage {
@@ -92,12 +95,15 @@ pub enum ClientMessage {
         positioner: Option<PositionerKind>,
         #[serde(default, deserialize_with = "seed::number_or_text")]
         #[ts(optional, type = "number | string")]
+        #[schema(value_type = Option<Value>)]
         seed: Option<u64>,
         #[serde(default)]
         #[ts(optional)]
+        #[schema(value_type = Option<Numbers2>)]
         start_m: Option<[f64; 2]>,
         #[serde(default)]
         #[ts(optional)]
+        #[schema(value_type = Option<Numbers2>)]
         goal_m: Option<[f64; 2]>,
         #[serde(default)]
         #[ts(optional)]
@@ -132,7 +138,7 @@ pub enum ClientMessage {
 }
 
 /// Who this browser is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
     /// May send commands.
@@ -142,7 +148,7 @@ pub enum Role {
 }
 
 /// What the server sends as text.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum ServerMessage {
     /// First message of a connection; sent again when the role changes.
@@ -164,7 +170,7 @@ pub enum ServerMessage {
 }
 
 /// See [`ServerMessage::Hello`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Hello {
     /// [`PROTOCOL_VERSION`].
     pub protocol: u32,
@@ -174,6 +180,10 @@ pub struct Hello {
     pub version: String,
     /// This browser's role.
     pub role: Role,
+    /// Number of the operator's lease; it rises when control passes on. A command may carry it as `epoch`, and is
+    /// refused when it is no longer that.
+    #[ts(type = "number")]
+    pub epoch: u64,
     /// Whether anybody is the operator.
     pub operator_present: bool,
     /// Whether this browser is the operator and another one asks it to make way.
@@ -183,7 +193,7 @@ pub struct Hello {
 }
 
 /// See [`ServerMessage::Scene`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct SceneMessage {
     /// Name of the map.
     pub map: String,
@@ -209,6 +219,7 @@ pub struct SceneMessage {
     /// Radius of the bead.
     pub bead_radius_m: f64,
     /// Corners of the part of the table that the camera sees, from the tool.
+    #[schema(value_type = Vec<Numbers2>)]
     pub camera_sees_m: Vec<[f64; 2]>,
     /// Number of the trial: another one when a trial was set up anew.
     #[ts(type = "number")]
@@ -222,7 +233,7 @@ pub struct SceneMessage {
 }
 
 /// See [`ServerMessage::State`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct StateMessage {
     /// Ticks since the start of the trial.
     #[ts(type = "number")]
@@ -241,19 +252,30 @@ pub struct StateMessage {
     pub speed_target: f64,
     /// Achieved simulated seconds a second.
     pub speed_achieved: f64,
+    /// How late the latest tick of the last half second came, in milliseconds of the clock.
+    pub lateness_ms: f64,
+    /// How often the session fell so far behind that lost time was let go, since it began.
+    #[ts(type = "number")]
+    pub missed_deadlines: u64,
     /// Tool point: the middle of the block's lower face.
+    #[schema(value_type = Numbers3)]
     pub tool_m: [f64; 3],
     /// Centre of the bead, the truth.
+    #[schema(value_type = Numbers3)]
     pub bead_m: [f64; 3],
     /// The bead as the optical tracker gives it.
+    #[schema(value_type = Numbers2)]
     pub bead_tracked_m: [f64; 2],
     /// Goal, if one is set.
+    #[schema(value_type = Option<Numbers3>)]
     pub goal_m: Option<[f64; 3]>,
     /// Where the hand wants the bead, while it holds it.
+    #[schema(value_type = Option<Numbers2>)]
     pub hand_m: Option<[f64; 2]>,
     /// Force of the hand's spring on the bead (0 when not held).
     pub hand_force_n: f64,
     /// Joint angles; none on the planar stage, which has no arm.
+    #[schema(value_type = Option<Numbers6>)]
     pub joints_rad: Option<[f64; 6]>,
     /// Active sub-controller, 1 or 2.
     pub mode: u8,
@@ -296,7 +318,7 @@ pub struct StateMessage {
 }
 
 /// See [`ServerMessage::Event`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct EventMessage {
     /// When.
     #[ts(type = "number")]
@@ -310,18 +332,21 @@ pub struct EventMessage {
 }
 
 /// An obstacle as the attractor sees it: a superellipse of exponent 4.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct SensedObstacle {
     /// Centre.
+    #[schema(value_type = Numbers2)]
     pub center_m: [f64; 2],
     /// Half sides of the fitted rectangle.
+    #[schema(value_type = Numbers2)]
     pub half_size_m: [f64; 2],
     /// Half sides of the superellipse with its safety margin.
+    #[schema(value_type = Numbers2)]
     pub boundary_m: [f64; 2],
 }
 
 /// See [`ServerMessage::Overlay`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct OverlayMessage {
     /// When the camera frame was taken.
     #[ts(type = "number")]
@@ -335,8 +360,10 @@ pub struct OverlayMessage {
     /// Obstacle test: `center_mean` < 150.
     pub obstacle: bool,
     /// Next tool target.
+    #[schema(value_type = Option<Numbers2>)]
     pub target_m: Option<[f64; 2]>,
     /// Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's picture.
+    #[schema(value_type = Rows3)]
     pub picture_from_table: [[f64; 3]; 3],
     /// What the image is made of.
     pub blocks: BlocksLayer,
@@ -347,7 +374,7 @@ pub struct OverlayMessage {
 }
 
 /// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ErrorMessage {
     /// For programs, such as `in_wall`.
     pub code: String,
@@ -357,28 +384,4 @@ pub struct ErrorMessage {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub field: Option<String>,
-}
-
-/// Body of `POST /api/kinematics/workspace`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
-pub struct WorkspaceQuery {
-    /// Where the tool point goes.
-    pub area: Rect,
-    /// Side of a cell.
-    pub cell_m: f64,
-    /// Lower face of the block above the table.
-    pub tool_height_m: f64,
-    /// How the arm holds its flange.
-    pub tool_orientation: ToolOrientation,
-}
-
-/// Answer of `POST /api/kinematics/workspace`.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
-pub struct WorkspaceMap {
-    /// Manipulability with the tool point over each cell.
-    #[serde(flatten)]
-    pub map: ManipulabilityMap,
-    /// Poses with less are refused as singular.
-    pub least_m3: f64,
 }

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use anyhow::Context;
 
 use crate::camera::Subject;
-use crate::control::limits::Limits;
 use crate::evaluate::Trace;
 use crate::geometry::{Point2, Point3};
 use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::nearest_fit};
@@ -96,8 +95,7 @@ fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let parameters = Parameters::default();
     let tool_m = Point3::new(at.x, at.y, parameters.tool_height_m);
     let home = Positioner::home(PositionerKind::of(&arena.map), tool_m);
-    let limits =
-        Limits { workspace: *arena.map.workspace(), speed_m_s: 0.0, tool_orientation: parameters.tool_orientation };
+    let limits = arena.limits(&parameters);
     let positioner = limits.position(tool_m, &home).context("--at")?;
     // The tool may hang over a wall; the bead then lies beside it.
     let bead = nearest_fit(&arena.map, at).context("--at: there is no room for the bead within 5 cm")?;

@@ -24,8 +24,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let path = arguments.file.display();
-    let bytes = std::fs::read(&arguments.file).with_context(|| format!("{path}"))?;
-    let log = InputLog::read(&bytes).with_context(|| format!("{path}"))?;
+    let log = InputLog::open(&arguments.file).with_context(|| format!("{path}"))?;
     if log.torn_bytes > 0 {
         let torn = log.torn_bytes;
         println!("the log was cut off: its last {torn} bytes are no whole frame; replaying up to the last whole tick");

@@ -1,9 +1,11 @@
 //! `ferry serve`.
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
+use anyhow::Context;
 use tokio::sync::watch;
 
 use crate::http;
@@ -15,7 +17,23 @@ pub struct Arguments {
     /// Address to listen on; port 0 picks a free one
     #[arg(long, default_value = "127.0.0.1:8080")]
     bind: SocketAddr,
-    /// Folder of the recordings
+    /// What others must show to get in, 64 hexadecimal digits (`ferry token` makes one). Everybody on this machine can
+    /// read a command line: rather use --token-file or FERRY_TOKEN
+    #[arg(long, env = "FERRY_TOKEN", hide_env_values = true, value_parser = secret)]
+    token: Option<Secret>,
+    /// File that holds the token and nothing else
+    #[arg(long, value_name = "FILE", conflicts_with = "token")]
+    token_file: Option<PathBuf>,
+    /// Under which address browsers ask, besides that of --bind, as https://lab.example.org; may be given again
+    #[arg(long, value_name = "URL")]
+    origin: Vec<http::Origin>,
+    /// Sessions at once
+    #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=256))]
+    sessions: u16,
+    /// A session that nobody has looked at for so long stands still, and makes way when another needs its place
+    #[arg(long, value_name = "MINUTES", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    park_after: u32,
+    /// Folder of the recordings and of uploaded maps
     #[arg(long, default_value = "data")]
     data: PathBuf,
     /// Recordings that are kept; a session writes one in ten minutes
@@ -29,20 +47,63 @@ pub struct Arguments {
     open: bool,
 }
 
+/// A token as it was given; it is checked later, since clap would print what it refuses.
+#[derive(Clone)]
+struct Secret(String);
+
+fn secret(text: &str) -> Result<Secret, std::convert::Infallible> {
+    Ok(Secret(text.to_owned()))
+}
+
+/// The token, from wherever it was given.
+fn token(arguments: &Arguments) -> anyhow::Result<Option<http::Token>> {
+    let (text, from) = match (&arguments.token, &arguments.token_file) {
+        (Some(Secret(text)), _) => (text.clone(), "--token".to_owned()),
+        (None, Some(file)) => {
+            let from = format!("--token-file {}", file.display());
+            (std::fs::read_to_string(file).with_context(|| from.clone())?, from)
+        }
+        (None, None) => return Ok(None),
+    };
+    Ok(Some(text.parse().context(from)?))
+}
+
+/// A folder that can be written to, found out before anything begins.
+fn check_folder(data: &Path) -> anyhow::Result<()> {
+    let probe = data.join(".ferry-probe");
+    std::fs::create_dir_all(data)
+        .and_then(|()| std::fs::write(&probe, []))
+        .and_then(|()| std::fs::remove_file(&probe))
+        .with_context(|| format!("--data {}: it cannot be written to", data.display()))
+}
+
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    runtime.block_on(serve(arguments))?;
+    let served = runtime.block_on(serve(arguments));
+    // What still works something out for nobody must not keep the process.
+    runtime.shutdown_background();
+    served?;
     Ok(ExitCode::SUCCESS)
 }
 
 async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
+    let token = token(arguments)?;
     let listener = http::listen(arguments.bind).await?;
     let address = listener.local_addr()?;
+    let access = http::Access::new(address, token, &arguments.origin)?;
+    // Only now: who may not serve here leaves no folder behind.
+    check_folder(&arguments.data)?;
     let gpu = super::open_gpu()?;
     tracing::info!(adapter = gpu.adapter_name(), "rendering");
     let (stop, stopping) = watch::channel(false);
     let retention = Retention { most: arguments.keep, most_bytes: arguments.keep_mb.saturating_mul(1 << 20) };
-    let server = http::Server::new(gpu, arguments.data.clone(), retention, stopping)?;
+    let settings = http::Settings {
+        data: arguments.data.clone(),
+        retention,
+        sessions: arguments.sessions.into(),
+        park_after: Duration::from_secs(60 * u64::from(arguments.park_after)),
+    };
+    let server = http::Server::new(gpu, settings, access, stopping)?;
     println!("listening on http://{address}");
     if arguments.open
         && let Err(error) = opener::open(format!("http://{address}"))

@@ -1,81 +1,289 @@
-//! Who may ask: Host and Origin are checked on every route, so that no other site's page, and no name
-//! that resolves to this machine, can reach the laboratory.
+//! Who may ask. Host and Origin are checked on every route, so that no other site's page, and no name that resolves to
+//! this machine, can reach the laboratory; with a token, nobody gets in who has not shown it.
 
-use axum::extract::Request;
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header, uri::Authority};
+pub mod login;
+mod origins;
+mod token;
+
+use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::extract::{ConnectInfo, Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use super::Server;
 use super::problem::Problem;
+use super::rates::{Client, Rates, TooOften};
 
-const POLICY: &str =
-    "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+use origins::Origins;
+pub use origins::{Origin, OriginError};
+pub use token::{Token, TokenError};
 
-/// Refuses foreign hosts and origins, and sets the headers that keep the page to itself.
-pub async fn guard(request: Request, next: Next) -> Response {
-    let mut response = match check(request.headers()) {
-        Ok(()) => next.run(request).await,
-        Err(problem) => problem.into_response(),
+const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; \
+                      form-action 'none'; object-src 'none'";
+const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
+const FETCH_MODE: HeaderName = HeaderName::from_static("sec-fetch-mode");
+const FETCH_DEST: HeaderName = HeaderName::from_static("sec-fetch-dest");
+
+/// Why the settings do not go together.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AccessError {
+    /// Others could reach it, and anyone of them would get in.
+    #[error(
+        "--bind {address} lets other machines in: give a token too, in the file of --token-file or as FERRY_TOKEN (`ferry token` makes one)"
+    )]
+    NoToken {
+        /// The address asked for.
+        address: SocketAddr,
+    },
+    /// A proxy would let others in.
+    #[error(
+        "--origin {origin} lets other machines in: give a token too, in the file of --token-file or as FERRY_TOKEN (`ferry token` makes one)"
+    )]
+    NoTokenForOrigin {
+        /// The origin asked for.
+        origin: String,
+    },
+    /// Under which name do browsers ask?
+    #[error(
+        "--bind {address} has no name of its own: say under which one browsers ask, as in --origin http://lab.local:8080"
+    )]
+    NoOrigin {
+        /// The address asked for.
+        address: SocketAddr,
+    },
+}
+
+/// Who may ask, and how often. Shared by all connections.
+pub struct Access {
+    token: Option<Token>,
+    cookie_key: Option<cookie::Key>,
+    origins: Origins,
+    rates: Rates,
+}
+
+impl Access {
+    /// The page's address for whoever asks for it under `host`.
+    pub fn address_of(&self, host: &str) -> String {
+        self.origins.address_of(host)
+    }
+
+    /// For a listener at `address`, and browsers that know it by `origins` too.
+    ///
+    /// # Errors
+    /// When other machines could get in without a token, or browsers under no name.
+    pub fn new(address: SocketAddr, token: Option<Token>, origins: &[Origin]) -> Result<Self, AccessError> {
+        if !address.ip().is_loopback() && token.is_none() {
+            return Err(AccessError::NoToken { address });
+        }
+        if let (None, Some(origin)) = (&token, origins.iter().find(|origin| !origin.is_loopback())) {
+            return Err(AccessError::NoTokenForOrigin { origin: origin.to_string() });
+        }
+        if address.ip().is_unspecified() && origins.is_empty() {
+            return Err(AccessError::NoOrigin { address });
+        }
+        let own: Vec<SocketAddr> = match address.ip() {
+            ip if ip.is_unspecified() => Vec::new(),
+            ip if ip.is_loopback() => loopback(address.port()).to_vec(),
+            _ => vec![address],
+        };
+        let mut all: Vec<Origin> = own.into_iter().map(Origin::of).chain(origins.iter().cloned()).collect();
+        if address.ip().is_loopback() {
+            all.extend(format!("http://localhost:{}", address.port()).parse::<Origin>());
+        }
+        let cookie_key = token.as_ref().map(Token::cookie_key);
+        Ok(Self { token, cookie_key, origins: Origins::new(&all), rates: Rates::default() })
+    }
+
+    /// Forgets clients who have not asked for long.
+    pub fn forget(&self) {
+        self.rates.forget();
+    }
+
+    /// Lets a request in, or says why not.
+    fn admit(&self, request: &Request, address: IpAddr) -> Result<Client, Problem> {
+        let headers = request.headers();
+        self.check_host(request)?;
+        let origin = self.check_origin(headers)?;
+        check_site(headers, request.method())?;
+        let stranger = Client::at(address);
+        let (client, is_known) = match (&self.token, bearer(headers)) {
+            (None, _) => (stranger, true),
+            (Some(token), Some(presented)) if token.matches(presented) => (stranger, true),
+            (Some(_), Some(_)) => return Err(self.wrong_token(&stranger)),
+            (Some(_), None) => match self.cookie_key.as_ref().and_then(|key| login::known(headers, key)) {
+                // A cookie is sent by the browser, whoever asks it to; the origin says who that was.
+                Some(_) if origin.is_none() && changes_something(request) => {
+                    let detail = "a request with the cookie must say its Origin; programs send the token instead, as \
+                                  Authorization: Bearer";
+                    return Err(Problem::new(StatusCode::FORBIDDEN, "no_origin", detail).field("Origin"));
+                }
+                Some(login) => (Client::Login(login), true),
+                None => (stranger, false),
+            },
+        };
+        self.rates.request(&client).map_err(|wait| too_often("this client asks too often", wait))?;
+        if is_known || is_open(request.uri().path()) {
+            return Ok(client);
+        }
+        let detail = "show the token: log in at /login, or send Authorization: Bearer with it";
+        Err(Problem::new(StatusCode::UNAUTHORIZED, "no_token", detail).field("Authorization"))
+    }
+
+    /// Exactly one Host, and one of ours; what stands in the request line counts too.
+    fn check_host(&self, request: &Request) -> Result<(), Problem> {
+        let mut hosts = request.headers().get_all(header::HOST).iter();
+        let host = hosts.next().and_then(|value| value.to_str().ok()).unwrap_or_default();
+        let named = request.uri().authority().map_or(host, |authority| authority.as_str());
+        if hosts.next().is_none() && self.origins.has_host(host) && self.origins.has_host(named) {
+            return Ok(());
+        }
+        let detail = format!("host {named:?} is not one of this laboratory's");
+        Err(Problem::new(StatusCode::MISDIRECTED_REQUEST, "foreign_host", detail).field("Host"))
+    }
+
+    fn check_origin<'a>(&self, headers: &'a HeaderMap) -> Result<Option<&'a str>, Problem> {
+        let mut origins = headers.get_all(header::ORIGIN).iter();
+        let Some(origin) = origins.next() else { return Ok(None) };
+        let origin = origin.to_str().unwrap_or_default();
+        if origins.next().is_none() && self.origins.has_origin(origin) {
+            return Ok(Some(origin));
+        }
+        let detail = format!("origin {origin:?} is not this page's");
+        Err(Problem::new(StatusCode::FORBIDDEN, "foreign_origin", detail).field("Origin"))
+    }
+
+    fn wrong_token(&self, client: &Client) -> Problem {
+        match self.rates.wrong_token(client) {
+            Ok(()) => Problem::new(StatusCode::UNAUTHORIZED, "wrong_token", "this is not the token").field("token"),
+            Err(wait) => too_often("too many wrong tokens", wait),
+        }
+    }
+}
+
+/// `127.0.0.1` and `[::1]`.
+fn loopback(port: u16) -> [SocketAddr; 2] {
+    [([127, 0, 0, 1], port).into(), (std::net::Ipv6Addr::LOCALHOST, port).into()]
+}
+
+fn too_often(what: &str, TooOften(wait): TooOften) -> Problem {
+    let wait_s = wait.as_secs() as u32 + 1;
+    Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_often", format!("{what}; come again in {wait_s} s"))
+        .retry_after(wait_s)
+}
+
+fn bearer(headers: &HeaderMap) -> Option<&str> {
+    let (scheme, token) = headers.get(header::AUTHORIZATION)?.to_str().ok()?.split_once(' ')?;
+    scheme.eq_ignore_ascii_case("bearer").then(|| token.trim())
+}
+
+/// Whether it does more than read; a WebSocket does.
+fn changes_something(request: &Request) -> bool {
+    !matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS)
+        || request.headers().contains_key(header::UPGRADE)
+}
+
+/// What one may see before one has shown the token: that the server lives, and how to log in.
+fn is_open(path: &str) -> bool {
+    matches!(path, "/healthz" | "/login") || path.starts_with("/assets/")
+}
+
+/// Browsers say from where a request comes, also where they send no Origin. Another site may link here, and no more.
+fn check_site(headers: &HeaderMap, method: &Method) -> Result<(), Problem> {
+    let says = |name: &HeaderName| headers.get(name).and_then(|value| value.to_str().ok());
+    let is_foreign = matches!(says(&FETCH_SITE), Some("cross-site" | "same-site"));
+    // A frame navigates too, and an opened session stays.
+    let is_link = says(&FETCH_MODE) == Some("navigate") && says(&FETCH_DEST) == Some("document");
+    if !is_foreign || is_link && *method == Method::GET {
+        return Ok(());
+    }
+    let detail = "a page of another site asks; it may link here, and no more";
+    Err(Problem::new(StatusCode::FORBIDDEN, "foreign_site", detail).field("Sec-Fetch-Site"))
+}
+
+/// Lets requests in, and sets the headers that keep the page to itself.
+pub async fn guard(
+    State(server): State<Arc<Server>>,
+    ConnectInfo(address): ConnectInfo<SocketAddr>,
+    mut request: Request,
+    next: Next,
+) -> Response {
+    let began = Instant::now();
+    let (method, path) = (request.method().clone(), request.uri().path().to_owned());
+    let is_read = is_read_by_a_person(&request);
+    let mut response = match server.access.admit(&request, address.ip()) {
+        Ok(client) => {
+            request.extensions_mut().insert(client);
+            next.run(request).await
+        }
+        Err(problem) => {
+            server.counters.refuse(problem.code());
+            // Who opens the page without having logged in gets the page to log in with.
+            if problem.code() == "no_token" && method == Method::GET && is_page(&path) {
+                super::assets::login_page(StatusCode::UNAUTHORIZED)
+            } else {
+                problem.into_response()
+            }
+        }
     };
+    if is_read && let Some(problem) = response.extensions_mut().remove::<Problem>() {
+        super::assets::turn_into_page(&mut response, &problem);
+    }
+    server.counters.answer(response.status());
+    tracing::debug!(%method, path, status = response.status().as_u16(), %address, took = ?began.elapsed(), "request");
     let headers = response.headers_mut();
     // The viewer's page has a policy of its own.
     headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(POLICY));
     headers.insert(header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
     headers.insert(header::REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
+    headers.insert("cross-origin-resource-policy", HeaderValue::from_static("same-origin"));
     response
 }
 
-fn check(headers: &HeaderMap) -> Result<(), Problem> {
-    let host = headers.get(header::HOST).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    if !names_loopback(host) {
-        let detail = format!("host {host:?} is not this machine's loopback address");
-        return Err(Problem::new(StatusCode::MISDIRECTED_REQUEST, "foreign_host", detail).field("Host"));
-    }
-    let Some(origin) = headers.get(header::ORIGIN) else { return Ok(()) };
-    let origin = origin.to_str().unwrap_or_default();
-    if origin.strip_prefix("http://") == Some(host) {
-        return Ok(());
-    }
-    let detail = format!("origin {origin:?} is not this page's");
-    Err(Problem::new(StatusCode::FORBIDDEN, "foreign_origin", detail).field("Origin"))
+/// Whether a browser asks for something to show in its window.
+fn is_read_by_a_person(request: &Request) -> bool {
+    let accepts = request.headers().get(header::ACCEPT).and_then(|value| value.to_str().ok());
+    *request.method() == Method::GET
+        && !request.uri().path().starts_with("/api/")
+        && accepts.is_some_and(|kinds| kinds.contains("text/html"))
 }
 
-fn names_loopback(host: &str) -> bool {
-    let Ok(authority) = host.parse::<Authority>() else { return false };
-    let name = authority.host().trim_start_matches('[').trim_end_matches(']');
-    !host.contains('@')
-        && (name.eq_ignore_ascii_case("localhost") || name.parse::<std::net::IpAddr>().is_ok_and(|ip| ip.is_loopback()))
+fn is_page(path: &str) -> bool {
+    path == "/" || path.starts_with("/s/") || path == "/viewer/"
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn only_loopback_names_pass() {
-        for good in ["localhost", "localhost:8080", "127.0.0.1:1", "[::1]:8080", "LOCALHOST"] {
-            assert!(names_loopback(good), "{good}");
-        }
-        for bad in ["", "example.org", "127.0.0.1.example.org", "10.0.0.1:8080", "user@localhost", "localhost.evil"] {
-            assert!(!names_loopback(bad), "{bad}");
-        }
+    fn access(address: &str, token: bool, origins: &[&str]) -> Result<Access, AccessError> {
+        let token = token.then(|| Token::generate().unwrap().parse().unwrap());
+        let origins: Vec<Origin> = origins.iter().map(|text| text.parse().unwrap()).collect();
+        Access::new(address.parse().unwrap(), token, &origins)
     }
 
     #[test]
-    fn an_origin_must_be_the_host_itself() {
-        let headers = |host: &str, origin: Option<&str>| {
-            let mut headers = HeaderMap::new();
-            headers.insert(header::HOST, host.parse().unwrap());
-            if let Some(origin) = origin {
-                headers.insert(header::ORIGIN, origin.parse().unwrap());
-            }
-            headers
-        };
-        assert!(check(&headers("localhost:8080", None)).is_ok());
-        assert!(check(&headers("localhost:8080", Some("http://localhost:8080"))).is_ok());
-        for origin in ["http://localhost:9090", "https://example.org", "null", ""] {
-            assert!(check(&headers("localhost:8080", Some(origin))).is_err(), "{origin}");
+    fn others_get_in_only_with_a_token_and_under_a_name() {
+        assert!(access("127.0.0.1:8080", false, &[]).is_ok());
+        assert!(access("[::1]:8080", true, &["https://lab.example.org"]).is_ok());
+        assert!(access("10.0.0.7:8080", true, &[]).is_ok());
+        assert!(access("0.0.0.0:8080", true, &["http://lab.local:8080"]).is_ok());
+        assert!(matches!(access("10.0.0.7:8080", false, &[]), Err(AccessError::NoToken { .. })));
+        assert!(matches!(access("0.0.0.0:8080", false, &[]), Err(AccessError::NoToken { .. })));
+        assert!(matches!(access("0.0.0.0:8080", true, &[]), Err(AccessError::NoOrigin { .. })));
+        let error = access("127.0.0.1:8080", false, &["https://lab.example.org"]).err().unwrap();
+        assert_eq!(error, AccessError::NoTokenForOrigin { origin: "https://lab.example.org".into() });
+    }
+
+    #[test]
+    fn loopback_is_known_by_its_three_names_and_its_port() {
+        let access = access("127.0.0.1:8080", false, &[]).unwrap();
+        for host in ["127.0.0.1:8080", "localhost:8080", "[::1]:8080"] {
+            assert!(access.origins.has_host(host) && access.origins.has_origin(&format!("http://{host}")), "{host}");
         }
-        assert!(check(&HeaderMap::new()).is_err());
+        assert!(!access.origins.has_host("localhost:8081") && !access.origins.has_host("localhost"));
     }
 }

@@ -1,41 +1,37 @@
 //! Sessions, maps and recordings over plain HTTP.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 use axum::Json;
 use axum::body::Body;
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use tokio::io::AsyncReadExt;
 use tokio_util::io::ReaderStream;
+use utoipa::ToSchema;
 
+use super::Server;
 use super::body::WholeBody;
+use super::hub::Hub;
+use super::path::{Path, RecordingPath, SessionPath};
 use super::problem::Problem;
-use super::{MAIN_SESSION, SESSION_CAP, Server};
-use crate::map::{Map, MapError};
+use super::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
+use super::sessions::MAIN;
 use crate::protocol::{FlowField, FlowQuery, RecordingFile, RecordingList, StateMessage};
 use crate::recording::Listed;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
 
-#[derive(Serialize)]
-pub struct Maps {
-    maps: Vec<String>,
-}
-
-pub async fn maps() -> Json<Maps> {
-    Json(Maps { maps: Map::shipped_names() })
-}
-
-pub async fn map(Path(name): Path<String>) -> Result<Response, Problem> {
-    let map = Map::shipped(&name).map_err(|error| match error {
-        MapError::Unknown { .. } => Problem::new(StatusCode::NOT_FOUND, "not_found", error.to_string()).field("name"),
-        error => Problem::internal(error),
-    })?;
-    Ok(attachment("image/svg+xml", &format!("{name}.svg"), map.svg().to_owned()))
+/// Whether the server answers, and means to go on.
+#[utoipa::path(get, path = "/healthz", tag = "server",
+    responses((status = 200, description = "It does.", content_type = "text/plain", body = String), Unavailable))]
+pub async fn health(State(server): State<Arc<Server>>) -> Result<&'static str, Problem> {
+    if *server.stopping.borrow() {
+        return Err(Problem::new(StatusCode::SERVICE_UNAVAILABLE, "stopping", "the server is stopping"));
+    }
+    Ok("ok\n")
 }
 
 /// A recording is read in pieces of this size.
@@ -43,10 +39,12 @@ const CHUNK_BYTES: usize = 64 << 10;
 /// Spacing of a flow field.
 const SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
 
-/// `POST /api/sessions/{id}/flow`: where attractor dynamics would lead.
+/// Where attractor dynamics would lead.
+#[utoipa::path(post, path = "/api/sessions/{id}/flow", tag = "sessions", params(SessionPath), request_body = FlowQuery,
+    responses((status = 200, body = FlowField), NotFound, OutOfRange))]
 pub async fn flow(
     State(server): State<Arc<Server>>,
-    Path(id): Path<String>,
+    Path(SessionPath { id }): Path<SessionPath>,
     WholeBody(body): WholeBody,
 ) -> Result<Json<FlowField>, Problem> {
     let FlowQuery { spacing_m, .. } = parse(&body)?;
@@ -55,50 +53,73 @@ pub async fn flow(
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("spacing_m"));
     }
     let view = view(&server, &id)?;
-    let field = tokio::task::spawn_blocking(move || FlowField::of(&view, spacing_m)).await;
-    Ok(Json(field.map_err(Problem::internal)?))
+    Ok(Json(server.work(move |_| FlowField::of(&view, spacing_m)).await?))
 }
 
-#[derive(Serialize)]
+/// A session in short.
+#[derive(Serialize, ToSchema)]
 pub struct SessionSummary {
+    /// Its name.
     id: String,
+    /// Its map.
     map: String,
+    /// Sub-controller 2 in use.
     controller: ControllerName,
+    /// Ticks since the start of the trial.
     tick: u64,
+    /// Whether time runs.
     running: bool,
+    /// `recording`, or why it is not recorded.
     recording: String,
+    /// Browsers that look at it.
+    viewers: usize,
+    /// Nobody looked for long: its time stands.
+    parked: bool,
+    /// Why it ended, if it has.
+    ended: Option<String>,
 }
 
 impl SessionSummary {
-    fn of(id: &str, view: &View) -> Self {
+    fn of(hub: &Hub, view: &View) -> Self {
         Self {
-            id: id.to_owned(),
+            id: hub.id.clone(),
             map: view.scenery.arena.map.name().to_owned(),
             controller: view.moment.controller,
             tick: view.moment.tick,
             running: view.running,
             recording: view.recording.clone(),
+            viewers: hub.viewers(),
+            parked: hub.is_parked(),
+            ended: view.ended.clone(),
         }
     }
 }
 
-#[derive(Serialize)]
+/// The sessions.
+#[derive(Serialize, ToSchema)]
 pub struct Sessions {
+    /// By name.
     sessions: Vec<SessionSummary>,
 }
 
+/// The sessions.
+#[utoipa::path(get, path = "/api/sessions", tag = "sessions", responses((status = 200, body = Sessions)))]
 pub async fn sessions(State(server): State<Arc<Server>>) -> Json<Sessions> {
-    let hubs = server.sessions.read().expect("no holder panics");
-    let sessions = hubs.iter().map(|(id, hub)| SessionSummary::of(id, &hub.session.watch().borrow())).collect();
+    let hubs = server.sessions.all();
+    let sessions = hubs.iter().map(|hub| SessionSummary::of(hub, &hub.session.watch().borrow())).collect();
     Json(Sessions { sessions })
 }
 
 /// Body of `POST /api/sessions`; everything may be left out.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 struct NewSession {
+    /// Name of a map.
+    #[schema(example = "posts")]
     map: String,
+    /// Sub-controller 2.
     controller: ControllerName,
+    /// Seed of everything random in its trial.
     seed: u64,
 }
 
@@ -108,65 +129,91 @@ impl Default for NewSession {
     }
 }
 
+/// Makes a session.
+#[utoipa::path(post, path = "/api/sessions", tag = "sessions", request_body = Option<NewSession>,
+    responses((status = 201, body = SessionSummary, headers(("Location" = String, description = "Its path."))),
+        OutOfRange, TooMany))]
 pub async fn create_session(
     State(server): State<Arc<Server>>,
     WholeBody(body): WholeBody,
 ) -> Result<Response, Problem> {
-    let asked: NewSession = if body.is_empty() { NewSession::default() } else { parse(&body)? };
-    // Files are for the command line: no client path touches the file system.
-    Map::shipped(&asked.map).map_err(|error| {
-        Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "map_refused", error.to_string()).field("map")
-    })?;
+    let asked: Option<NewSession> = if body.is_empty() { None } else { parse(&body)? };
+    let asked = asked.unwrap_or_default();
     let scenario = Scenario { controller: asked.controller, ..Scenario::idle(&asked.map, asked.seed) };
-    let place = server.places.clone().try_acquire_owned().map_err(|_| {
-        let detail = format!("there are {SESSION_CAP} sessions already; delete one first");
-        Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail)
-    })?;
-    let id = format!("session-{}", server.made.fetch_add(1, Ordering::Relaxed) + 1);
-    let location = format!("/api/sessions/{id}");
-    let opening = tokio::task::spawn_blocking(move || server.open(&id, scenario, place));
-    let hub = opening.await.map_err(Problem::internal)?.map_err(Problem::internal)?;
-    let summary = SessionSummary::of(&hub.id, &hub.session.watch().borrow());
+    let hub = server.sessions.create(scenario).await?;
+    let location = format!("/api/sessions/{}", hub.id);
+    let summary = SessionSummary::of(&hub, &hub.session.watch().borrow());
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(summary)).into_response())
 }
 
+/// A session in short.
+#[utoipa::path(get, path = "/api/sessions/{id}", tag = "sessions", params(SessionPath),
+    responses((status = 200, body = SessionSummary), NotFound))]
 pub async fn session(
     State(server): State<Arc<Server>>,
-    Path(id): Path<String>,
+    Path(SessionPath { id }): Path<SessionPath>,
 ) -> Result<Json<SessionSummary>, Problem> {
-    let view = view(&server, &id)?;
-    Ok(Json(SessionSummary::of(&id, &view)))
+    let hub = find(&server, &id)?;
+    let summary = SessionSummary::of(&hub, &hub.session.watch().borrow());
+    Ok(Json(summary))
 }
 
-pub async fn delete_session(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<StatusCode, Problem> {
-    if id == MAIN_SESSION {
+/// Ends a session, and its recording.
+#[utoipa::path(delete, path = "/api/sessions/{id}", tag = "sessions", params(SessionPath),
+    responses((status = 204, description = "It has ended."), NotFound, Conflict))]
+pub async fn delete_session(
+    State(server): State<Arc<Server>>,
+    Path(SessionPath { id }): Path<SessionPath>,
+) -> Result<StatusCode, Problem> {
+    if id == MAIN {
         return Err(Problem::new(StatusCode::CONFLICT, "main_session", "the session main stays as long as the server"));
     }
-    let removed = server.sessions.write().expect("no holder panics").remove(&id);
-    let hub = removed.ok_or_else(|| Problem::not_found("session", &id))?;
-    hub.close();
-    // Joining the session's thread and closing its file blocks.
-    tokio::task::spawn_blocking(move || drop(hub)).await.map_err(Problem::internal)?;
+    server.sessions.end(find(&server, &id)?).await;
     Ok(StatusCode::NO_CONTENT)
 }
 
-pub async fn state(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Json<StateMessage>, Problem> {
+/// What moves in a session, now.
+#[utoipa::path(get, path = "/api/sessions/{id}/state", tag = "sessions", params(SessionPath),
+    responses((status = 200, body = StateMessage), NotFound))]
+pub async fn state(
+    State(server): State<Arc<Server>>,
+    Path(SessionPath { id }): Path<SessionPath>,
+) -> Result<Json<StateMessage>, Problem> {
     let view = view(&server, &id)?;
     Ok(Json(StateMessage::from(&*view)))
 }
 
-pub async fn camera(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let png = view(&server, &id)?.sight.1.frame.picture.to_png().map_err(Problem::internal)?;
+/// The camera's last image.
+#[utoipa::path(get, path = "/api/sessions/{id}/camera.png", tag = "sessions", params(SessionPath),
+    responses((status = 200, description = "480 × 480 pixels.", content(("image/png"))), NotFound, Unavailable))]
+pub async fn camera(
+    State(server): State<Arc<Server>>,
+    Path(SessionPath { id }): Path<SessionPath>,
+) -> Result<Response, Problem> {
+    let view = view(&server, &id)?;
+    let png = server.work(move |_| view.sight.1.frame.picture.to_png()).await?.map_err(Problem::internal)?;
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 
-pub async fn observation(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let png = view(&server, &id)?.sight.1.observation().side_by_side().to_png().map_err(Problem::internal)?;
+/// What the policy is shown of it.
+#[utoipa::path(get, path = "/api/sessions/{id}/observation.png", tag = "sessions", params(SessionPath),
+    responses((status = 200, description = "Both channels, 84 × 84 pixels each, side by side.", content(("image/png"))), NotFound, Unavailable))]
+pub async fn observation(
+    State(server): State<Arc<Server>>,
+    Path(SessionPath { id }): Path<SessionPath>,
+) -> Result<Response, Problem> {
+    let view = view(&server, &id)?;
+    let drawn = server.work(move |_| view.sight.1.observation().side_by_side().to_png()).await?;
+    let png = drawn.map_err(Problem::internal)?;
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 
+/// The recordings.
+#[utoipa::path(get, path = "/api/recordings", tag = "recordings",
+    responses((status = 200, body = RecordingList, links(("the newest" = (operation_id = "recording",
+        parameters(("file" = "{$response.body#/recordings/0/id}.rrd")))))), Unavailable))]
 pub async fn recordings(State(server): State<Arc<Server>>) -> Result<Json<RecordingList>, Problem> {
-    let listed = server.recordings.list().map_err(Problem::internal)?;
+    let listed = server.work(|server| server.recordings.list()).await?.map_err(Problem::internal)?;
     Ok(Json(RecordingList { recordings: listed.into_iter().map(RecordingFile::from).collect() }))
 }
 
@@ -177,10 +224,17 @@ impl From<Listed> for RecordingFile {
     }
 }
 
-/// `GET /api/recordings/{id}.rrd`, and `.ferry`. Only names that the list holds are opened, so that no client path
-/// touches the file system.
-pub async fn recording(State(server): State<Arc<Server>>, Path(name): Path<String>) -> Result<Response, Problem> {
-    let path = server.recordings.file(&name).map_err(Problem::internal)?;
+/// A recording: Rerun's file, or the input log.
+#[utoipa::path(get, path = "/api/recordings/{file}", tag = "recordings", params(RecordingPath),
+    responses((status = 200, description = "What is written up to now.", content(("application/octet-stream"))), NotFound, Unavailable))]
+pub async fn recording(
+    State(server): State<Arc<Server>>,
+    Path(RecordingPath { file: name }): Path<RecordingPath>,
+) -> Result<Response, Problem> {
+    // Only names that the list holds are opened, so that no client path touches the file system.
+    let asked = name.clone();
+    let found = server.work(move |server| server.recordings.file(&asked)).await?;
+    let path = found.map_err(Problem::internal)?;
     let path = path.ok_or_else(|| Problem::not_found("recording", &name))?;
     let opened = tokio::fs::File::open(path).await.map_err(Problem::internal)?;
     // What is written while it is sent is left out, so that the length told is the length sent.
@@ -192,8 +246,14 @@ pub async fn recording(State(server): State<Arc<Server>>, Path(name): Path<Strin
 }
 
 pub fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
-    let hub = server.find(id).ok_or_else(|| Problem::not_found("session", id))?;
-    Ok(hub.session.watch().borrow().clone())
+    Ok(find(server, id)?.session.watch().borrow().clone())
+}
+
+/// A session that somebody asks about, so that it is not parked.
+pub fn find(server: &Server, id: &str) -> Result<Arc<Hub>, Problem> {
+    let hub = server.sessions.find(id).ok_or_else(|| Problem::not_found("session", id))?;
+    hub.touch();
+    Ok(hub)
 }
 
 pub fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {

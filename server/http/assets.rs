@@ -1,14 +1,57 @@
 //! The page, embedded in the binary.
 
+use std::sync::Arc;
+
+use axum::body::Body;
+use axum::extract::{Path, State};
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 
+use super::Server;
 use super::problem::Problem;
+use super::sessions::MAIN;
 use super::viewer;
 
 #[derive(rust_embed::RustEmbed)]
 #[folder = "$OUT_DIR/web"]
 struct Page;
+
+/// `GET /`: the page with the session `main`, begun anew if a fault has ended it.
+pub async fn main_session(State(server): State<Arc<Server>>, headers: HeaderMap) -> Result<Response, Problem> {
+    server.sessions.open(MAIN).await?;
+    Ok(send("index.html", &headers))
+}
+
+/// `GET /s/{name}`: the page with a session of that name, which is opened where there is none.
+pub async fn named_session(
+    State(server): State<Arc<Server>>,
+    Path(name): Path<String>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    server.sessions.open(&name).await?;
+    Ok(send("index.html", &headers))
+}
+
+/// The page to log in with, in place of what may not be seen without.
+pub fn login_page(status: StatusCode) -> Response {
+    let mut response = send("login/index.html", &HeaderMap::new());
+    *response.status_mut() = status;
+    response.headers_mut().insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    response
+}
+
+/// A refusal as a page, where it was to be a page that it refuses.
+pub fn turn_into_page(response: &mut Response, problem: &Problem) {
+    let file = Page::get("refused/index.html").expect("the page is built in");
+    let page = String::from_utf8_lossy(&file.data);
+    // Names that a client chose stand in it.
+    let reason = maud::html! { (problem.detail()) }.into_string();
+    *response.body_mut() = Body::from(page.replace("{{reason}}", &reason));
+    let headers = response.headers_mut();
+    headers.remove(header::CONTENT_LENGTH);
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("text/html"));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+}
 
 pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
     let path = uri.path();
@@ -20,11 +63,14 @@ pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
             .into_response();
     }
     let name = match path {
-        "/" => "index.html",
         "/viewer/" => "viewer/index.html",
         path => path.trim_start_matches('/'),
     };
-    let Some(file) = Page::get(name) else { return Problem::not_found("page", path).into_response() };
+    send(name, &headers)
+}
+
+fn send(name: &str, headers: &HeaderMap) -> Response {
+    let Some(file) = Page::get(name) else { return Problem::not_found("page", name).into_response() };
     let tag = format!(
         "\"{}\"",
         file.metadata.sha256_hash().iter().take(8).map(|byte| format!("{byte:02x}")).collect::<String>()

@@ -1,14 +1,21 @@
 //! `POST /api/kinematics/…` and `POST /api/magnetics/…`: the arm and the magnet as a calculator.
 
+use std::sync::Arc;
+
 use axum::Json;
+use axum::extract::State;
 use axum::http::StatusCode;
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
+use super::Server;
 use super::api::parse;
 use super::body::WholeBody;
 use super::problem::Problem;
+use super::refusals::{OutOfRange, Unavailable};
 use crate::control::limits::LEAST_MANIPULABILITY_M3;
+use crate::geometry::schema::{Numbers3, Numbers6, Rows3};
 use crate::geometry::{Isometry3, Matrix3, Vector3};
 use crate::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
 use crate::magnetics::{cuboid::Cuboid, force};
@@ -23,28 +30,41 @@ const BATCH_LIMIT: usize = 10_000;
 const ORTHONORMAL_SLACK: f64 = 1e-6;
 
 /// Body of `POST /api/kinematics/forward`.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 struct ForwardRequest {
+    #[schema(value_type = Vec<Numbers6>, max_items = 10_000)]
     joints_rad: Vec<Joints>,
 }
 
 /// A flange pose; the rotation is given by rows.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 struct Pose {
+    #[schema(value_type = Numbers3)]
     position_m: [f64; 3],
+    #[schema(value_type = Rows3)]
     rotation: [[f64; 3]; 3],
 }
 
 /// Answer of `POST /api/kinematics/forward`.
-#[derive(Serialize)]
+#[derive(Serialize, ToSchema)]
 pub struct ForwardAnswer {
     flange: Vec<Pose>,
 }
 
-pub async fn forward(WholeBody(body): WholeBody) -> Result<Json<ForwardAnswer>, Problem> {
-    let request: ForwardRequest = parse(&body)?;
+/// Flange poses of joint angles.
+#[utoipa::path(post, path = "/api/kinematics/forward", tag = "calculator", request_body = ForwardRequest,
+    responses((status = 200, body = ForwardAnswer), Unavailable))]
+pub async fn forward(
+    State(server): State<Arc<Server>>,
+    WholeBody(body): WholeBody,
+) -> Result<Json<ForwardAnswer>, Problem> {
+    server.work(move |_| poses(&body)).await?.map(Json)
+}
+
+fn poses(body: &[u8]) -> Result<ForwardAnswer, Problem> {
+    let request: ForwardRequest = parse(body)?;
     limit("joints_rad", request.joints_rad.len())?;
     let poses = request.joints_rad.iter().map(|joints| {
         let flange = forward::flange(joints);
@@ -52,24 +72,39 @@ pub async fn forward(WholeBody(body): WholeBody) -> Result<Json<ForwardAnswer>, 
         let row = |i: usize| [rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)]];
         Pose { position_m: flange.translation.vector.into(), rotation: [row(0), row(1), row(2)] }
     });
-    Ok(Json(ForwardAnswer { flange: poses.collect() }))
+    Ok(ForwardAnswer { flange: poses.collect() })
 }
 
 /// Body of `POST /api/kinematics/inverse`.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(example = json!({
+    "poses": [{"position_m": [0.1, -0.4, 0.3], "rotation": [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]}],
+}))]
 struct InverseRequest {
+    #[schema(max_items = 10_000)]
     poses: Vec<Pose>,
 }
 
 /// Answer of `POST /api/kinematics/inverse`: up to eight solutions a pose, none where there is none.
-#[derive(Serialize)]
+#[derive(Serialize, ToSchema)]
 pub struct InverseAnswer {
+    #[schema(value_type = Vec<Vec<Numbers6>>)]
     solutions: Vec<Vec<Joints>>,
 }
 
-pub async fn inverse(WholeBody(body): WholeBody) -> Result<Json<InverseAnswer>, Problem> {
-    let request: InverseRequest = parse(&body)?;
+/// Joint angles of flange poses.
+#[utoipa::path(post, path = "/api/kinematics/inverse", tag = "calculator", request_body = InverseRequest,
+    responses((status = 200, body = InverseAnswer), OutOfRange, Unavailable))]
+pub async fn inverse(
+    State(server): State<Arc<Server>>,
+    WholeBody(body): WholeBody,
+) -> Result<Json<InverseAnswer>, Problem> {
+    server.work(move |_| solutions(&body)).await?.map(Json)
+}
+
+fn solutions(body: &[u8]) -> Result<InverseAnswer, Problem> {
+    let request: InverseRequest = parse(body)?;
     limit("poses", request.poses.len())?;
     let mut solutions = Vec::with_capacity(request.poses.len());
     for (index, pose) in request.poses.iter().enumerate() {
@@ -81,7 +116,7 @@ pub async fn inverse(WholeBody(body): WholeBody) -> Result<Json<InverseAnswer>, 
         let found = inverse::solutions(&flange, &[0.0; 6]);
         solutions.push(found.map_or_else(|_| Vec::new(), |found| found.to_vec()));
     }
-    Ok(Json(InverseAnswer { solutions }))
+    Ok(InverseAnswer { solutions })
 }
 
 fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
@@ -99,11 +134,16 @@ fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
 }
 
 /// The arm's manipulability over the table: the singularity-free workspace is where it is not small.
-pub async fn workspace(WholeBody(body): WholeBody) -> Result<Json<WorkspaceMap>, Problem> {
+#[utoipa::path(post, path = "/api/kinematics/workspace", tag = "calculator", request_body = WorkspaceQuery,
+    responses((status = 200, body = WorkspaceMap), OutOfRange, Unavailable))]
+pub async fn workspace(
+    State(server): State<Arc<Server>>,
+    WholeBody(body): WholeBody,
+) -> Result<Json<WorkspaceMap>, Problem> {
     let WorkspaceQuery { area, cell_m, tool_height_m, tool_orientation } = parse(&body)?;
     // A tenth of a second for the largest.
     let making = move || manipulability_map(&area, cell_m, tool_height_m, tool_orientation);
-    let made = tokio::task::spawn_blocking(making).await.map_err(Problem::internal)?;
+    let made = server.work(move |_| making()).await?;
     let map = made.map_err(|error| {
         let field = match error {
             WorkspaceError::NonFinite { input: "height", .. } => "tool_height_m",
@@ -116,16 +156,21 @@ pub async fn workspace(WholeBody(body): WholeBody) -> Result<Json<WorkspaceMap>,
 }
 
 /// The pull on the bead over its offset from the block.
-pub async fn pull(WholeBody(body): WholeBody) -> Result<Json<PullCurve>, Problem> {
+#[utoipa::path(post, path = "/api/magnetics/pull", tag = "calculator", request_body = PullQuery,
+    responses((status = 200, body = PullCurve), OutOfRange, Unavailable))]
+pub async fn pull(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<PullCurve>, Problem> {
     let query: PullQuery = parse(&body)?;
-    curves::pull(&query).map(Json).map_err(|error| no_curve(&error))
+    let curve = server.work(move |_| curves::pull(&query)).await?;
+    curve.map(Json).map_err(|error| no_curve(&error))
 }
 
 /// How far and how fast the block drags the bead, over its height.
-pub async fn reach(WholeBody(body): WholeBody) -> Result<Json<ReachCurve>, Problem> {
+#[utoipa::path(post, path = "/api/magnetics/reach", tag = "calculator", request_body = ReachQuery,
+    responses((status = 200, body = ReachCurve), OutOfRange, Unavailable))]
+pub async fn reach(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<ReachCurve>, Problem> {
     let query: ReachQuery = parse(&body)?;
     // Some tenths of a millisecond a height.
-    let curve = tokio::task::spawn_blocking(move || curves::reach(&query)).await.map_err(Problem::internal)?;
+    let curve = server.work(move |_| curves::reach(&query)).await?;
     curve.map(Json).map_err(|error| no_curve(&error))
 }
 
@@ -138,20 +183,30 @@ fn no_curve(error: &CurveError) -> Problem {
 }
 
 /// A block magnet; its axes are those of `base`.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 struct Magnet {
+    #[schema(value_type = Numbers3)]
     size_m: [f64; 3],
+    #[schema(value_type = Numbers3)]
     polarization_t: [f64; 3],
+    #[schema(value_type = Numbers3)]
     position_m: [f64; 3],
 }
 
 /// Body of `POST /api/magnetics/field`.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(example = json!({
+    "magnet": {"size_m": [0.05, 0.025, 0.01], "polarization_t": [0.0, 0.0, 1.2], "position_m": [0.0, 0.0, 0.1]},
+    "points_m": [[0.0, 0.0, 0.0]],
+    "moment_a_m2": 0.01,
+}))]
 struct FieldRequest {
     magnet: Magnet,
+    #[schema(value_type = Vec<Numbers3>, max_items = 10_000)]
     points_m: Vec<[f64; 3]>,
+    #[schema(minimum = 0)]
     moment_a_m2: f64,
 }
 
@@ -161,16 +216,28 @@ const CONVENTION: &str = "b_t is the flux density B; inside the magnet B = mu0*H
 
 /// Answer of `POST /api/magnetics/field`: flux density, inside the magnet too, and the force on a
 /// sphere of that moment, aligned with the field.
-#[derive(Serialize)]
+#[derive(Serialize, ToSchema)]
 pub struct FieldAnswer {
+    #[schema(value_type = Vec<Numbers3>)]
     b_t: Vec<[f64; 3]>,
+    #[schema(value_type = Vec<Numbers3>)]
     force_n: Vec<[f64; 3]>,
     is_inside: Vec<bool>,
     convention: &'static str,
 }
 
-pub async fn field(WholeBody(body): WholeBody) -> Result<Json<FieldAnswer>, Problem> {
-    let request: FieldRequest = parse(&body)?;
+/// Flux density of a block magnet, and the force on a sphere.
+#[utoipa::path(post, path = "/api/magnetics/field", tag = "calculator", request_body = FieldRequest,
+    responses((status = 200, body = FieldAnswer), OutOfRange, Unavailable))]
+pub async fn field(
+    State(server): State<Arc<Server>>,
+    WholeBody(body): WholeBody,
+) -> Result<Json<FieldAnswer>, Problem> {
+    server.work(move |_| fluxes(&body)).await?.map(Json)
+}
+
+fn fluxes(body: &[u8]) -> Result<FieldAnswer, Problem> {
+    let request: FieldRequest = parse(body)?;
     limit("points_m", request.points_m.len())?;
     let magnet = &request.magnet;
     let block =
@@ -195,7 +262,7 @@ pub async fn field(WholeBody(body): WholeBody) -> Result<Json<FieldAnswer>, Prob
         );
     }
     let is_inside = points_m.iter().map(|point| block.contains(point)).collect();
-    Ok(Json(FieldAnswer { b_t, force_n, is_inside, convention: CONVENTION }))
+    Ok(FieldAnswer { b_t, force_n, is_inside, convention: CONVENTION })
 }
 
 fn limit(field: &str, count: usize) -> Result<(), Problem> {

@@ -3,64 +3,94 @@
 use std::sync::Arc;
 
 use axum::Json;
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::Server;
 use super::api::{attachment, parse};
 use super::body::WholeBody;
+use super::path::{EvaluationPath, Path, ReportPath};
 use super::problem::Problem;
+use super::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::evaluate::{Evaluation, EvaluationQuery, QueryError, Report, SubmitError};
 use crate::protocol::{EvaluationReport, EvaluationSummary, Evaluations};
 
-/// `GET /api/evaluations`: what runs, waits, and ended last.
+/// The evaluations: what runs, waits, and ended last.
+#[utoipa::path(get, path = "/api/evaluations", tag = "evaluations", operation_id = "evaluations",
+    responses((status = 200, body = Evaluations)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
     let all = server.evaluations.all();
     Json(Evaluations { evaluations: all.iter().map(|evaluation| EvaluationSummary::from(&**evaluation)).collect() })
 }
 
-/// `POST /api/evaluations`: begins one, or lets it wait.
+/// Begins an evaluation, or lets it wait.
+#[utoipa::path(post, path = "/api/evaluations", tag = "evaluations", operation_id = "create_evaluation",
+    request_body = EvaluationQuery,
+    responses((status = 201, body = EvaluationSummary, headers(("Location" = String, description = "Its path."))),
+        OutOfRange, TooMany, Unavailable))]
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: EvaluationQuery = parse(&body)?;
     // Reading the maps that it names blocks.
-    let submitting = tokio::task::spawn_blocking(move || server.evaluations.submit(query));
-    let evaluation = submitting.await.map_err(Problem::internal)??;
+    let evaluation = server.work(move |server| server.evaluations.submit(query)).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())
 }
 
-/// `GET /api/evaluations/{id}`: its rows and failures up to now.
+/// An evaluation, with its rows and failures up to now.
+#[utoipa::path(get, path = "/api/evaluations/{id}", tag = "evaluations", params(EvaluationPath), operation_id = "evaluation",
+    responses((status = 200, body = EvaluationReport), NotFound))]
 pub async fn report(
     State(server): State<Arc<Server>>,
-    Path(id): Path<String>,
+    Path(EvaluationPath { id }): Path<EvaluationPath>,
 ) -> Result<Json<EvaluationReport>, Problem> {
     Ok(Json(EvaluationReport::from(&*find(&server, &id)?)))
 }
 
-/// `GET /api/evaluations/{id}/report.html`, `.csv` and `.json`: the same as files, as `ferry evaluate` writes them.
+/// The same as a file, as `ferry evaluate` writes it.
+#[utoipa::path(get, path = "/api/evaluations/{id}/{file}", tag = "evaluations", params(ReportPath),
+    operation_id = "evaluation_file",
+    responses((status = 200, description = "The report.", content((String = "text/html"), (String = "text/csv"),
+        (Report = "application/json"))), NotFound, Unavailable))]
 pub async fn file(
     State(server): State<Arc<Server>>,
-    Path((id, name)): Path<(String, String)>,
+    Path(ReportPath { id, file: name }): Path<ReportPath>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let evaluation = find(&server, &id)?;
-    let progress = evaluation.progress();
-    let report = Report::of(server.gpu.adapter_name(), evaluation.query.seed, &progress.done(&evaluation.cells));
     // Whoever reads it came by this address.
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
-    let (kind, text) = match name.as_str() {
-        "report.html" => ("text/html; charset=utf-8", report.to_html(&format!("http://{host}"))),
-        "report.csv" => ("text/csv; charset=utf-8", report.to_csv().map_err(Problem::internal)?),
-        "report.json" => ("application/json", serde_json::to_string(&report).map_err(Problem::internal)?),
-        _ => return Err(Problem::not_found("report", &name)),
-    };
-    Ok(attachment(kind, &format!("{id}-{name}"), text))
+    let address = server.access.address_of(host);
+    let file_name = format!("{id}-{name}");
+    let (kind, text) = server.work(move |server| written(server, &evaluation, &name, &address)).await??;
+    Ok(attachment(kind, &file_name, text))
 }
 
-/// `DELETE /api/evaluations/{id}`: breaks it off; what it came to stays.
-pub async fn cancel(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
+/// A report in one of its formats, with figures and links to a laboratory.
+fn written(
+    server: &Server,
+    evaluation: &Evaluation,
+    name: &str,
+    address: &str,
+) -> Result<(&'static str, String), Problem> {
+    let progress = evaluation.progress();
+    let report = Report::of(server.gpu.adapter_name(), evaluation.query.seed, &progress.done(&evaluation.cells));
+    Ok(match name {
+        "report.html" => ("text/html; charset=utf-8", report.to_html(address)),
+        "report.csv" => ("text/csv; charset=utf-8", report.to_csv().map_err(Problem::internal)?),
+        "report.json" => ("application/json", serde_json::to_string(&report).map_err(Problem::internal)?),
+        _ => return Err(Problem::not_found("report", name)),
+    })
+}
+
+/// Breaks an evaluation off; what it came to stays.
+#[utoipa::path(delete, path = "/api/evaluations/{id}", tag = "evaluations", params(EvaluationPath),
+    operation_id = "cancel_evaluation", responses((status = 202, body = EvaluationSummary), NotFound, Conflict))]
+pub async fn cancel(
+    State(server): State<Arc<Server>>,
+    Path(EvaluationPath { id }): Path<EvaluationPath>,
+) -> Result<Response, Problem> {
     let evaluation = find(&server, &id)?;
     if !evaluation.cancel() {
         let detail = format!("evaluation {id:?} has ended already");

@@ -1,16 +1,17 @@
 //! One session and all its browsers: each message is encoded once, and one browser is the operator.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use serde::Serialize;
-use tokio::sync::{OwnedSemaphorePermit, watch};
+use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
 use super::fork;
+use super::seats::Seats;
 use crate::camera::Gpu;
 use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
@@ -40,16 +41,6 @@ pub struct Encoded {
     pub sight_version: u64,
 }
 
-/// Who sits where.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Seats {
-    /// Connection that is the operator.
-    pub operator: Option<u64>,
-    /// Connection that last asked an operator to make way.
-    pub asking: Option<u64>,
-    next: u64,
-}
-
 /// A session with its browsers.
 pub struct Hub {
     pub id: String,
@@ -64,34 +55,80 @@ pub struct Hub {
     comparison: watch::Sender<Utf8Bytes>,
     /// Forks begun; an older one stops when it is no longer the last.
     forks: AtomicU64,
-    /// Its place among the sessions.
-    _place: OwnedSemaphorePermit,
+    /// The place of the one that runs.
+    forking: Arc<Semaphore>,
+    /// When the last browser left, or somebody asked without one. Shared by its connections and by whoever parks.
+    watched: Mutex<Instant>,
+    /// Nobody looked for long: its time stands.
+    parked: AtomicBool,
 }
 
 impl Hub {
-    /// Starts encoding a session's views.
-    pub fn start(id: &str, session: Session, gpu: Arc<Gpu>, place: OwnedSemaphorePermit) -> Arc<Self> {
+    /// Starts encoding a session's views; `maps` is another number after each change of their names.
+    pub fn start(id: &str, session: Session, mut maps: watch::Receiver<u64>, gpu: Arc<Gpu>) -> Arc<Self> {
+        let now = Instant::now();
         let views = session.watch();
-        let first = Encoder::default().encode(&views.borrow(), true);
+        let version = *maps.borrow_and_update();
+        let first = Encoder::default().encode(&views.borrow(), version, true);
         let (publish, encoded) = watch::channel(first);
-        let encoder = tokio::spawn(encode_all(views, publish));
+        let encoder = tokio::spawn(encode_all(views, maps, publish));
         Arc::new(Self {
             id: id.to_owned(),
             session,
             gpu,
             comparison: watch::Sender::new(Utf8Bytes::default()),
             forks: AtomicU64::new(0),
+            forking: Arc::new(Semaphore::new(1)),
             encoded,
-            seats: watch::Sender::new(Seats::default()),
+            seats: watch::Sender::new(Seats::new(now)),
             encoder: Mutex::new(Some(encoder)),
             closing: watch::Sender::new(false),
-            _place: place,
+            watched: Mutex::new(now),
+            parked: AtomicBool::new(false),
         })
+    }
+
+    fn watched(&self) -> MutexGuard<'_, Instant> {
+        self.watched.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Somebody asks about the session without a browser.
+    pub fn touch(&self) {
+        *self.watched() = Instant::now();
+        self.parked.store(false, Ordering::Relaxed);
+    }
+
+    /// For how long no browser has been there.
+    pub fn unwatched_for(&self) -> Duration {
+        if self.seats.borrow().viewers > 0 { Duration::ZERO } else { self.watched().elapsed() }
+    }
+
+    /// A fault has ended it.
+    pub fn has_ended(&self) -> bool {
+        self.session.watch().borrow().ended.is_some()
+    }
+
+    pub fn is_parked(&self) -> bool {
+        self.parked.load(Ordering::Relaxed)
+    }
+
+    pub fn set_parked(&self) {
+        self.parked.store(true, Ordering::Relaxed);
+    }
+
+    pub fn viewers(&self) -> usize {
+        self.seats.borrow().viewers
     }
 
     /// Sends every browser away.
     pub fn close(&self) {
         self.closing.send_replace(true);
+    }
+
+    /// The same, and ends the session, whoever still holds on to it. Blocks until its files are closed.
+    pub fn shut(&self) {
+        self.close();
+        self.session.close();
     }
 
     pub fn closing(&self) -> watch::Receiver<bool> {
@@ -115,11 +152,21 @@ impl Hub {
         let number = self.forks.fetch_add(1, Ordering::Relaxed) + 1;
         let trial = self.session.watch().borrow().scenery.trial;
         let hub = self.clone();
-        tokio::task::spawn_blocking(move || {
-            let is_last = || hub.forks.load(Ordering::Relaxed) == number && !*hub.closing.borrow();
-            fork::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
-                hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
+        tokio::spawn(async move {
+            // The one before hears at its next tick that it is no longer the last.
+            let Ok(place) = hub.forking.clone().acquire_owned().await else { return };
+            let comparing = tokio::task::spawn_blocking(move || {
+                let _place = place;
+                let is_last = || hub.forks.load(Ordering::Relaxed) == number && !*hub.closing.borrow();
+                if !is_last() {
+                    return;
+                }
+                fork::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
+                    hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
+                });
             });
+            // It catches panics itself.
+            let _ = comparing.await;
         });
         Ok(())
     }
@@ -128,45 +175,16 @@ impl Hub {
         self.seats.subscribe()
     }
 
-    /// A new connection; it becomes the operator if nobody is.
-    pub fn join(&self) -> u64 {
-        let mut own = 0;
-        self.seats.send_modify(|seats| {
-            seats.next += 1;
-            own = seats.next;
-            seats.operator = seats.operator.or(Some(own));
-        });
-        own
-    }
-
-    /// A connection ends or stops operating; an asking one takes over.
-    pub fn release(&self, connection: u64) {
+    /// Changes the seats, and tells the browsers when that changes who operates or asks.
+    pub fn reseat<T>(&self, change: impl FnOnce(&mut Seats, Instant) -> T) -> T {
+        let mut done = None;
         self.seats.send_if_modified(|seats| {
-            let left_asking = seats.asking == Some(connection);
-            if left_asking {
-                seats.asking = None;
-            }
-            let left_operating = seats.operator == Some(connection);
-            if left_operating {
-                seats.operator = seats.asking.take();
-            }
-            left_asking || left_operating
+            let before = (seats.epoch, seats.asking);
+            done = Some(change(seats, Instant::now()));
+            before != (seats.epoch, seats.asking)
         });
-    }
-
-    /// Takes the operator's seat if it is free, asks its holder otherwise.
-    pub fn take(&self, connection: u64) {
-        self.seats.send_if_modified(|seats| match seats.operator {
-            Some(operator) if operator == connection => false,
-            Some(_) => {
-                seats.asking = Some(connection);
-                true
-            }
-            None => {
-                seats.operator = Some(connection);
-                true
-            }
-        });
+        self.touch();
+        done.expect("the change was made")
     }
 
     pub fn hello(&self, connection: u64, seats: &Seats) -> Hello {
@@ -176,6 +194,7 @@ impl Hub {
             session: self.id.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             role: if operates { Role::Operator } else { Role::Viewer },
+            epoch: seats.epoch,
             operator_present: seats.operator.is_some(),
             asked: operates && seats.asking.is_some(),
             adapter: self.gpu.adapter_name().to_owned(),
@@ -191,22 +210,27 @@ impl Drop for Hub {
     }
 }
 
-async fn encode_all(mut views: watch::Receiver<Arc<View>>, publish: watch::Sender<Encoded>) {
+/// Each of `maps` is of other names of maps.
+async fn encode_all(
+    mut views: watch::Receiver<Arc<View>>,
+    mut maps: watch::Receiver<u64>,
+    publish: watch::Sender<Encoded>,
+) {
     let mut encoder = Encoder { last: Some(publish.borrow().clone()), ..Encoder::default() };
     let mut camera_sent = Instant::now();
     loop {
         // A frame that came too soon after the last is sent when its time comes, unless superseded.
-        let changed = if encoder.owes_sight {
-            tokio::time::timeout_at(camera_sent + CAMERA_EVERY, views.changed()).await.unwrap_or(Ok(()))
-        } else {
-            views.changed().await
-        };
-        if changed.is_err() {
-            return;
+        let camera_next = camera_sent + CAMERA_EVERY;
+        tokio::select! {
+            changed = views.changed() => if changed.is_err() { return },
+            // The page lists them.
+            Ok(()) = maps.changed() => {}
+            () = tokio::time::sleep_until(camera_next), if encoder.owes_sight => {}
         }
+        let version = *maps.borrow_and_update();
         let view = views.borrow_and_update().clone();
         let camera_due = camera_sent.elapsed() >= CAMERA_EVERY;
-        let encoded = encoder.encode(&view, camera_due);
+        let encoded = encoder.encode(&view, version, camera_due);
         if camera_due {
             camera_sent = Instant::now();
         }
@@ -217,13 +241,14 @@ async fn encode_all(mut views: watch::Receiver<Arc<View>>, publish: watch::Sende
 #[derive(Default)]
 struct Encoder {
     last: Option<Encoded>,
-    scene_version: Option<u64>,
+    /// Versions of what stands still and of the maps.
+    scene_version: Option<(u64, u64)>,
     sight: Option<Arc<(u64, crate::trial::Sight)>>,
     owes_sight: bool,
 }
 
 impl Encoder {
-    fn encode(&mut self, view: &View, camera_due: bool) -> Encoded {
+    fn encode(&mut self, view: &View, maps_version: u64, camera_due: bool) -> Encoded {
         let mut next = self.last.clone().unwrap_or_else(|| Encoded {
             state: Utf8Bytes::default(),
             scene: Utf8Bytes::default(),
@@ -236,8 +261,9 @@ impl Encoder {
             sight_version: 0,
         });
         next.state = json(&ServerMessage::State(Box::new(StateMessage::from(view))));
-        if self.scene_version != Some(view.scenery.version) {
-            self.scene_version = Some(view.scenery.version);
+        let scene_version = Some((view.scenery.version, maps_version));
+        if self.scene_version != scene_version {
+            self.scene_version = scene_version;
             next.scene = json(&ServerMessage::Scene(Box::new(SceneMessage::from(&*view.scenery))));
             next.scene_version += 1;
         }

@@ -1,52 +1,108 @@
 //! The WebSocket: newest state out, commands in.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
+use std::time::Duration;
 
-use axum::extract::ws::Utf8Bytes;
+use axum::body::Bytes;
+use axum::extract::State;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
-use axum::extract::{Path, State};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use futures_util::SinkExt;
+use governor::clock::{Clock, DefaultClock};
+use governor::{DefaultDirectRateLimiter, Quota, RateLimiter};
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
+use tokio::time::Instant;
 
 use super::Server;
+use super::hand::{self, Hand};
 use super::hub::{Encoded, Hub, json};
+use super::path::{Path, SessionPath};
 use super::problem::Problem;
+use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
+use super::seats::Seats;
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, ServerMessage};
 use crate::scenario::ControllerName;
-use crate::session::Command;
-use crate::trial::Input;
+use crate::session::CommandError;
 
 /// Largest message from a browser.
 const MESSAGE_LIMIT: usize = 64 * 1024;
+/// What may wait for a browser on our side; one set of the newest messages is smaller.
+const WRITE_LIMIT: usize = 4 << 20;
+/// Messages of one browser: more are read later, so that nothing is lost.
+const MESSAGES_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
+const MESSAGES_BURST: NonZeroU32 = NonZeroU32::new(1000).unwrap();
 /// Code 1001 of RFC 6455: the server goes away.
 const GOING_AWAY: u16 = 1001;
+/// Looks so often whether somebody has left without a word.
+const BEAT: Duration = Duration::from_secs(1);
+/// Asks a browser so often whether it lives, and lets it go when it has been silent for so long.
+const PING_EVERY: Duration = Duration::from_secs(15);
+const SILENCE: Duration = Duration::from_secs(45);
 
+/// The WebSocket of a session.
+///
+/// Text frames are `ClientMessage` from the browser and `ServerMessage` from the server, JSON both. Binary frames carry
+/// pictures: one byte 1 (the camera's, a JPEG file) or 2 (the observation, 2 × 84 × 84 bytes), three bytes of zero, the
+/// tick as u32 little-endian, then the payload.
+#[utoipa::path(get, path = "/api/sessions/{id}/live", tag = "sessions", params(SessionPath),
+    responses((status = 101, description = "The connection is a WebSocket from here on."), Malformed, NotFound, NotUpgraded, Unavailable))]
 pub async fn live(
     State(server): State<Arc<Server>>,
-    Path(id): Path<String>,
+    Path(SessionPath { id }): Path<SessionPath>,
     upgrade: Result<WebSocketUpgrade, axum::extract::ws::rejection::WebSocketUpgradeRejection>,
 ) -> Response {
-    let Some(hub) = server.find(&id) else { return Problem::not_found("session", &id).into_response() };
-    match upgrade {
-        Err(rejection) => Problem::new(rejection.status(), "websocket", rejection.body_text()).into_response(),
-        Ok(upgrade) => upgrade.max_message_size(MESSAGE_LIMIT).on_upgrade(move |socket| async move {
-            let mut connection = Connection { own: hub.join(), hub: hub.clone(), socket, dragging: false };
-            let mut stopping = server.stopping.clone();
-            // The browser may be gone at any await; the reason is of no use to anybody.
-            let _ = connection.run(&mut stopping).await;
-            connection.leave().await;
-        }),
+    let Some(hub) = server.sessions.find(&id) else { return Problem::not_found("session", &id).into_response() };
+    let upgrade = match upgrade {
+        Ok(upgrade) => upgrade.max_message_size(MESSAGE_LIMIT).max_frame_size(MESSAGE_LIMIT),
+        Err(rejection) => {
+            return Problem::new(rejection.status(), "websocket", rejection.body_text()).into_response();
+        }
+    };
+    let Some(seat) = Seat::take(&hub) else {
+        let detail = format!("session {id:?} has {} browsers already", hub.viewers());
+        return Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail).into_response();
+    };
+    upgrade.max_write_buffer_size(WRITE_LIMIT).on_upgrade(move |socket| {
+        let sockets = server.sockets.clone();
+        sockets.track_future(async move {
+            let connection = Connection::new(seat, hub, socket);
+            connection.serve(server.stopping.clone()).await;
+        })
+    })
+}
+
+/// A place among a session's browsers, given back when it is dropped: also when the upgrade comes to nothing.
+struct Seat {
+    own: u64,
+    hub: Arc<Hub>,
+}
+
+impl Seat {
+    fn take(hub: &Arc<Hub>) -> Option<Self> {
+        Some(Self { own: hub.reseat(Seats::join)?, hub: hub.clone() })
+    }
+}
+
+impl Drop for Seat {
+    fn drop(&mut self) {
+        self.hub.reseat(|seats, now| seats.leave(self.own, now));
     }
 }
 
 struct Connection {
-    own: u64,
+    seat: Seat,
     hub: Arc<Hub>,
     socket: WebSocket,
-    /// Whether this browser's hand holds the bead.
-    dragging: bool,
+    hand: Arc<Hand>,
+    /// Its last sign of life, and our last question for one.
+    heard: Instant,
+    pinged: Instant,
+    messages: DefaultDirectRateLimiter,
+    /// It sends too much: nothing is read before.
+    deaf_until: Instant,
 }
 
 /// What of the newest messages this browser has.
@@ -58,24 +114,41 @@ struct Sent {
 }
 
 impl Connection {
-    async fn run(&mut self, stopping: &mut watch::Receiver<bool>) -> Result<(), axum::Error> {
+    fn new(seat: Seat, hub: Arc<Hub>, socket: WebSocket) -> Self {
+        let now = Instant::now();
+        let messages = RateLimiter::direct(Quota::per_second(MESSAGES_PER_S).allow_burst(MESSAGES_BURST));
+        let hand = Hand::new(seat.own, hub.clone());
+        Self { seat, hub, socket, hand, heard: now, pinged: now, messages, deaf_until: now }
+    }
+
+    async fn serve(mut self, stopping: watch::Receiver<bool>) {
+        // The browser may be gone at any await; the reason is of no use to anybody.
+        let looking_after = tokio::spawn(self.hand.clone().look_after());
+        let _ = self.run(stopping).await;
+        looking_after.abort();
+        self.hand.let_go().await;
+    }
+
+    async fn run(&mut self, mut stopping: watch::Receiver<bool>) -> Result<(), axum::Error> {
         let mut encoded = self.hub.encoded();
         let mut seats = self.hub.seats();
         let mut events = self.hub.session.events();
         let mut comparison = self.hub.comparison();
         let mut closing = self.hub.closing();
+        let mut beat = tokio::time::interval(BEAT);
         let mut sent = Sent::default();
+        let mut goes_on = true;
+        let hand = self.hand.clone();
         let now = *seats.borrow_and_update();
-        self.say(&ServerMessage::Hello(self.hub.hello(self.own, &now))).await?;
+        self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
         let first = encoded.borrow_and_update().clone();
         self.send_newest(&first, &mut sent).await?;
         self.tell_the_past(&mut comparison).await?;
         loop {
             tokio::select! {
-                changed = encoded.changed() => {
-                    if changed.is_err() {
-                        return self.close("the session has ended").await;
-                    }
+                changed = encoded.changed(), if goes_on => {
+                    // One that has ended is still shown, with the reason.
+                    goes_on = changed.is_ok();
                     let newest = encoded.borrow_and_update().clone();
                     self.send_newest(&newest, &mut sent).await?;
                 }
@@ -97,21 +170,56 @@ impl Connection {
                         return self.close("the session has ended").await;
                     }
                     let now = *seats.borrow_and_update();
-                    self.say(&ServerMessage::Hello(self.hub.hello(self.own, &now))).await?;
-                }
-                message = self.socket.recv() => match message {
-                    Some(Ok(Message::Text(text))) => self.hear(&text).await?,
-                    Some(Ok(Message::Binary(_))) => {
-                        let message = "binary messages are not understood".to_owned();
-                        self.say(&ServerMessage::Error(ErrorMessage { code: "malformed".into(), message, field: None })).await?;
+                    if now.operator != Some(self.seat.own) {
+                        self.hand.let_go().await;
                     }
-                    Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
-                    Some(Ok(Message::Close(_)) | Err(_)) | None => return Ok(()),
-                },
+                    self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
+                }
+                message = receive(&mut self.socket, self.deaf_until) => {
+                    let Some(Ok(message)) = message else { return Ok(()) };
+                    if !self.take_in(message).await? {
+                        return Ok(());
+                    }
+                }
+                () = hand.silenced.notified() => {
+                    let message = format!("nothing was heard from the hand for {} s: it let go, and time stands", hand::SILENCE.as_secs());
+                    self.refuse("hand_silent", &message, None).await?;
+                }
+                _ = beat.tick() => {
+                    if self.heard.elapsed() > SILENCE {
+                        return self.close("nothing was heard from this browser").await;
+                    }
+                    self.beat().await?;
+                }
                 () = async { drop(stopping.wait_for(|&stop| stop).await) } => return self.close("the server stops").await,
-                () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.close("the session was deleted").await,
+                () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.close("the session was closed").await,
             }
         }
+    }
+
+    /// Returns whether the browser stays.
+    async fn take_in(&mut self, message: Message) -> Result<bool, axum::Error> {
+        self.heard = Instant::now();
+        if let Err(until) = self.messages.check() {
+            self.deaf_until = self.heard + until.wait_time_from(DefaultClock::default().now());
+        }
+        match message {
+            Message::Text(text) => self.hear(&text).await?,
+            Message::Binary(_) => {
+                self.refuse("malformed", "binary messages are not understood", None).await?;
+            }
+            Message::Ping(_) | Message::Pong(_) => {}
+            Message::Close(_) => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    async fn beat(&mut self) -> Result<(), axum::Error> {
+        if self.pinged.elapsed() > PING_EVERY {
+            self.pinged = Instant::now();
+            self.socket.send(Message::Ping(Bytes::new())).await?;
+        }
+        Ok(())
     }
 
     async fn send_newest(&mut self, newest: &Encoded, sent: &mut Sent) -> Result<(), axum::Error> {
@@ -134,7 +242,10 @@ impl Connection {
     }
 
     /// What happened before this browser came.
-    async fn tell_the_past(&mut self, comparison: &mut watch::Receiver<Utf8Bytes>) -> Result<(), axum::Error> {
+    async fn tell_the_past(
+        &mut self,
+        comparison: &mut watch::Receiver<axum::extract::ws::Utf8Bytes>,
+    ) -> Result<(), axum::Error> {
         let journal = self.hub.session.watch().borrow().journal.clone();
         for event in journal.iter() {
             self.socket.feed(Message::Text(json(&ServerMessage::Event(EventMessage::from(event))))).await?;
@@ -147,48 +258,61 @@ impl Connection {
     }
 
     async fn hear(&mut self, text: &str) -> Result<(), axum::Error> {
-        let message = match ClientMessage::parse(text) {
-            Ok(message) => message,
+        let (message, epoch) = match ClientMessage::parse_with_epoch(text) {
+            Ok(told) => told,
             Err(error) => return self.say(&ServerMessage::Error(error)).await,
         };
+        let own = self.seat.own;
         match message {
-            ClientMessage::TakeControl {} => self.hub.take(self.own),
+            ClientMessage::TakeControl {} => self.hub.reseat(|seats, now| seats.take(own, now)),
             ClientMessage::ReleaseControl {} => {
-                self.let_go().await;
-                self.hub.release(self.own);
+                self.hand.let_go().await;
+                self.hub.reseat(|seats, now| seats.release(own, now));
             }
             message => {
-                if self.hub.seats().borrow().operator != Some(self.own) {
-                    let error = ErrorMessage {
-                        code: "not_operator".into(),
-                        message: "another browser has control; take control first".into(),
-                        field: None,
-                    };
-                    return self.say(&ServerMessage::Error(error)).await;
+                let seats = *self.hub.seats().borrow();
+                if seats.operator != Some(own) {
+                    let text = "another browser has control; take control first";
+                    return self.refuse("not_operator", text, None).await;
                 }
-                let dragging = match message {
-                    ClientMessage::Drag { .. } => true,
-                    ClientMessage::Release {} => false,
-                    _ => self.dragging,
-                };
-                let done = match message {
-                    ClientMessage::Fork { tick, controllers } => {
-                        let mut asked = ControllerName::ALL.to_vec();
-                        asked.retain(|name| controllers.is_empty() || controllers.contains(name));
-                        self.hub.fork(tick, asked).await
-                    }
-                    message => match message.command() {
-                        Some(command) => self.hub.session.send(command).await,
-                        None => Ok(()),
-                    },
-                };
-                match done {
-                    Ok(()) => self.dragging = dragging,
+                if let Some(meant) = epoch.filter(|&epoch| epoch != seats.epoch) {
+                    let text = format!("epoch is {meant}, and control has passed on since: it is {}", seats.epoch);
+                    return self.refuse("stale_epoch", &text, Some("epoch")).await;
+                }
+                match self.obey(message).await {
+                    Ok(()) => self.hub.reseat(Seats::command),
                     Err(error) => return self.say(&ServerMessage::Error(ErrorMessage::from(&error))).await,
                 }
             }
         }
         Ok(())
+    }
+
+    async fn obey(&mut self, message: ClientMessage) -> Result<(), CommandError> {
+        let holds = match message {
+            ClientMessage::Drag { .. } => Some(true),
+            ClientMessage::Release {} => Some(false),
+            _ => None,
+        };
+        match message {
+            ClientMessage::Fork { tick, controllers } => {
+                let mut asked = ControllerName::ALL.to_vec();
+                asked.retain(|name| controllers.is_empty() || controllers.contains(name));
+                self.hub.fork(tick, asked).await?;
+            }
+            message => {
+                if let Some(command) = message.command() {
+                    self.hub.session.send(command).await?;
+                }
+            }
+        }
+        self.hand.commanded(holds);
+        Ok(())
+    }
+
+    async fn refuse(&mut self, code: &str, message: &str, field: Option<&str>) -> Result<(), axum::Error> {
+        let (code, message, field) = (code.to_owned(), message.to_owned(), field.map(str::to_owned));
+        self.say(&ServerMessage::Error(ErrorMessage { code, message, field })).await
     }
 
     async fn say(&mut self, message: &ServerMessage) -> Result<(), axum::Error> {
@@ -198,19 +322,10 @@ impl Connection {
     async fn close(&mut self, reason: &'static str) -> Result<(), axum::Error> {
         self.socket.send(Message::Close(Some(CloseFrame { code: GOING_AWAY, reason: reason.into() }))).await
     }
+}
 
-    /// A hand that is gone lets go.
-    async fn let_go(&mut self) {
-        if std::mem::take(&mut self.dragging) {
-            // The session may have ended, and with it the hand.
-            let _ = self.hub.session.send(Command::Input(Input::Release)).await;
-        }
-    }
-
-    async fn leave(mut self) {
-        self.let_go().await;
-        self.hub.release(self.own);
-        // The last browser of a deleted session joins its thread, which blocks.
-        tokio::task::spawn_blocking(move || drop(self.hub));
-    }
+/// The next message, not before a time.
+async fn receive(socket: &mut WebSocket, not_before: Instant) -> Option<Result<Message, axum::Error>> {
+    tokio::time::sleep_until(not_before).await;
+    socket.recv().await
 }

@@ -1,44 +1,116 @@
-//! `/metrics` in Prometheus' text format.
+//! `/metrics` for Prometheus, and what is counted for it.
 
-use std::fmt::Write;
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::header;
+use axum::http::{StatusCode, header};
 use axum::response::IntoResponse;
+use prometheus_client::encoding::text::encode;
+use prometheus_client::metrics::counter::Counter;
+use prometheus_client::metrics::family::Family;
+use prometheus_client::metrics::gauge::Gauge;
+use prometheus_client::registry::Registry;
 
 use super::Server;
+use super::problem::Problem;
 
-pub async fn metrics(State(server): State<Arc<Server>>) -> impl IntoResponse {
-    let hubs = server.sessions.read().expect("no holder panics");
+type Labels = Vec<(&'static str, String)>;
+type Floats = Gauge<f64, std::sync::atomic::AtomicU64>;
+
+/// What has happened since the server began. Counted by all connections.
+#[derive(Default)]
+pub struct Counters {
+    answers: Family<Labels, Counter>,
+    refusals: Family<Labels, Counter>,
+    logins: Family<Labels, Counter>,
+    connections: Gauge,
+    turned_away: Counter,
+}
+
+impl Counters {
+    pub fn answer(&self, status: StatusCode) {
+        self.answers.get_or_create(&vec![("status", status.as_u16().to_string())]).inc();
+    }
+
+    /// Somebody was not let in; the codes are our own, so there are few.
+    pub fn refuse(&self, code: &str) {
+        self.refusals.get_or_create(&vec![("code", code.to_owned())]).inc();
+    }
+
+    pub fn login(&self, succeeded: bool) {
+        let outcome = if succeeded { "let in" } else { "refused" };
+        self.logins.get_or_create(&vec![("outcome", outcome.to_owned())]).inc();
+    }
+
+    pub fn connect(&self, change: i64) {
+        self.connections.inc_by(change);
+    }
+
+    /// A connection that there was no room for.
+    pub fn turn_away(&self) {
+        self.turned_away.inc();
+    }
+}
+
+/// Figures for Prometheus.
+#[utoipa::path(get, path = "/metrics", tag = "server", responses((status = 200, description = "Families of figures.",
+    content_type = "application/openmetrics-text; version=1.0.0; charset=utf-8", body = String)))]
+pub async fn metrics(State(server): State<Arc<Server>>) -> Result<impl IntoResponse, Problem> {
     let mut text = String::new();
-    let mut family = |name: &str, kind: &str, help: &str, rows: &mut dyn Iterator<Item = String>| {
-        // Writing to a String does not fail.
-        let _ = writeln!(text, "# HELP {name} {help}\n# TYPE {name} {kind}");
-        rows.for_each(|row| {
-            let _ = writeln!(text, "{name}{row}");
-        });
-    };
-    let adapter = server.gpu.adapter_name().replace(['"', '\\', '\n'], " ");
-    family(
-        "ferry_info",
-        "gauge",
-        "Version and graphics adapter.",
-        &mut std::iter::once(format!("{{version=\"{}\",adapter=\"{adapter}\"}} 1", env!("CARGO_PKG_VERSION"))),
-    );
-    family("ferry_sessions", "gauge", "Sessions.", &mut std::iter::once(format!(" {}", hubs.len())));
-    let views: Vec<_> = hubs.iter().map(|(id, hub)| (id, hub.session.watch().borrow().clone())).collect();
-    family(
-        "ferry_session_tick",
-        "gauge",
-        "Ticks since the start of the trial.",
-        &mut views.iter().map(|(id, view)| format!("{{session=\"{id}\"}} {}", view.moment.tick)),
-    );
-    family(
-        "ferry_session_speed",
-        "gauge",
-        "Achieved simulated seconds a second.",
-        &mut views.iter().map(|(id, view)| format!("{{session=\"{id}\"}} {}", view.speed_achieved)),
-    );
-    ([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], text)
+    encode(&mut text, &registry(&server)).map_err(Problem::internal)?;
+    Ok(([(header::CONTENT_TYPE, "application/openmetrics-text; version=1.0.0; charset=utf-8")], text))
+}
+
+/// Made anew for each who asks: sessions come and go.
+fn registry(server: &Server) -> Registry {
+    let mut registry = Registry::with_prefix("ferry");
+    let counters = &server.counters;
+    registry.register("http_answers", "Answers by status", counters.answers.clone());
+    registry.register("http_refusals", "Requests not let in, by the problem's code", counters.refusals.clone());
+    registry.register("logins", "Logins", counters.logins.clone());
+    registry.register("connections", "Open connections", counters.connections.clone());
+    registry.register("connections_turned_away", "Connections there was no room for", counters.turned_away.clone());
+
+    let info = Family::<Labels, Gauge>::default();
+    let adapter = server.gpu.adapter_name().to_owned();
+    info.get_or_create(&vec![("version", env!("CARGO_PKG_VERSION").to_owned()), ("adapter", adapter)]).set(1);
+    registry.register("info", "Version and graphics adapter", info);
+
+    let hubs = server.sessions.all();
+    let of_sessions = Gauge::<i64>::default();
+    of_sessions.set(hubs.len() as i64);
+    registry.register("sessions", "Sessions", of_sessions);
+    let floats = [
+        ("session_tick", "Ticks since the start of the trial"),
+        ("session_speed", "Achieved simulated seconds a second"),
+        ("session_lateness_seconds", "How late the latest tick of the last half second came"),
+        ("session_missed_deadlines", "How often lost time was let go since the session began"),
+        ("session_viewers", "Browsers"),
+        ("session_parked", "Whether it stands still because nobody looks"),
+        ("session_ended", "Whether it has ended by a fault"),
+        ("session_recording", "Whether it is recorded"),
+    ]
+    .map(|(name, help)| {
+        let family = Family::<Labels, Floats>::default();
+        registry.register(name, help, family.clone());
+        family
+    });
+    for hub in &hubs {
+        let view = hub.session.watch().borrow().clone();
+        let values = [
+            view.moment.tick as f64,
+            view.speed_achieved,
+            view.lateness.as_secs_f64(),
+            view.missed_deadlines as f64,
+            hub.viewers() as f64,
+            f64::from(u8::from(hub.is_parked())),
+            f64::from(u8::from(view.ended.is_some())),
+            f64::from(u8::from(view.recording.starts_with("recording"))),
+        ];
+        let labels: Labels = vec![("session", hub.id.clone())];
+        for (family, value) in floats.iter().zip(values) {
+            family.get_or_create(&labels).set(value);
+        }
+    }
+    registry
 }

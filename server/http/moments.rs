@@ -3,29 +3,29 @@
 use std::sync::Arc;
 
 use axum::Json;
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::Server;
-use super::api::attachment;
+use super::api::{attachment, find};
+use super::path::{MomentPath, Path, SessionPath};
 use super::problem::Problem;
+use super::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::image::EncodeError;
 use crate::protocol::MomentMessage;
 use crate::session::{CommandError, Past};
-use crate::trial::{Moment, TickRecord, TrialError};
+use crate::trial::{Case, Moment, TickRecord, TrialError};
 
 /// The moment, lived through again beside the session.
 async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(Past, Moment, TickRecord), Problem> {
-    let hub = server.find(id).ok_or_else(|| Problem::not_found("session", id))?;
-    let past = hub.session.recall(tick).await.map_err(|error| problem(&error))?;
-    let gpu = server.gpu.clone();
-    let relived = tokio::task::spawn_blocking(move || {
-        let mut camera = past.camera(&gpu)?;
+    let past = find(server, id)?.session.recall(tick).await.map_err(|error| problem(&error))?;
+    let relived = server.work(move |server| {
+        let mut camera = past.camera(&server.gpu)?;
         let (before, record) = past.relive(&mut camera)?;
         Ok::<_, TrialError>((past, before, record))
     });
-    relived.await.map_err(Problem::internal)?.map_err(Problem::internal)
+    relived.await?.map_err(Problem::internal)
 }
 
 /// A moment that is not held is not there; the rest is as for a command.
@@ -43,39 +43,52 @@ fn no_step(tick: u64) -> Problem {
         .field("tick")
 }
 
-/// `GET /api/sessions/{id}/moments/{tick}`.
+/// A control step lived through again: what was seen, weighed and decided.
+#[utoipa::path(get, path = "/api/sessions/{id}/moments/{tick}", tag = "sessions", params(MomentPath),
+    responses((status = 200, body = MomentMessage), NotFound, Unavailable))]
 pub async fn moment(
     State(server): State<Arc<Server>>,
-    Path((id, tick)): Path<(String, u64)>,
+    Path(MomentPath { id, tick }): Path<MomentPath>,
 ) -> Result<Json<MomentMessage>, Problem> {
     let (past, before, record) = relive(&server, &id, tick).await?;
     MomentMessage::of(&past, &before, &record).map(Json).ok_or_else(|| no_step(tick))
 }
 
-/// `GET /api/sessions/{id}/moments/{tick}/camera.png`.
+/// The camera's image at a control step.
+#[utoipa::path(get, path = "/api/sessions/{id}/moments/{tick}/camera.png", tag = "sessions", params(MomentPath),
+    operation_id = "moment_camera",
+    responses((status = 200, description = "480 × 480 pixels.", content(("image/png"))), NotFound,
+        Unavailable))]
 pub async fn camera(
     State(server): State<Arc<Server>>,
-    Path((id, tick)): Path<(String, u64)>,
+    Path(MomentPath { id, tick }): Path<MomentPath>,
 ) -> Result<Response, Problem> {
     let (_, _, record) = relive(&server, &id, tick).await?;
     let sight = record.sight.ok_or_else(|| no_step(tick))?;
-    png(sight.frame.picture.to_png())
+    png(server.work(move |_| sight.frame.picture.to_png()).await?)
 }
 
-/// `GET /api/sessions/{id}/moments/{tick}/observation.png`.
+/// What the policy was shown of it.
+#[utoipa::path(get, path = "/api/sessions/{id}/moments/{tick}/observation.png", tag = "sessions", params(MomentPath),
+    operation_id = "moment_observation",
+    responses((status = 200, description = "Both channels, 84 × 84 pixels each, side by side.", content(("image/png"))), NotFound, Unavailable))]
 pub async fn observation(
     State(server): State<Arc<Server>>,
-    Path((id, tick)): Path<(String, u64)>,
+    Path(MomentPath { id, tick }): Path<MomentPath>,
 ) -> Result<Response, Problem> {
     let (_, _, record) = relive(&server, &id, tick).await?;
     let sight = record.sight.ok_or_else(|| no_step(tick))?;
-    png(sight.observation().side_by_side().to_png())
+    png(server.work(move |_| sight.observation().side_by_side().to_png()).await?)
 }
 
-/// `GET /api/sessions/{id}/case.json`: the trial with all that it was told, to be kept among `tests/cases`.
-pub async fn case(State(server): State<Arc<Server>>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let hub = server.find(&id).ok_or_else(|| Problem::not_found("session", &id))?;
-    let case = hub.session.case().await.map_err(|error| Problem::from(&error))?;
+/// The trial with all that it was told, to be kept among `tests/cases`.
+#[utoipa::path(get, path = "/api/sessions/{id}/case.json", tag = "sessions", params(SessionPath),
+    responses((status = 200, body = Case), NotFound, OutOfRange, Unavailable))]
+pub async fn case(
+    State(server): State<Arc<Server>>,
+    Path(SessionPath { id }): Path<SessionPath>,
+) -> Result<Response, Problem> {
+    let case = find(&server, &id)?.session.case().await.map_err(|error| Problem::from(&error))?;
     let name = format!("{}-{}-seed-{}.json", case.scenario.map, case.scenario.controller.as_str(), case.scenario.seed);
     let text = serde_json::to_string_pretty(&case).map_err(Problem::internal)? + "\n";
     Ok(attachment("application/json", &name, text))

@@ -1,24 +1,34 @@
 //! Errors on the wire: RFC 9457 problem details.
 
 use axum::Json;
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
+use utoipa::ToSchema;
 
 use crate::protocol::ErrorMessage;
 use crate::session::CommandError;
 
-/// A problem, to be answered.
-#[derive(Debug, Serialize)]
+/// A refusal (RFC 9457).
+#[derive(Clone, Debug, Serialize, ToSchema)]
 pub struct Problem {
+    /// Always `about:blank`: `code` says what it is.
     #[serde(rename = "type")]
     kind: &'static str,
+    /// The status in words.
     title: &'static str,
+    /// The status.
     status: u16,
+    /// For people: names the field and the value.
     detail: String,
+    /// For programs, such as `out_of_range`.
     code: String,
+    /// The field at fault.
     #[serde(skip_serializing_if = "Option::is_none")]
     field: Option<String>,
+    /// Seconds after which it is worth to come again.
+    #[serde(skip)]
+    retry_after_s: Option<u32>,
 }
 
 impl Problem {
@@ -30,12 +40,28 @@ impl Problem {
             detail: detail.into(),
             code: code.to_owned(),
             field: None,
+            retry_after_s: None,
         }
     }
 
     pub fn field(mut self, field: &str) -> Self {
         self.field = Some(field.to_owned());
         self
+    }
+
+    pub fn retry_after(mut self, seconds: u32) -> Self {
+        self.retry_after_s = Some(seconds);
+        self
+    }
+
+    /// For programs.
+    pub fn code(&self) -> &str {
+        &self.code
+    }
+
+    /// For people.
+    pub fn detail(&self) -> &str {
+        &self.detail
     }
 
     pub fn not_found(what: &str, name: &str) -> Self {
@@ -47,11 +73,17 @@ impl Problem {
     }
 }
 
+/// A path that is served, but not with this method.
+pub async fn method_not_allowed(method: Method, uri: Uri) -> Problem {
+    let detail = format!("{} cannot be asked with {method}", uri.path());
+    Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", detail)
+}
+
 impl From<&CommandError> for Problem {
     fn from(error: &CommandError) -> Self {
         let message = ErrorMessage::from(error);
         let status = match error {
-            CommandError::Busy | CommandError::Ended => StatusCode::SERVICE_UNAVAILABLE,
+            CommandError::Busy | CommandError::Unanswered | CommandError::Ended => StatusCode::SERVICE_UNAVAILABLE,
             _ => StatusCode::UNPROCESSABLE_ENTITY,
         };
         Self { field: message.field, ..Self::new(status, &message.code, message.message) }
@@ -61,9 +93,18 @@ impl From<&CommandError> for Problem {
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
-        let mut response = (status, Json(self)).into_response();
+        let retry_after_s = self.retry_after_s;
+        let mut response = (status, Json(&self)).into_response();
         let kind = HeaderValue::from_static("application/problem+json");
         response.headers_mut().insert(header::CONTENT_TYPE, kind);
+        if let Some(seconds) = retry_after_s {
+            response.headers_mut().insert(header::RETRY_AFTER, seconds.into());
+        }
+        if status == StatusCode::UNAUTHORIZED {
+            response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
+        }
+        // Who wants to read it, and not to parse it, gets it as a page.
+        response.extensions_mut().insert(self);
         response
     }
 }

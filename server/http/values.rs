@@ -1,24 +1,30 @@
 //! Value maps: what a session's policy thinks of every place.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use axum::Json;
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::StatusCode;
 
 use super::Server;
 use super::api::{parse, view};
 use super::body::WholeBody;
+use super::path::{Path, SessionPath};
 use super::problem::Problem;
+use super::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::camera::Gpu;
+use crate::evaluate::gentle_pool;
 use crate::geometry::Point2;
 use crate::learn::{Atlas, AtlasError};
 use crate::policy::Policy;
 use crate::protocol::{ValueMap, ValueQuery};
 use crate::trial::Arena;
 
-/// Atlases that are kept; one has some twenty megabytes.
+/// Whoever asks waits for the maps that others asked for before.
+const PAINTER_WAITS: Duration = Duration::from_secs(60);
+/// Atlases that are kept; one has some twenty megabytes, sixty at most.
 const KEPT: usize = 4;
 
 /// The atlases made last, the newest at the end.
@@ -35,14 +41,16 @@ impl Atlases {
 
     /// The atlas of a map by a policy. Blocks, for seconds the first time; others then wait, rather than look at the
     /// same map a second time.
-    fn of(&self, arena: &Arena, policy: &Arc<Policy>, gpu: &Arc<Gpu>) -> Result<Arc<Atlas>, AtlasError> {
-        let mut kept = self.kept.lock().expect("no holder panics");
+    fn of(&self, arena: &Arena, policy: &Arc<Policy>, gpu: &Arc<Gpu>) -> Result<Arc<Atlas>, NoValues> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let is_same =
             |(svg, atlas): &(String, Arc<Atlas>)| svg == arena.map.svg() && atlas.policy().hash() == policy.hash();
         let known = match kept.iter().position(is_same) {
             Some(index) => kept.remove(index),
             None => {
-                let atlas = Atlas::of(arena, policy.clone(), gpu, &self.folder)?;
+                // Live sessions go on beside it.
+                let pool = gentle_pool("values")?;
+                let atlas = pool.install(|| Atlas::of(arena, policy.clone(), gpu, &self.folder))?;
                 (arena.map.svg().to_owned(), Arc::new(atlas))
             }
         };
@@ -55,10 +63,31 @@ impl Atlases {
     }
 }
 
-/// `POST /api/sessions/{id}/values`: the value map of the session's policy on the session's map.
+#[derive(Debug, thiserror::Error)]
+enum NoValues {
+    #[error(transparent)]
+    Atlas(#[from] AtlasError),
+    #[error("no threads to look in: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl From<NoValues> for Problem {
+    fn from(error: NoValues) -> Self {
+        match error {
+            NoValues::Atlas(error @ (AtlasError::Terrain(_) | AtlasError::TooLarge { .. })) => {
+                Self::new(StatusCode::UNPROCESSABLE_ENTITY, "no_room", error.to_string()).field("map")
+            }
+            error => Self::internal(error),
+        }
+    }
+}
+
+/// The value map of the session's policy on the session's map.
+#[utoipa::path(post, path = "/api/sessions/{id}/values", tag = "sessions", params(SessionPath), request_body = ValueQuery,
+    responses((status = 200, body = ValueMap), NotFound, OutOfRange, Unavailable))]
 pub async fn values(
     State(server): State<Arc<Server>>,
-    Path(id): Path<String>,
+    Path(SessionPath { id }): Path<SessionPath>,
     WholeBody(body): WholeBody,
 ) -> Result<Json<ValueMap>, Problem> {
     let ValueQuery { goal_m: [x_m, y_m] } = parse(&body)?;
@@ -70,15 +99,10 @@ pub async fn values(
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("goal_m"));
     }
     let policy = arena.policy(view.scenery.parameters.rl_policy).map_err(Problem::internal)?;
-    let judged = tokio::task::spawn_blocking(move || {
+    // One at a time, so that other long computations find their places.
+    let judged = server.work_at(&server.painter, PAINTER_WAITS, move |server| {
         let atlas = server.atlases.of(&arena, &policy, &server.gpu)?;
-        ValueMap::of(&atlas, goal_m)
+        Ok::<_, NoValues>(ValueMap::of(&atlas, goal_m)?)
     });
-    match judged.await.map_err(Problem::internal)? {
-        Ok(map) => Ok(Json(map)),
-        Err(AtlasError::Terrain(error)) => {
-            Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no_room", error.to_string()).field("map"))
-        }
-        Err(error) => Err(Problem::internal(error)),
-    }
+    Ok(Json(judged.await??))
 }

@@ -2,13 +2,15 @@
 //! (`web/viewer`), since Rerun's own loads fonts from elsewhere.
 
 use std::io::Read;
+use std::sync::LazyLock;
 
 use axum::body::Bytes;
-use axum::extract::Path;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
+use super::path::{Path, ViewerPath};
 use super::problem::Problem;
+use super::refusals::NotFound;
 
 /// What the viewer's page may do: compile WebAssembly, and be framed by our own page.
 pub const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
@@ -19,10 +21,18 @@ const FILES: [(&str, &str, &[u8]); 2] = [
     ("re_viewer_bg.wasm", "application/wasm", include_bytes!(concat!(env!("OUT_DIR"), "/rerun/re_viewer_bg.wasm.gz"))),
 ];
 
-/// `GET /rerun/{file}`
-pub async fn file(Path(name): Path<String>, headers: HeaderMap) -> Result<Response, Problem> {
-    let known = FILES.iter().find(|(known, ..)| *known == name);
-    let &(_, kind, packed) = known.ok_or_else(|| Problem::not_found("file of the viewer", &name))?;
+/// The same unpacked, for whoever takes no gzip: forty megabytes, once for all.
+static PLAIN: [LazyLock<Bytes>; 2] = [LazyLock::new(|| unpack(FILES[0].2)), LazyLock::new(|| unpack(FILES[1].2))];
+
+/// A file of Rerun's viewer.
+#[utoipa::path(get, path = "/rerun/{file}", tag = "page", params(ViewerPath), operation_id = "viewer_file",
+    responses((status = 200, description = "The file, packed with gzip for whoever takes it.",
+            content((String = "text/javascript"), ("application/wasm"))),
+        (status = 304, description = "The file is the one that the browser has."), NotFound))]
+pub async fn file(Path(ViewerPath { file: name }): Path<ViewerPath>, headers: HeaderMap) -> Result<Response, Problem> {
+    let known = FILES.iter().position(|(known, ..)| *known == name);
+    let index = known.ok_or_else(|| Problem::not_found("file of the viewer", &name))?;
+    let (_, kind, packed) = FILES[index];
     let tag = tag(packed);
     // The address is the same at every version, so a browser asks each time, and is told that it has it.
     let head = [
@@ -37,8 +47,8 @@ pub async fn file(Path(name): Path<String>, headers: HeaderMap) -> Result<Respon
     if accepts_gzip(&headers) {
         return Ok((head, [(header::CONTENT_ENCODING, "gzip")], packed).into_response());
     }
-    let plain = tokio::task::spawn_blocking(move || unpack(packed)).await.map_err(Problem::internal)?;
-    Ok((head, plain.map_err(Problem::internal)?).into_response())
+    let plain = tokio::task::spawn_blocking(move || PLAIN[index].clone()).await.map_err(Problem::internal)?;
+    Ok((head, plain).into_response())
 }
 
 /// A gzip stream ends with checksum and length of its contents. Weak, because both encodings share it.
@@ -47,10 +57,10 @@ fn tag(packed: &[u8]) -> String {
     format!("W/\"{:016x}\"", u64::from_le_bytes(*end))
 }
 
-fn unpack(packed: &[u8]) -> std::io::Result<Bytes> {
+fn unpack(packed: &[u8]) -> Bytes {
     let mut plain = Vec::new();
-    flate2::read::GzDecoder::new(packed).read_to_end(&mut plain)?;
-    Ok(plain.into())
+    flate2::read::GzDecoder::new(packed).read_to_end(&mut plain).expect("the build has packed it");
+    plain.into()
 }
 
 /// Whether `accept-encoding` names gzip, or everything, and not with the weight 0.

@@ -12,7 +12,6 @@ use crate::geometry::{Point2, Vector2};
 use crate::image::CameraFrame;
 use crate::learn::{Atlas, AtlasError};
 use crate::magnetics::force;
-use crate::map::Map;
 use crate::perception::{CellState, ObstacleMap, PixelRect};
 use crate::plant::BEAD_RADIUS_M;
 use crate::policy::Judgement;
@@ -89,6 +88,7 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::Forgotten => ("forgotten", None),
             CommandError::Busy => ("busy", None),
+            CommandError::Unanswered => ("unanswered", None),
             CommandError::Ended => ("ended", None),
         };
         Self { code: code.to_owned(), message: error.to_string(), field: field.map(str::to_owned) }
@@ -116,7 +116,7 @@ impl From<&Scenery> for SceneMessage {
         let p = &scenery.parameters;
         Self {
             map: map.name().to_owned(),
-            maps: Map::shipped_names(),
+            maps: scenery.library.names(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
             controllers: ControllerName::ALL.to_vec(),
@@ -163,6 +163,8 @@ impl From<&View> for StateMessage {
             running: view.running,
             speed_target: view.speed_target,
             speed_achieved: view.speed_achieved,
+            lateness_ms: view.lateness.as_secs_f64() * 1e3,
+            missed_deadlines: view.missed_deadlines,
             tool_m: m.tool_m.coords.into(),
             bead_m: m.bead_m.coords.into(),
             bead_tracked_m: m.tracked_m.coords.into(),

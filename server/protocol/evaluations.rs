@@ -2,11 +2,13 @@
 
 use serde::Serialize;
 use ts_rs::TS;
+use utoipa::ToSchema;
 
 use crate::evaluate::{Cell, Comparison, Evaluation, EvaluationQuery, Failure, PaperRow, Progress, Row, Stage};
+use crate::geometry::schema::Numbers2;
 
 /// How an evaluation stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EvaluationStage {
     /// Another one runs.
@@ -22,7 +24,7 @@ pub enum EvaluationStage {
 }
 
 /// A cell of an evaluation, and how far it is.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationCell {
     /// What it is about.
     #[serde(flatten)]
@@ -38,7 +40,7 @@ pub struct EvaluationCell {
 }
 
 /// An evaluation without its rows.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationSummary {
     /// Its name.
     pub id: String,
@@ -56,7 +58,7 @@ pub struct EvaluationSummary {
 
 /// A trial whose bead did not arrive. With map, controller and disturbances of its cell, seed, start and goal set it
 /// up again.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationFailure {
     /// Its cell, from 0.
     pub cell: u32,
@@ -65,8 +67,10 @@ pub struct EvaluationFailure {
     /// Seed of the trial itself, as text: a number of JavaScript does not hold it.
     pub seed: String,
     /// Bead and tool at the start.
+    #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<[f64; 2]>,
     /// Goal.
+    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<[f64; 2]>,
     /// Whether the tool came to the goal.
     pub reached: bool,
@@ -83,7 +87,7 @@ pub struct EvaluationFailure {
 }
 
 /// Answer of `GET /api/evaluations/{id}`.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationReport {
     /// How it stands.
     #[serde(flatten)]
@@ -97,7 +101,7 @@ pub struct EvaluationReport {
 }
 
 /// Answer of `GET /api/evaluations`.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct Evaluations {
     /// In the order in which they were asked for.
     pub evaluations: Vec<EvaluationSummary>,

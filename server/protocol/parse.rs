@@ -7,6 +7,11 @@ use super::{ClientMessage, ErrorMessage};
 impl ClientMessage {
     /// Parses a text frame.
     pub fn parse(text: &str) -> Result<Self, ErrorMessage> {
+        Self::parse_with_epoch(text).map(|(message, _)| message)
+    }
+
+    /// The same, with the lease under which it was meant, if it says so (see [`super::Hello::epoch`]).
+    pub fn parse_with_epoch(text: &str) -> Result<(Self, Option<u64>), ErrorMessage> {
         let malformed =
             |message: String, field: Option<String>| ErrorMessage { code: "malformed".into(), message, field };
         let value: Value = serde_json::from_str(text).map_err(|error| malformed(format!("not JSON: {error}"), None))?;
@@ -20,9 +25,11 @@ impl ClientMessage {
                 return Err(malformed(format!("type is {found}, it must be a string"), Some("type".into())));
             }
         };
+        let epoch = fields.remove("epoch").map(serde_json::from_value::<u64>).transpose();
+        let epoch = epoch.map_err(|error| malformed(format!("epoch: {error}"), Some("epoch".into())))?;
         // With the tag outside, serde keeps track of the path to the field at fault.
         let tagged = Value::Object(Map::from_iter([(kind.clone(), Value::Object(fields))]));
-        serde_path_to_error::deserialize(tagged).map_err(|error| {
+        let message = serde_path_to_error::deserialize(tagged).map_err(|error| {
             let path = error.path().to_string();
             let message = error.inner().to_string();
             match path.strip_prefix(&format!("{kind}.")) {
@@ -35,7 +42,8 @@ impl ClientMessage {
                 }
                 None => malformed(message, Some(path)),
             }
-        })
+        });
+        Ok((message?, epoch))
     }
 }
 
@@ -57,6 +65,9 @@ mod tests {
         );
         assert_eq!(ClientMessage::parse(r#"{"type":"run"}"#).unwrap(), ClientMessage::Run {});
         assert_eq!(ClientMessage::parse(r#"{"type":"reset"}"#).unwrap(), ClientMessage::Reset { seed: None });
+        let told = ClientMessage::parse_with_epoch(r#"{"type":"run","epoch":7}"#).unwrap();
+        assert_eq!(told, (ClientMessage::Run {}, Some(7)));
+        assert_eq!(ClientMessage::parse_with_epoch(r#"{"type":"run"}"#).unwrap().1, None);
     }
 
     #[test]
@@ -88,6 +99,7 @@ mod tests {
         let (field, message) = fault(r#"{"type":"fly"}"#);
         assert_eq!(field, "type");
         assert!(message.contains("fly") && message.contains("set_goal"), "{message}");
+        assert_eq!(fault(r#"{"type":"run","epoch":-1}"#).0, "epoch");
         assert_eq!(fault(r#"{"x_m":1}"#).0, "type");
         assert_eq!(fault("[]").0, "");
         assert_eq!(fault("{").0, "");

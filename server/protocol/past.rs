@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
+use utoipa::ToSchema;
 
 use super::OverlayMessage;
+use crate::geometry::schema::{Numbers2, Numbers4};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 use crate::session::{Past, Progress};
@@ -13,7 +15,7 @@ use crate::trial::{Moment, Motion, TickRecord};
 pub const TICKS_A_SAMPLE: u64 = 5;
 
 /// Answer of `GET /api/sessions/{id}/moments/{tick}`: the control step at or before a tick, lived through again.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct MomentMessage {
     /// Tick of the control step.
     #[ts(type = "number")]
@@ -35,14 +37,19 @@ pub struct MomentMessage {
     /// What the arm does, as in the state.
     pub phase: String,
     /// Tool point.
+    #[schema(value_type = Numbers2)]
     pub tool_m: [f64; 2],
     /// Bead, the truth.
+    #[schema(value_type = Numbers2)]
     pub bead_m: [f64; 2],
     /// Bead as tracked.
+    #[schema(value_type = Numbers2)]
     pub bead_tracked_m: [f64; 2],
     /// Goal, if there is one.
+    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<[f64; 2]>,
     /// Next tool target, if it goes to one.
+    #[schema(value_type = Option<Numbers2>)]
     pub target_m: Option<[f64; 2]>,
     /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
@@ -81,7 +88,7 @@ impl MomentMessage {
 }
 
 /// A moment run on under several controllers, each from the same state with the same disturbances.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ComparisonMessage {
     /// Number of the trial, as in the scene.
     #[ts(type = "number")]
@@ -108,11 +115,12 @@ pub struct ComparisonMessage {
 }
 
 /// What one controller makes of the moment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Branch {
     /// The controller.
     pub controller: ControllerName,
     /// Tool x, y and bead x, y in metres, from the first sample after the moment.
+    #[schema(value_type = Vec<Numbers4>)]
     pub samples: Vec<[f64; 4]>,
     /// Whether it has ended.
     pub done: bool,

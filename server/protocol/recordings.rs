@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 use ts_rs::TS;
+use utoipa::ToSchema;
 
 /// Answer of `GET /api/recordings`.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct RecordingList {
     /// The newest first.
     pub recordings: Vec<RecordingFile>,
@@ -12,7 +13,7 @@ pub struct RecordingList {
 
 /// A part of a session's recording on disk; `GET /api/recordings/{id}.rrd` is Rerun's file, `{id}.ferry` its input
 /// log.
-#[derive(Clone, Debug, PartialEq, Serialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct RecordingFile {
     /// Name of the files without their endings.
     pub id: String,

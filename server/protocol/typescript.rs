@@ -5,7 +5,7 @@ use ts_rs::{Config, TS};
 use super::*;
 use crate::evaluate::{Cell, Comparison, EvaluationQuery, PairedMean, PaperRow, Row};
 use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
-use crate::plant::{BeadMotion, BlockOrientation};
+use crate::plant::{BeadMotion, BlockOrientation, ToolOrientation};
 use crate::scenario::{AttractorLaw, RlPolicy, SwitchingLaw, When};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/protocol.gen.ts");

@@ -1,0 +1,151 @@
+//! The token is shown once, for a cookie that scripts cannot read and other sites cannot use.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use axum::extract::{ConnectInfo, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use cookie::{Cookie, CookieJar, Key, SameSite};
+use serde::Deserialize;
+use utoipa::ToSchema;
+
+use super::super::Server;
+use super::super::api::parse;
+use super::super::assets::login_page;
+use super::super::body::WholeBody;
+use super::super::problem::Problem;
+use super::super::refusals::{Conflict, TooMany};
+use super::Client;
+
+const NAME: &str = "ferry";
+/// A login lasts a term's half.
+const LASTS: Duration = Duration::from_secs(60 * 24 * 3600);
+
+/// What is shown to get in.
+#[derive(Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Login {
+    /// The laboratory's token.
+    token: String,
+}
+
+/// The page that asks for the token.
+#[utoipa::path(get, path = "/login", tag = "access",
+    responses((status = 200, description = "The page.", content_type = "text/html", body = String)))]
+pub async fn form() -> Response {
+    login_page(StatusCode::OK)
+}
+
+/// The token for a cookie, as the page asks for it.
+#[utoipa::path(post, path = "/login", tag = "access", request_body = Login,
+    responses((status = 204, description = "The cookie stands in `Set-Cookie`."), Conflict, TooMany))]
+pub async fn login(
+    State(server): State<Arc<Server>>,
+    ConnectInfo(address): ConnectInfo<SocketAddr>,
+    headers: HeaderMap,
+    WholeBody(body): WholeBody,
+) -> Result<Response, Problem> {
+    let Login { token: presented } = parse(&body)?;
+    let access = &server.access;
+    let (Some(token), Some(key)) = (&access.token, &access.cookie_key) else {
+        let detail = "this laboratory has no token: whoever can reach it is in";
+        return Err(Problem::new(StatusCode::CONFLICT, "no_login", detail));
+    };
+    let origin = headers.get(header::ORIGIN).and_then(|origin| origin.to_str().ok());
+    let Some(origin) = origin else {
+        let detail = "a login must say its Origin; programs send the token as Authorization: Bearer";
+        return Err(Problem::new(StatusCode::FORBIDDEN, "no_origin", detail).field("Origin"));
+    };
+    if !token.matches(&presented) {
+        server.counters.login(false);
+        tracing::warn!(%address, "login refused");
+        return Err(access.wrong_token(&Client::at(address.ip())));
+    }
+    server.counters.login(true);
+    tracing::info!(%address, "login");
+    let cookie = Cookie::build((NAME, value(SystemTime::now() + LASTS).map_err(Problem::internal)?))
+        .http_only(true)
+        .same_site(SameSite::Strict)
+        .secure(origin.starts_with("https:"))
+        .path("/")
+        .max_age(LASTS.try_into().map_err(Problem::internal)?);
+    Ok(set(cookie.build(), key))
+}
+
+/// Takes the cookie back from this browser.
+#[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "It is gone.")))]
+pub async fn logout() -> Response {
+    let gone = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
+    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, gone.removal().build().to_string())]).into_response()
+}
+
+/// A number of its own, and when it ends.
+fn value(ends: SystemTime) -> Result<String, std::io::Error> {
+    let mut number = [0; 16];
+    getrandom::fill(&mut number)?;
+    Ok(format!("{}.{}", hex::encode(number), seconds(ends)))
+}
+
+fn seconds(time: SystemTime) -> u64 {
+    time.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs()
+}
+
+fn set(cookie: Cookie<'static>, key: &Key) -> Response {
+    let mut jar = CookieJar::new();
+    jar.signed_mut(key).add(cookie);
+    let written = jar.get(NAME).map(ToString::to_string).unwrap_or_default();
+    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, written)]).into_response()
+}
+
+/// The number in a cookie that we have signed and that lasts still.
+pub fn known(headers: &HeaderMap, key: &Key) -> Option<String> {
+    let texts = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
+    let signed = texts.flat_map(Cookie::split_parse).flatten().filter(|cookie| cookie.name() == NAME);
+    signed.into_iter().find_map(|cookie| {
+        let mut jar = CookieJar::new();
+        jar.add_original(cookie.into_owned());
+        let cookie = jar.signed(key).get(NAME)?;
+        let (number, ends) = cookie.value().split_once('.')?;
+        (ends.parse::<u64>().ok()? > seconds(SystemTime::now())).then(|| number.to_owned())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Token;
+    use super::*;
+
+    fn key() -> Key {
+        Token::generate().unwrap().parse::<Token>().unwrap().cookie_key()
+    }
+
+    fn sent(set: &Response) -> HeaderMap {
+        let text = set.headers()[header::SET_COOKIE].to_str().unwrap();
+        let mut headers = HeaderMap::new();
+        headers.insert(header::COOKIE, format!("other=1; {}", text.split(';').next().unwrap()).parse().unwrap());
+        headers
+    }
+
+    fn cookie(ends: SystemTime, key: &Key) -> Response {
+        set(Cookie::build((NAME, value(ends).unwrap())).build(), key)
+    }
+
+    #[test]
+    fn a_cookie_counts_until_it_ends_and_under_its_own_key() {
+        let (now, hour, key) = (SystemTime::now(), Duration::from_secs(3600), self::key());
+        let lasting = sent(&cookie(now + hour, &key));
+        let number = known(&lasting, &key).unwrap();
+        assert_eq!(number.len(), 32);
+        assert_eq!(known(&lasting, &self::key()), None, "signed by another");
+        assert_eq!(known(&sent(&cookie(now - hour, &key)), &key), None, "ended");
+        assert_eq!(known(&HeaderMap::new(), &key), None);
+        let text = lasting[header::COOKIE].to_str().unwrap();
+        let later = text.replace(&format!(".{}", seconds(now + hour)), &format!(".{}", seconds(now + 2 * hour)));
+        assert_ne!(later, text);
+        let mut changed = HeaderMap::new();
+        changed.insert(header::COOKIE, later.parse().unwrap());
+        assert_eq!(known(&changed, &key), None, "changed");
+    }
+}

@@ -1,0 +1,163 @@
+//! Under which names the laboratory may be asked for, and from which pages.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::net::SocketAddr;
+use std::str::FromStr;
+
+use axum::http::Uri;
+
+/// Why a text is no origin.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("origin {text:?}: it must be a scheme and a host, as in https://lab.example.org or http://10.0.0.7:8080")]
+pub struct OriginError {
+    /// What was given.
+    pub text: String,
+}
+
+/// Where a page comes from: scheme, host and port (RFC 6454).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin {
+    is_https: bool,
+    host: String,
+    port: u16,
+}
+
+impl Origin {
+    /// The one of a plain server at an address.
+    pub fn of(address: SocketAddr) -> Self {
+        let host = match address {
+            SocketAddr::V4(v4) => v4.ip().to_string(),
+            SocketAddr::V6(v6) => format!("[{}]", v6.ip()),
+        };
+        Self { is_https: false, host, port: address.port() }
+    }
+
+    /// Whether it is of the machine that asks.
+    pub fn is_loopback(&self) -> bool {
+        let name = self.host.trim_start_matches('[').trim_end_matches(']');
+        name == "localhost" || name.parse::<std::net::IpAddr>().is_ok_and(|ip| ip.is_loopback())
+    }
+
+    fn default_port(&self) -> u16 {
+        if self.is_https { 443 } else { 80 }
+    }
+
+    /// What a browser writes after `Host:`, and what a proxy may make of it.
+    fn hosts(&self) -> Vec<String> {
+        let full = format!("{}:{}", self.host, self.port);
+        if self.port == self.default_port() { vec![self.host.clone(), full] } else { vec![full] }
+    }
+}
+
+/// As a browser writes it: without the scheme's own port.
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scheme = if self.is_https { "https" } else { "http" };
+        write!(f, "{scheme}://{}", self.hosts()[0])
+    }
+}
+
+impl FromStr for Origin {
+    type Err = OriginError;
+
+    fn from_str(text: &str) -> Result<Self, OriginError> {
+        let wrong = || OriginError { text: text.to_owned() };
+        let uri: Uri = text.parse().map_err(|_| wrong())?;
+        let authority = uri.authority().filter(|authority| !authority.as_str().contains('@')).ok_or_else(wrong)?;
+        let is_https = match uri.scheme_str() {
+            Some("https") => true,
+            Some("http") => false,
+            _ => return Err(wrong()),
+        };
+        if !matches!(uri.path(), "" | "/") || uri.query().is_some() {
+            return Err(wrong());
+        }
+        let port = authority.port_u16().unwrap_or(if is_https { 443 } else { 80 });
+        Ok(Self { is_https, host: authority.host().to_ascii_lowercase(), port })
+    }
+}
+
+/// The allow-lists: exact, and made once.
+#[derive(Debug)]
+pub struct Origins {
+    hosts: BTreeSet<String>,
+    origins: BTreeSet<String>,
+}
+
+impl Origins {
+    pub fn new(all: &[Origin]) -> Self {
+        Self {
+            hosts: all.iter().flat_map(Origin::hosts).collect(),
+            origins: all.iter().map(ToString::to_string).collect(),
+        }
+    }
+
+    pub fn has_host(&self, host: &str) -> bool {
+        self.hosts.contains(&host.to_ascii_lowercase())
+    }
+
+    /// The page's address where it is asked for under `host`: of a name that is known with TLS and without, the former.
+    pub fn address_of(&self, host: &str) -> String {
+        let host = host.to_ascii_lowercase();
+        let secure = format!("https://{}", host.strip_suffix(":443").unwrap_or(&host));
+        if self.origins.contains(&secure) { secure } else { format!("http://{host}") }
+    }
+
+    pub fn has_origin(&self, origin: &str) -> bool {
+        self.origins.contains(&origin.to_ascii_lowercase())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn origin(text: &str) -> Origin {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn an_origin_is_scheme_host_and_port_and_nothing_else() {
+        for (text, written) in [
+            ("http://Lab.example.org", "http://lab.example.org"),
+            ("http://lab:80/", "http://lab"),
+            ("https://lab:443", "https://lab"),
+            ("https://lab:8443", "https://lab:8443"),
+            ("http://[::1]:8080", "http://[::1]:8080"),
+        ] {
+            assert_eq!(origin(text).to_string(), written);
+        }
+        for bad in
+            ["", "lab", "lab:80", "ftp://lab", "http://lab/a", "http://lab/?a", "http://a@lab", "http://", "null"]
+        {
+            assert!(bad.parse::<Origin>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn hosts_and_origins_are_exact() {
+        let lists = Origins::new(&[origin("http://127.0.0.1:8080"), origin("https://lab.example.org")]);
+        for good in ["127.0.0.1:8080", "lab.example.org", "lab.example.org:443", "LAB.example.org"] {
+            assert!(lists.has_host(good), "{good}");
+        }
+        for bad in [
+            "",
+            "127.0.0.1",
+            "127.0.0.1:8081",
+            "127.0.0.1:8080.",
+            "lab.example.org.evil.com",
+            "lab.example.org:80",
+            "evil@lab.example.org",
+            "10.0.0.7:8080",
+        ] {
+            assert!(!lists.has_host(bad), "{bad}");
+        }
+        assert!(lists.has_origin("http://127.0.0.1:8080") && lists.has_origin("https://lab.example.org"));
+        for bad in ["", "null", "https://127.0.0.1:8080", "http://lab.example.org", "http://127.0.0.1", "*"] {
+            assert!(!lists.has_origin(bad), "{bad}");
+        }
+        assert!(origin("http://localhost:1").is_loopback() && origin("http://[::1]:1").is_loopback());
+        assert!(!origin("http://localhost.example.org").is_loopback());
+    }
+}

@@ -1,0 +1,198 @@
+//! What a session promises when something in it breaks.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::access::Access;
+use super::{Server, Settings};
+use crate::camera::Gpu;
+use crate::faults;
+use crate::recording::{Archive, Options, Recorder, Retention};
+use crate::scenario::{ControllerName, Scenario};
+use crate::session::{Command, CommandError, SPEED_MAX, Session};
+use crate::trial::{Input, InputLog, Nowhere, Sink};
+
+fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> Session {
+    let gpu = Gpu::open(Default::default()).unwrap();
+    let scenario = Scenario { controller, ..Scenario::idle("posts", 1) };
+    Session::start(name, scenario, Arc::default(), gpu, sink).unwrap()
+}
+
+async fn ended(session: &Session) -> String {
+    let mut views = session.watch();
+    let ended = views.wait_for(|view| view.ended.is_some());
+    let view = tokio::time::timeout(Duration::from_secs(20), ended).await.expect("it ends").unwrap();
+    view.ended.clone().unwrap()
+}
+
+async fn ticks_on(session: &Session) {
+    let mut views = session.watch();
+    let from = views.borrow().moment.tick;
+    let later = views.wait_for(|view| view.moment.tick >= from + 125);
+    tokio::time::timeout(Duration::from_secs(20), later).await.expect("it goes on").unwrap();
+}
+
+async fn run(session: &Session) {
+    session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
+    session.send(Command::Run).await.unwrap();
+    ticks_on(session).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fault_ends_its_session_with_a_message_and_no_other() {
+    let other = start("unharmed", ControllerName::Attractor, Box::new(Nowhere::default()));
+    run(&other).await;
+    for (point, message) in [
+        ("step", "injected: step"),
+        ("render", "injected: render"),
+        ("inference", "injected: inference"),
+        ("not a number", "the bead's position is not a finite number"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let archive = Archive::new(folder.path().to_owned(), Retention::default());
+        let name = format!("breaks at {point}");
+        let recorder = Recorder::in_archive(&archive, "broken", Options::LIVE).unwrap();
+        let session = start(&name, ControllerName::Rl, Box::new(recorder));
+        run(&session).await;
+        faults::arm(&format!("session {name}"), point);
+        let reason = ended(&session).await;
+        assert!(reason.contains(message), "{point}: {reason}");
+        let refused = session.send(Command::Run).await;
+        assert!(matches!(refused, Err(CommandError::Ended)), "{point}: {refused:?}");
+        let tick = session.watch().borrow().moment.tick;
+        assert!(session.watch().borrow().moment.bead_m.x.is_finite());
+        session.close();
+        // What was recorded up to then is whole.
+        let files = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
+        let log = files.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "ferry")).unwrap();
+        let log = InputLog::read(&std::fs::read(log).unwrap()).unwrap();
+        assert!(log.entries.len() as u64 >= tick.min(125), "{point}: {} entries at tick {tick}", log.entries.len());
+        ticks_on(&other).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fault_in_the_recording_stops_it_visibly_and_the_session_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let archive = Archive::new(folder.path().to_owned(), Retention::default());
+    let recorder = Recorder::in_archive(&archive, "unwritten", Options::LIVE).unwrap();
+    let session = start("unwritten", ControllerName::Attractor, Box::new(recorder));
+    run(&session).await;
+    assert_eq!(session.watch().borrow().recording, "recording");
+    faults::arm("recording unwritten", "write");
+    let mut views = session.watch();
+    let stopped = views.wait_for(|view| view.recording.contains("its thread failed"));
+    tokio::time::timeout(Duration::from_secs(20), stopped).await.expect("it is shown").unwrap();
+    ticks_on(&session).await;
+    assert_eq!(session.watch().borrow().ended, None);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_lost_graphics_device_is_replaced_and_the_session_goes_on() {
+    let gpu = Gpu::open(Default::default()).unwrap();
+    let scenario = Scenario::idle("posts", 1);
+    let session = Session::start("lost device", scenario, Arc::default(), gpu.clone(), Box::new(Nowhere::default()));
+    let session = session.unwrap();
+    run(&session).await;
+    gpu.destroy();
+    ticks_on(&session).await;
+    ticks_on(&session).await;
+    assert_eq!(session.watch().borrow().ended, None);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn steps_that_take_long_do_not_keep_a_session_from_ending() {
+    let session = Arc::new(start("steps", ControllerName::Attractor, Box::new(Nowhere::default())));
+    let stepping = session.clone();
+    let asked = tokio::spawn(async move { stepping.send(Command::Step(12_500)).await });
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    assert!(!asked.is_finished(), "a minute and a half was stepped at once");
+    let began = std::time::Instant::now();
+    tokio::task::spawn_blocking(move || session.close()).await.unwrap();
+    assert!(began.elapsed() < Duration::from_millis(500), "it took {:?}", began.elapsed());
+    asked.await.unwrap().unwrap();
+}
+
+fn server(data: &std::path::Path) -> Arc<Server> {
+    let gpu = Gpu::open(Default::default()).unwrap();
+    let access = Access::new(([127, 0, 0, 1], 8080).into(), None, &[]).unwrap();
+    let (_, stopping) = tokio::sync::watch::channel(false);
+    Server::new(gpu, Settings::in_folder(data.to_owned()), access, stopping).unwrap()
+}
+
+/// Who asks and goes away must not have more worked out at once than who stays.
+#[tokio::test(flavor = "multi_thread")]
+async fn work_keeps_its_place_until_it_is_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = server(folder.path());
+    for _ in 0..super::WORKERS {
+        let work = server.work(|_| std::thread::sleep(Duration::from_secs(2)));
+        assert!(tokio::time::timeout(Duration::from_millis(50), work).await.is_err());
+    }
+    let began = std::time::Instant::now();
+    server.work(|_| ()).await.unwrap();
+    assert!(began.elapsed() > Duration::from_secs(1), "it had to wait {:?}", began.elapsed());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_session_is_begun_once_though_who_asked_first_has_gone() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = server(folder.path());
+    for _ in 0..5 {
+        let opening = server.sessions.open("anna");
+        let _ = tokio::time::timeout(Duration::from_millis(5), opening).await;
+    }
+    let anna = server.sessions.open("anna").await.unwrap();
+    assert!(Arc::ptr_eq(&anna, &server.sessions.open("anna").await.unwrap()));
+    assert_eq!(server.sessions.all().len(), 2, "main and anna");
+    let recorded = server.recordings.list().unwrap();
+    assert_eq!(recorded.iter().filter(|one| one.session.as_deref() == Some("anna")).count(), 1);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn of_forks_by_the_hundred_the_last_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = server(folder.path());
+    let hub = server.sessions.open("anna").await.unwrap();
+    hub.session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
+    let mut told = hub.comparison();
+    for _ in 0..200 {
+        hub.fork(0, vec![ControllerName::Attractor]).await.unwrap();
+    }
+    let done = told.wait_for(|text| text.contains("\"running\":false"));
+    tokio::time::timeout(Duration::from_secs(60), done).await.expect("the last is told").unwrap();
+}
+
+/// Nobody gets processor time for nothing: the session says how late it is, lets lost time go, and still obeys.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_session_on_busy_cores_tells_how_late_it_is_and_still_obeys() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let session = start("crowded", ControllerName::Rl, Box::new(Nowhere::default()));
+    run(&session).await;
+    let done = Arc::new(AtomicBool::new(false));
+    let crowd: Vec<_> = (0..4 * std::thread::available_parallelism().unwrap().get())
+        .map(|_| {
+            let done = done.clone();
+            std::thread::spawn(move || {
+                while !done.load(Ordering::Relaxed) {
+                    std::hint::spin_loop();
+                }
+            })
+        })
+        .collect();
+    session.send(Command::SetSpeed(SPEED_MAX)).await.unwrap();
+    let mut slowest = Duration::ZERO;
+    for _ in 0..20 {
+        let asked = std::time::Instant::now();
+        session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
+        slowest = slowest.max(asked.elapsed());
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+    let view = session.watch().borrow().clone();
+    done.store(true, Ordering::Relaxed);
+    crowd.into_iter().for_each(|thread| thread.join().unwrap());
+    assert!(view.missed_deadlines > 0 && view.speed_achieved < SPEED_MAX, "{}", view.missed_deadlines);
+    assert!(view.lateness > Duration::ZERO);
+    assert!(slowest < Duration::from_secs(2), "a command took {slowest:?}");
+    assert_eq!(view.ended, None);
+}

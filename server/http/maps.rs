@@ -1,0 +1,151 @@
+//! `/api/maps`: those that come with Ferry, and those that were uploaded, which are kept in the data folder.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use axum::Json;
+use axum::extract::State;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use tokio::sync::watch;
+use utoipa::ToSchema;
+
+use super::Server;
+use super::api::attachment;
+use super::body::WholeBody;
+use super::path::{MapPath, Path};
+use super::problem::Problem;
+use super::refusals::{NotFound, OutOfRange, TooMany, Unavailable};
+use crate::map::{Library, MAX_SVG_BYTES, MapError};
+
+/// A drawing that is a map.
+fn example() -> serde_json::Value {
+    let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\
+                       <rect x=\"-20\" y=\"300\" width=\"40\" height=\"30\"/></svg>";
+    drawing.into()
+}
+
+/// Where uploaded maps are kept.
+pub struct Maps {
+    pub all: Arc<Library>,
+    folder: PathBuf,
+    version: watch::Sender<u64>,
+}
+
+impl Maps {
+    /// The library, with what is in the folder. A file that is no map any more is left out, and said.
+    pub fn in_folder(folder: PathBuf) -> Self {
+        let library = Arc::new(Library::default());
+        // No folder, no maps.
+        let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten();
+        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        paths.sort();
+        for path in paths {
+            let small = std::fs::metadata(&path).is_ok_and(|data| data.is_file() && data.len() <= MAX_SVG_BYTES as u64);
+            let Some(name) = path.file_name().and_then(|name| name.to_str()?.strip_suffix(".svg")) else { continue };
+            let text = small.then(|| std::fs::read_to_string(&path).ok()).flatten();
+            let restored = text.map(|text| library.restore(name, &text));
+            if !matches!(restored, Some(Ok(()))) {
+                tracing::warn!(path = %path.display(), ?restored, "uploaded map left out");
+            }
+        }
+        Self { all: library, folder, version: watch::Sender::new(0) }
+    }
+
+    /// Another number after each change of the names.
+    pub fn changes(&self) -> watch::Receiver<u64> {
+        self.version.subscribe()
+    }
+
+    fn changed(&self) {
+        self.version.send_modify(|version| *version += 1);
+    }
+
+    fn add(&self, svg: &str) -> Result<String, Problem> {
+        let map = self.all.add(svg)?;
+        let name = map.name().to_owned();
+        let kept = std::fs::create_dir_all(&self.folder)
+            .and_then(|()| std::fs::write(self.folder.join(format!("{name}.svg")), svg));
+        kept.map_err(|error| {
+            self.all.remove(&name);
+            Problem::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", format!("the map cannot be kept: {error}"))
+        })?;
+        self.changed();
+        Ok(name)
+    }
+
+    fn remove(&self, name: &str) -> Result<(), Problem> {
+        let map = self.all.remove(name).ok_or_else(|| Problem::not_found("uploaded map", name))?;
+        self.changed();
+        std::fs::remove_file(self.folder.join(format!("{}.svg", map.name()))).map_err(Problem::internal)
+    }
+}
+
+impl From<MapError> for Problem {
+    fn from(error: MapError) -> Self {
+        let (status, code) = match &error {
+            MapError::Unknown { .. } => (StatusCode::NOT_FOUND, "not_found"),
+            MapError::TooMany { .. } => (StatusCode::TOO_MANY_REQUESTS, "too_many_maps"),
+            MapError::TooLarge { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_large"),
+            _ => (StatusCode::UNPROCESSABLE_ENTITY, "map_refused"),
+        };
+        Self::new(status, code, error.to_string()).field("map")
+    }
+}
+
+/// The maps by name.
+#[derive(Serialize, ToSchema)]
+pub struct MapNames {
+    /// Names.
+    maps: Vec<String>,
+}
+
+/// The maps: those that come with Ferry, then those that were uploaded.
+#[utoipa::path(get, path = "/api/maps", tag = "maps", operation_id = "maps", responses((status = 200, body = MapNames)))]
+pub async fn list(State(server): State<Arc<Server>>) -> Json<MapNames> {
+    Json(MapNames { maps: server.maps.all.names() })
+}
+
+/// Answer of `POST /api/maps`.
+#[derive(Serialize, ToSchema)]
+pub struct NewMap {
+    /// By which it is loaded from now on.
+    name: String,
+}
+
+/// Adds the drawing in the body.
+#[utoipa::path(post, path = "/api/maps", tag = "maps", operation_id = "add_map",
+    request_body(content = String, content_type = "image/svg+xml", description = "SVG in millimetres.", example = example),
+    responses((status = 201, body = NewMap), OutOfRange, TooMany, Unavailable))]
+pub async fn add(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
+    let svg = String::from_utf8(body.into()).map_err(|error| {
+        Problem::new(StatusCode::BAD_REQUEST, "malformed", format!("the drawing is not UTF-8: {error}")).field("map")
+    })?;
+    let adding = server.work(move |server| server.maps.add(&svg)).await?;
+    let name = adding?;
+    let location = format!("/api/maps/{name}");
+    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(NewMap { name })).into_response())
+}
+
+/// A map's drawing, as a file to be kept.
+#[utoipa::path(get, path = "/api/maps/{name}", tag = "maps", operation_id = "map", params(MapPath),
+    responses((status = 200, description = "SVG in millimetres.", content_type = "image/svg+xml", body = String), NotFound))]
+pub async fn file(
+    State(server): State<Arc<Server>>,
+    Path(MapPath { name }): Path<MapPath>,
+) -> Result<Response, Problem> {
+    let map = server.maps.all.find(&name).map_err(|error| Problem::from(error).field("name"))?;
+    Ok(attachment("image/svg+xml", &format!("{}.svg", map.name()), map.svg().to_owned()))
+}
+
+/// Takes an uploaded map out; sessions that have loaded it keep it.
+#[utoipa::path(delete, path = "/api/maps/{name}", tag = "maps", operation_id = "delete_map", params(MapPath),
+    responses((status = 204, description = "It is gone."), NotFound, Unavailable))]
+pub async fn delete(
+    State(server): State<Arc<Server>>,
+    Path(MapPath { name }): Path<MapPath>,
+) -> Result<StatusCode, Problem> {
+    server.work(move |server| server.maps.remove(&name)).await??;
+    Ok(StatusCode::NO_CONTENT)
+}

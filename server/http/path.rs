@@ -1,0 +1,84 @@
+//! Parameters of the path, with refusals that are problem details as all others.
+
+use axum::extract::{FromRequestParts, Path as AxumPath};
+use axum::http::request::Parts;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use utoipa::IntoParams;
+
+use super::problem::Problem;
+
+/// The parameters, by name.
+pub struct Path<T>(pub T);
+
+impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Path<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let AxumPath(parameters) = AxumPath::from_request_parts(parts, state)
+            .await
+            .map_err(|refused| Problem::new(refused.status(), "malformed", refused.body_text()))?;
+        Ok(Self(parameters))
+    }
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct MapPath {
+    /// Name of a map.
+    #[param(example = "colon")]
+    pub name: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct SessionPath {
+    /// Name of a session; `main` is there from the start.
+    #[param(example = "main")]
+    pub id: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct MomentPath {
+    /// Name of a session; `main` is there from the start.
+    #[param(example = "main")]
+    pub id: String,
+    /// A tick; what is asked for is the control step at or before it.
+    #[param(example = 0)]
+    pub tick: u64,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct EvaluationPath {
+    /// Name of an evaluation.
+    #[param(example = "evaluation-1")]
+    pub id: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct ReportPath {
+    /// Name of an evaluation.
+    #[param(example = "evaluation-1")]
+    pub id: String,
+    /// `report.html`, `report.csv` or `report.json`.
+    #[param(example = "report.html")]
+    pub file: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct RecordingPath {
+    /// Id of a recording with `.rrd` or `.ferry` after it.
+    pub file: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct ViewerPath {
+    /// `re_viewer.js` or `re_viewer_bg.wasm`.
+    #[param(example = "re_viewer.js")]
+    pub file: String,
+}

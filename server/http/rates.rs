@@ -1,0 +1,101 @@
+//! How often one client may ask.
+
+use std::net::IpAddr;
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+use governor::clock::{Clock, DefaultClock};
+use governor::{DefaultDirectRateLimiter, DefaultKeyedRateLimiter, Quota, RateLimiter};
+
+/// Requests of one client: far more than the page makes, far fewer than a machine can.
+const REQUESTS_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
+const REQUESTS_BURST: NonZeroU32 = NonZeroU32::new(2000).unwrap();
+/// Wrong tokens from one address, and from all.
+const WRONG_PER_MINUTE: NonZeroU32 = NonZeroU32::new(10).unwrap();
+const WRONG_OF_ALL_PER_MINUTE: NonZeroU32 = NonZeroU32::new(100).unwrap();
+
+/// Who asks: whoever has logged in is known by that, all others by their address.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Client {
+    /// The number in the cookie.
+    Login(String),
+    Address(IpAddr),
+}
+
+impl Client {
+    /// Who has one IPv6 address has 2^64 of them.
+    pub fn at(address: IpAddr) -> Self {
+        Self::Address(match address {
+            IpAddr::V6(v6) if v6.to_ipv4_mapped().is_none() => IpAddr::V6((u128::from(v6) & (u128::MAX << 64)).into()),
+            other => other.to_canonical(),
+        })
+    }
+}
+
+/// Too often: when to come again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooOften(pub Duration);
+
+/// What clients have asked for lately. Shared by all connections.
+pub struct Rates {
+    requests: DefaultKeyedRateLimiter<Client>,
+    wrong: DefaultKeyedRateLimiter<Client>,
+    wrong_of_all: DefaultDirectRateLimiter,
+}
+
+impl Default for Rates {
+    fn default() -> Self {
+        Self {
+            requests: RateLimiter::keyed(Quota::per_second(REQUESTS_PER_S).allow_burst(REQUESTS_BURST)),
+            wrong: RateLimiter::keyed(Quota::per_minute(WRONG_PER_MINUTE)),
+            wrong_of_all: RateLimiter::direct(Quota::per_minute(WRONG_OF_ALL_PER_MINUTE)),
+        }
+    }
+}
+
+impl Rates {
+    /// A request.
+    pub fn request(&self, client: &Client) -> Result<(), TooOften> {
+        self.requests.check_key(client).map_err(|until| TooOften(until.wait_time_from(DefaultClock::default().now())))
+    }
+
+    /// A wrong token. Right ones are not counted, so that nobody can lock others out by guessing.
+    pub fn wrong_token(&self, client: &Client) -> Result<(), TooOften> {
+        let now = DefaultClock::default().now();
+        self.wrong.check_key(client).map_err(|until| TooOften(until.wait_time_from(now)))?;
+        self.wrong_of_all.check().map_err(|until| TooOften(until.wait_time_from(now)))
+    }
+
+    /// Forgets who has not asked for long, so that memory does not grow with the number of clients.
+    pub fn forget(&self) {
+        self.requests.retain_recent();
+        self.wrong.retain_recent();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_client_does_not_use_up_anothers_share() {
+        let rates = Rates::default();
+        let [one, other] = ["10.0.0.1", "10.0.0.2"].map(|text| Client::at(text.parse().unwrap()));
+        assert!((0..10).all(|_| rates.wrong_token(&one).is_ok()));
+        let TooOften(wait) = rates.wrong_token(&one).unwrap_err();
+        assert!(wait > Duration::ZERO && wait <= Duration::from_secs(6), "{wait:?}");
+        assert!(rates.wrong_token(&other).is_ok());
+        assert!((0..2000).all(|_| rates.request(&one).is_ok()));
+        // Some come back while they are counted.
+        assert!((0..2000).any(|_| rates.request(&one).is_err()));
+        assert!(rates.request(&other).is_ok());
+    }
+
+    #[test]
+    fn a_network_of_ipv6_is_one_client() {
+        let client = |text: &str| Client::at(text.parse().unwrap());
+        assert_eq!(client("2001:db8::1"), client("2001:db8::2:3"));
+        assert_ne!(client("2001:db8::1"), client("2001:db8:0:1::1"));
+        assert_eq!(client("::ffff:10.0.0.1"), client("10.0.0.1"));
+    }
+}

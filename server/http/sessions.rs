@@ -1,0 +1,314 @@
+//! The sessions of a server: opened by name, parked when nobody looks, forgotten when others need their place.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
+use std::time::Duration;
+
+use axum::http::StatusCode;
+use tokio::sync::watch;
+
+use super::hub::Hub;
+use super::problem::Problem;
+use crate::camera::Gpu;
+use crate::map::Library;
+use crate::recording::{Archive, Options, Recorder};
+use crate::scenario::Scenario;
+use crate::session::{Command, CommandError, Session};
+use crate::trial::{Nowhere, Sink, TrialError};
+
+/// The session that exists from the start.
+pub const MAIN: &str = "main";
+/// Longest name of a session.
+const NAME_LENGTH: usize = 32;
+/// How names begin that the server gives.
+const NUMBERED: &str = "session-";
+/// One that takes longer to begin hangs.
+const BEGIN_WITHIN: Duration = Duration::from_secs(30);
+/// Who ends a session waits so long for it, and then goes on without.
+const END_WITHIN: Duration = Duration::from_secs(5);
+
+/// All sessions, by id.
+pub struct Sessions {
+    gpu: Arc<Gpu>,
+    archive: Arc<Archive>,
+    library: Arc<Library>,
+    /// Another number after each change of the maps' names.
+    maps: watch::Receiver<u64>,
+    /// Sessions at once; each has a thread, a camera and a recording.
+    most: usize,
+    /// A session that nobody has looked at for so long is parked.
+    park_after: Duration,
+    hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
+    /// Held by whoever opens a session, so that two who ask for one name get one session.
+    opening: tokio::sync::Mutex<()>,
+    /// Sessions made so far, for their names.
+    made: AtomicU64,
+}
+
+/// Whether a text can be a session's name: it becomes a part of addresses and of recordings' names.
+fn is_name(name: &str) -> bool {
+    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    (1..=NAME_LENGTH).contains(&name.len()) && name.chars().all(fits) && !name.starts_with('-')
+}
+
+impl Sessions {
+    pub fn new(
+        gpu: Arc<Gpu>,
+        archive: Arc<Archive>,
+        library: Arc<Library>,
+        maps: watch::Receiver<u64>,
+        most: usize,
+        park_after: Duration,
+    ) -> Result<Self, TrialError> {
+        let sessions = Self {
+            gpu,
+            archive,
+            library,
+            maps,
+            most,
+            park_after,
+            hubs: RwLock::default(),
+            opening: tokio::sync::Mutex::default(),
+            made: AtomicU64::new(0),
+        };
+        let main = sessions.start(MAIN, idle())?;
+        sessions.insert(&main);
+        Ok(sessions)
+    }
+
+    pub fn park_after(&self) -> Duration {
+        self.park_after
+    }
+
+    pub fn all(&self) -> Vec<Arc<Hub>> {
+        self.hubs.read().unwrap_or_else(PoisonError::into_inner).values().cloned().collect()
+    }
+
+    pub fn find(&self, id: &str) -> Option<Arc<Hub>> {
+        self.hubs.read().unwrap_or_else(PoisonError::into_inner).get(id).cloned()
+    }
+
+    /// The session of a name, a new one where there is none or where it has ended.
+    pub async fn open(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
+        // Who looks at a session that lives does not wait for those that begin one.
+        match self.find(name).filter(|hub| !hub.has_ended()) {
+            Some(hub) => {
+                hub.touch();
+                Ok(hub)
+            }
+            None => {
+                let (sessions, name) = (self.clone(), name.to_owned());
+                to_its_end(async move { sessions.begin(&name).await }).await
+            }
+        }
+    }
+
+    async fn begin(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
+        if !is_name(name) || name.starts_with(NUMBERED) && self.find(name).is_none() {
+            let detail = format!(
+                "{name:?} is no name of a session: it must be 1 to {NAME_LENGTH} of a to z, 0 to 9 and -, and not begin \
+                 with - or {NUMBERED}"
+            );
+            return Err(Problem::new(StatusCode::NOT_FOUND, "bad_name", detail).field("name"));
+        }
+        let _one_at_a_time = self.opening.lock().await;
+        match self.find(name) {
+            Some(hub) if !hub.has_ended() => {
+                hub.touch();
+                Ok(hub)
+            }
+            found => {
+                if let Some(ended) = found {
+                    self.end(ended).await;
+                }
+                self.make(name.to_owned(), idle()).await
+            }
+        }
+    }
+
+    /// A session of a name that the server gives.
+    pub async fn create(self: &Arc<Self>, scenario: Scenario) -> Result<Arc<Hub>, Problem> {
+        let sessions = self.clone();
+        to_its_end(async move {
+            let _one_at_a_time = sessions.opening.lock().await;
+            let number = sessions.made.fetch_add(1, Ordering::Relaxed) + 1;
+            sessions.make(format!("{NUMBERED}{number}"), scenario).await
+        })
+        .await
+    }
+
+    async fn make(self: &Arc<Self>, name: String, scenario: Scenario) -> Result<Arc<Hub>, Problem> {
+        self.make_room().await?;
+        let (sessions, id) = (self.clone(), name.clone());
+        // It makes a file, a camera and a thread.
+        let starting = tokio::task::spawn_blocking(move || sessions.start(&id, scenario));
+        let Ok(started) = tokio::time::timeout(BEGIN_WITHIN, starting).await else {
+            tracing::error!(session = name, "session does not begin: it is left behind");
+            let detail = format!("session {name:?} did not begin within {} s", BEGIN_WITHIN.as_secs());
+            return Err(Problem::new(StatusCode::SERVICE_UNAVAILABLE, "not_begun", detail));
+        };
+        let hub = started.map_err(Problem::internal)?.map_err(not_opened)?;
+        self.insert(&hub);
+        Ok(hub)
+    }
+
+    fn insert(&self, hub: &Arc<Hub>) {
+        self.hubs.write().unwrap_or_else(PoisonError::into_inner).insert(hub.id.clone(), hub.clone());
+    }
+
+    /// Where all places are taken, the session goes that has been parked longest; its recordings stay.
+    async fn make_room(&self) -> Result<(), Problem> {
+        let all = self.all();
+        if all.len() < self.most {
+            return Ok(());
+        }
+        let parked = all.into_iter().filter(|hub| hub.id != MAIN && hub.is_parked());
+        match parked.max_by_key(|hub| hub.unwatched_for()) {
+            Some(longest) => {
+                tracing::info!(session = longest.id, "parked session makes way for another");
+                self.end(longest).await;
+                Ok(())
+            }
+            None => {
+                let detail =
+                    format!("there are {} sessions already, and all are in use: one has to end first", self.most);
+                Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail))
+            }
+        }
+    }
+
+    fn start(&self, id: &str, scenario: Scenario) -> Result<Arc<Hub>, TrialError> {
+        // A recording that cannot begin is shown, and the session runs without.
+        let sink: Box<dyn Sink> = match Recorder::in_archive(&self.archive, id, Options::LIVE) {
+            Ok(recorder) => Box::new(recorder),
+            Err(error) => {
+                tracing::warn!(%error, session = id, "session not recorded");
+                Box::new(Nowhere { reason: error.to_string() })
+            }
+        };
+        let session = Session::start(id, scenario, self.library.clone(), self.gpu.clone(), sink)?;
+        tracing::info!(session = id, "session opened");
+        Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))
+    }
+
+    /// Ends a session and sends its browsers away.
+    pub async fn end(&self, hub: Arc<Hub>) {
+        let id = hub.id.clone();
+        self.hubs.write().unwrap_or_else(PoisonError::into_inner).remove(&id);
+        // Joining the session's thread and closing its file blocks.
+        let closing = tokio::task::spawn_blocking(move || hub.shut());
+        match tokio::time::timeout(END_WITHIN, closing).await {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => tracing::error!(%error, session = id, "session not closed"),
+            Err(_) => tracing::error!(session = id, "session hangs: it is left behind"),
+        }
+    }
+
+    /// Parks the sessions that nobody looks at: their time stands.
+    pub async fn park(&self) {
+        for hub in self.all() {
+            if hub.unwatched_for() >= self.park_after && !hub.is_parked() {
+                hub.set_parked();
+                // One that has ended needs no parking; one that hangs must not keep the others from it.
+                let _ = tokio::time::timeout(END_WITHIN, hub.session.send(Command::Pause)).await;
+                tracing::info!(session = hub.id, "session parked: nobody looks");
+            }
+        }
+    }
+
+    /// Stops all time, and takes the sessions out.
+    pub async fn hold(&self) -> Vec<Arc<Hub>> {
+        let hubs = std::mem::take(&mut *self.hubs.write().unwrap_or_else(PoisonError::into_inner));
+        let hubs: Vec<_> = hubs.into_values().collect();
+        hubs.iter().for_each(|hub| hub.session.interrupt());
+        let holding = futures_util::future::join_all(hubs.iter().map(|hub| hub.session.send(Command::Pause)));
+        // A session that hangs must not keep the others from closing.
+        let _ = tokio::time::timeout(Duration::from_millis(300), holding).await;
+        hubs
+    }
+}
+
+/// Also when who asked for it has gone meanwhile.
+async fn to_its_end<T: Send + 'static>(
+    work: impl Future<Output = Result<T, Problem>> + Send + 'static,
+) -> Result<T, Problem> {
+    tokio::spawn(work).await.map_err(Problem::internal)?
+}
+
+/// A scenario that cannot be set up is the asker's fault; a camera or a thread that is not to be had is not.
+fn not_opened(error: TrialError) -> Problem {
+    match error {
+        TrialError::Camera(_) | TrialError::Thread(_) => Problem::internal(error),
+        error => Problem::from(&CommandError::Trial(error)),
+    }
+}
+
+fn idle() -> Scenario {
+    Scenario::idle("posts", 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn a_session_that_a_fault_has_ended_is_begun_anew_by_whoever_opens_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let archive = Archive::new(folder.path().to_owned(), crate::recording::Retention::default());
+        let gpu = Gpu::open(Default::default()).unwrap();
+        let hour = Duration::from_secs(3600);
+        let sessions = Arc::new(Sessions::new(gpu, archive, Arc::default(), watch::channel(0).1, 3, hour).unwrap());
+        let opened = sessions.open("anna").await.unwrap();
+        assert!(Arc::ptr_eq(&opened, &sessions.open("anna").await.unwrap()));
+        crate::faults::arm("session anna", "step");
+        opened.session.send(Command::Run).await.unwrap();
+        let mut views = opened.session.watch();
+        let ended = views.wait_for(|view| view.ended.is_some());
+        tokio::time::timeout(Duration::from_secs(20), ended).await.unwrap().unwrap();
+        let again = sessions.open("anna").await.unwrap();
+        assert!(!Arc::ptr_eq(&opened, &again) && again.session.watch().borrow().ended.is_none());
+        assert!(*opened.closing().borrow(), "who looks at the old one is sent away");
+        assert_eq!(sessions.all().len(), 2);
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn a_session_that_hangs_is_left_behind_and_keeps_nobody_waiting() {
+        let folder = tempfile::tempdir().unwrap();
+        let archive = Archive::new(folder.path().to_owned(), crate::recording::Retention::default());
+        let gpu = Gpu::open(Default::default()).unwrap();
+        let sessions =
+            Arc::new(Sessions::new(gpu, archive, Arc::default(), watch::channel(0).1, 4, Duration::ZERO).unwrap());
+        let hung = sessions.open("carl").await.unwrap();
+        crate::faults::arm("session carl", "hang");
+        hung.session.send(Command::Run).await.unwrap();
+        let mut views = hung.session.watch();
+        // Its next step never comes.
+        while tokio::time::timeout(Duration::from_secs(2), views.changed()).await.is_ok() {}
+        let other = sessions.open("dora").await.unwrap();
+        other.session.send(Command::Run).await.unwrap();
+        let began = Instant::now();
+        sessions.park().await;
+        assert!(!other.session.watch().borrow().running, "the other is parked");
+        other.session.send(Command::Run).await.unwrap();
+        sessions.end(hung.clone()).await;
+        assert!(began.elapsed() < 2 * END_WITHIN + Duration::from_secs(2), "it took {:?}", began.elapsed());
+        let again = sessions.open("carl").await.unwrap();
+        again.session.send(Command::Step(1)).await.unwrap();
+        let tick = other.session.watch().borrow().moment.tick;
+        assert!(other.session.watch().borrow().running && tick > 125, "the other is at tick {tick}");
+        assert!(!Arc::ptr_eq(&again, &hung) && *hung.closing().borrow());
+    }
+
+    #[test]
+    fn names_are_parts_of_addresses_and_files_and_nothing_else() {
+        for good in ["anna", "group-7", "2026", &"x".repeat(32)] {
+            assert!(is_name(good), "{good}");
+        }
+        for bad in ["", "-a", "Anna", "a/b", "..", "a.b", "a b", "ä", "a\0", "a%2f", &"x".repeat(33)] {
+            assert!(!is_name(bad), "{bad}");
+        }
+    }
+}
