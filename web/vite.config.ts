@@ -10,8 +10,11 @@ export default defineConfig({
     // The page's policy is `default-src 'self'`: a `data:` address would be refused.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
-    // The page, and the one that Rerun's viewer has for itself.
-    rolldownOptions: { input: ['index.html', 'viewer/index.html'] },
+    // The page, the one that Rerun's viewer has for itself, the one to log in with, and what is there in place of a page
+    // that is not.
+    rolldownOptions: {
+      input: ['index.html', 'viewer/index.html', 'login/index.html', 'refused/index.html'],
+    },
     // The renderer of the 3-D view, which is loaded when that is opened.
     chunkSizeWarningLimit: 700,
   },

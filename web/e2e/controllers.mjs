@@ -82,6 +82,10 @@ export async function decidesByQuantiles({ lab }) {
   check(words.includes(['+x', '−x', '+y', '−y'][taken]), `the panel says ${words}`);
   check((best !== taken) === words.includes('next best'), `${values}, but ${words}`);
   check((await lab.text('rl-trained-on')) === trained_on.join(', '), 'trained on something else');
+  check(
+    (await page.getByTestId('rl-unseen').count()) === 0,
+    'it says that it does not know the colon',
+  );
   await lab.screenshot('quantiles');
 
   const parameters = () => lab.scene.parameters;
@@ -101,6 +105,18 @@ export async function decidesByQuantiles({ lab }) {
   await legend.waitFor({ state: 'detached' });
   await select(lab, 'Attractor');
   await until('no fans', async () => (await page.getByTestId('rl-taken').count()) === 0);
+}
+
+export async function saysWhatThePolicyHasNotSeen({ lab }) {
+  await lab.reset({ map: 'attractor-example-arm' });
+  await select(lab, 'RL');
+  await lab.click(lab.freePoints(await lab.point('bead'), 0.06, 0.2)[0]);
+  await lab.run();
+  await lab.page.getByTestId('rl-unseen').waitFor();
+  await lab.button('Pause').click();
+  await until('paused', () => !lab.state.running);
+  check(!lab.overlay.judgement.trained_on.includes(lab.scene.map), 'it has seen the map');
+  await select(lab, 'Attractor');
 }
 
 export async function carriesAlongAWay({ lab }) {

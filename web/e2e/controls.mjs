@@ -3,7 +3,8 @@
 
 import { until } from './harness.mjs';
 import { PARAMETERS, RESTORE } from './parameters.mjs';
-import { nearby, open, pause, run, withGoal, withHistory, withoutGoal } from './moments.mjs';
+import { openMap } from './maps.mjs';
+import { drawn, nearby, open, pause, run, withGoal, withHistory, withoutGoal } from './moments.mjs';
 import { PAST } from './controlsPast.mjs';
 import { TOOLS } from './controlsTools.mjs';
 
@@ -37,6 +38,11 @@ const asBefore = async (lab, hand) => {
   await until('posts', () => lab.scene.map === 'posts');
   await choose('Attractor')(lab);
   await hand.press(lab.button('Restore defaults'));
+  const { defaults } = lab.scene;
+  await until('the defaults', () => {
+    return JSON.stringify(lab.scene.parameters) === JSON.stringify(defaults);
+  });
+  await drawn(lab);
 };
 
 const choose = (name) => async (lab) => {
@@ -90,6 +96,11 @@ const LABORATORY = {
       await lab.page.getByLabel('Map', { exact: true }).selectOption('posts');
       await until('posts', () => lab.scene.map === 'posts');
     },
+  },
+  'button Open map…': {
+    see: (lab) => lab.scene.map,
+    act: (hand, locator) => openMap(hand.page, () => hand.press(locator)),
+    after: asBefore,
   },
   'spinbutton Seed': {
     see: (lab) => lab.scene.seed,

@@ -36,12 +36,11 @@ async function inspect(lab) {
   await lab.page.getByRole('dialog').waitFor();
 }
 
-/** They have come, and some way. */
+/** They have come, and all their way: while they come they do not play. */
 async function ghosts(lab) {
+  await until('ghosts', () => lab.comparison && !lab.comparison.running, COMPUTED_MS);
   const time = lab.page.getByLabel('Time of the ghosts', { exact: true });
-  await time.waitFor({ timeout: COMPUTED_MS });
-  const span = () => time.evaluate((one) => one.max - one.min);
-  await until('ghosts', async () => (await span()) > 0, COMPUTED_MS);
+  await until('their time', () => time.evaluate((one) => one.max - one.min > 0));
 }
 
 async function withGhosts(lab) {

@@ -1,17 +1,12 @@
 // Rows of the table of controls: plots, magnet, disturbances, space, recordings, evaluations.
 
-import { inSpace, open, pause, withoutGoal } from './moments.mjs';
+import { drawn, inSpace, open, pause, withoutGoal } from './moments.mjs';
 import { bound } from './parameters.mjs';
 import { freeInPicture, px } from './scene.mjs';
 
 const value = (_lab, locator) => locator.inputValue();
 const isChecked = (_lab, locator) => locator.isChecked();
 const isPressed = (_lab, locator) => locator.getAttribute('aria-pressed');
-/** What has come is on the page. */
-const drawn = (lab) =>
-  lab.page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-  );
 const downloads = (lab) => lab.downloads;
 const box = { see: isChecked, isToggle: true };
 const tab = (name) => (lab) => lab.page.getByRole('tab', { name, exact: true }).click();

@@ -126,12 +126,20 @@ export class Touch extends Pointer {
   }
 }
 
+/** What is disabled yet takes no focus, and the next key would go to what had it before. */
+async function focus(locator) {
+  await until('the focus', async () => {
+    await locator.focus();
+    return locator.evaluate((one) => one === document.activeElement);
+  });
+}
+
 /** That Tab gets everywhere is looked at elsewhere; here the focus is set. */
 export class Keys extends Hand {
   name = 'keyboard';
 
   async press(locator) {
-    await locator.focus();
+    await focus(locator);
     const isBox = await locator.evaluate((one) => one.type === 'checkbox');
     await this.page.keyboard.press(isBox ? ' ' : 'Enter');
   }
@@ -145,11 +153,11 @@ export class Keys extends Hand {
     let isAny = false;
     for (const one of all) {
       if (!(await chosen(one))) continue;
-      await one.focus();
+      await focus(one);
       isAny = true;
     }
     if (!isAny) {
-      await locator.focus();
+      await focus(locator);
       await this.page.keyboard.press(' ');
     }
     for (let pressed = 0; pressed < all.length && !(await chosen(locator)); pressed++) {
@@ -158,19 +166,19 @@ export class Keys extends Hand {
   }
 
   async choose(locator) {
-    await locator.focus();
+    await focus(locator);
     await chooseNext(this.page, locator);
   }
 
   async slide(locator) {
-    await locator.focus();
+    await focus(locator);
     const isHigh = await locator.evaluate((one) => one.value - one.min > (one.max - one.min) / 2);
     await this.page.keyboard.press(isHigh ? 'ArrowLeft' : 'ArrowRight');
   }
 
   /** One step by arrow where the field has steps, else by digits. */
   async type(locator, text) {
-    await locator.focus();
+    await focus(locator);
     const { step, isUp } = await locator.evaluate((one, wish) => {
       return { step: one.step, isUp: Number(wish) > one.valueAsNumber };
     }, text);
@@ -180,7 +188,7 @@ export class Keys extends Hand {
   }
 
   async placeGoal() {
-    await this.lab.canvas.focus();
+    await focus(this.lab.canvas);
     await this.page.keyboard.press('ArrowRight');
     await this.page.keyboard.press('ArrowUp');
     await this.page.keyboard.press('Enter');
@@ -188,7 +196,7 @@ export class Keys extends Hand {
 
   async dragBead() {
     const { keyboard } = this.page;
-    await this.lab.canvas.focus();
+    await focus(this.lab.canvas);
     await keyboard.press('d');
     for (let i = 0; i < 4; i++) await keyboard.press('ArrowUp');
     await until('the hand', () => this.lab.state.hand_m);

@@ -30,17 +30,22 @@ export function check(condition, message) {
 }
 
 /**
- * The server at FERRY_URL, or one of our own started from FERRY_BIN with a fresh data directory.
+ * The server at FERRY_URL, or one of our own.
  * `kill` and `pid` are there only for our own.
  */
 export async function startServer() {
   const given = process.env.FERRY_URL;
-  if (given) return { url: given, stop: async () => {} };
+  return given ? { url: given, stop: async () => {} } : startOwnServer();
+}
+
+/** Started from FERRY_BIN with a fresh data directory, at a free port unless told, and open unless it has a token. */
+export async function startOwnServer({ port = 0, token } = {}) {
   const binary = process.env.FERRY_BIN;
   if (!binary) throw new Error('set FERRY_URL (a running server) or FERRY_BIN (the binary)');
   const data = await mkdtemp(join(tmpdir(), 'ferry-e2e-'));
-  const child = spawn(binary, ['serve', '--bind', '127.0.0.1:0', '--data', data], {
+  const child = spawn(binary, ['serve', '--bind', `127.0.0.1:${port}`, '--data', data], {
     stdio: ['ignore', 'pipe', 'inherit'],
+    env: token === undefined ? process.env : { ...process.env, FERRY_TOKEN: token },
   });
   const exited = new Promise((resolve) => {
     child.once('exit', resolve);

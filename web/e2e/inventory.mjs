@@ -37,6 +37,9 @@ const GROUPS = new Set([
   'toolbar',
 ]);
 
+/** Least side of what is pressed: by WCAG for a mouse, and what the page promises to fingers. */
+export const LEAST_PX = { mouse: 24, touch: 36 };
+
 /** In the page: where a control is and how large what one may press of it is. */
 function measure(index) {
   this.ferryIndex = index;

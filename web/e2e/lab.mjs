@@ -81,13 +81,16 @@ export class Lab {
       socket.on('framesent', ({ payload }) => {
         const message = JSON.parse(payload);
         this.sent[message.type] = message;
+        if (message.type === 'fork') this.comparison = undefined;
       });
       socket.on('framereceived', ({ payload }) => {
         if (typeof payload !== 'string') return;
         const message = JSON.parse(payload);
+        if (message.type === 'hello') this.hello = message;
         if (message.type === 'scene') this.scene = message;
         if (message.type === 'state') this.state = message;
         if (message.type === 'overlay') this.overlay = message;
+        if (message.type === 'comparison') this.comparison = message;
         if (message.type === 'event') this.events.push(message);
       });
     });

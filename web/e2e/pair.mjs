@@ -3,7 +3,16 @@
 import { check, until } from './harness.mjs';
 import { Lab, distance } from './lab.mjs';
 
-const ACTS = ['Run', 'Step', 'Reset', 'New seed', 'Restore defaults', 'Disturb', 'Clear goal'];
+const ACTS = [
+  'Run',
+  'Step',
+  'Reset',
+  'Open map…',
+  'New seed',
+  'Restore defaults',
+  'Disturb',
+  'Clear goal',
+];
 
 /** Two pages: the one that was there is the operator. */
 async function withViewer({ browser, server }, work) {

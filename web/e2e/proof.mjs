@@ -4,13 +4,11 @@ import { violations } from './axe.mjs';
 import { isKnown, workAll } from './drive.mjs';
 import { Keys, Mouse, Touch } from './hands.mjs';
 import { check, until } from './harness.mjs';
-import { controls, faultsOf, unreached } from './inventory.mjs';
+import { LEAST_PX, controls, faultsOf, unreached } from './inventory.mjs';
 import { Lab } from './lab.mjs';
 import { places, slug } from './tour.mjs';
 
 const THEMES = ['dark', 'light'];
-/** Least side of what is pressed: by WCAG for a mouse, and what the page promises to fingers. */
-const LEAST_PX = { mouse: 24, touch: 36 };
 
 export const DESKTOP = { viewport: { width: 1280, height: 800 } };
 export const TABLET = { viewport: { width: 820, height: 1180 }, hasTouch: true };

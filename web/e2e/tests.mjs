@@ -5,6 +5,7 @@ import { check, until } from './harness.mjs';
 import {
   carriesAlongAWay,
   decidesByQuantiles,
+  saysWhatThePolicyHasNotSeen,
   showsWhereTheAttractorLeads,
 } from './controllers.mjs';
 import {
@@ -31,7 +32,10 @@ import {
   sharesAnExperiment,
 } from './lessons.mjs';
 import { cancelsAnEvaluation, evaluates, setsAFailureUpAgain } from './evaluate.mjs';
+import { HOLDS } from './holds.mjs';
 import { Lab, distance, distanceToSegment } from './lab.mjs';
+import { LOGIN } from './login.mjs';
+import { MAPS } from './maps.mjs';
 import { PAIR } from './pair.mjs';
 import { comparesControllers, keepsADragAsACase, tellsWhy } from './past.mjs';
 import { listsRecordings, opensARecording } from './recordings.mjs';
@@ -45,6 +49,7 @@ import {
   turnsTheScene,
 } from './scene.mjs';
 import { PROOF } from './proof.mjs';
+import { SESSIONS } from './sessions.mjs';
 
 /** Comfortably more than the default threshold of the switching law. */
 const LOST_M = 0.14;
@@ -195,6 +200,10 @@ async function showsWhatTheMagnetCan({ lab }) {
   await lab.page.getByText('Magnet and bead').click();
   const before = await captureWords(lab);
   check(before === '4 to 95 mm', `at the defaults it captures ${before}`);
+  const hidden = await lab.page
+    .locator('.magnet-words')
+    .evaluate((words) => words.scrollHeight - words.clientHeight);
+  check(hidden <= 0, `${hidden} px of the words beside the curves are hidden`);
 
   const slider = lab.page.getByRole('slider', { name: 'Friction μ slider' });
   await slider.scrollIntoViewIfNeeded();
@@ -361,6 +370,7 @@ export const TESTS = [
   ['shows singularities', showsSingularities],
   ['shows what the camera tells', showsWhatTheCameraTells],
   ['decides by quantiles', decidesByQuantiles],
+  ['says that the policy has not seen a map', saysWhatThePolicyHasNotSeen],
   ['carries the bead along a planned way', carriesAlongAWay],
   ['shows where the attractor leads', showsWhereTheAttractorLeads],
   ['kicks the bead', kicksTheBead],
@@ -398,9 +408,13 @@ export const TESTS = [
   ['evaluates what is asked for by keyboard', evaluates],
   ['cancels an evaluation, which a viewer watches', cancelsAnEvaluation],
   ['sets a failure up again', setsAFailureUpAgain],
+  ...HOLDS,
+  ...MAPS,
   ...PAIR,
   ...PROOF,
   ...BUDGET,
+  ...SESSIONS,
+  ...LOGIN,
   ['is quiet and keeps to its server', isQuiet],
   ['says that the server is gone', saysThatTheServerIsGone],
 ];

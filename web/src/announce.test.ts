@@ -31,6 +31,7 @@ describe('the news', () => {
       session: 'main',
       version: '',
       role,
+      epoch: 1,
       operator_present: true,
       asked: false,
       adapter: '',

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { Asker, problemText, type Answer } from './answers';
+import { Asker, type Answer } from './answers';
+import { problemText } from './problem';
 
 /** A server whose answers come when the test says so, and a clock on which no time passes. */
 function bench() {

@@ -1,7 +1,9 @@
 // Questions to the server's calculator, asked again whenever they change.
 
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { askServer } from './access';
 import { Limiter, browserClock, type Clock } from './limiter';
+import { problemText } from './problem';
 
 export interface Answer<A> {
   /** The newest answer, kept when a later question is refused. */
@@ -59,15 +61,8 @@ export class Asker<A> {
   }
 }
 
-/** What a refusal says: the `detail` of a problem, if there is one. */
-export function problemText(body: unknown): string | undefined {
-  return typeof body === 'object' && body && 'detail' in body && typeof body.detail === 'string'
-    ? body.detail
-    : undefined;
-}
-
 async function request<A>(path: string, init: RequestInit): Promise<A> {
-  const response = await fetch(path, init).catch(() => {
+  const response = await askServer(path, init).catch(() => {
     throw new Error('The server does not answer.');
   });
   if (!response.ok) {
@@ -82,8 +77,9 @@ export function get<A>(path: string): Promise<A> {
   return request(path, {});
 }
 
-function post<A>(path: string, body: string): Promise<A> {
-  return request(path, { method: 'POST', headers: { 'content-type': 'application/json' }, body });
+/** What the server makes of a body sent to `path`; fails with the sentence to show. */
+export function post<A>(path: string, body: string | Blob, type = 'application/json'): Promise<A> {
+  return request(path, { method: 'POST', headers: { 'content-type': type }, body });
 }
 
 export interface Asking {

@@ -1,5 +1,5 @@
-import { describe, expect, it } from 'vitest';
-import { backoffMs, liveAddress, readPicture } from './connection';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { backoffMs, connect, liveAddress, readPicture, type Line } from './connection';
 
 describe('the address of the socket', () => {
   it('is on the host that served the page', () => {
@@ -30,5 +30,100 @@ describe('a binary frame', () => {
 
   it('is dropped when it is too short', () => {
     expect(readPicture(new ArrayBuffer(7))).toBeUndefined();
+  });
+});
+
+/** What the page thinks is a socket; the test is its server. */
+class FakeSocket {
+  static readonly OPEN = 1;
+  static readonly all: FakeSocket[] = [];
+  readonly readyState = FakeSocket.OPEN;
+  readonly sent: unknown[] = [];
+  onopen?: () => void;
+  onmessage?: (event: { data: string }) => void;
+  onclose?: () => void;
+
+  constructor(readonly address: string) {
+    FakeSocket.all.push(this);
+  }
+
+  send(text: string): void {
+    this.sent.push(JSON.parse(text));
+  }
+
+  hear(message: object): void {
+    this.onmessage?.({ data: JSON.stringify(message) });
+  }
+}
+
+describe('a connection', () => {
+  const heard: string[] = [];
+  const open = (line: Partial<Line> = {}): ReturnType<typeof connect> =>
+    connect(
+      {
+        address: 'ws://lab/live',
+        isOver: () => false,
+        reopen: () => Promise.resolve({ isOpen: true }),
+        ...line,
+      },
+      {
+        opened: () => heard.push('opened'),
+        lost: (attempt) => heard.push(`lost ${attempt}`),
+        refused: (why) => heard.push(why),
+        message: ({ type }) => heard.push(type),
+        picture: () => undefined,
+      },
+    );
+  const socket = (): FakeSocket => {
+    const last = FakeSocket.all.at(-1);
+    if (!last) throw new Error('no socket was opened');
+    return last;
+  };
+  beforeEach(() => {
+    vi.useFakeTimers();
+    vi.stubGlobal('WebSocket', FakeSocket);
+    FakeSocket.all.length = 0;
+    heard.length = 0;
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+
+  it('acts under the lease that the server told last, on this socket', async () => {
+    const connection = open();
+    socket().onopen?.();
+    connection.send({ type: 'pause' });
+    socket().hear({ type: 'hello', epoch: 3 });
+    socket().hear({ type: 'hello', epoch: 5 });
+    connection.send({ type: 'run' });
+    expect(socket().sent).toEqual([{ type: 'pause' }, { type: 'run', epoch: 5 }]);
+
+    socket().onclose?.();
+    expect(connection.send({ type: 'run' })).toBe(false);
+    await vi.advanceTimersByTimeAsync(1000);
+    socket().onopen?.();
+    connection.send({ type: 'run' });
+    expect(socket().sent).toEqual([{ type: 'run' }]);
+  });
+
+  it('asks for its session before it is tried again, and says why there is none', async () => {
+    const answers = [{ isOpen: false, why: 'no room' }, { isOpen: false }, { isOpen: true }];
+    const reopen = vi.fn(() => Promise.resolve(answers.shift() ?? { isOpen: true }));
+    open({ reopen });
+    socket().onopen?.();
+    expect(reopen).not.toHaveBeenCalled();
+    socket().onclose?.();
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(reopen).toHaveBeenCalledTimes(3);
+    expect(FakeSocket.all).toHaveLength(2);
+    expect(heard).toEqual(['opened', 'lost 1', 'no room', 'lost 2', 'lost 3']);
+  });
+
+  it('rests when its session is over', async () => {
+    open({ isOver: () => true });
+    socket().onclose?.();
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(FakeSocket.all).toHaveLength(1);
   });
 });

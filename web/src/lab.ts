@@ -1,6 +1,7 @@
 // Connection → model → one animation frame → panels. Everything a panel may see or do is in `Lab`.
 
 import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
+import { openPage } from './access';
 import { connect, liveAddress, type Picture } from './connection';
 import { createEdits, type Edits } from './edits';
 import { createGhosts, type Ghosts } from './ghosts';
@@ -13,9 +14,12 @@ import {
   type EventMessage,
   type Parameters,
 } from './protocol.gen';
+import { sessionOf } from './session';
 import { storeLayers, storedLayers, type Layer } from './workspace/layers';
 
 export interface Lab {
+  /** Whose page this is. */
+  readonly session: string;
   readonly link: Accessor<Model['link']>;
   readonly hello: Accessor<Model['hello']>;
   readonly scene: Accessor<Model['scene']>;
@@ -33,6 +37,7 @@ export interface Lab {
   readonly opened: Accessor<{ readonly tab: string } | undefined>;
   readonly notices: Accessor<Model['notices']>;
   readonly refusals: Accessor<number>;
+  readonly silences: Accessor<number>;
   readonly camera: Accessor<Picture | undefined>;
   readonly observation: Accessor<Picture | undefined>;
   /** Why the session ended, if it has. */
@@ -136,12 +141,22 @@ export function createLab(page: Location): Lab {
     schedule();
   };
 
-  const connection = connect(liveAddress(page, 'main'), {
+  const session = sessionOf(page);
+  const line = {
+    address: liveAddress(page, session),
+    // Its page asked for would begin it anew: that is for a person to decide.
+    isOver: () => ended() !== undefined,
+    reopen: () => openPage(page.pathname),
+  };
+  const connection = connect(line, {
     opened: () => {
       take({ type: 'link', link: { kind: 'live' } });
     },
     lost: (attempt) => {
       take({ type: 'link', link: { kind: 'lost', attempt } });
+    },
+    refused: (why) => {
+      take({ type: 'notice', place: 'session', text: why });
     },
     message: (message) => {
       take({ type: 'message', message });
@@ -166,6 +181,7 @@ export function createLab(page: Location): Lab {
   };
   const edits = createEdits({ scene, refusals, canOperate, send });
   return {
+    session,
     link,
     hello,
     scene,
@@ -180,6 +196,7 @@ export function createLab(page: Location): Lab {
     opened,
     notices: createMemo(() => model().notices),
     refusals,
+    silences: createMemo(() => model().silences),
     camera,
     observation,
     ended,

@@ -1,22 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { Limiter, type Clock } from './limiter';
-
-function manualClock(): Clock & { advance: (ms: number) => void } {
-  let now = 0;
-  let waiting: { at: number; action: () => void }[] = [];
-  return {
-    nowMs: () => now,
-    later: (action, ms) => {
-      waiting.push({ at: now + ms, action });
-    },
-    advance: (ms) => {
-      now += ms;
-      const due = waiting.filter(({ at }) => at <= now);
-      waiting = waiting.filter(({ at }) => at > now);
-      for (const { action } of due) action();
-    },
-  };
-}
+import { Limiter } from './limiter';
+import { manualClock } from './testing';
 
 describe('Limiter', () => {
   it('sends the first at once and then the newest of each interval', () => {

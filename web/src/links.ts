@@ -39,8 +39,10 @@ export function createLinks(lab: Lab, page: Window): Links {
     page.removeEventListener('hashchange', onChange);
   });
 
-  // Maps, controllers and defaults stay as they are while the server runs.
-  const known = createMemo(() => lab.scene(), undefined, { equals: (a, b) => !a === !b });
+  // Controllers and defaults stay as they are while the server runs; maps come and go.
+  const known = createMemo(() => lab.scene(), undefined, {
+    equals: (a, b) => a?.maps.join() === b?.maps.join(),
+  });
   const reading = createMemo<Reading>(() => {
     const scene = known();
     return scene ? experimentFrom(hash(), scene) : { kind: 'none' };

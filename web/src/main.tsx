@@ -4,6 +4,7 @@ import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { createLab } from './lab';
 import { createLinks } from './links';
+import { takeToken } from './login/token';
 import { AsidePanel } from './panels/AsidePanel';
 import { CameraPanel } from './panels/CameraPanel';
 import { ControllerPanel } from './panels/ControllerPanel';
@@ -52,6 +53,9 @@ function Page(): JSX.Element {
     </>
   );
 }
+
+// A link to log in with, in a browser that has: nothing of it may stay in the address.
+takeToken(window);
 
 const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { EMPTY, LOG_LINES, placeOfError, reduce, type Input, type Model } from './model';
 import { PROTOCOL_VERSION, type EventMessage, type ServerMessage } from './protocol.gen';
-import { sceneOf, stateAt } from './testing';
+import { comparisonOf, sceneOf, stateAt } from './testing';
 
 const message = (one: ServerMessage): Input => ({ type: 'message', message: one });
 const scene = (map = 'posts', trial = 0): Input =>
@@ -24,6 +24,7 @@ describe('messages', () => {
       session: 'main',
       version: '9',
       role: 'operator',
+      epoch: 1,
       operator_present: true,
       asked: false,
       adapter: '',
@@ -56,6 +57,21 @@ describe('the timeline', () => {
   it('is empty in another trial, not in the same one', () => {
     expect(play(scene(), event(5), scene()).marks).toHaveLength(1);
     expect(play(scene(), event(5), scene('posts', 1)).marks).toHaveLength(0);
+  });
+});
+
+describe('a comparison', () => {
+  const link = (one: Model['link']): Input => ({ type: 'link', link: one });
+  it('of before the connection was lost is told anew, or is no more', () => {
+    const before = play(
+      link({ kind: 'live' }),
+      scene(),
+      message({ type: 'comparison', ...comparisonOf(0, []) }),
+    );
+    expect(before.comparison).toBeDefined();
+    const lost = reduce(before, link({ kind: 'lost', attempt: 1 }));
+    expect(lost.comparison).toBeDefined();
+    expect(reduce(lost, link({ kind: 'live' })).comparison).toBeUndefined();
   });
 });
 
@@ -103,6 +119,18 @@ describe('a refusal', () => {
   it('appears at the last command where no field says', () => {
     expect(placeOfError(error(), play({ type: 'sent', command: 'drag' }))).toBe('workspace');
     expect(placeOfError(error(), EMPTY)).toBe('session');
+  });
+
+  it('is found by its code where that says more', () => {
+    const stale = { ...error('epoch'), code: 'stale_epoch' };
+    expect(placeOfError(stale, play({ type: 'sent', command: 'run' }))).toBe('session');
+  });
+
+  it('of a silent hand is counted, and stays when the hold ends', () => {
+    const silent = message({ type: 'error', code: 'hand_silent', message: 'let go' });
+    const model = play(silent, { type: 'sent', command: 'release' });
+    expect(model.silences).toBe(1);
+    expect(model.notices.workspace?.text).toBe('let go');
   });
 
   it('goes with the next attempt or when it is dismissed, but a newer one stays', () => {

@@ -63,6 +63,8 @@ export interface Model {
   readonly notices: Readonly<Partial<Record<Place, Notice>>>;
   /** Grows with each refusal, so that forms know when to show the server's truth again. */
   readonly refusals: number;
+  /** Grows when the server has let go of a bead, since it heard nothing of the hand. */
+  readonly silences: number;
   readonly lastCommand: ClientMessage['type'] | undefined;
   readonly nextId: number;
 }
@@ -86,6 +88,7 @@ export const EMPTY: Model = {
   comparison: undefined,
   notices: {},
   refusals: 0,
+  silences: 0,
   lastCommand: undefined,
   nextId: 1,
 };
@@ -124,8 +127,18 @@ const PLACE_OF_FIELD: Partial<Record<string, Place>> = {
   ticks: 'transport',
 };
 
-/** Where the cause of a refusal is on the page: its field says, else the last command. */
+/** The server let go of the bead, since it heard nothing of the hand. */
+const HAND_SILENT = 'hand_silent';
+
+const PLACE_OF_CODE: Partial<Record<string, Place>> = {
+  stale_epoch: 'session',
+  [HAND_SILENT]: 'workspace',
+};
+
+/** Where the cause of a refusal is on the page: its code or its field says, else the last command. */
 export function placeOfError(error: ErrorMessage, model: Model): Place {
+  const place = PLACE_OF_CODE[error.code];
+  if (place) return place;
   if (model.lastCommand === 'fork') return PLACE_OF_COMMAND.fork;
   const field = error.field?.split('.').at(-1);
   if (field !== undefined) {
@@ -172,12 +185,15 @@ function withoutNotice(model: Model, place: Place): Model {
 function withLink(model: Model, link: Link): Model {
   const next = { ...model, link };
   if (link.kind === 'lost' && model.link.kind === 'live') {
+    // Who has ended closes the socket, and nothing is tried again.
+    if (typeof model.state?.ended === 'string') return next;
     return withLine(next, 'link', 'Connection lost; trying again.', undefined);
   }
   if (link.kind === 'live' && model.link.kind === 'lost') {
     // The session tells anew what happened in it.
     const own = model.log.filter((line) => line.kind === 'link' || line.kind === 'error');
-    return withLine({ ...next, log: own, marks: [] }, 'link', 'Connected again.', undefined);
+    const fresh = { ...next, log: own, marks: [], comparison: undefined };
+    return withLine(fresh, 'link', 'Connected again.', undefined);
   }
   return next;
 }
@@ -235,7 +251,11 @@ function withMessage(model: Model, message: ServerMessage): Model {
       const place = placeOfError(message, model);
       const logged = withLine(model, 'error', message.message, model.state?.sim_time_s);
       return withNotice(
-        { ...logged, refusals: logged.refusals + 1 },
+        {
+          ...logged,
+          refusals: logged.refusals + 1,
+          silences: logged.silences + (message.code === HAND_SILENT ? 1 : 0),
+        },
         place,
         'error',
         message.message,
@@ -253,6 +273,8 @@ export function reduce(model: Model, input: Input): Model {
     case 'sent': {
       // A new attempt: what the last one met is no longer news.
       const place = PLACE_OF_COMMAND[input.command];
+      // The end of a hold is none: why it ended stays.
+      if (input.command === 'release') return { ...model, lastCommand: input.command };
       return { ...withoutNotice(model, place), lastCommand: input.command };
     }
     case 'notice':

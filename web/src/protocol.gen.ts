@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-export const PROTOCOL_VERSION = 5;
+export const PROTOCOL_VERSION = 6;
 export const BINARY_CAMERA_JPEG = 1;
 export const BINARY_OBSERVATION = 2;
 
@@ -395,6 +395,11 @@ version: string,
  */
 role: Role, 
 /**
+ * Number of the operator's lease; it rises when control passes on. A command may carry it as `epoch`, and is
+ * refused when it is no longer that.
+ */
+epoch: number, 
+/**
  * Whether anybody is the operator.
  */
 operator_present: boolean, 
@@ -506,6 +511,14 @@ speed_target: number,
  * Achieved simulated seconds a second.
  */
 speed_achieved: number, 
+/**
+ * How late the latest tick of the last half second came, in milliseconds of the clock.
+ */
+lateness_ms: number, 
+/**
+ * How often the session fell so far behind that lost time was let go, since it began.
+ */
+missed_deadlines: number, 
 /**
  * Tool point: the middle of the block's lower face.
  */

@@ -1,5 +1,12 @@
 import { describe, expect, it } from 'vitest';
-import { achievedWords, nextSpeed, speedName, ticksToControlStep } from './steps';
+import {
+  achievedWords,
+  lateWords,
+  lostWords,
+  nextSpeed,
+  speedName,
+  ticksToControlStep,
+} from './steps';
 
 describe('speeds', () => {
   it('go up and down by one, and end', () => {
@@ -35,4 +42,12 @@ describe('a control step', () => {
     expect(due).toEqual([32, 63, 94, 125, 157]);
     expect(ticksToControlStep(40, 0.008)).toBe(23);
   });
+});
+
+it('tells late ticks and lost time only where there are any', () => {
+  expect(lateWords(20)).toBeUndefined();
+  expect(lateWords(33.6)).toBe('34 ms late');
+  expect(lostWords(0)).toBeUndefined();
+  expect(lostWords(1)).toBe('once lost time was let go');
+  expect(lostWords(12)).toBe('12 times lost time was let go');
 });

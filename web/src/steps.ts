@@ -32,6 +32,19 @@ export function achievedWords(
   return { text: `achieved ${fixed(achieved, achieved < 10 ? 2 : 1)}×`, limited };
 }
 
+/** Ticks come every 8 ms; what is later than two of them is worth a word. */
+const LATE_MS = 20;
+
+export function lateWords(lateness_ms: number): string | undefined {
+  return lateness_ms > LATE_MS ? `${Math.round(lateness_ms)} ms late` : undefined;
+}
+
+/** How often the session fell so far behind that it did not catch up. */
+export function lostWords(times: number): string | undefined {
+  if (times === 0) return undefined;
+  return `${times === 1 ? 'once' : `${times} times`} lost time was let go`;
+}
+
 export function speedName(factor: number): string {
   return factor === FASTEST ? `max (${speed(factor)})` : speed(factor);
 }

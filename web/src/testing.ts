@@ -1,5 +1,6 @@
-// Messages for the unit tests.
+// Messages and a clock for the unit tests.
 
+import type { Clock } from './limiter';
 import type {
   Branch,
   ComparisonMessage,
@@ -17,6 +18,8 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
     running: true,
     speed_target: 1,
     speed_achieved: 1,
+    lateness_ms: 0,
+    missed_deadlines: 0,
     tool_m: [tick, 0, 0.1],
     bead_m: [-tick, 0, 0.0025],
     bead_tracked_m: [-tick, 0],
@@ -193,5 +196,29 @@ export function momentOf(change: Partial<MomentMessage> = {}): MomentMessage {
       judgement: null,
     },
     ...change,
+  };
+}
+
+/** Stands still unless it is advanced; what comes due on the way happens in its order. */
+export function manualClock(): Clock & { advance: (ms: number) => void } {
+  let now = 0;
+  let waiting: { at: number; action: () => void }[] = [];
+  return {
+    nowMs: () => now,
+    later: (action, ms) => {
+      waiting.push({ at: now + ms, action });
+    },
+    advance: (ms) => {
+      const end = now + ms;
+      for (;;) {
+        waiting.sort((a, b) => a.at - b.at);
+        const next = waiting[0];
+        if (!next || next.at > end) break;
+        waiting = waiting.slice(1);
+        now = next.at;
+        next.action();
+      }
+      now = end;
+    },
   };
 }

@@ -1,7 +1,8 @@
 // The server's evaluations: looked at again and again, often while one runs.
 
 import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
-import { problemText } from '../answers';
+import { askServer } from '../access';
+import { problemText } from '../problem';
 import type {
   EvaluationQuery,
   EvaluationReport,
@@ -29,7 +30,7 @@ async function ask<A>(method: string, path: string, body?: unknown): Promise<A> 
     body === undefined
       ? {}
       : { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
-  const response = await fetch(path, { method, ...sent }).catch(() => {
+  const response = await askServer(path, { method, ...sent }).catch(() => {
     throw new Refusal('The server does not answer.');
   });
   const answer: unknown = await response.json().catch(() => undefined);

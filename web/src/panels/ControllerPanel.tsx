@@ -67,7 +67,7 @@ export function ControllerPanel(props: { lab: Lab }): JSX.Element {
                     {(plan) => <PlanFacts plan={plan()} state={state()} />}
                   </Show>
                   <Show when={lab.overlay()?.judgement}>
-                    {(judgement) => <ValueFans judgement={judgement()} />}
+                    {(judgement) => <ValueFans judgement={judgement()} map={scene().map} />}
                   </Show>
                 </>
               )}

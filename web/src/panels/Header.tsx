@@ -2,24 +2,11 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
-import type { Link } from '../model';
 import type { Theme } from '../theme';
 import { VIEWS, type View } from '../views';
+import { Connection } from './Connection';
 import { KeyboardHelp } from './KeyboardHelp';
 import { NoticeBar } from './NoticeBar';
-
-function linkText(link: Link): string {
-  switch (link.kind) {
-    case 'connecting':
-      return 'connecting';
-    case 'live':
-      return 'live';
-    case 'lost':
-      return `reconnecting, attempt ${link.attempt}`;
-    case 'outdated':
-      return 'server has another version: reload the page';
-  }
-}
 
 function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
   return (
@@ -110,13 +97,7 @@ export function Header(props: HeaderProps): JSX.Element {
         </For>
       </nav>
       <div class="session">
-        <span
-          class="link"
-          data-link={lab.ended() === undefined ? lab.link().kind : 'ended'}
-          data-testid="connection"
-        >
-          {lab.ended() === undefined ? linkText(lab.link()) : 'session ended'}
-        </span>
+        <Connection lab={lab} />
         <RoleBox lab={lab} />
         <Show when={lab.state()}>
           {(state) => (

@@ -5,6 +5,7 @@ import { clock } from '../format';
 import type { Lab } from '../lab';
 import type { LogLine } from '../model';
 import type { EventMessage } from '../protocol.gen';
+import { sessionPath } from '../session';
 import { eventTitle } from '../why';
 
 /** Nearer than this to the end counts as reading along. */
@@ -27,10 +28,8 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
   /** Something is to be delivered, or was: a case can expect it. */
   const caseAddress = (): string | undefined => {
     const state = lab.state();
-    const session = lab.hello()?.session;
-    if (!state || session === undefined || (!state.goal_m && state.deliveries === 0))
-      return undefined;
-    return `/api/sessions/${encodeURIComponent(session)}/case.json`;
+    if (!state || (!state.goal_m && state.deliveries === 0)) return undefined;
+    return sessionPath(lab.session, 'case.json');
   };
   return (
     <div class="log">

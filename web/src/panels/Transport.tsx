@@ -3,10 +3,12 @@
 import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { clock } from '../format';
 import type { Lab } from '../lab';
-import { SPEEDS, achievedWords, speedName, ticksToControlStep } from '../steps';
+import { SPEEDS, speedName, ticksToControlStep } from '../steps';
 import type { Links } from '../links';
+import { Achieved } from './Achieved';
 import { LinkBar } from './LinkBar';
 import { NoticeBar } from './NoticeBar';
+import { OpenMap } from './OpenMap';
 import { PresetSelect } from './PresetSelect';
 import { ShareButton } from './ShareButton';
 import { Timeline } from './Timeline';
@@ -121,8 +123,6 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
     const all = [...new Set([...SPEEDS, target])].sort((a, b) => a - b);
     return all.map((factor) => [String(factor), speedName(factor)] as const);
   });
-  const achieved = () =>
-    achievedWords(lab.state()?.speed_target ?? 1, lab.state()?.speed_achieved ?? 0);
   const maps = createMemo(() => (lab.scene()?.maps ?? []).map((name) => [name, name] as const));
   const loadMap = (map: string): void => {
     const scene = lab.scene();
@@ -152,14 +152,7 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
             lab.send({ type: 'set_speed', factor: Number(value) });
           }}
         />
-        <span class="achieved number" title="Simulated seconds a second that the server achieves">
-          <Show when={lab.state()?.running} fallback="paused">
-            {achieved().text}
-            <Show when={achieved().limited}>
-              <span class="limit">machine limit</span>
-            </Show>
-          </Show>
-        </span>
+        <Achieved lab={lab} />
         <Show when={lab.scene()}>
           {(scene) => (
             <>
@@ -171,6 +164,7 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
                 disabled={!lab.canOperate()}
                 onChoose={loadMap}
               />
+              <OpenMap lab={lab} onMap={loadMap} />
               <PresetSelect lab={lab} links={links} />
               <Seed lab={lab} seed={scene().seed} />
               <ShareButton links={links} />

@@ -49,7 +49,7 @@ function Numbers(props: { axis: Axis }): JSX.Element {
   );
 }
 
-export function ValueFans(props: { judgement: JudgementLayer }): JSX.Element {
+export function ValueFans(props: { judgement: JudgementLayer; map: string }): JSX.Element {
   const fans = createMemo(() =>
     props.judgement.values.map((value, index) =>
       fanOf(props.judgement.quantiles[index] ?? [], value),
@@ -103,6 +103,9 @@ export function ValueFans(props: { judgement: JudgementLayer }): JSX.Element {
       </p>
       <p class="rule">
         Trained on: <span data-testid="rl-trained-on">{props.judgement.trained_on.join(', ')}</span>
+        <Show when={!props.judgement.trained_on.includes(props.map)}>
+          , <strong data-testid="rl-unseen">not on this map</strong>
+        </Show>
       </p>
     </section>
   );

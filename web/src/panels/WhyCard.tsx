@@ -2,18 +2,12 @@
 
 import { Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
 import type { JSX } from 'solid-js';
-import { problemText } from '../answers';
+import { get } from '../answers';
 import { centimetres, clock } from '../format';
 import type { Lab } from '../lab';
 import type { EventMessage, MomentMessage } from '../protocol.gen';
+import { sessionPath } from '../session';
 import { eventTitle, marginOf, sentence, whatItSaw } from '../why';
-
-async function fetchMoment(path: string): Promise<MomentMessage> {
-  const response = await fetch(path);
-  const body: unknown = await response.json();
-  if (!response.ok) throw new Error(problemText(body) ?? `The server answered ${response.status}.`);
-  return body as MomentMessage;
-}
 
 /** e on a scale up to twice the limit, and the limit in its middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
@@ -52,11 +46,8 @@ function Story(props: { moment: MomentMessage; path: string }): JSX.Element {
 function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
   const { lab } = props;
   let card!: HTMLElement;
-  const path = createMemo(() => {
-    const session = encodeURIComponent(lab.hello()?.session ?? '');
-    return `/api/sessions/${session}/moments/${props.event.tick}`;
-  });
-  const [moment] = createResource(path, fetchMoment);
+  const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
+  const [moment] = createResource(path, get<MomentMessage>);
   const place = createMemo(() => lab.marks().indexOf(props.event));
   const beside = (step: number): EventMessage | undefined => lab.marks()[place() + step];
   createEffect(

@@ -1,6 +1,6 @@
 // A page for Rerun's viewer alone, framed by the view of recordings: `/viewer/?recording=ID&theme=dark`.
 
-import { problemText } from '../answers';
+import { problemText } from '../problem';
 import { keptAtHome } from './home';
 import { themeOf } from './messages';
 import { loadViewer, type WebHandle } from './rerun';

@@ -47,7 +47,8 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   };
   const stale = (): string | undefined => {
     const ended = lab.ended();
-    if (ended !== undefined) return `The session has ended: ${ended}`;
+    if (ended !== undefined)
+      return `The session has ended: ${ended}; reloading the page begins it anew.`;
     return lab.link().kind === 'live'
       ? undefined
       : 'No connection: this is the last state received.';

@@ -4,6 +4,7 @@ import { createMemo, untrack, type Accessor } from 'solid-js';
 import { createAnswer, type Answer } from '../answers';
 import type { Lab } from '../lab';
 import type { FlowField, FlowQuery } from '../protocol.gen';
+import { sessionPath } from '../session';
 import type { Vec2 } from '../transform';
 import { createFlow, type Flow } from './drawFlow';
 import { flowKey, flowQuery } from './flow';
@@ -24,7 +25,7 @@ export function createFlowLayer(
 ): FlowLayer {
   const asks = createMemo(() => shown() && goal() !== undefined && lab.link().kind === 'live');
   const answer = createAnswer<FlowQuery, FlowField>(
-    '/api/sessions/main/flow',
+    sessionPath(lab.session, 'flow'),
     () => {
       const [scene, seen] = [lab.scene(), lab.seen()];
       return asks() && scene && seen ? flowQuery(scene, seen) : undefined;

@@ -4,9 +4,12 @@ import { createSignal, type Accessor } from 'solid-js';
 import { IDLE, dragStep, type DragEvent, type DragState } from '../drag';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
+import { Repeater } from '../repeater';
 import { clampToRect, type TableView, type Vec2 } from '../transform';
 
 const MAX_DRAGS_PER_S = 60;
+/** A hand that holds still says so; of one that is silent for five seconds the server takes the bead. */
+const STILL_THERE_MS = 500;
 
 export interface Hand {
   readonly drag: Accessor<DragState>;
@@ -22,8 +25,11 @@ export function createHand(
   place: (at: Vec2) => void,
 ): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
+  const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
+    lab.send({ type: 'drag', x_m: at[0], y_m: at[1], lift });
+  });
   const drags = new Limiter<{ at: Vec2; lift: boolean }>(1000 / MAX_DRAGS_PER_S, (wish) => {
-    lab.send({ type: 'drag', x_m: wish.at[0], y_m: wish.at[1], lift: wish.lift });
+    holds.say(wish);
   });
 
   const mayAct = (): boolean => {
@@ -34,27 +40,25 @@ export function createHand(
     return false;
   };
 
-  return {
-    drag,
-    mayAct,
-    dispatch(event) {
-      const [next, effects] = dragStep(drag(), event);
-      setDrag(next);
-      for (const effect of effects) {
-        if (effect.type === 'release') {
-          drags.flush();
-          lab.send({ type: 'release' });
-          continue;
-        }
-        const at = view()?.toWorld(effect.at);
-        const scene = lab.scene();
-        if (!at || !scene) continue;
-        if (effect.type === 'goal') {
-          place(at);
-        } else {
-          drags.offer({ at: clampToRect(scene.workspace, at), lift: effect.lift });
-        }
+  const dispatch = (event: DragEvent): void => {
+    const [next, effects] = dragStep(drag(), event);
+    setDrag(next);
+    for (const effect of effects) {
+      if (effect.type === 'release') {
+        drags.flush();
+        holds.stop();
+        lab.send({ type: 'release' });
+        continue;
       }
-    },
+      const at = view()?.toWorld(effect.at);
+      const scene = lab.scene();
+      if (!at || !scene) continue;
+      if (effect.type === 'goal') {
+        place(at);
+      } else {
+        drags.offer({ at: clampToRect(scene.workspace, at), lift: effect.lift });
+      }
+    }
   };
+  return { drag, mayAct, dispatch };
 }

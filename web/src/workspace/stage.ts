@@ -47,11 +47,24 @@ export function createStage(lab: Lab): Stage {
       : undefined;
   });
 
+  const letGo = (): void => {
+    hand.dispatch({ type: 'cancel' });
+  };
   createEffect(
     on(lab.canOperate, (can) => {
       // A lost socket has let go of the bead on the server; a lost role may not hold it.
-      if (!can) hand.dispatch({ type: 'cancel' });
+      if (!can) letGo();
     }),
+  );
+  // A hold that the server has ended, or that was in another trial or a later moment, would take the bead again.
+  createEffect(on([lab.silences, () => lab.scene()?.trial], letGo, { defer: true }));
+  createEffect(
+    on(
+      () => lab.state()?.tick ?? 0,
+      (tick, before = 0) => {
+        if (tick < before) letGo();
+      },
+    ),
   );
 
   return {
@@ -72,7 +85,7 @@ export function createStage(lab: Lab): Stage {
       return focused() ? cursor() : undefined;
     },
     leave: () => {
-      hand.dispatch({ type: 'cancel' });
+      letGo();
       picker.cancel();
       setPointing(undefined);
       setFocused(false);

@@ -4,6 +4,7 @@ import { createMemo, type Accessor } from 'solid-js';
 import { createAnswer } from '../answers';
 import type { Lab } from '../lab';
 import type { ValueMap, ValueQuery } from '../protocol.gen';
+import { sessionPath } from '../session';
 import type { Vec2 } from '../transform';
 import { valueKey } from './value';
 
@@ -23,7 +24,7 @@ export function createValueLayer(
     return scene && goal_m && shown() ? valueKey(scene, goal_m) : undefined;
   });
   const answer = createAnswer<ValueQuery, ValueMap>(
-    '/api/sessions/main/values',
+    sessionPath(lab.session, 'values'),
     () => {
       const goal_m = goal();
       const asks = key() !== undefined && lab.link().kind === 'live';
