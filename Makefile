@@ -1,14 +1,18 @@
-# `make run` serves the laboratory, `make test` runs every check, `make soak` leaves a page open for half an hour.
+# `make run` serves the laboratory, `make test` runs every check, `make soak` leaves a page open for half an hour,
+# `make fuzz` feeds damaged files to what reads files, `make audit` asks what is known about what Ferry depends on.
 # All first install what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test soak system-run system-test rust web browser
+.PHONY: run test soak fuzz audit system-run system-test rust web browser
 
-# Rerun's own tools, at the version of the crate, to check recordings with.
+# Rerun's own tools, at the version of the crate, to check recordings with; schemathesis asks the server whether it keeps
+# to its description.
 RERUN_VERSION := 0.36.3
+SCHEMATHESIS_VERSION := 4.32.5
 VENV := target/venv
+TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 # Graphics drivers complain of its absence, at length.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -16,7 +20,7 @@ export XDG_RUNTIME_DIR ?= /tmp
 run: system-run
 	cargo run --release -- serve
 
-test: system-test $(VENV)/rerun-$(RERUN_VERSION)
+test: system-test $(TOOLS)
 	cargo fmt --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
@@ -31,6 +35,32 @@ soak: system-test
 	cargo build --release
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent soak
+	cargo bench --quiet --bench load
+
+# Coverage-guided, `FUZZ_SECONDS` each of `FUZZ_TARGETS`; stops at the first input that panics, takes five seconds or two
+# gigabytes, and keeps it below target/fuzz. Only Ferry's own code is built anew, by the same compiler. The stack is
+# that of a thread of the server.
+FUZZ_SECONDS := 300
+FUZZ_TARGETS := message map case log entries policy
+fuzz: system-run
+	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
+	ulimit -s 2048; \
+	for target in $(FUZZ_TARGETS); do \
+		folder=target/fuzz/$$target; mkdir -p $$folder/{seeds,corpus,found}; echo "$$target, $(FUZZ_SECONDS) s"; \
+		FUZZ_TARGET=$$target FUZZ_SEEDS=$$folder/seeds target/release/examples/fuzz $$folder/{corpus,seeds} \
+			-artifact_prefix=$$folder/found/ -max_total_time=$(FUZZ_SECONDS) -timeout=5 -rss_limit_mb=2048 \
+			-max_len=65536 -print_final_stats=1 2> $$folder/log || { tail -n 40 $$folder/log; exit 1; }; \
+		grep -E '^#.*DONE|stat::(number|average|slowest|peak)' $$folder/log; \
+	done
+
+# `deny.toml` says what is allowed, and cargo-audit is told of the same exceptions. `OFFLINE=1` asks the copies of the
+# advisories that the last run left.
+audit:
+	command -v cargo-deny >/dev/null || cargo install --locked cargo-deny
+	command -v cargo-audit >/dev/null || cargo install --locked cargo-audit
+	cargo deny $(if $(OFFLINE),--offline) check
+	cargo audit --deny warnings $(if $(OFFLINE),--no-fetch --stale) \
+		$(addprefix --ignore ,$(shell grep -o 'RUSTSEC-[0-9]*-[0-9]*' deny.toml))
 
 # A graphics driver that needs no graphics card, and Node.js for the page.
 system-run:
@@ -54,7 +84,8 @@ if [ -n "$(1)" ]; then \
 fi
 endef
 
-$(VENV)/rerun-$(RERUN_VERSION):
+$(TOOLS):
 	python3 -m venv $(VENV)
-	$(VENV)/bin/pip install --quiet --disable-pip-version-check rerun-sdk==$(RERUN_VERSION)
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check rerun-sdk==$(RERUN_VERSION) \
+		schemathesis==$(SCHEMATHESIS_VERSION)
 	touch $@

@@ -180,8 +180,11 @@ fn failures_are_one_sentence_with_the_remedy() {
     let message = failure(ferry(&["serve", "--bind", &address]).output().unwrap());
     assert!(message.contains(&address) && message.contains("--bind"), "{message}");
 
-    let message = failure(ferry(&["serve", "--bind", "0.0.0.0:0"]).output().unwrap());
-    assert!(message.contains("127.0.0.1"), "{message}");
+    let nowhere = tempfile::tempdir().unwrap().path().join("data");
+    let open = ferry(&["serve", "--bind", "0.0.0.0:0", "--data"]).arg(&nowhere).output().unwrap();
+    let message = failure(open);
+    assert!(message.contains("0.0.0.0") && message.contains("`ferry token`"), "{message}");
+    assert!(!nowhere.exists(), "a server that did not start made its folder");
 
     // No driver is left to find.
     let without_driver = ferry(&["evaluate", "--episodes", "1"])

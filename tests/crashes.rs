@@ -23,13 +23,13 @@ fn kills() -> u32 {
 }
 
 /// A server in a process of its own.
-struct Ferry {
+pub struct Ferry {
     child: Child,
-    address: SocketAddr,
+    pub address: SocketAddr,
 }
 
 impl Ferry {
-    fn serve(command: &mut Command, data: &Path) -> Self {
+    pub fn serve(command: &mut Command, data: &Path) -> Self {
         let mut child = command
             .args(["serve", "--bind", "127.0.0.1:0", "--data"])
             .arg(data)

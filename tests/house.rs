@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 const FLOORS: [&[&str]; 11] = [
-    &["geometry", "image"],
+    &["geometry", "image", "files", "faults"],
     &["robot", "magnetics", "map"],
     &["plant"],
     &["scenario", "camera", "tracking", "perception"],

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ferry::camera::Gpu;
-use ferry::http;
-use ferry::recording::Retention;
+use ferry::http::{self, Settings};
 use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
@@ -33,11 +32,19 @@ impl Laboratory {
 
     /// The same with a graphics device of its own.
     pub async fn open_on(gpu: Arc<Gpu>) -> Self {
+        Self::open_with(gpu, None, |_| ()).await
+    }
+
+    /// The same behind a token, or with other settings.
+    pub async fn open_with(gpu: Arc<Gpu>, token: Option<&str>, change: impl FnOnce(&mut Settings)) -> Self {
         let data = tempfile::tempdir().unwrap();
         let (stop, stopping) = watch::channel(false);
         let listener = http::listen("127.0.0.1:0".parse().unwrap()).await.unwrap();
         let address = listener.local_addr().unwrap();
-        let server = http::Server::new(gpu, data.path().to_owned(), Retention::default(), stopping).unwrap();
+        let access = http::Access::new(address, token.map(|token| token.parse().unwrap()), &[]).unwrap();
+        let mut settings = Settings::in_folder(data.path().to_owned());
+        change(&mut settings);
+        let server = http::Server::new(gpu, settings, access, stopping).unwrap();
         let served = tokio::spawn(async move { http::serve(listener, server).await.unwrap() });
         Self { address, data, stop, served }
     }
@@ -48,7 +55,12 @@ impl Laboratory {
 
     /// Status and body of a request.
     pub async fn ask(&self, method: &str, path: &str, body: &str) -> (u16, Value) {
-        let (status, text) = self.ask_text(method, path, body, &[]).await;
+        self.ask_with(method, path, body, &[]).await
+    }
+
+    /// The same with headers.
+    pub async fn ask_with(&self, method: &str, path: &str, body: &str, headers: &[(&str, &str)]) -> (u16, Value) {
+        let (status, text) = self.ask_text(method, path, body, headers).await;
         (status, serde_json::from_str(&text).unwrap_or(Value::String(text)))
     }
 
@@ -84,13 +96,17 @@ impl Laboratory {
 
 /// One WebSocket.
 pub struct Browser {
-    socket: WebSocketStream<MaybeTlsStream<TcpStream>>,
+    pub socket: WebSocketStream<MaybeTlsStream<TcpStream>>,
 }
 
 impl Browser {
     /// Of the session `main` of a server.
     pub async fn at(address: SocketAddr) -> Self {
         let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
+        Self::of(socket)
+    }
+
+    pub fn of(socket: WebSocketStream<MaybeTlsStream<TcpStream>>) -> Self {
         Self { socket }
     }
 
@@ -379,4 +395,24 @@ async fn a_goal_given_up_does_not_stop_the_fetch() {
 pub async fn browser_parameters(lab: &Laboratory) -> Value {
     let mut other = lab.browser().await;
     other.until("scene", |m| m["type"] == "scene").await["defaults"].clone()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn values_of_too_large_a_map_are_refused_before_anyone_looks_at_it() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    browser.send(json!({"type": "load_scenario", "map": "attractor-example"})).await;
+    let scene = browser.until("the map", |m| m["type"] == "scene" && m["map"] == "attractor-example").await;
+    let middle = |least: &str, most: &str| {
+        let [a, b] = [least, most].map(|side| scene["workspace"][side].as_f64().unwrap());
+        0.5 * (a + b)
+    };
+    let body = json!({"goal_m": [middle("x_min_m", "x_max_m"), middle("y_min_m", "y_max_m")]}).to_string();
+    let began = std::time::Instant::now();
+    let (status, problem) = lab.ask("POST", "/api/sessions/main/values", &body).await;
+    assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("no_room"), &json!("map")), "{problem}");
+    assert!(problem["detail"].as_str().unwrap().contains("20000"), "{problem}");
+    assert!(began.elapsed() < std::time::Duration::from_secs(5), "it took {:?}", began.elapsed());
+    assert!(!lab.data.path().join("sweeps").exists());
+    lab.close().await;
 }

@@ -60,14 +60,20 @@ fn action(rng: &mut impl Rng, tick: u64) -> Command {
     })
 }
 
-/// Records a session that an operator plays with at random; returns how many ticks ran in it.
+/// Who asks a session waits for so long at most.
+fn clocked() -> tokio::runtime::Runtime {
+    tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap()
+}
+
+/// Records a session that an operator plays with at random.
 fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let name = format!("random-{seed}");
     let recorder = Recorder::in_archive(archive, &name, options).unwrap();
     let scenario = Scenario { controller: ControllerName::ALL[seed as usize % 3], ..Scenario::idle("posts", seed) };
-    let session = Session::start(&name, scenario, gpu(), Box::new(recorder)).unwrap();
-    let obey = |command| pollster::block_on(session.send(command));
+    let session = Session::start(&name, scenario, Arc::default(), gpu(), Box::new(recorder)).unwrap();
+    let runtime = clocked();
+    let obey = |command| runtime.block_on(session.send(command));
     obey(Command::SetSpeed(8.0)).unwrap();
     for _ in 0..25 {
         let tick = session.watch().borrow().moment.tick;
@@ -137,8 +143,10 @@ fn parts_follow_each_other_without_a_gap_and_each_replays_alone() {
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let options = Options { part: Duration::from_millis(250), ..Options::LIVE };
     let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
-    let session = Session::start("main", Scenario::idle("posts", 1), gpu(), Box::new(recorder)).unwrap();
-    let obey = |command| pollster::block_on(session.send(command)).unwrap();
+    let session =
+        Session::start("main", Scenario::idle("posts", 1), Arc::default(), gpu(), Box::new(recorder)).unwrap();
+    let runtime = clocked();
+    let obey = |command| runtime.block_on(session.send(command)).unwrap();
     obey(Command::Input(Input::SetGoal { x_m: 0.12, y_m: -0.33 }));
     for _ in 0..30 {
         obey(Command::Step(20));

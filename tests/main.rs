@@ -1,22 +1,29 @@
 //! Tests of the whole, in one binary so that a small machine links once.
 
+mod access;
 mod answers;
 mod calculator;
 mod cases;
 mod commands;
+mod contract;
 mod crashes;
 mod determinism;
 mod disturbances;
 mod evaluations;
 mod examples;
 mod forks;
+mod fuzz;
 mod golden;
 mod house;
 mod laboratory;
 mod learned;
+mod leases;
 mod logs;
+mod network;
+mod openapi;
 mod recordings;
 mod reference;
 mod rendering;
 mod sights;
+mod stopping;
 mod viewer;

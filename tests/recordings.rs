@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 
 use crate::laboratory::Laboratory;
 
-/// `rerun-sdk` from PyPI at the crate's version; `make test` installs it.
-fn tool(name: &str) -> PathBuf {
+/// A tool from PyPI, `rerun-sdk` at the crate's version; `make test` installs it.
+pub fn tool(name: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/venv/bin").join(name);
     assert!(path.exists(), "{} is missing; `make test` installs it", path.display());
     path

@@ -1,0 +1,86 @@
+//! The server keeps to its description: asked of schemathesis, which makes requests of it, good and bad.
+
+use std::collections::BTreeMap;
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+
+use crate::crashes::Ferry;
+use crate::laboratory::Browser;
+use crate::recordings::tool;
+
+/// A plain request cannot become a WebSocket, where there is no token nobody logs in, and it draws no maps (`leases` does).
+const NEVER_ACCEPTED: [&str; 4] =
+    ["DELETE /api/maps/{name}", "GET /api/sessions/{id}/live", "POST /api/maps", "POST /login"];
+
+fn ask(ferry: &Ferry, method: &str, path: &str, body: &str) -> Value {
+    let request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", ferry.address));
+    let mut response = ureq::run(request.body(body.to_owned()).unwrap()).unwrap();
+    serde_json::from_str(&response.body_mut().read_to_string().unwrap()).unwrap()
+}
+
+/// Something to be asked about: a goal on its way, an evaluation that has ended, and one that goes on until it is broken
+/// off. Returns the name of a recording.
+async fn fill(ferry: &Ferry) -> String {
+    let query =
+        json!({"controllers": ["attractor", "errt"], "maps": ["posts"], "disturbances": [0], "episodes": 2, "seed": 1});
+    ask(ferry, "POST", "/api/evaluations", &query.to_string());
+    let long = json!({"controllers": ["errt"], "maps": ["posts"], "disturbances": [0], "episodes": 1000, "seed": 1});
+    ask(ferry, "POST", "/api/evaluations", &long.to_string());
+    let mut browser = Browser::at(ferry.address).await;
+    let scenario = json!({"type": "load_scenario", "map": "posts", "controller": "errt", "start_m": [-0.25, -0.38],
+        "goal_m": [0.12, -0.33]});
+    browser.send(scenario).await;
+    browser.send(json!({"type": "step", "ticks": 200})).await;
+    browser.until("200 ticks", |m| m["type"] == "state" && m["tick"] == 200).await;
+    for _ in 0..600 {
+        if ask(ferry, "GET", "/api/evaluations/evaluation-1", "")["stage"] == "done" {
+            let recordings = ask(ferry, "GET", "/api/recordings", "");
+            return format!("{}.rrd", recordings["recordings"][0]["id"].as_str().unwrap());
+        }
+        tokio::time::sleep(std::time::Duration::from_millis(100)).await;
+    }
+    panic!("four trials take more than a minute");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_server_keeps_to_its_description() {
+    let data = tempfile::tempdir().unwrap();
+    let ferry = Ferry::serve(&mut Command::new(env!("CARGO_BIN_EXE_ferry")), data.path());
+    let recording = fill(&ferry).await;
+    let report = data.path().join("report.json");
+    let asked = Command::new(tool("schemathesis"))
+        .args(["--no-color", "--config-file", concat!(env!("CARGO_MANIFEST_DIR"), "/tests/schemathesis.toml"), "run"])
+        .arg(format!("http://{}/api/openapi.json", ferry.address))
+        .args(["--report", "json", "--report-json-path"])
+        .arg(&report)
+        .env("FERRY_RECORDING", recording)
+        // It leaves notes where it runs.
+        .current_dir(data.path())
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&asked.stdout);
+    assert!(asked.status.success(), "{told}{}", String::from_utf8_lossy(&asked.stderr));
+
+    let report: Value = serde_json::from_slice(&std::fs::read(report).unwrap()).unwrap();
+    assert_eq!((&report["complete"], &report["failures"], &report["errors"]), (&json!(true), &json!([]), &json!([])));
+    let document = ask(&ferry, "GET", "/api/openapi.json", "");
+    let described: usize =
+        document["paths"].as_object().unwrap().values().map(|item| item.as_object().unwrap().len()).sum();
+    // All but the description itself, which it asks for anyway.
+    assert_eq!(report["operations"]["tested"], json!(described - 1), "{told}");
+    assert!(report["test_cases"]["generated"].as_u64() > Some(1000), "{told}");
+    let accepted: BTreeMap<&str, u64> = report["valid_rates"]
+        .as_object()
+        .unwrap()
+        .iter()
+        .map(|(name, phases)| {
+            let counts = phases.as_object().unwrap().values().map(|phase| phase["accepted"].as_u64().unwrap());
+            (name.as_str(), counts.sum())
+        })
+        .collect();
+    let refused: Vec<_> = accepted.iter().filter(|(_, count)| **count == 0).map(|(name, _)| *name).collect();
+    assert_eq!(refused, NEVER_ACCEPTED, "of {accepted:?}");
+    assert_eq!(accepted.len(), described - 1);
+}

@@ -1,0 +1,180 @@
+//! What fuzzing begins from: files as Ferry itself writes or ships them.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use ferry::geometry::Point2;
+use ferry::map::Map;
+use ferry::plant::PositionerKind;
+use ferry::policy::Policy;
+use ferry::protocol::ClientMessage;
+use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, Shipped, When};
+use ferry::trial::{Arena, Beginning, Case, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
+
+use super::targets::{Spots, Target, written};
+
+/// Small, so that a state is short; in the arm's reach.
+const SMALL_MAP: &str = r#"<svg viewBox="-60 300 120 100"><rect x="-10" y="340" width="20" height="60"/></svg>"#;
+
+impl Target {
+    pub fn seeds(self) -> &'static [Vec<u8>] {
+        static SEEDS: LazyLock<[Vec<Vec<u8>>; 6]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
+        &SEEDS[self as usize]
+    }
+
+    fn make_seeds(self) -> Vec<Vec<u8>> {
+        match self {
+            Self::Message => messages().iter().map(|message| written(message).into_bytes()).collect(),
+            Self::Map => maps().into_iter().map(String::into_bytes).collect(),
+            Self::Case => cases(),
+            Self::Log => ControllerName::ALL.map(|name| log(&trial(name))).into(),
+            Self::Entries => ControllerName::ALL.map(|name| payload(&trial(name))).into(),
+            Self::Policy => headers(),
+        }
+    }
+}
+
+fn messages() -> Vec<ClientMessage> {
+    let (x_m, y_m) = (0.1, -0.35);
+    let load = |script: Vec<Scripted>| ClientMessage::LoadScenario {
+        map: "posts".to_owned(),
+        controller: Some(ControllerName::Errt),
+        positioner: Some(PositionerKind::PlanarStage),
+        seed: Some(7),
+        start_m: Some([-0.1, -0.3]),
+        goal_m: Some([x_m, y_m]),
+        parameters: Some(Parameters::default()),
+        disturbances: 2,
+        script,
+    };
+    vec![
+        ClientMessage::SetGoal { x_m, y_m },
+        ClientMessage::ClearGoal {},
+        ClientMessage::Drag { x_m, y_m, lift: true },
+        ClientMessage::Release {},
+        ClientMessage::SelectController { controller: ControllerName::Rl },
+        ClientMessage::Configure { parameters: Parameters::default() },
+        ClientMessage::Run {},
+        ClientMessage::Pause {},
+        ClientMessage::Step { ticks: 31 },
+        ClientMessage::SetSpeed { factor: 2.0 },
+        ClientMessage::Reset { seed: Some(3) },
+        load(script()),
+        ClientMessage::Disturb { disturbance: Disturbance::Displace { x_m, y_m } },
+        ClientMessage::Rewind { tick: 31 },
+        ClientMessage::Fork { tick: 31, controllers: ControllerName::ALL.into() },
+        ClientMessage::TakeControl {},
+        ClientMessage::ReleaseControl {},
+    ]
+}
+
+fn script() -> Vec<Scripted> {
+    let (x_m, y_m) = (0.05, -0.35);
+    vec![
+        Scripted { at: When::Tick(1), disturbance: Disturbance::Impulse { x_n_s: 1e-4, y_n_s: 0.0 } },
+        Scripted { at: When::Step(1), disturbance: Disturbance::Drift { x_n: 1e-3, y_n: 0.0, for_s: 0.5 } },
+        Scripted { at: When::PassesXM(x_m), disturbance: Disturbance::Dropout { for_s: 0.1 } },
+        Scripted { at: When::Near { x_m, y_m, within_m: 0.5 }, disturbance: Disturbance::Displace { x_m, y_m } },
+    ]
+}
+
+fn maps() -> Vec<String> {
+    let shapes = "<g id='a' transform='rotate(9 50 50)'><path d='M10 10L40 10C40 40 10 40 10 30Z'/></g>\
+         <use href='#a' x='20' transform='scale(.5)'/><circle cx='80' cy='20' r='9' fill='none' stroke='red'/>\
+         <ellipse cx='80' cy='60' rx='9' ry='5' style='fill:red'/><style>.b{fill:none;stroke:red}</style>\
+         <polyline class='b' points='5 90 50 70 95 90' stroke-width='2' stroke-linejoin='round'/>\
+         <linearGradient id='p'><stop/></linearGradient><rect x='40' y='45' width='9' height='9' rx='2' fill='url(#p)'/>\
+         <path d='m50 5h9v9q-9 0-9-9t3 3s1 2 3 4a3 2 10 1 0 5 5z' fill-rule='evenodd'/>";
+    let own = format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>{shapes}</svg>");
+    let shipped = Map::shipped_names().into_iter().map(|name| Map::shipped(&name).unwrap().svg().to_owned());
+    shipped.chain([SMALL_MAP.to_owned(), own.replace("100%", "100")]).collect()
+}
+
+fn cases() -> Vec<Vec<u8>> {
+    let kept = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases")).unwrap();
+    let mut paths: Vec<_> = kept.map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let kept = paths.iter().map(|path| std::fs::read(path).unwrap());
+    let shipped = Shipped::names().into_iter().map(|name| {
+        let mut case = Case::open(&name).unwrap();
+        case.scenario.script.extend(script());
+        case.inputs = inputs().into_iter().enumerate().map(|(tick, input)| timed(tick as u64, input)).collect();
+        serde_json::to_vec(&case).unwrap()
+    });
+    kept.chain(shipped).collect()
+}
+
+fn timed(tick: u64, input: Input) -> ferry::trial::Timed {
+    ferry::trial::Timed { tick, input }
+}
+
+fn inputs() -> Vec<Input> {
+    vec![
+        Input::SetGoal { x_m: 0.04, y_m: -0.33 },
+        Input::Drag { x_m: 0.02, y_m: -0.32, lift: false },
+        Input::Place { x_m: 0.03, y_m: -0.32 },
+        Input::Release,
+        Input::Configure(Box::new(Parameters { friction: 0.3, ..Parameters::default() })),
+        Input::Disturb(Disturbance::Displace { x_m: -0.03, y_m: -0.33 }),
+    ]
+}
+
+/// Entries of a trial that begins, is told this and that, and then goes on from its state.
+fn trial(controller: ControllerName) -> Vec<Entry> {
+    let arena = Arena::of(Map::from_svg("small", SMALL_MAP).unwrap());
+    let scenario = Scenario {
+        controller,
+        start_m: Some(Point2::new(-0.03, -0.33)),
+        goal_m: Some(Point2::new(0.04, -0.34)),
+        disturbances: 1,
+        script: script(),
+        ..Scenario::idle("small", 5)
+    };
+    let mut trial = Trial::new(scenario, arena).unwrap();
+    let mut entries = vec![Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::SetUp)))];
+    let mut inputs = inputs().into_iter();
+    // The first control steps are at ticks 0 and 31; what lies between is left out, so that states outweigh ticks.
+    for tick in 0..33 {
+        if tick == 30 {
+            entries.push(Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::Resumed))));
+        }
+        if tick % 4 == 0
+            && let Some(input) = inputs.next()
+        {
+            trial.apply(input).unwrap();
+        }
+        let record = trial.tick(Source::Eye(&mut Spots)).unwrap();
+        if !(2..30).contains(&tick) {
+            entries.push(Entry::Tick(LoggedTick::from(&record)));
+        }
+    }
+    entries
+}
+
+fn log(entries: &[Entry]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut writer = LogWriter::new(&mut bytes).unwrap();
+    entries.chunks(3).for_each(|some| writer.append(some.to_vec()).unwrap());
+    bytes
+}
+
+fn payload(entries: &[Entry]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    entries.iter().for_each(|entry| ciborium::into_writer(entry, &mut bytes).unwrap());
+    bytes
+}
+
+/// The shipped policies' headers, and four bytes for their weights.
+fn headers() -> Vec<Vec<u8>> {
+    let header = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/policies/{name}.safetensors"));
+        let bytes = std::fs::read(path).unwrap();
+        let length = u64::from_le_bytes(*bytes.first_chunk().unwrap()) as usize;
+        bytes[..8 + length].to_vec()
+    };
+    let names = Policy::shipped_names();
+    names
+        .iter()
+        .flat_map(|name| [0.0_f32, 1e-3, 1e30].map(|w| [header(name), w.to_le_bytes().to_vec()].concat()))
+        .collect()
+}

@@ -1,0 +1,207 @@
+//! What reads bytes that others wrote: each target takes any bytes, and the answer is a value or an error.
+
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex};
+
+use ferry::camera::{CameraError, Eye, Subject};
+use ferry::image::{CameraFrame, Picture};
+use ferry::map::{FreeSpace, Map};
+use ferry::policy::Policy;
+use ferry::protocol::ClientMessage;
+use ferry::scenario::{ControllerName, Scenario};
+use ferry::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
+
+/// Ticks that what was read is run on for: the first has a control step.
+const TICKS: usize = 34;
+
+/// A loader under test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Text frames of the WebSocket.
+    Message,
+    /// Drawings.
+    Map,
+    /// Cases, the scenarios in them, and links.
+    Case,
+    /// Input logs as they lie on disk.
+    Log,
+    /// What stands in a log's frames, as if its hashes were right.
+    Entries,
+    /// Policies.
+    Policy,
+}
+
+impl Target {
+    pub const ALL: [Self; 6] = [Self::Message, Self::Map, Self::Case, Self::Log, Self::Entries, Self::Policy];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Message => "message",
+            Self::Map => "map",
+            Self::Case => "case",
+            Self::Log => "log",
+            Self::Entries => "entries",
+            Self::Policy => "policy",
+        }
+    }
+
+    /// Reads the bytes, and works with what they are; tells whether they were accepted.
+    pub fn reads(self, bytes: &[u8]) -> bool {
+        match self {
+            Self::Message => std::str::from_utf8(bytes).is_ok_and(message),
+            Self::Map => std::str::from_utf8(bytes).is_ok_and(map),
+            Self::Case => case(bytes),
+            Self::Log => InputLog::read(bytes).is_ok_and(|log| run(&log)),
+            Self::Entries => InputLog::read(&framed(bytes)).is_ok_and(|log| run(&log)),
+            Self::Policy => policy(bytes),
+        }
+    }
+}
+
+fn message(text: &str) -> bool {
+    let Ok(message) = ClientMessage::parse(text) else { return false };
+    assert_eq!(ClientMessage::parse(&written(&message)).as_ref(), Ok(&message));
+    message.command();
+    true
+}
+
+/// A message as the page writes it: the tag beside the fields.
+pub fn written(message: &ClientMessage) -> String {
+    let serde_json::Value::Object(tagged) = serde_json::to_value(message).unwrap() else { panic!("{message:?}") };
+    let (kind, mut fields) = tagged.into_iter().next().unwrap();
+    fields.as_object_mut().unwrap().insert("type".to_owned(), kind.into());
+    fields.to_string()
+}
+
+fn map(text: &str) -> bool {
+    let Ok(map) = Map::from_svg("fuzz", text) else { return false };
+    FreeSpace::new(&map, 0.012);
+    for ring in map.walls().iter().chain(map.free()).flat_map(|polygon| polygon.rings()) {
+        assert!(ring.len() >= 3 && ring.iter().flatten().all(|c| c.is_finite()));
+    }
+    true
+}
+
+fn case(bytes: &[u8]) -> bool {
+    let Ok(case) = Case::from_json(bytes) else { return false };
+    let again = serde_json::to_vec(&case).unwrap();
+    assert_eq!(Case::from_json(&again).as_ref(), Ok(&case));
+    if let Some(link) = case.scenario.link() {
+        assert!(link.starts_with("#v=1&map="), "{link}");
+    }
+    let Some(arena) = shipped(&case.scenario.map) else { return true };
+    let mut ticks = 0;
+    let _ = case.run(&arena, &mut Spots, &mut |_| {
+        ticks += 1;
+        if ticks < TICKS { std::ops::ControlFlow::Continue(()) } else { std::ops::ControlFlow::Break(()) }
+    });
+    true
+}
+
+/// Replays, and runs each trial on even where it is not as it was.
+fn run(log: &InputLog) -> bool {
+    let _ = replay(log, None, &mut |_| {});
+    let mut arena = None;
+    let mut running: Option<Trial> = None;
+    for entry in log.entries.iter().take(TICKS) {
+        match entry {
+            Entry::Begin(beginning) => {
+                if let Some(map) = &beginning.map {
+                    arena = map.arena().ok();
+                }
+                running = arena.as_ref().and_then(|arena| begin(beginning, arena));
+                // Decide from what is seen, too.
+                if let Some(mut trial) = running.clone() {
+                    let _ = (0..TICKS).try_for_each(|_| trial.tick(Source::Eye(&mut Spots)).map(|_| ()));
+                }
+            }
+            Entry::Tick(logged) => {
+                let Some(trial) = &mut running else { continue };
+                for input in &logged.inputs {
+                    let _ = trial.apply(input.clone());
+                }
+                let _ = trial.tick(Source::Logged(logged.decision.clone()));
+            }
+        }
+    }
+    true
+}
+
+fn begin(beginning: &LoggedBeginning, arena: &Arc<Arena>) -> Option<Trial> {
+    let mut trial = Trial::new(beginning.scenario.clone(), arena.clone()).ok()?;
+    if let Some(state) = &beginning.state {
+        trial.resume(state.as_ref().clone()).ok()?;
+    }
+    Some(trial)
+}
+
+/// A log whose only frame holds these bytes.
+pub fn framed(payload: &[u8]) -> Vec<u8> {
+    use std::io::Write;
+    use xxhash_rust::xxh3::xxh3_64_with_seed;
+    let mut packed = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::none());
+    packed.write_all(payload).unwrap();
+    let packed = packed.finish().unwrap();
+    let (version, length) = (5_u32, (packed.len() as u32).to_le_bytes());
+    let check = (xxh3_64_with_seed(&length, u64::from(version)) as u32).to_le_bytes();
+    let hash = xxh3_64_with_seed(&packed, u64::from(version)).to_le_bytes();
+    [b"ferrylog", &version.to_le_bytes()[..], &length, &check, &packed, &hash].concat()
+}
+
+/// The bytes are a file's beginning; its weights all have the same four bytes, the last of the input.
+fn policy(bytes: &[u8]) -> bool {
+    let filled = weights(bytes);
+    let Ok(policy) = Policy::from_bytes(bytes).or_else(|_| Policy::from_bytes(&filled)) else { return false };
+    let arena = shipped("open").expect("a shipped map").with_policy(policy);
+    let scenario = Scenario {
+        controller: ControllerName::Rl,
+        start_m: Some(ferry::geometry::Point2::new(-0.1, -0.35)),
+        goal_m: Some(ferry::geometry::Point2::new(0.1, -0.35)),
+        ..Scenario::idle("open", 1)
+    };
+    let mut trial = Trial::new(scenario, arena).unwrap();
+    trial.tick(Source::Eye(&mut Spots)).unwrap();
+    true
+}
+
+/// A file as long as its header says, if that is no longer than a policy is.
+fn weights(bytes: &[u8]) -> Vec<u8> {
+    const LONGEST: usize = 2 << 20;
+    let (Some(length), Some(&last)) = (bytes.first_chunk(), bytes.last_chunk::<4>()) else { return bytes.to_vec() };
+    let header = (u64::from_le_bytes(*length) as usize).min(bytes.len() - 8);
+    let text = &bytes[8..8 + header];
+    let ends = serde_json::from_slice::<HashMap<String, serde_json::Value>>(text).unwrap_or_default();
+    let ends = ends.values().filter_map(|tensor| tensor["data_offsets"][1].as_u64());
+    let mut file = bytes[..8 + header].to_vec();
+    let end = file.len() + (ends.max().unwrap_or(0) as usize).min(LONGEST);
+    file.extend(last.iter().cycle().take(end - file.len()));
+    file
+}
+
+fn shipped(name: &str) -> Option<Arc<Arena>> {
+    static ARENAS: LazyLock<Mutex<HashMap<String, Arc<Arena>>>> = LazyLock::new(Mutex::default);
+    let mut arenas = ARENAS.lock().unwrap();
+    if let Some(arena) = arenas.get(name) {
+        return Some(arena.clone());
+    }
+    let arena = Map::shipped(name).ok().map(Arena::of)?;
+    arenas.insert(name.to_owned(), arena.clone());
+    Some(arena)
+}
+
+/// Sees dark spots wherever it looks: no graphics adapter is needed.
+pub struct Spots;
+
+impl Eye for Spots {
+    fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
+        const SIDE_PX: u32 = 480;
+        static PICTURE: LazyLock<Picture> = LazyLock::new(|| {
+            let is_dark = |x: u32, y: u32| (x / 40 * 7 + y / 40 * 3).is_multiple_of(11);
+            let gray = |i: u32| if is_dark(i % SIDE_PX, i / SIDE_PX) { 20 } else { 230 };
+            let rgba = (0..SIDE_PX * SIDE_PX).flat_map(|i| [gray(i), gray(i), gray(i), 255]).collect();
+            Picture { width_px: SIDE_PX, height_px: SIDE_PX, rgba }
+        });
+        let pinhole = subject.mount.over(ferry::geometry::Point2::new(subject.tool_m[0], subject.tool_m[1]));
+        Ok(CameraFrame { picture: PICTURE.clone(), tick: subject.tick, pinhole })
+    }
+}

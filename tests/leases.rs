@@ -1,0 +1,172 @@
+//! Sessions by name, their operators, and what becomes of those that nobody looks at.
+
+use std::time::Duration;
+
+use futures_util::StreamExt;
+use serde_json::{Value, json};
+use tokio_tungstenite::connect_async;
+
+use crate::determinism::gpu;
+use crate::laboratory::{Browser, Laboratory};
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_class_opens_sessions_by_name_up_to_the_cap() {
+    let lab = Laboratory::open_with(gpu(), None, |settings| settings.sessions = 3).await;
+    for name in ["anna", "group-7", "anna"] {
+        let (status, page) = lab.ask("GET", &format!("/s/{name}"), "").await;
+        assert!(status == 200 && page.as_str().unwrap().contains("<title>Ferry</title>"), "{name}");
+    }
+    let (_, listed) = lab.ask("GET", "/api/sessions", "").await;
+    let ids: Vec<_> = listed["sessions"].as_array().unwrap().iter().map(|session| session["id"].clone()).collect();
+    assert_eq!(ids, [json!("anna"), json!("group-7"), json!("main")]);
+    let (status, problem) = lab.ask("GET", "/s/one-too-many", "").await;
+    assert_eq!((status, &problem["code"]), (429, &json!("too_many_sessions")));
+    assert_eq!(lab.ask("POST", "/api/sessions", "").await.0, 429);
+    for bad in ["Anna", "a.b", "session-9", "a%2fb", &"x".repeat(33)] {
+        let (status, problem) = lab.ask("GET", &format!("/s/{bad}"), "").await;
+        assert_eq!((status, &problem["code"]), (404, &json!("bad_name")), "{bad}");
+    }
+    // Each is its own.
+    let (socket, _) = connect_async(format!("ws://{}/api/sessions/anna/live", lab.address)).await.unwrap();
+    let mut anna = Browser::of(socket);
+    let hello = anna.until("hello", |m| m["type"] == "hello").await;
+    assert_eq!((&hello["session"], &hello["role"]), (&json!("anna"), &json!("operator")));
+    anna.send(json!({"type": "step", "ticks": 7})).await;
+    anna.state("seven ticks", |m| m["tick"] == 7).await;
+    assert_eq!(lab.ask("GET", "/api/sessions/group-7/state", "").await.1["tick"], 0);
+    assert_eq!(lab.ask("DELETE", "/api/sessions/group-7", "").await.0, 204);
+    assert_eq!(lab.ask("GET", "/s/another", "").await.0, 200);
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_session_that_nobody_looks_at_stands_still_and_makes_way() {
+    let lab = Laboratory::open_with(gpu(), None, |settings| {
+        settings.sessions = 2;
+        settings.park_after = Duration::from_millis(300);
+    })
+    .await;
+    lab.ask("GET", "/s/anna", "").await;
+    let (socket, _) = connect_async(format!("ws://{}/api/sessions/anna/live", lab.address)).await.unwrap();
+    let mut anna = Browser::of(socket);
+    anna.send(json!({"type": "run"})).await;
+    anna.state("a second", |m| m["tick"].as_u64() > Some(125)).await;
+    assert_eq!(lab.ask("GET", "/s/bert", "").await.0, 429, "watched sessions stay");
+    drop(anna);
+    let parked = async {
+        loop {
+            let (_, listed) = lab.ask("GET", "/api/sessions", "").await;
+            let anna = listed["sessions"][0].clone();
+            if anna["parked"] == true {
+                return anna;
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+    };
+    let anna = tokio::time::timeout(Duration::from_secs(10), parked).await.expect("it is parked");
+    assert_eq!((&anna["id"], &anna["running"]), (&json!("anna"), &json!(false)));
+    assert_eq!(lab.ask("GET", "/s/bert", "").await.0, 200);
+    assert_eq!(lab.ask("GET", "/api/sessions/anna", "").await.0, 404);
+    let (_, listed) = lab.ask("GET", "/api/recordings", "").await;
+    let of_anna = listed["recordings"].as_array().unwrap().iter().filter(|part| part["session"] == "anna");
+    assert_eq!(of_anna.count(), 1, "its recording stays: {listed}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_command_of_an_earlier_lease_is_refused_and_changes_nothing() {
+    let lab = Laboratory::open().await;
+    let mut first = lab.browser().await;
+    let hello = first.until("hello", |m| m["role"] == "operator").await;
+    let epoch = hello["epoch"].as_u64().unwrap();
+    first.send(json!({"type": "step", "ticks": 1, "epoch": epoch})).await;
+    first.state("a tick", |m| m["tick"] == 1).await;
+    let mut second = lab.browser().await;
+    second.until("hello", |m| m["role"] == "viewer").await;
+    second.send(json!({"type": "take_control"})).await;
+    first.until("asked", |m| m["asked"] == true).await;
+    first.send(json!({"type": "release_control"})).await;
+    let next = second.until("its turn", |m| m["role"] == "operator").await;
+    assert!(next["epoch"].as_u64() > Some(epoch));
+    second.send(json!({"type": "release_control"})).await;
+    first.until("free", |m| m["type"] == "hello" && m["operator_present"] == false).await;
+    first.send(json!({"type": "take_control"})).await;
+    first.until("its turn again", |m| m["role"] == "operator").await;
+    // Sent before all that, and late.
+    first.send(json!({"type": "step", "ticks": 1, "epoch": epoch})).await;
+    let error = first.error().await;
+    assert_eq!((&error["code"], &error["field"]), (&json!("stale_epoch"), &json!("epoch")), "{error}");
+    assert_eq!(lab.ask("GET", "/api/sessions/main/state", "").await.1["tick"], 1);
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_hand_that_says_nothing_lets_go_and_time_stands() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    browser.send(json!({"type": "run"})).await;
+    browser.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.45})).await;
+    browser.state("the hand", |m| !m["hand_m"].is_null()).await;
+    let began = std::time::Instant::now();
+    // Refused words are none.
+    browser.send(json!({"type": "drag", "x_m": null, "y_m": 0})).await;
+    let error = browser.until("the hand's end", |m| m["type"] == "error" && m["code"] == "hand_silent").await;
+    assert!(began.elapsed() > Duration::from_secs(4), "{error}");
+    browser.state("let go, and stands", |m| m["hand_m"].is_null() && m["running"] == false).await;
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn uploaded_maps_are_kept_found_and_taken_out_again() {
+    let lab = Laboratory::open().await;
+    let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\
+                   <rect x=\"-20\" y=\"300\" width=\"40\" height=\"30\"/></svg>";
+    lab.ask("GET", "/s/anna", "").await;
+    let (socket, _) = connect_async(format!("ws://{}/api/sessions/anna/live", lab.address)).await.unwrap();
+    let mut anna = Browser::of(socket);
+    anna.state("the state", |_| true).await;
+    let (status, made) = lab.ask("POST", "/api/maps", drawing).await;
+    assert_eq!((status, &made["name"]), (201, &json!("map-1")), "{made}");
+    let knows = |m: &Value| m["type"] == "scene" && m["maps"].as_array().unwrap().contains(&json!("map-1"));
+    anna.until("a session where time stands hears of it", knows).await;
+    let (status, problem) = lab.ask("POST", "/api/maps", "<svg").await;
+    assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("map_refused"), &json!("map")));
+    let mut browser = lab.browser().await;
+    browser.send(json!({"type": "load_scenario", "map": "map-1"})).await;
+    let scene = browser.until("its scene", |m| m["type"] == "scene" && m["map"] == "map-1").await;
+    assert_eq!(scene["walls"].as_array().unwrap().len(), 1);
+    assert!(scene["maps"].as_array().unwrap().contains(&json!("map-1")));
+    let (status, sent) = lab.ask("GET", "/api/maps/map-1", "").await;
+    assert!(status == 200 && sent == drawing);
+    assert!(lab.data.path().join("maps/map-1.svg").exists());
+    assert_eq!(lab.ask("DELETE", "/api/maps/map-1", "").await.0, 204);
+    anna.until("and of its end", |m| m["type"] == "scene" && !knows(m)).await;
+    assert_eq!(lab.ask("DELETE", "/api/maps/posts", "").await.0, 404);
+    assert!(!lab.data.path().join("maps/map-1.svg").exists());
+    browser.send(json!({"type": "step", "ticks": 5})).await;
+    browser.state("who has it goes on", |m| m["tick"] == 5).await;
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_session_holds_so_many_browsers_and_no_more() {
+    let lab = Laboratory::open().await;
+    let address = format!("ws://{}/api/sessions/main/live", lab.address);
+    let mut all = Vec::new();
+    for _ in 0..128 {
+        all.push(connect_async(&address).await.unwrap().0);
+    }
+    assert!(connect_async(&address).await.is_err());
+    drop(all.pop());
+    let again = async {
+        while connect_async(&address).await.is_err() {
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(10), again).await.expect("a place was given back");
+    // Who does not read is no burden to who does.
+    let mut reading = all.pop().unwrap();
+    let read = tokio::time::timeout(Duration::from_secs(5), reading.next()).await;
+    assert!(matches!(read, Ok(Some(Ok(_)))));
+    lab.close().await;
+}
