@@ -7,6 +7,7 @@
 mod command_tests;
 mod pacing;
 mod past;
+mod recall;
 mod timeline;
 mod worker;
 

@@ -8,6 +8,7 @@
 mod case;
 mod decide;
 mod disturb;
+mod entry;
 mod input;
 mod log;
 mod outcome;
@@ -33,8 +34,9 @@ use crate::tracking::TrackerParameters;
 
 pub use case::{Case, CaseOutcome, Expectation, Timed};
 pub use disturb::Script;
+pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use input::{Input, InputError};
-pub use log::{Entry, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, LoggedTick};
+pub use log::{InputLog, LogError, LogWriter};
 pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Event, EventKind, Moment, Sight, TickRecord};
 pub use replay::{Eyes, ReplayError, Replayed, replay};

@@ -396,23 +396,3 @@ pub async fn browser_parameters(lab: &Laboratory) -> Value {
     let mut other = lab.browser().await;
     other.until("scene", |m| m["type"] == "scene").await["defaults"].clone()
 }
-
-#[tokio::test(flavor = "multi_thread")]
-async fn values_of_too_large_a_map_are_refused_before_anyone_looks_at_it() {
-    let lab = Laboratory::open().await;
-    let mut browser = lab.browser().await;
-    browser.send(json!({"type": "load_scenario", "map": "attractor-example"})).await;
-    let scene = browser.until("the map", |m| m["type"] == "scene" && m["map"] == "attractor-example").await;
-    let middle = |least: &str, most: &str| {
-        let [a, b] = [least, most].map(|side| scene["workspace"][side].as_f64().unwrap());
-        0.5 * (a + b)
-    };
-    let body = json!({"goal_m": [middle("x_min_m", "x_max_m"), middle("y_min_m", "y_max_m")]}).to_string();
-    let began = std::time::Instant::now();
-    let (status, problem) = lab.ask("POST", "/api/sessions/main/values", &body).await;
-    assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("no_room"), &json!("map")), "{problem}");
-    assert!(problem["detail"].as_str().unwrap().contains("20000"), "{problem}");
-    assert!(began.elapsed() < std::time::Duration::from_secs(5), "it took {:?}", began.elapsed());
-    assert!(!lab.data.path().join("sweeps").exists());
-    lab.close().await;
-}

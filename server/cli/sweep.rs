@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::learn::sweep::{STEP_M, Sweep};
+use crate::learn::sweep::{STEP_M, Sweep, cells};
 use crate::trial::Arena;
 
 /// Arguments of `ferry sweep`.
@@ -23,11 +23,11 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&arguments.map)?;
     let gpu = super::open_gpu()?;
-    let size_m = arena.map.workspace().size_m() / STEP_M;
-    let bar = ProgressBar::new((size_m.x.floor() * size_m.y.floor()) as u64)
+    let (columns, rows) = cells(&arena, STEP_M);
+    let bar = ProgressBar::new((columns * rows) as u64)
         .with_style(ProgressStyle::with_template("images {bar:30} {pos}/{len} {eta} left")?);
     let started = Instant::now();
-    let sweep = Sweep::open(&arena, &gpu, &arguments.out, &|| bar.inc(1))?;
+    let sweep = Sweep::open(&arena, &gpu, &arguments.out, STEP_M, &|| bar.inc(1))?;
     let taken = bar.position();
     bar.finish_and_clear();
     let obstacles = sweep.obstacle.iter().filter(|&&obstacle| obstacle).count();

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::learn::sweep::Sweep;
+use crate::learn::sweep::{STEP_M, Sweep};
 use crate::learn::{Curve, Marks, Recipe, State, Terrain};
 use crate::trial::Arena;
 
@@ -186,7 +186,7 @@ fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<
         let arena = Arena::open(name)?;
         let bar = ProgressBar::no_length().with_style(ProgressStyle::with_template("{msg}: {pos} images taken")?);
         bar.set_message(arena.map.name().to_owned());
-        let sweep = Sweep::open(&arena, gpu, sweeps, &|| bar.inc(1))?;
+        let sweep = Sweep::open(&arena, gpu, sweeps, STEP_M, &|| bar.inc(1))?;
         bar.finish_and_clear();
         terrains.push(Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, recipe.clearance_m)?);
     }

@@ -24,7 +24,7 @@ use crate::trial::Arena;
 
 /// Whoever asks waits for the maps that others asked for before.
 const PAINTER_WAITS: Duration = Duration::from_secs(60);
-/// Atlases that are kept; one has some twenty megabytes, sixty at most.
+/// Atlases that are kept; one has a few megabytes, thirty with early fusion.
 const KEPT: usize = 4;
 
 /// The atlases made last, the newest at the end.
@@ -74,7 +74,7 @@ enum NoValues {
 impl From<NoValues> for Problem {
     fn from(error: NoValues) -> Self {
         match error {
-            NoValues::Atlas(error @ (AtlasError::Terrain(_) | AtlasError::TooLarge { .. })) => {
+            NoValues::Atlas(error @ AtlasError::NoRoom { .. }) => {
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, "no_room", error.to_string()).field("map")
             }
             error => Self::internal(error),

@@ -6,65 +6,79 @@ use std::sync::Arc;
 use candle_core::Tensor;
 
 use super::learner::{features_of, features_of_all};
-use super::sweep::{STEP_M, Sweep, SweepError, cells};
-use super::terrain::{Terrain, TerrainError};
+use super::sweep::{STEP_M, Sweep, SweepError, cells, center};
+use super::terrain::places;
 use crate::camera::Gpu;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Rect};
 use crate::policy::{Fusion, Judgement, Policy, PolicyError};
 use crate::trial::Arena;
 
-/// Most cells of a map, free or not: twice the paper's table. Distances grow with their square, and a picture of
-/// each takes milliseconds.
-pub const CELLS_MOST: usize = 4000;
-/// Cells judged at once: each has 32 fractions of 128 features.
+/// Most places looked at, twice those of the paper's table: a picture of each takes milliseconds.
+const PLACES_MOST: usize = 4000;
+/// Places judged at once: each has 32 fractions of 128 features.
 const BATCH: usize = 256;
 
 /// A map seen from everywhere, once and for all goals.
 pub struct Atlas {
-    terrain: Terrain,
+    workspace: Rect,
+    spacing_m: f64,
+    centers_m: Vec<Point2<f64>>,
+    seen: Seen,
     policy: Arc<Policy>,
-    /// `[cells, 128]`; `None` with early fusion, whose features depend on the goal.
-    features: Option<Tensor>,
+}
+
+/// What is kept of the images over the places.
+enum Seen {
+    /// `[places, 128]`, whatever the goal.
+    Features(Tensor),
+    /// `[84 · 84]` each: with early fusion, features depend on the goal.
+    Images(Vec<Vec<u8>>),
 }
 
 /// Why there is no atlas.
 #[derive(Debug, thiserror::Error)]
 pub enum AtlasError {
-    /// Too large a map.
-    #[error("the map has {cells} places a centimetre apart, and {CELLS_MOST} at most can be judged")]
-    TooLarge {
-        /// How many it has.
-        cells: usize,
-    },
     /// No images.
     #[error(transparent)]
     Sweep(#[from] SweepError),
     /// Nowhere to be.
-    #[error(transparent)]
-    Terrain(#[from] TerrainError),
+    #[error("map: {map:?} has no place that keeps {clearance_m} m from the walls, as the policy does")]
+    NoRoom {
+        /// Name of the map.
+        map: String,
+        /// Distance that the policy keeps.
+        clearance_m: f64,
+    },
     /// No answer.
     #[error(transparent)]
     Policy(#[from] PolicyError),
 }
 
 impl Atlas {
-    /// Looks at a map from every free centimetre, with the default camera; the images are kept in `folder`. Takes
-    /// seconds the first time.
+    /// Looks at a map with the default camera, from every centimetre or, where that is too many, in the least multiple
+    /// of half a centimetre; the images are kept in `folder`. Takes seconds the first time, on a large map a minute.
     ///
     /// # Errors
     /// [`AtlasError`].
     pub fn of(arena: &Arena, policy: Arc<Policy>, gpu: &Arc<Gpu>, folder: &Path) -> Result<Self, AtlasError> {
-        let (columns, rows) = cells(arena);
-        if columns * rows > CELLS_MOST {
-            return Err(AtlasError::TooLarge { cells: columns * rows });
+        let spacing_m = spacing_m(arena);
+        let sweep = Sweep::open(arena, gpu, folder, spacing_m, &|| ())?;
+        let workspace = *arena.map.workspace();
+        let clearance_m = policy.manifest().clearance_m;
+        let free = sweep.free(clearance_m);
+        if free.is_empty() {
+            return Err(AtlasError::NoRoom { map: arena.map.name().to_owned(), clearance_m });
         }
-        let sweep = Sweep::open(arena, gpu, folder, &|| ())?;
-        let terrain = Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, policy.manifest().clearance_m)?;
-        let features = match policy.manifest().architecture.fusion {
-            Fusion::Late => Some(features_of_all(policy.network(), &terrain).map_err(PolicyError::from)?),
-            Fusion::Early => None,
+        let images = || free.iter().map(|&cell| sweep.image(cell));
+        let seen = match policy.manifest().architecture.fusion {
+            Fusion::Late => {
+                let views: Vec<&[u8]> = images().collect();
+                Seen::Features(features_of_all(policy.network(), &views).map_err(PolicyError::from)?)
+            }
+            Fusion::Early => Seen::Images(images().map(<[u8]>::to_vec).collect()),
         };
-        Ok(Self { terrain, policy, features })
+        let at = |&cell: &usize| center(&workspace, spacing_m, cell % sweep.columns, cell / sweep.columns);
+        Ok(Self { workspace, spacing_m, centers_m: free.iter().map(at).collect(), seen, policy })
     }
 
     /// The policy that it is of.
@@ -72,32 +86,52 @@ impl Atlas {
         &self.policy
     }
 
-    /// Distance between two cells.
+    /// Distance between two places.
     pub fn spacing_m(&self) -> f64 {
-        STEP_M
+        self.spacing_m
     }
 
-    /// Middle of each cell that keeps the policy's distance from the walls, and what the policy makes of standing there
-    /// on the way to a goal.
+    /// Each place that keeps the policy's distance from the walls, and what the policy makes of standing there on the
+    /// way to a goal.
     ///
     /// # Errors
     /// [`AtlasError::Policy`].
     pub fn judge(&self, goal_m: Point2<f64>) -> Result<Vec<(Point2<f64>, Judgement)>, AtlasError> {
-        let cells: Vec<u16> = (0..self.terrain.cells() as u16).collect();
-        let mut judged = Vec::with_capacity(cells.len());
-        for (batch, cells) in cells.chunks(BATCH).enumerate() {
-            let places: Vec<[f32; 4]> = cells.iter().map(|&cell| self.terrain.places(goal_m, cell)).collect();
-            let features = match &self.features {
-                Some(features) => features.narrow(0, batch * BATCH, cells.len()),
-                None => {
-                    let terrains = std::slice::from_ref(&self.terrain);
-                    let cells: Vec<(u8, u16)> = cells.iter().map(|&cell| (0, cell)).collect();
-                    features_of(self.policy.network(), terrains, &cells, &places)
+        let mut judged = Vec::with_capacity(self.centers_m.len());
+        for (batch, centers_m) in self.centers_m.chunks(BATCH).enumerate() {
+            let begin = batch * BATCH;
+            let places: Vec<[f32; 4]> =
+                centers_m.iter().map(|&center_m| places(&self.workspace, goal_m, center_m)).collect();
+            let features = match &self.seen {
+                Seen::Features(features) => features.narrow(0, begin, places.len()),
+                Seen::Images(images) => {
+                    let views: Vec<&[u8]> = images[begin..][..places.len()].iter().map(Vec::as_slice).collect();
+                    features_of(self.policy.network(), &views, &places)
                 }
             };
             let judgements = self.policy.judge_from(&features.map_err(PolicyError::from)?, &places)?;
-            judged.extend(cells.iter().map(|&cell| self.terrain.center_m(cell)).zip(judgements));
+            judged.extend(centers_m.iter().copied().zip(judgements));
         }
         Ok(judged)
+    }
+}
+
+fn spacing_m(arena: &Arena) -> f64 {
+    let fits = |&spacing_m: &f64| {
+        let (columns, rows) = cells(arena, spacing_m);
+        columns * rows <= PLACES_MOST
+    };
+    (2..).map(|halves| 0.5 * STEP_M * f64::from(halves)).find(fits).expect("a map has bounds")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_map_is_looked_at_from_fewer_places() {
+        let spacing_of = |map: &str| spacing_m(&Arena::open(map).unwrap());
+        assert_eq!(spacing_of("colon"), STEP_M);
+        assert_eq!(spacing_of("attractor-example"), 0.025);
     }
 }

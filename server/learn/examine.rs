@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::environment::{Ending, Episode};
 use super::learner::{best, features_of, features_of_all};
 use super::recipe::Recipe;
-use super::terrain::Terrain;
+use super::terrain::{Terrain, views};
 use crate::policy::{ACTING_FRACTIONS, Fusion, Network, acting_fractions};
 
 /// Episodes that are stepped together.
@@ -79,13 +79,15 @@ pub fn examine_by(recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u6
 /// The same for a network, greedy and without noise.
 pub fn examine(network: &Network, recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u64) -> Result<Marks> {
     let cache: Vec<Tensor> = match network.architecture().fusion {
-        Fusion::Late => terrains.iter().map(|terrain| features_of_all(network, terrain)).collect::<Result<_>>()?,
+        Fusion::Late => {
+            terrains.iter().map(|terrain| features_of_all(network, &terrain.images())).collect::<Result<_>>()?
+        }
         Fusion::Early => Vec::new(),
     };
     examine_by(recipe, terrains, episodes, seed, &mut |cells, places| {
         let batch = cells.len();
         let features = match network.architecture().fusion {
-            Fusion::Early => features_of(network, terrains, cells, places)?,
+            Fusion::Early => features_of(network, &views(terrains, cells), places)?,
             Fusion::Late => {
                 let rows = cells.iter().map(|&(terrain, cell)| cache[usize::from(terrain)].get(usize::from(cell)));
                 Tensor::stack(&rows.collect::<Result<Vec<_>>>()?, 0)?

@@ -11,7 +11,7 @@ use super::environment::{Ending, Goal};
 use super::loss::{huber_mean, quantile_huber};
 use super::recipe::Recipe;
 use super::replay::{Replay, Transition};
-use super::terrain::Terrain;
+use super::terrain::{Terrain, views};
 use crate::perception::OBSERVATION_SIZE_PX;
 use crate::policy::{Architecture, Fusion, Network, Noise, TensorSpec, acting_fractions, images};
 use crate::trial::LEG_STEP_LIMIT;
@@ -76,29 +76,19 @@ fn position(specs: &[TensorSpec], name: &str) -> usize {
     specs.iter().position(|spec| spec.name == name).expect("a network asks for its own tensors")
 }
 
-/// Features of every cell of a terrain, `[cells, 128]`; late fusion only.
-pub fn features_of_all(network: &Network, terrain: &Terrain) -> Result<Tensor> {
-    let cells: Vec<u16> = (0..terrain.cells() as u16).collect();
-    let chunks = cells.chunks(CHUNK).map(|chunk| {
-        let views = chunk.iter().map(|&cell| terrain.image(cell));
-        network.features(&images(views, 1)?)
-    });
+/// Features of many views, each `[84 · 84]`: `[B, 128]`; late fusion only.
+pub fn features_of_all(network: &Network, views: &[&[u8]]) -> Result<Tensor> {
+    let chunks = views.chunks(CHUNK).map(|chunk| network.features(&images(chunk.iter().copied(), 1)?));
     Tensor::cat(&chunks.collect::<Result<Vec<_>>>()?, 0)
 }
 
-/// Features of some cells, `[B, 128]`, seen now; with early fusion each for its places.
-pub fn features_of(
-    network: &Network,
-    terrains: &[Terrain],
-    cells: &[(u8, u16)],
-    places: &[[f32; 4]],
-) -> Result<Tensor> {
-    let view = |&(terrain, cell): &(u8, u16)| terrains[usize::from(terrain)].image(cell);
+/// Features of some views, each `[84 · 84]`: `[B, 128]`; with early fusion each for its places.
+pub fn features_of(network: &Network, views: &[&[u8]], places: &[[f32; 4]]) -> Result<Tensor> {
     match network.architecture().fusion {
-        Fusion::Late => network.features(&images(cells.iter().map(view), 1)?),
+        Fusion::Late => network.features(&images(views.iter().copied(), 1)?),
         Fusion::Early => {
             let both: Vec<Vec<u8>> =
-                cells.iter().zip(places).map(|(cell, &places)| observation(view(cell), places)).collect();
+                views.iter().zip(places).map(|(view, &places)| observation(view, places)).collect();
             network.features(&images(both.iter().map(Vec::as_slice), 2)?)
         }
     }
@@ -190,7 +180,7 @@ impl<'a> Learner<'a> {
 
     fn fill_cache(&mut self) -> Result<()> {
         if self.recipe.architecture.fusion == Fusion::Late {
-            let features = self.terrains.iter().map(|terrain| features_of_all(&self.target, terrain));
+            let features = self.terrains.iter().map(|terrain| features_of_all(&self.target, &terrain.images()));
             self.cache = features.collect::<Result<_>>()?;
         }
         Ok(())
@@ -202,7 +192,7 @@ impl<'a> Learner<'a> {
     /// Of candle.
     pub fn act(&mut self, cells: &[(u8, u16)], places: &[[f32; 4]]) -> Result<Vec<u32>> {
         let batch = cells.len();
-        let features = features_of(&self.frozen, self.terrains, cells, places)?;
+        let features = features_of(&self.frozen, &views(self.terrains, cells), places)?;
         let noise = Noise::draw(&self.recipe.architecture, &mut self.memory.rng)?;
         let fractions = acting_fractions(batch, self.recipe.choosing_fractions)?;
         let places = tensor(places, (batch, 1, 4))?;
@@ -227,7 +217,7 @@ impl<'a> Learner<'a> {
         let targets = self.targets(&samples)?;
 
         let cells: Vec<(u8, u16)> = samples.iter().map(|sample| sample.cell).collect();
-        let features = features_of(&self.online, self.terrains, &cells, &places)?;
+        let features = features_of(&self.online, &views(self.terrains, &cells), &places)?;
         let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
         let fractions = self.draw_fractions(batch, recipe.fractions)?;
         let places = tensor(&places, (batch, goals, 4))?;
@@ -292,7 +282,7 @@ impl<'a> Learner<'a> {
         let places: Vec<[f32; 4]> = aims().map(|aim| aim.places_beyond).collect();
         let beyond: Vec<(u8, u16)> = samples.iter().map(|sample| sample.beyond).collect();
         let judged = match recipe.architecture.fusion {
-            Fusion::Early => features_of(&self.target, self.terrains, &beyond, &places)?,
+            Fusion::Early => features_of(&self.target, &views(self.terrains, &beyond), &places)?,
             Fusion::Late => {
                 let rows =
                     beyond.iter().map(|&(terrain, cell)| self.cache[usize::from(terrain)].get(usize::from(cell)));
@@ -307,7 +297,7 @@ impl<'a> Learner<'a> {
         let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
         let fractions = self.draw_fractions(batch, recipe.choosing_fractions)?;
         let chosen = if recipe.double {
-            let features = features_of(&self.frozen, self.terrains, &beyond, &places)?;
+            let features = features_of(&self.frozen, &views(self.terrains, &beyond), &places)?;
             best(&self.frozen.quantiles(&features, &place_tensor, &fractions, noise.as_ref())?)?
         } else {
             best(&self.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?)?

@@ -1,5 +1,5 @@
-//! What the camera sees from every place of a map (paper, §IV-A): one image a centimetre, taken by the very
-//! path that a live trial's images take, and kept on disk.
+//! What the camera sees from every place of a map (paper, §IV-A), taken by the very path that a live trial's images
+//! take, and kept on disk.
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
@@ -19,12 +19,12 @@ use crate::policy::Action;
 use crate::scenario::Parameters;
 use crate::trial::Arena;
 
-/// Distance between two places (paper, §IV-A).
+/// A step of the policy, and the distance between two places for training (paper, §IV-A).
 pub const STEP_M: f64 = 0.01;
 /// Bytes of one image.
 pub const IMAGE_BYTES: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
 /// Raised when the same map gives other images: new colours, another observation, another layout of the file.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Sweeps kept in a folder; one has some thirteen megabytes.
 const KEPT: usize = 32;
 /// A sweep has no bead: it lies where no camera sees it.
@@ -47,8 +47,10 @@ pub enum SweepError {
 }
 
 /// One image for each cell of the workspace, taken over its centre.
-#[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
+    /// Side of a cell.
+    pub spacing_m: f64,
     /// Cells along x.
     pub columns: usize,
     /// Cells along y.
@@ -73,12 +75,17 @@ impl std::fmt::Debug for Sweep {
 }
 
 impl Sweep {
-    /// Takes all images on all cores; `progress` is called after each.
+    /// Takes all images on all cores, one every `spacing_m`; `progress` is called after each.
     ///
     /// # Errors
     /// [`SweepError::Camera`].
-    pub fn take(arena: &Arena, gpu: &Arc<Gpu>, progress: &(dyn Fn() + Sync)) -> Result<Self, SweepError> {
-        let (columns, rows) = cells(arena);
+    pub fn take(
+        arena: &Arena,
+        gpu: &Arc<Gpu>,
+        spacing_m: f64,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Self, SweepError> {
+        let (columns, rows) = cells(arena, spacing_m);
         let views = (0..rows)
             .into_par_iter()
             .map_init(
@@ -90,7 +97,7 @@ impl Sweep {
                     };
                     (0..columns)
                         .map(|column| {
-                            let view = look(arena, camera, center(arena.map.workspace(), column, row))?;
+                            let view = look(arena, camera, center(arena.map.workspace(), spacing_m, column, row))?;
                             progress();
                             Ok(view)
                         })
@@ -100,6 +107,7 @@ impl Sweep {
             .collect::<Result<Vec<_>, CameraError>>()?;
         let cells = columns * rows;
         let mut sweep = Self {
+            spacing_m,
             columns,
             rows,
             obstacle: Vec::with_capacity(cells),
@@ -125,13 +133,14 @@ impl Sweep {
         arena: &Arena,
         gpu: &Arc<Gpu>,
         folder: &Path,
+        spacing_m: f64,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Self, SweepError> {
-        let path = folder.join(format!("{:016x}.sweep", content_hash(arena)));
-        if let Some(kept) = read(&path, cells(arena)) {
+        let path = folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m)));
+        if let Some(kept) = read(&path, cells(arena, spacing_m)) {
             return Ok(kept);
         }
-        let sweep = Self::take(arena, gpu, progress)?;
+        let sweep = Self::take(arena, gpu, spacing_m, progress)?;
         prune(folder);
         sweep.write(folder, &path).map_err(|error| SweepError::Io { path, error })?;
         Ok(sweep)
@@ -140,6 +149,12 @@ impl Sweep {
     /// The image over a cell.
     pub fn image(&self, cell: usize) -> &[u8] {
         &self.images[cell * IMAGE_BYTES..(cell + 1) * IMAGE_BYTES]
+    }
+
+    /// The cells whose image is free of obstacles and keeps `clearance_m`.
+    pub fn free(&self, clearance_m: f64) -> Vec<usize> {
+        let keeps = |cell: usize| f64::from(self.wall_distance[cell]) * 1e-4 >= clearance_m;
+        (0..self.columns * self.rows).filter(|&cell| !self.obstacle[cell] && keeps(cell)).collect()
     }
 
     /// Under another name first, so that nobody ever finds half a file.
@@ -184,8 +199,8 @@ fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
     (fits && (sweep.columns, sweep.rows) == (columns, rows)).then_some(sweep)
 }
 
-/// Hash of the map's drawing, the camera and this module's version: equal hashes, equal images.
-fn content_hash(arena: &Arena) -> u64 {
+/// Hash of the map's drawing, the camera, the places and this module's version: equal hashes, equal images.
+fn content_hash(arena: &Arena, spacing_m: f64) -> u64 {
     let CameraMount {
         height_m,
         offset_m: [x_m, y_m],
@@ -194,7 +209,7 @@ fn content_hash(arena: &Arena) -> u64 {
         sees_magnet,
     } = CameraMount::default();
     let mount = [height_m, x_m, y_m, tilt_x_rad, tilt_y_rad, field_of_view_rad, f64::from(u8::from(sees_magnet))];
-    let numbers = mount.into_iter().chain([f64::from(VIEW_PX), STEP_M, f64::from(VERSION)]);
+    let numbers = mount.into_iter().chain([f64::from(VIEW_PX), spacing_m, f64::from(VERSION)]);
     let mut hash = xxhash_rust::xxh3::Xxh3::new();
     for number in numbers {
         hash.update(&number.to_bits().to_le_bytes());
@@ -204,15 +219,15 @@ fn content_hash(arena: &Arena) -> u64 {
 }
 
 /// Columns and rows of whole cells.
-pub(super) fn cells(arena: &Arena) -> (usize, usize) {
+pub fn cells(arena: &Arena, spacing_m: f64) -> (usize, usize) {
     let size_m = arena.map.workspace().size_m();
-    let count = |side_m: f64| (side_m / STEP_M + 1e-6).floor().max(1.0) as usize;
+    let count = |side_m: f64| (side_m / spacing_m + 1e-6).floor().max(1.0) as usize;
     (count(size_m.x), count(size_m.y))
 }
 
 /// Middle of a cell.
-pub fn center(workspace: &Rect, column: usize, row: usize) -> Point2<f64> {
-    let along = |index: usize| (index as f64 + 0.5) * STEP_M;
+pub fn center(workspace: &Rect, spacing_m: f64, column: usize, row: usize) -> Point2<f64> {
+    let along = |index: usize| (index as f64 + 0.5) * spacing_m;
     Point2::new(workspace.x_min_m + along(column), workspace.y_min_m + along(row))
 }
 
@@ -273,12 +288,12 @@ mod tests {
         let progress = || {
             taken.fetch_add(1, Ordering::Relaxed);
         };
-        let open = || Sweep::open(&arena, &gpu, folder.path(), &progress).unwrap();
+        let open = || Sweep::open(&arena, &gpu, folder.path(), STEP_M, &progress).unwrap();
         let sweep = open();
         assert_eq!((sweep.columns, sweep.rows, taken.load(Ordering::Relaxed)), (12, 10, 120));
         let mut camera = arena.camera(&gpu).unwrap();
         for (column, row) in [(0, 0), (5, 5), (11, 9)] {
-            let tool = center(arena.map.workspace(), column, row);
+            let tool = center(arena.map.workspace(), STEP_M, column, row);
             let view = look(&arena, &mut camera, tool).unwrap();
             let cell = row * 12 + column;
             assert_eq!((sweep.obstacle[cell], sweep.image(cell)), (view.obstacle, view.image.as_slice()));
@@ -301,5 +316,13 @@ mod tests {
         std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
         assert_eq!(open(), sweep);
         assert_eq!(taken.load(Ordering::Relaxed), 240, "taken anew");
+
+        // Fewer places are other images.
+        let coarse = Sweep::open(&arena, &gpu, folder.path(), 0.025, &progress).unwrap();
+        assert_eq!((coarse.columns, coarse.rows, taken.load(Ordering::Relaxed)), (4, 4, 256));
+        let corner = arena.map.workspace();
+        let last = center(corner, 0.025, 3, 3) - Point2::new(corner.x_min_m, corner.y_min_m);
+        assert!((last.x - 0.0875).abs() < 1e-12 && (last.y - 0.0875).abs() < 1e-12, "{last}");
+        assert_eq!(open(), sweep);
     }
 }

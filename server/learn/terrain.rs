@@ -47,9 +47,8 @@ impl Terrain {
     /// # Errors
     /// [`TerrainError`].
     pub fn new(name: &str, workspace: &Rect, sweep: &Sweep, clearance_m: f64) -> Result<Self, TerrainError> {
-        let keeps = |cell: usize| f64::from(sweep.wall_distance[cell]) * 1e-4 >= clearance_m;
         let cells = sweep.columns * sweep.rows;
-        let free: Vec<usize> = (0..cells).filter(|&cell| !sweep.obstacle[cell] && keeps(cell)).collect();
+        let free = sweep.free(clearance_m);
         let refusal = || TerrainError { map: name.to_owned(), cells: free.len(), clearance_m };
         if !(2..usize::from(UNREACHABLE)).contains(&free.len()) {
             return Err(refusal());
@@ -69,7 +68,7 @@ impl Terrain {
         };
         let next: Vec<[Option<u16>; 4]> =
             free.iter().map(|&cell| std::array::from_fn(|action| step(cell, action))).collect();
-        let at = |&cell: &usize| center(workspace, cell % sweep.columns, cell / sweep.columns);
+        let at = |&cell: &usize| center(workspace, sweep.spacing_m, cell % sweep.columns, cell / sweep.columns);
         let terrain = Self {
             name: name.to_owned(),
             workspace: *workspace,
@@ -120,10 +119,14 @@ impl Terrain {
         &self.images[usize::from(cell) * IMAGE_BYTES..(usize::from(cell) + 1) * IMAGE_BYTES]
     }
 
+    /// The same of every cell.
+    pub fn images(&self) -> Vec<&[u8]> {
+        self.images.chunks_exact(IMAGE_BYTES).collect()
+    }
+
     /// What the second channel says of a goal and a tool over a cell.
     pub fn places(&self, goal_m: Point2<f64>, cell: u16) -> [f32; 4] {
-        let [goal, tool] = [goal_m, self.center_m(cell)].map(|place| Observation::scaled(place, &self.workspace));
-        [goal[0], goal[1], tool[0], tool[1]].map(|level| f32::from(level) / 255.0)
+        places(&self.workspace, goal_m, self.center_m(cell))
     }
 }
 
@@ -131,6 +134,17 @@ impl std::fmt::Debug for Terrain {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Terrain of {} with {} cells", self.name, self.cells())
     }
+}
+
+/// What the camera sees over some cells, each of one of the terrains.
+pub fn views<'a>(terrains: &'a [Terrain], cells: &[(u8, u16)]) -> Vec<&'a [u8]> {
+    cells.iter().map(|&(terrain, cell)| terrains[usize::from(terrain)].image(cell)).collect()
+}
+
+/// What the second channel of an observation says of a goal and a tool, 0 to 1.
+pub fn places(workspace: &Rect, goal_m: Point2<f64>, tool_m: Point2<f64>) -> [f32; 4] {
+    let [goal, tool] = [goal_m, tool_m].map(|place| Observation::scaled(place, workspace));
+    [goal[0], goal[1], tool[0], tool[1]].map(|level| f32::from(level) / 255.0)
 }
 
 /// Steps between all pairs, by a search in breadth *toward* each cell: steps are not always allowed both ways.
@@ -182,6 +196,7 @@ pub(super) mod tests {
         let cells = 0..columns * rows;
         let steps = |cell| (0..4).filter(|&action| free(cell, action)).map(|action| 1 << action).sum();
         let sweep = Sweep {
+            spacing_m: STEP_M,
             columns,
             rows,
             obstacle: cells.clone().map(wall).collect(),
@@ -212,6 +227,7 @@ pub(super) mod tests {
     pub fn corridor(steps: &[u8]) -> Result<Terrain, TerrainError> {
         let columns = steps.len();
         let sweep = Sweep {
+            spacing_m: STEP_M,
             columns,
             rows: 1,
             obstacle: vec![false; columns],
@@ -235,6 +251,7 @@ pub(super) mod tests {
     #[test]
     fn too_narrow_a_map_is_refused_by_name() {
         let sweep = Sweep {
+            spacing_m: STEP_M,
             columns: 2,
             rows: 1,
             obstacle: vec![false; 2],

@@ -93,6 +93,7 @@ pub struct ValueQuery {
 }
 
 /// What the session's policy thinks of every place of the map on the way to a goal, by the default camera's images.
+/// Places are a centimetre apart, farther where there would be more than 4000.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct ValueMap {
     /// Side of a cell.

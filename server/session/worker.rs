@@ -10,16 +10,13 @@ use tokio::sync::{broadcast, watch};
 
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, JOURNAL, Past, Request, STEP_MAX, Scenery, View};
+use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, Eye};
 use crate::control::step_is_due;
 use crate::geometry::Point2;
 use crate::map::Library;
 use crate::scenario::Scenario;
-use crate::trial::{
-    Arena, Beginning, Case, Event, EventKind, Input, InputError, Sight, Sink, Source, Timed, Trial, TrialError,
-    TrialState,
-};
+use crate::trial::{Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError};
 
 /// Watchers get about sixty views a second, and one more after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -35,7 +32,7 @@ pub(super) struct Worker<E> {
     eye: E,
     sink: Box<dyn Sink>,
     events: broadcast::Sender<Event>,
-    timeline: Timeline,
+    pub(super) timeline: Timeline,
     pub(super) scenery: Arc<Scenery>,
     sight: Arc<(u64, Sight)>,
     pub(super) running: bool,
@@ -172,33 +169,6 @@ impl<E: Eye> Worker<E> {
             }
         }
         self.broken.take().map_or(Ok(()), Err)
-    }
-
-    /// The trial as a case, with all that it was told.
-    fn case(&self) -> Result<Case, CommandError> {
-        let tick = self.trial.state().world.tick;
-        let told = self.timeline.inputs_from_start().ok_or(CommandError::Forgotten)?;
-        let waiting = self.trial.waiting_inputs().iter().map(|input| (tick, input.clone()));
-        let inputs = told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting);
-        let inputs = inputs.map(|(tick, input)| Timed { tick, input }).collect();
-        Case::of(&self.trial, inputs).ok_or(CommandError::NoGoal { tick })
-    }
-
-    fn recall(&self, tick: u64) -> Result<Past, CommandError> {
-        let state =
-            if tick == self.trial.state().world.tick { self.trial.snapshot() } else { self.moment(tick)?.clone() };
-        let inputs = self.timeline.inputs_after(state.world.tick);
-        Ok(Past::new(&self.trial, state, inputs))
-    }
-
-    /// The last state kept at or before a tick that is not later than all of them.
-    fn moment(&self, tick: u64) -> Result<&TrialState, CommandError> {
-        let (first, last) = self.timeline.range().unwrap_or_default();
-        let last = last.max(self.trial.state().world.tick);
-        self.timeline.at(tick).filter(|_| tick <= last).ok_or_else(|| {
-            let allowed = format!("{first} to {last}");
-            CommandError::Range { field: "tick", value: tick as f64, allowed }
-        })
     }
 
     pub(super) fn obey(&mut self, command: Command) -> Result<(), CommandError> {

@@ -12,13 +12,10 @@ use std::path::Path;
 use flate2::Compression;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
-use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64_with_seed;
 
-use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
+use super::entry::{Entry, LoggedBeginning, LoggedMap};
 use crate::files::{ReadError, read_at_most};
-use crate::map::{Map, MapError};
-use crate::scenario::Scenario;
 
 /// Raised when an old reader would misunderstand a file.
 const VERSION: u32 = 5;
@@ -75,95 +72,6 @@ pub enum LogError {
     /// A value that has no CBOR form.
     #[error("log: {0}")]
     Encode(String),
-}
-
-/// What a log is made of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Entry {
-    /// What follows is of this trial.
-    Begin(Box<LoggedBeginning>),
-    /// A tick of it.
-    Tick(LoggedTick),
-}
-
-/// How a trial, or the part of it that follows, began.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LoggedBeginning {
-    /// How the trial was set up.
-    pub scenario: Scenario,
-    /// The map; left out where it is that of the beginning before.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub map: Option<LoggedMap>,
-    /// Where it goes on; left out, it is at its start.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub state: Option<Box<TrialState>>,
-}
-
-impl LoggedBeginning {
-    /// Of a trial that no input waits for.
-    pub fn of(trial: &Trial, how: Beginning) -> Self {
-        Self {
-            scenario: trial.scenario().clone(),
-            map: Some(LoggedMap::from(&trial.arena().map)),
-            state: (how == Beginning::Resumed).then(|| Box::new(trial.snapshot())),
-        }
-    }
-}
-
-/// A map as it was drawn: those that ship with Ferry may change.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LoggedMap {
-    /// Name, for people.
-    pub name: String,
-    /// The drawing.
-    pub svg: String,
-}
-
-impl From<&Map> for LoggedMap {
-    fn from(map: &Map) -> Self {
-        Self { name: map.name().to_owned(), svg: map.svg().to_owned() }
-    }
-}
-
-impl LoggedMap {
-    /// Ready for trials.
-    pub fn arena(&self) -> Result<std::sync::Arc<Arena>, MapError> {
-        Ok(Arena::of(Map::from_svg(&self.name, &self.svg)?))
-    }
-}
-
-/// One tick of a log.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LoggedTick {
-    /// Ticks since the start, this one included.
-    pub tick: u64,
-    /// Inputs applied before the tick.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub inputs: Vec<Input>,
-    /// Decision of the control step, if one was due.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub decision: Option<Decision>,
-    /// World hash after the tick.
-    pub world_hash: u64,
-    /// The lowest 16 bits of the hash of each of [`super::World::FIELDS`], little-endian.
-    #[serde(with = "serde_bytes")]
-    pub fields: Vec<u8>,
-    /// Mind hash after the tick.
-    pub mind_hash: u64,
-}
-
-impl From<&TickRecord> for LoggedTick {
-    fn from(record: &TickRecord) -> Self {
-        Self {
-            tick: record.tick,
-            inputs: record.inputs.clone(),
-            decision: record.decision.clone(),
-            world_hash: record.world.total(),
-            fields: record.world.fields.iter().flat_map(|hash| (*hash as u16).to_le_bytes()).collect(),
-            mind_hash: record.mind_hash,
-        }
-    }
 }
 
 /// Writes a log, frame by frame. What was written before a crash stays readable.
@@ -315,6 +223,9 @@ fn read_entries(mut rest: &[u8], entries: &mut Vec<Entry>) -> Result<(), String>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::Map;
+    use crate::scenario::Scenario;
+    use crate::trial::{Input, LoggedTick};
 
     fn tick(tick: u64) -> Entry {
         Entry::Tick(LoggedTick {

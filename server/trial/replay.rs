@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::log::{Entry, InputLog, LoggedBeginning, LoggedTick};
+use super::entry::{Entry, LoggedBeginning, LoggedTick};
+use super::log::InputLog;
 use super::{Arena, InputError, Source, TickRecord, Trial, TrialError, TrialState, World};
 use crate::camera::{CameraError, Eye};
 use crate::map::MapError;

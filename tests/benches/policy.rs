@@ -9,7 +9,7 @@ use ferry::control::transport::rl::Rl;
 use ferry::control::transport::{Transport, TransportInput};
 use ferry::geometry::Point2;
 use ferry::image::{CameraFrame, CameraMount};
-use ferry::learn::sweep::Sweep;
+use ferry::learn::sweep::{STEP_M, Sweep};
 use ferry::learn::{Recipe, State, Terrain};
 use ferry::map::FreeSpace;
 use ferry::perception::{ObstacleMap, Percept};
@@ -78,7 +78,7 @@ pub fn benches(c: &mut Criterion) {
     let gpu = Gpu::open(AdapterChoice::Auto).unwrap();
     acting(c, &arena, &gpu);
     let recipe = Recipe { updates: UPDATES, ..Recipe::default() };
-    let sweep = Sweep::take(&arena, &gpu, &|| ()).unwrap();
+    let sweep = Sweep::take(&arena, &gpu, STEP_M, &|| ()).unwrap();
     let terrains = [Terrain::new("colon", arena.map.workspace(), &sweep, recipe.clearance_m).unwrap()];
     let pool = rayon::ThreadPoolBuilder::new().build().unwrap();
     let train = || {

@@ -33,7 +33,7 @@ async function shows(lab, layer, points) {
 
 export async function decidesByQuantiles({ lab }) {
   const { page } = lab;
-  await lab.reset({ map: 'colon', speed: '8' });
+  await lab.reset({ map: 'colon' });
   await select(lab, 'RL');
   const questions = [];
   page.on('request', (request) => {
@@ -71,9 +71,10 @@ export async function decidesByQuantiles({ lab }) {
   const shown = () => Promise.all(names.map((name) => signed(lab, `rl-value-${name}`)));
   // What is shown may be a frame behind what came.
   const values = await until('the values that came', async () => {
+    const came = lab.overlay;
     const now = await shown();
-    const { values: told } = lab.overlay.judgement;
-    return now.every((value, index) => Math.abs(value - told[index]) < 0.001) && now;
+    const isSame = (value, index) => Math.abs(value - came.judgement.values[index]) < 0.001;
+    return came === lab.overlay && now.every(isSame) && now;
   });
   check(values.every(Number.isFinite), `the fans say ${values}`);
   const { taken, trained_on } = lab.overlay.judgement;
@@ -98,6 +99,7 @@ export async function decidesByQuantiles({ lab }) {
   await lab.button('Restore defaults').click();
   await until('the defaults', () => parameters().rl_shield && parameters().rl_policy === 'auto');
 
+  await lab.speed('8');
   await lab.run();
   await lab.delivered(1);
   await lab.button('Pause').click();
@@ -120,7 +122,7 @@ export async function saysWhatThePolicyHasNotSeen({ lab }) {
 }
 
 export async function carriesAlongAWay({ lab }) {
-  await lab.reset({ map: 'colon', speed: '8' });
+  await lab.reset({ map: 'colon' });
   await select(lab, 'ERRT');
   const bead = await lab.point('bead');
   const goal = lab.freePoints(bead, 0.25, 0.4).at(-1);
@@ -150,6 +152,7 @@ export async function carriesAlongAWay({ lab }) {
   );
   await lab.screenshot('plan');
   await lab.layer('Obstacles', false);
+  await lab.speed('8');
   await lab.run();
   await lab.delivered(1);
   await lab.button('Pause').click();

@@ -82,6 +82,7 @@ const DISTURB = {
     },
   },
   after: async (lab) => {
+    await lab.drawn();
     await lab.page.getByLabel('Number of random moves', { exact: true }).fill('0');
     const set = lab.button('Set and restart');
     if (await set.isEnabled()) await set.click();

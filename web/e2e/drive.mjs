@@ -4,7 +4,7 @@ import { until } from './harness.mjs';
 import { SECTIONS } from './controls.mjs';
 import { setOf } from './hands.mjs';
 
-const EFFECT_MS = 6000;
+const EFFECT_MS = 20_000;
 
 /** A name may be a pattern between slashes, for those that tell what happened. */
 function patternOf(name) {

@@ -3,13 +3,21 @@
 import { check, until } from './harness.mjs';
 import { Lab, distance } from './lab.mjs';
 
-/** Presses the mouse on the bead and drags it `away` of it. */
-async function take(lab, away) {
+/** Presses the mouse on the bead, once it rests, and drags it to a place beside it. */
+async function take(lab) {
   const { mouse } = lab.page;
+  let before;
+  await until('a bead at rest', () => {
+    const rests = before && distance(before, lab.state.bead_m) < 1e-4;
+    before = lab.state.bead_m;
+    return rests;
+  });
+  const away = await beside(lab);
   await mouse.move(...(await lab.px(await lab.point('bead'))));
   await mouse.down();
   await mouse.move(...(await lab.px(away)), { steps: 6 });
   await until('the hand', () => lab.state.hand_m);
+  return away;
 }
 
 async function beside(lab, least_m = 0.05, most_m = 0.1) {
@@ -54,8 +62,7 @@ export async function showsThatTheBeadCanBeTaken({ lab }) {
 
 export async function placesTheBeadWhilePaused({ lab }) {
   await lab.reset();
-  const to = await beside(lab);
-  await take(lab, to);
+  const to = await take(lab);
   check(distance(await lab.point('bead'), to) > 0.03, 'the bead moved while time stood');
   await lab.screenshot('spring');
   await lab.page.mouse.up();
@@ -79,7 +86,7 @@ export async function letsGoByItself({ lab }) {
     ],
     ['another view', () => page.keyboard.press('Escape')],
   ]) {
-    await take(lab, await beside(lab));
+    await take(lab);
     if (what === 'another view') {
       // As with the keyboard: the mouse is busy.
       await lab.button('Recordings').evaluate((button) => button.click());
@@ -108,7 +115,7 @@ export async function letsGoWhenTheSocketIsLost({ lab, browser, server }) {
   const other = await Lab.open(browser, server.url);
   await until('the operator', async () => (await other.text('role')) === 'operator');
   await other.reset();
-  await take(other, await beside(other));
+  await take(other);
   await until('the hand, seen from here', () => lab.state.hand_m);
   // The page goes away with the bead in the hand.
   await other.page.close();

@@ -15,7 +15,7 @@ const delay = (ms) =>
   });
 
 /** Waits until `probe` gives something truthy and returns it. */
-export async function until(what, probe, timeoutMs = 10_000) {
+export async function until(what, probe, timeoutMs = 20_000) {
   const end = Date.now() + timeoutMs;
   for (;;) {
     const value = await probe();
@@ -149,6 +149,9 @@ export async function runAll(tests, context) {
       await context.lab
         .screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`)
         .catch((reason) => console.log(`      no screenshot: ${reason.message}`));
+      await context
+        .recover(context)
+        .catch((reason) => console.log(`      no recovery: ${reason.message}`));
     }
   }
   return failed;

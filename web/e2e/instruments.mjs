@@ -109,7 +109,8 @@ export async function bendsTheCurvesBesideThem({ lab }) {
 
 export async function disturbsByScript({ lab }) {
   const { page } = lab;
-  await lab.reset({ speed: '8' });
+  // So slow that a pause comes soon after the move, by the length of the timeline.
+  await lab.reset({ speed: '2' });
   const { seed } = lab.scene;
   const start = await lab.point('bead');
   const goal = lab.freePoints(start, 0.3, 0.45)[0];
@@ -154,6 +155,8 @@ export async function disturbsByScript({ lab }) {
   check(lab.scene.scenario.script.length === 1, 'the script was lost');
   await page.getByRole('button', { name: /^Remove and restart/ }).click();
   await until('no script', () => lab.scene.scenario.script.length === 0);
+  // The restart sets the field once more.
+  await lab.drawn();
   await page.getByLabel('Number of random moves').fill('0');
   await page.keyboard.press('Enter');
   await until('none at random', () => lab.scene.scenario.disturbances === 0);
@@ -176,7 +179,7 @@ export async function keepsTime({ lab }) {
   await until('a control step', async () => (await lab.text('tick')) === 'tick 32');
   await lab.button('Step ¼ s').click();
   await until('the next', () => lab.state.tick === 63);
-  await lab.page.getByLabel('Speed', { exact: true }).selectOption('64');
+  await lab.speed('64');
   await lab.run();
   const words = lab.page.locator('.achieved');
   await until('what is achieved', async () => {
@@ -186,7 +189,7 @@ export async function keepsTime({ lab }) {
     return factor && text.includes('machine limit') === Number(factor) < 54.4;
   });
   await lab.button('Pause').click();
-  await lab.page.getByLabel('Speed', { exact: true }).selectOption('1');
+  await lab.speed('1');
 }
 
 export async function obeysKeysAllOver({ lab }) {
@@ -285,8 +288,8 @@ export async function saysWhatHappens({ lab, browser, server }) {
   );
   texts.forEach(([at], index) => {
     const before = texts[index - 1]?.[0] ?? -Infinity;
-    // Timers of the page are no clocks: a little early is on time.
-    check(at - before > 950, `two things within ${at - before} ms`);
+    // The times are of when it was heard, and a busy page hears late.
+    check(at - before > 700, `two things within ${at - before} ms`);
   });
   check((await lab.page.getByRole('log').getAttribute('aria-live')) === 'off', 'two voices');
   await second.page.close();

@@ -11,6 +11,8 @@ const CLEARANCE_M = 0.025;
 const STEP_M = 0.01;
 const GOAL_RADIUS_M = 0.02;
 const DELIVERY_MS = 90_000;
+const HIDDEN_MS = 400;
+const OPEN_MS = 30_000;
 
 export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
@@ -57,15 +59,21 @@ export class Lab {
       colorScheme: 'dark',
       ...options,
     });
-    return Lab.attach(page, url);
+    try {
+      return await Lab.attach(page, url);
+    } catch (error) {
+      // Left open it would keep its place in the session.
+      await page.context().close();
+      throw error;
+    }
   }
 
   /** The same in a page that is there already. */
   static async attach(page, url) {
     const lab = new Lab(page);
     await page.goto(url);
-    await until('the first state', () => lab.state && lab.scene);
-    await until('live', async () => (await lab.text('connection')) === 'live');
+    await until('the first state', () => lab.state && lab.scene, OPEN_MS);
+    await until('live', async () => (await lab.text('connection')) === 'live', OPEN_MS);
     return lab;
   }
 
@@ -96,7 +104,20 @@ export class Lab {
     });
   }
 
-  text(testid) {
+  /** What came over the socket before is on the page, too: it is drawn in a frame. */
+  drawn() {
+    return this.page.evaluate(
+      (hidden_ms) =>
+        new Promise((done) => {
+          if (document.hidden) setTimeout(done, hidden_ms);
+          else requestAnimationFrame(() => requestAnimationFrame(done));
+        }),
+      HIDDEN_MS,
+    );
+  }
+
+  async text(testid) {
+    await this.drawn();
     return this.page.getByTestId(testid).innerText();
   }
 
@@ -113,6 +134,7 @@ export class Lab {
   }
 
   async point(name) {
+    await this.drawn();
     const text = await this.canvas.getAttribute(`data-${name}`);
     return text ? text.split(',').map(Number) : undefined;
   }
@@ -120,6 +142,7 @@ export class Lab {
   /** Position on the page, in CSS pixels, of a point of the table. */
   async px([x, y]) {
     await this.canvas.scrollIntoViewIfNeeded();
+    await until('a view', () => this.canvas.getAttribute('data-px-per-m'));
     const box = await this.canvas.boundingBox();
     const data = await this.canvas.evaluate((canvas) => ({ ...canvas.dataset }));
     return [
@@ -153,9 +176,16 @@ export class Lab {
       await this.page.getByLabel('Map', { exact: true }).selectOption(map);
       await until(`map ${map}`, () => this.scene.map === map);
     }
+    // It may stand at tick 0 already.
+    const { trial } = this.scene;
     await this.button('Reset').click();
+    await until('another trial', () => this.scene.trial !== trial && this.state.tick === 0);
     await until('tick 0', async () => (await this.text('tick')) === 'tick 0');
-    await this.page.getByLabel('Speed', { exact: true }).selectOption(speed);
+    await this.speed(speed);
+  }
+
+  async speed(factor) {
+    await this.page.getByLabel('Speed', { exact: true }).selectOption(factor);
   }
 
   /** Waits for the goal that is the `count`th since the reset. */

@@ -6,7 +6,7 @@ import { distance } from './lab.mjs';
 
 /** A carry with the bead taken away in the middle of it, delivered in the end. */
 async function disturbedCarry(lab) {
-  await lab.reset({ speed: '4' });
+  await lab.reset();
   const [goal] = lab.freePoints(await lab.point('bead'), 0.3, 0.5);
   await lab.click(goal);
   await lab.run();
@@ -22,6 +22,7 @@ async function disturbedCarry(lab) {
   await mouse.move(...(await lab.px(away)), { steps: 6 });
   await mouse.up();
   await until('the bead away', async () => distance(await lab.point('bead'), away) < 0.01);
+  await lab.speed('4');
   await lab.run();
   await lab.delivered(1);
   await lab.button('Pause').click();
@@ -114,7 +115,7 @@ export async function comparesControllers({ lab }) {
   // Without a goal there is nothing to compare, and that is said here.
   await lab.reset();
   await lab.button('Compare from here').click();
-  await lab.notice('compare').waitFor({ timeout: 5000 });
+  await lab.notice('compare').waitFor();
   await lab.page.getByRole('tab', { name: 'Plots' }).click();
 }
 

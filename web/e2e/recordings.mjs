@@ -20,7 +20,7 @@ export async function listsRecordings({ lab }) {
 
   await lab.button('Recordings').click();
   const row = rowOf(lab);
-  await row.waitFor({ timeout: 5000 });
+  await row.waitFor();
   const words = await row.innerText();
   check(/main/.test(words) && /\d+[.,]?\d* [kM]B/.test(words), `the row says: ${words}`);
   check(words.includes(String(new Date().getFullYear())), `no date in: ${words}`);
@@ -73,7 +73,18 @@ export async function opensARecording({ server }) {
       },
       VIEWER_MS,
     );
-    const dark = await look(lab);
+    // The file is open before all of the viewer is drawn.
+    let dark;
+    await until(
+      'a viewer that stands still',
+      async () => {
+        const before = dark;
+        dark = await look(lab);
+        await page.waitForTimeout(1000);
+        return dark === before;
+      },
+      VIEWER_MS,
+    );
     await lab.screenshot('viewer-dark');
     await lab.button('Use light colours').click();
     await until('a light viewer', async () => (await look(lab)) !== dark, VIEWER_MS);
@@ -94,7 +105,7 @@ export async function opensARecording({ server }) {
     check(errors.length === 0, `the console says: ${errors.join(' | ')}`);
 
     await page.goto(`${server.url}/viewer/?recording=none&theme=light`);
-    await page.getByText('there is no recording "none').waitFor({ timeout: 5000 });
+    await page.getByText('there is no recording "none').waitFor();
   } finally {
     await browser.close();
   }

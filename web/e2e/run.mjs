@@ -3,6 +3,7 @@
 
 import { Watch, runAll, startBrowser, startServer } from './harness.mjs';
 import { Lab } from './lab.mjs';
+import { recover } from './recover.mjs';
 import { TESTS } from './tests.mjs';
 
 const words = process.argv[2] ?? '';
@@ -13,7 +14,7 @@ const watch = new Watch(browser, server.url);
 let failed = tests.length;
 try {
   const lab = await Lab.open(browser, server.url);
-  failed = await runAll(tests, { lab, browser, server, watch });
+  failed = await runAll(tests, { lab, browser, server, watch, recover });
 } catch (error) {
   console.log(`FAIL  opening the page\n      ${error.message}`);
 } finally {

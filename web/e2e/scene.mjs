@@ -21,12 +21,13 @@ async function open(lab) {
 
 /** Waits until the picture shows what the server has told last. */
 async function settled(lab) {
-  let before;
+  let [before, times] = [undefined, 0];
   await until('a picture that stands still', async () => {
+    await lab.drawn();
     const now = await canvasOf(lab).getAttribute('data-frames');
-    const same = now === before;
+    times = now === before ? times + 1 : 0;
     before = now;
-    return same;
+    return times === 3;
   });
 }
 
@@ -71,6 +72,7 @@ export async function placesAGoalInSpace({ lab }) {
 
 export async function disturbsInSpace({ lab }) {
   await lab.reset();
+  await open(lab);
   const { mouse } = lab.page;
   await settled(lab);
   const camera = await canvasOf(lab).getAttribute('data-px-from-table');
@@ -86,11 +88,11 @@ export async function disturbsInSpace({ lab }) {
   await mouse.move(...(await px(lab, away)), { steps: 10 });
   await until('the hand there', () => lab.state.hand_m && distance(lab.state.hand_m, away) < 0.003);
   await until('the bead at the hand', () => distance(lab.state.bead_m, away) < 0.01);
+  check(distance(lab.state.bead_m, bead) > 0.03, 'the bead did not move');
   check(/\d N · |mN · /.test(await lab.page.locator('.spring-label').innerText()), 'no force');
   await lab.screenshot('scene-dragging');
   await mouse.up();
   await until('no hand', () => !lab.state.hand_m);
-  check(distance(lab.state.bead_m, bead) > 0.03, 'the bead did not move');
   check(
     (await canvasOf(lab).getAttribute('data-px-from-table')) === camera,
     'dragging the bead turned the view',
@@ -101,6 +103,7 @@ export async function disturbsInSpace({ lab }) {
 
 export async function turnsTheScene({ lab }) {
   await lab.reset();
+  await open(lab);
   await settled(lab);
   const { mouse, keyboard } = lab.page;
   const canvas = canvasOf(lab);
@@ -136,6 +139,7 @@ export async function turnsTheScene({ lab }) {
 
 export async function obeysTheKeyboardInSpace({ lab }) {
   await lab.reset();
+  await open(lab);
   await canvasOf(lab).focus();
   const { keyboard } = lab.page;
   await keyboard.press('Home');
@@ -178,6 +182,7 @@ export async function frees({ lab, watch }) {
   // What a reset leaves of the hand and the trails may go a frame later: fewer things are no leak.
   const grew = (now, before) => now.some((count, i) => count > before[i]);
   await lab.reset();
+  await open(lab);
   const first = await held();
   await lab.reset({ map: 'colon' });
   await settled(lab);
@@ -187,7 +192,7 @@ export async function frees({ lab, watch }) {
   await lab.screenshot('scene-light');
   await lab.button('Use dark colours').click();
   await lab.reset();
-  check(!grew(await held(), first), `the card keeps more: ${await held()} after ${first}`);
+  await until(`no more than ${first} on the card`, async () => !grew(await held(), first));
 
   const complaints = watch.complaints.length;
   for (let i = 0; i < TOGGLES; i++) {
@@ -198,18 +203,19 @@ export async function frees({ lab, watch }) {
     await until('the context to go', isLost);
     await open(lab);
   }
-  check(!grew(await held(), first), 'more things than at first');
+  await until(`${first} again`, async () => !grew(await held(), first));
   check(watch.complaints.length === complaints, `it says: ${watch.complaints.slice(complaints)}`);
 }
 
 export async function goesBackToThePlan({ lab }) {
+  await open(lab);
   await lab.page.reload();
   await until('the remembered view', () => canvasOf(lab).isVisible());
   await until('live', async () => (await lab.text('connection')) === 'live');
   await until('the operator', async () => (await lab.text('role')) === 'operator');
   await radio(lab, '3-D').focus();
   await lab.page.keyboard.press('ArrowLeft');
-  await lab.canvas.waitFor({ timeout: 5000 });
+  await lab.canvas.waitFor();
   check((await canvasOf(lab).count()) === 0, 'the scene is still there');
   await lab.reset();
   const goal = lab.freePoints(await lab.point('bead'), 0.1, 0.2)[0];
@@ -218,6 +224,7 @@ export async function goesBackToThePlan({ lab }) {
 }
 
 export async function saysWhatIsMissing({ lab }) {
+  await radio(lab, 'Plan').check();
   // As in a browser that has no 3-D, or where it is switched off.
   const restore = await lab.page.evaluateHandle(() => {
     const { prototype } = document.createElement('canvas').constructor;
@@ -233,7 +240,7 @@ export async function saysWhatIsMissing({ lab }) {
   await lab.page.getByText('it has no WebGL 2').waitFor({ timeout: OPEN_MS });
   await lab.screenshot('scene-missing');
   await lab.button('Back to the plan').click();
-  await lab.canvas.waitFor({ timeout: 5000 });
+  await lab.canvas.waitFor();
   check(await radio(lab, 'Plan').isChecked(), 'the switch says something else');
   await restore.evaluate((undo) => undo());
 }

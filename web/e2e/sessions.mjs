@@ -66,7 +66,7 @@ async function outlivesItsServer() {
     server = await startOwnServer({ port });
     await until('live', async () => (await lab.text('connection')) === 'live', 30_000);
     await until('a fresh session', () => lab.state.tick === 0 && lab.hello.session === 'anna');
-    check(await lab.button('Run').isEnabled(), 'the page may not run what it opened');
+    await until('Run', () => lab.button('Run').isEnabled());
   } finally {
     await browser.close();
     await server.stop();

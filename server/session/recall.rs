@@ -1,0 +1,35 @@
+//! What the session's thread tells of moments gone by.
+
+use super::worker::Worker;
+use super::{CommandError, Past};
+use crate::camera::Eye;
+use crate::trial::{Case, Timed, TrialState};
+
+impl<E: Eye> Worker<E> {
+    /// The trial as a case, with all that it was told.
+    pub(super) fn case(&self) -> Result<Case, CommandError> {
+        let tick = self.trial.state().world.tick;
+        let told = self.timeline.inputs_from_start().ok_or(CommandError::Forgotten)?;
+        let waiting = self.trial.waiting_inputs().iter().map(|input| (tick, input.clone()));
+        let inputs = told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting);
+        let inputs = inputs.map(|(tick, input)| Timed { tick, input }).collect();
+        Case::of(&self.trial, inputs).ok_or(CommandError::NoGoal { tick })
+    }
+
+    pub(super) fn recall(&self, tick: u64) -> Result<Past, CommandError> {
+        let state =
+            if tick == self.trial.state().world.tick { self.trial.snapshot() } else { self.moment(tick)?.clone() };
+        let inputs = self.timeline.inputs_after(state.world.tick);
+        Ok(Past::new(&self.trial, state, inputs))
+    }
+
+    /// The last state kept at or before a tick that is not later than all of them.
+    pub(super) fn moment(&self, tick: u64) -> Result<&TrialState, CommandError> {
+        let (first, last) = self.timeline.range().unwrap_or_default();
+        let last = last.max(self.trial.state().world.tick);
+        self.timeline.at(tick).filter(|_| tick <= last).ok_or_else(|| {
+            let allowed = format!("{first} to {last}");
+            CommandError::Range { field: "tick", value: tick as f64, allowed }
+        })
+    }
+}

@@ -1,0 +1,98 @@
+//! What an input log is made of: how a trial began, and each tick of it.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
+use crate::map::{Map, MapError};
+use crate::scenario::Scenario;
+
+/// What a log is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Entry {
+    /// What follows is of this trial.
+    Begin(Box<LoggedBeginning>),
+    /// A tick of it.
+    Tick(LoggedTick),
+}
+
+/// How a trial, or the part of it that follows, began.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoggedBeginning {
+    /// How the trial was set up.
+    pub scenario: Scenario,
+    /// The map; left out where it is that of the beginning before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<LoggedMap>,
+    /// Where it goes on; left out, it is at its start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<Box<TrialState>>,
+}
+
+impl LoggedBeginning {
+    /// Of a trial that no input waits for.
+    pub fn of(trial: &Trial, how: Beginning) -> Self {
+        Self {
+            scenario: trial.scenario().clone(),
+            map: Some(LoggedMap::from(&trial.arena().map)),
+            state: (how == Beginning::Resumed).then(|| Box::new(trial.snapshot())),
+        }
+    }
+}
+
+/// A map as it was drawn: those that ship with Ferry may change.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoggedMap {
+    /// Name, for people.
+    pub name: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+impl From<&Map> for LoggedMap {
+    fn from(map: &Map) -> Self {
+        Self { name: map.name().to_owned(), svg: map.svg().to_owned() }
+    }
+}
+
+impl LoggedMap {
+    /// Ready for trials.
+    pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
+        Ok(Arena::of(Map::from_svg(&self.name, &self.svg)?))
+    }
+}
+
+/// One tick of a log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoggedTick {
+    /// Ticks since the start, this one included.
+    pub tick: u64,
+    /// Inputs applied before the tick.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<Input>,
+    /// Decision of the control step, if one was due.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decision: Option<Decision>,
+    /// World hash after the tick.
+    pub world_hash: u64,
+    /// The lowest 16 bits of the hash of each of [`super::World::FIELDS`], little-endian.
+    #[serde(with = "serde_bytes")]
+    pub fields: Vec<u8>,
+    /// Mind hash after the tick.
+    pub mind_hash: u64,
+}
+
+impl From<&TickRecord> for LoggedTick {
+    fn from(record: &TickRecord) -> Self {
+        Self {
+            tick: record.tick,
+            inputs: record.inputs.clone(),
+            decision: record.decision.clone(),
+            world_hash: record.world.total(),
+            fields: record.world.fields.iter().flat_map(|hash| (*hash as u16).to_le_bytes()).collect(),
+            mind_hash: record.mind_hash,
+        }
+    }
+}
