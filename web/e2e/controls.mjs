@@ -4,7 +4,7 @@
 import { until } from './harness.mjs';
 import { PARAMETERS, RESTORE } from './parameters.mjs';
 import { openMap } from './maps.mjs';
-import { drawn, nearby, open, pause, run, withGoal, withHistory, withoutGoal } from './moments.mjs';
+import { nearby, open, pause, run, withGoal, withHistory, withoutGoal } from './moments.mjs';
 import { PAST } from './controlsPast.mjs';
 import { TOOLS } from './controlsTools.mjs';
 
@@ -42,7 +42,7 @@ const asBefore = async (lab, hand) => {
   await until('the defaults', () => {
     return JSON.stringify(lab.scene.parameters) === JSON.stringify(defaults);
   });
-  await drawn(lab);
+  await lab.drawn();
 };
 
 const choose = (name) => async (lab) => {

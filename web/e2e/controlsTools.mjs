@@ -1,6 +1,6 @@
 // Rows of the table of controls: plots, magnet, disturbances, space, recordings, evaluations.
 
-import { drawn, inSpace, open, pause, withoutGoal } from './moments.mjs';
+import { inSpace, open, pause, withoutGoal } from './moments.mjs';
 import { bound } from './parameters.mjs';
 import { freeInPicture, px } from './scene.mjs';
 
@@ -71,7 +71,7 @@ const DISTURB = {
     'button Add to script and restart': { see: script, ready: time('time') },
     'button /^Remove and restart: /': { see: script },
     // The restart of the row before sets it once more, a frame after the message.
-    'spinbutton Number of random moves': { ...typed, ready: drawn },
+    'spinbutton Number of random moves': { ...typed, ready: (lab) => lab.drawn() },
     'button Set and restart': {
       see: (lab) => lab.scene.trial,
       ready: async (lab) => {

@@ -1,6 +1,7 @@
 // The hand that holds the bead and does not move: it says that it is there, and who says nothing has gone.
 
 import { check, until } from './harness.mjs';
+import { inSpace } from './moments.mjs';
 
 /** The server lets go of what it heard nothing of for five seconds. */
 const LONGER_MS = 6500;
@@ -25,10 +26,23 @@ async function takeByKeyboard(lab) {
   await until('the hand', () => lab.state.hand_m);
 }
 
+const view = (lab, name) => lab.page.getByRole('radio', { name, exact: true });
+
+async function takeInSpace(lab) {
+  await view(lab, '3-D').check();
+  await inSpace(lab);
+  await lab.run();
+  await until('running', () => lab.state.running);
+  await lab.page.getByLabel('Scene', { exact: true }).focus();
+  await lab.page.keyboard.press('d');
+  await until('the hand', () => lab.state.hand_m);
+}
+
 async function holdsStill({ lab }) {
   for (const [how, take, end] of [
     ['mouse', takeByMouse, () => lab.page.mouse.up()],
     ['keyboard', takeByKeyboard, () => lab.page.keyboard.press('Escape')],
+    ['keyboard in space', takeInSpace, () => lab.page.keyboard.press('Escape')],
   ]) {
     await lab.reset();
     await take(lab);
@@ -44,6 +58,7 @@ async function holdsStill({ lab }) {
     await lab.button('Pause').click();
     await until('paused', () => !lab.state.running);
   }
+  await view(lab, 'Plan').check();
 }
 
 /** A page whose thread does something else has no hand. */

@@ -50,9 +50,3 @@ export async function inSpace(lab) {
   const scene = lab.page.getByLabel('Scene', { exact: true });
   await until('a picture in space', () => scene.getAttribute('data-bead-px'), 30_000);
 }
-
-/** What has come is on the page. */
-export const drawn = (lab) =>
-  lab.page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-  );

@@ -27,15 +27,6 @@ async function settle(lab) {
   await until('paused', () => !lab.state.running);
 }
 
-/** Waits for what appeared to be drawn. */
-const drawn = (page) =>
-  page.evaluate(
-    () =>
-      new Promise((resolve) => {
-        requestAnimationFrame(() => requestAnimationFrame(resolve));
-      }),
-  );
-
 /** The panel or bar that something is in. */
 const panelOf = (locator) =>
   locator.locator('xpath=(ancestor::section | ancestor::*[contains(@class, "bar ")])[last()]');
@@ -121,7 +112,7 @@ export async function* places(lab) {
   for (const view of await views.all()) {
     const name = await view.innerText();
     await view.click();
-    await drawn(page);
+    await lab.drawn();
     await unfold(page);
     yield { name, panel: page.locator('main'), opener: view, isView: true };
     yield* popovers(page, page.locator('body'), name);

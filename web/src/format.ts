@@ -34,3 +34,8 @@ export function clock(time_s: number): string {
 export function speed(factor: number): string {
   return factor < 1 ? `1/${Math.round(1 / factor)}×` : `${factor}×`;
 }
+
+/** How many of a thing: `1 cell`, `4 cells`. */
+export function counted(count: number, noun: string): string {
+  return `${count} ${noun}${count === 1 ? '' : 's'}`;
+}

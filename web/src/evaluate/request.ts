@@ -1,6 +1,7 @@
 // What an evaluation is to do, as it is typed in. Pure.
 
 import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../protocol.gen';
+import { counted } from '../format';
 import { secondsAnEpisode } from './progress';
 
 export type Field = 'controllers' | 'maps' | 'disturbances' | 'episodes' | 'seed';
@@ -63,10 +64,6 @@ export function faultsOf(refusal: { detail: string; field?: string | undefined }
 /** With `item` or without it, in the order of `all`. */
 export function toggled<T>(all: readonly T[], chosen: readonly T[], item: T, on: boolean): T[] {
   return all.filter((one) => (one === item ? on : chosen.includes(one)));
-}
-
-export function counted(count: number, noun: string): string {
-  return `${count} ${noun}${count === 1 ? '' : 's'}`;
 }
 
 /** How much it is: `4 cells, 120 episodes`. */

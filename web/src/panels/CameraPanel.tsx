@@ -1,7 +1,7 @@
 // What the controllers see: the end-effector image with its test patch, and the observation.
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
-import { fixed } from '../format';
+import { counted, fixed } from '../format';
 import { blocksPath, patchPath } from '../homography';
 import type { Lab } from '../lab';
 
@@ -131,7 +131,8 @@ export function CameraPanel(props: { lab: Lab }): JSX.Element {
                   data-testid="blocks"
                   title="The dark blocks of the quadtree, merged into as few rectangles as possible: N − L − H + C of them"
                 >
-                  {layer().rectangles.length} rectangles; the quadtree alone {layer().dark.length}
+                  {counted(layer().rectangles.length, 'rectangle')}; the quadtree alone{' '}
+                  {layer().dark.length}
                 </span>
               )}
             </Show>
