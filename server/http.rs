@@ -205,6 +205,7 @@ fn routes() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(calculator::field))
         .routes(routes!(calculator::pull))
         .routes(routes!(calculator::reach))
+        .routes(routes!(calculator::plane))
         .layer(DefaultBodyLimit::max(BATCH_BODY_LIMIT));
     OpenApiRouter::with_openapi(openapi::base())
         .routes(routes!(api::health))

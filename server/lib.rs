@@ -31,7 +31,6 @@ pub mod camera;
 pub mod cli;
 pub mod control;
 pub mod evaluate;
-#[cfg(test)]
 mod faults;
 pub mod files;
 pub mod geometry;

@@ -5,6 +5,7 @@
 //! - [`posed`]: a block that lies anywhere and anyhow, seen from `base`.
 //! - [`force`]: the pull on the bead, and where it lifts or drags it.
 //! - [`curves`]: that pull over offset and height, to be plotted.
+//! - [`plane`]: field and pull over the table, to be drawn.
 //!
 //! SI units throughout: tesla, newtons, metres, A·m². Points are given from the source's centre, in
 //! axes parallel to its sides, unless they are given in `base`. Nothing here knows of arms, walls or time.
@@ -14,6 +15,7 @@ pub mod curves;
 pub mod dipole;
 mod edges;
 pub mod force;
+pub mod plane;
 pub mod posed;
 
 /// Magnetic constant μ0, T·m/A (CODATA 2022).

@@ -18,7 +18,7 @@ use crate::files::{ReadError, read_at_most};
 use crate::geometry::{Point2, Polygon, Rect, Vector2};
 use outline::Outline;
 
-pub use library::{ADDED_MAPS, Library};
+pub use library::{ADDED_MAPS, Library, is_added};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
 

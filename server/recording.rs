@@ -253,14 +253,30 @@ impl Sink for Recorder {
             (None, lost) => format!("recording, {lost} ticks lost: the disk is slow"),
         }
     }
+
+    fn finish(mut self: Box<Self>) -> Result<(), String> {
+        self.close();
+        match (self.shared.stopped.get(), self.lost_ticks) {
+            (None, 0) => Ok(()),
+            _ => Err(self.status()),
+        }
+    }
+}
+
+impl Recorder {
+    /// Waits until all is written.
+    fn close(&mut self) {
+        self.queue = None;
+        if let Some(thread) = self.thread.take() {
+            // It catches its own panics.
+            let _ = thread.join();
+        }
+    }
 }
 
 impl Drop for Recorder {
     fn drop(&mut self) {
-        self.queue = None;
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        self.close();
     }
 }
 
@@ -281,9 +297,7 @@ fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
             shared.part_is_over.store(true, Ordering::Relaxed);
         }
     }
-    if let Err(error) = keeper.close() {
-        tracing::error!(%error, "recording could not be closed");
-    }
+    note(keeper.close(), shared);
 }
 
 fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {

@@ -14,7 +14,10 @@ use crate::geometry::Point2;
 use crate::geometry::schema::Numbers2;
 use crate::plant::PositionerKind;
 
-pub use disturbance::{Disturbance, DisturbanceError, SCRIPT_LIMIT, Scripted, When};
+pub use disturbance::{
+    Disturbance, DisturbanceError, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scripted,
+    When,
+};
 pub use parameters::{AttractorLaw, ParameterError, Parameters, RlPolicy, SwitchingLaw};
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};

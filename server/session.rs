@@ -106,9 +106,15 @@ pub enum CommandError {
     #[error("the trial's beginning is kept no more; reset, and keep a case within ten minutes")]
     Forgotten,
     /// No goal, nothing to carry the bead to.
-    #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare or to expect")]
+    #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare")]
     NoGoal {
         /// The tick asked for.
+        tick: u64,
+    },
+    /// Nothing to expect of a case.
+    #[error("tick {tick}: nothing was carried up to then, so a case would expect nothing; let time run first")]
+    NothingCarried {
+        /// The tick of the session.
         tick: u64,
     },
     /// More commands than the session can take.
@@ -183,10 +189,19 @@ pub struct Session {
     interrupted: Arc<AtomicBool>,
 }
 
+/// Which moment is meant by a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recalled {
+    /// The start of the last control step at or before it.
+    Step,
+    /// The same, or the present if it is that.
+    Present,
+}
+
 /// What is asked of the thread, and where the answer goes.
 enum Request {
     Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
-    Recall { tick: u64, answer: oneshot::Sender<Result<Past, CommandError>> },
+    Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<Past, CommandError>> },
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
 }
 
@@ -220,10 +235,10 @@ impl Session {
         answer_of(answered).await
     }
 
-    /// The last moment kept at or before a tick; changes nothing.
-    pub async fn recall(&self, tick: u64) -> Result<Past, CommandError> {
+    /// A moment that is kept; changes nothing.
+    pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<Past, CommandError> {
         let (answer, answered) = oneshot::channel();
-        self.ask(Request::Recall { tick, answer })?;
+        self.ask(Request::Recall { tick, moment, answer })?;
         answer_of(answered).await
     }
 

@@ -56,6 +56,13 @@ async fn arm_and_magnet_can_be_asked_for_numbers() {
     assert_eq!(status, 200, "{curve}");
     assert!((curve["largest_speed_m_s"][1].as_f64().unwrap() - 0.079).abs() < 5e-4, "{curve}");
 
+    let plane = json!({"orientation": "A", "lower_face_height_m": 0.095, "reach_m": 0.08, "count": 5});
+    let (status, plane) = lab.ask("POST", "/api/magnetics/plane", &plane.to_string()).await;
+    assert_eq!(status, 200, "{plane}");
+    // The same pull, 4 cm aside, of a bead of 4.93 mN.
+    let weight_n = 4.815e-3 / 0.976;
+    assert!((plane["pull_n"][13][0].as_f64().unwrap() / weight_n + 0.309).abs() < 1e-3, "{plane}");
+
     let mut flat = pull.clone();
     flat["count"] = json!(1);
     let mut low = pull;

@@ -17,7 +17,7 @@ fn kept() -> Vec<std::path::PathBuf> {
 }
 
 fn run(case: &Case) -> ferry::trial::CaseOutcome {
-    let arena = Arena::open(&case.scenario.map).unwrap();
+    let arena = case.arena().unwrap();
     let mut camera = arena.camera(&gpu()).unwrap();
     case.run(&arena, &mut camera, &mut |_| ControlFlow::Continue(())).unwrap()
 }
@@ -39,7 +39,11 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
     let (status, problem) = lab.ask("GET", "/api/sessions/main/case.json", "").await;
-    assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("no_goal"), &json!("tick")), "{problem}");
+    assert_eq!(
+        (status, &problem["code"], &problem["field"]),
+        (422, &json!("nothing_carried"), &json!("tick")),
+        "{problem}"
+    );
 
     browser.send(json!({"type": "load_scenario", "map": "posts", "start_m": [-0.25, -0.38], "seed": 5})).await;
     // While time stands, and after a step back.

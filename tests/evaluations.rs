@@ -24,16 +24,19 @@ impl Laboratory {
         format!("/api/evaluations/{}", made["id"].as_str().unwrap())
     }
 
-    /// The evaluation at the first look that fits, within a minute.
+    /// The evaluation at the first look that fits; a minute without anything new is in vain.
     async fn evaluation(&self, path: &str, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
-        let end = Instant::now() + Duration::from_secs(60);
+        let (mut last, mut since) = (Value::Null, Instant::now());
         loop {
             let (status, report) = self.ask("GET", path, "").await;
             assert_eq!(status, 200, "{report}");
             if fits(&report) {
                 return report;
             }
-            assert!(Instant::now() < end, "waited in vain: {what}: {report}");
+            if report != last {
+                (last, since) = (report, Instant::now());
+            }
+            assert!(since.elapsed() < Duration::from_secs(60), "waited in vain: {what}: {last}");
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
     }
@@ -157,9 +160,10 @@ async fn one_runs_few_wait_and_all_can_be_cancelled() {
     let asked = Instant::now();
     assert_eq!(lab.ask("DELETE", &long, "").await.0, 202);
     let report = lab.ended(&long).await;
-    assert!(asked.elapsed() < Duration::from_secs(1), "{:?}", asked.elapsed());
+    // A tick of a trial that gives way to all else.
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
     assert_eq!((stage(&report), &report["rows"], &report["rows_done"]), ("cancelled", &json!([]), &json!(0)));
-    assert!(report["cells"][0]["done"].as_u64() < Some(LONG.into()));
+    assert!(report["cells"][0]["done"].as_u64().unwrap() < u64::from(LONG));
     // The next one has its turn.
     assert_eq!(stage(&lab.ended(&waiting[1]).await), "done");
     lab.close().await;

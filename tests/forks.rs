@@ -1,5 +1,7 @@
 //! Moments gone by: looked at again, and run on under other controllers.
 
+use std::cell::RefCell;
+
 use serde_json::{Value, json};
 
 use crate::laboratory::{Browser, Laboratory};
@@ -54,6 +56,34 @@ async fn a_moment_runs_on_under_every_controller_and_the_session_stands_still() 
     assert_eq!(goal["tick"], 0);
     let told = late.until("the comparison", |m| m["type"] == "comparison").await;
     assert_eq!((&told["branches"][0]["controller"], &told["branches"][1]), (&json!("errt"), &Value::Null));
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_was_undone_is_told_to_nobody_and_what_is_done_while_time_stands_has_a_story() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    disturbed(&mut browser).await;
+    // The other way: nobody takes the bead away.
+    browser.send(json!({"type": "rewind", "tick": 250})).await;
+    browser.send(json!({"type": "step", "ticks": 400})).await;
+    browser.state("tick 650", |m| m["tick"] == 650).await;
+    browser.send(json!({"type": "set_goal", "x_m": 0.1, "y_m": -0.33})).await;
+    browser.until("the goal", |m| m["type"] == "event" && m["tick"] == 650).await;
+    let mut late = lab.browser().await;
+    let told = RefCell::new(Vec::new());
+    late.until("the last event", |m| {
+        if m["type"] == "event" {
+            told.borrow_mut().push((m["tick"].as_u64().unwrap(), m["kind"].as_str().unwrap().to_owned()));
+        }
+        m["type"] == "event" && m["tick"] == 650
+    })
+    .await;
+    let told: Vec<_> = told.into_inner().into_iter().filter(|(_, kind)| kind != "session").collect();
+    assert_eq!(told, [(0, "goal".to_owned()), (650, "goal".to_owned())]);
+    // No control step starts at that tick: the story is of the one before.
+    let (status, moment) = lab.ask("GET", "/api/sessions/main/moments/650", "").await;
+    assert_eq!((status, &moment["tick"]), (200, &json!(625)), "{moment}");
     lab.close().await;
 }
 

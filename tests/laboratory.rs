@@ -305,14 +305,14 @@ async fn a_hand_leaves_nothing_behind() {
     browser.state("the hand", |m| !m["hand_m"].is_null()).await;
     browser.send(json!({"type": "release"})).await;
     let put = browser.state("no hand", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64() > Some(-0.474)).await;
-    assert!(put["bead_m"][1].as_f64() < Some(-0.4), "{put}");
+    assert!(put["bead_m"][1].as_f64().unwrap() < -0.4, "{put}");
 
     // Lifted over a wall while time runs, and let go there.
     browser.send(json!({"type": "run"})).await;
     browser.send(drag(0.0, -0.3, true)).await;
     browser.state("over the wall", |m| m["bead_m"][1].as_f64() > Some(-0.31)).await;
     browser.send(json!({"type": "release"})).await;
-    browser.state("back in the channel", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64() < Some(-0.4)).await;
+    browser.state("back in the channel", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64().unwrap() < -0.4).await;
 
     // Gone back to a moment when it was held, it is held no more once time goes on.
     browser.send(drag(0.1, -0.48, false)).await;
@@ -321,7 +321,7 @@ async fn a_hand_leaves_nothing_behind() {
     browser.state("later", |m| m["tick"].as_u64() > Some(tick)).await;
     browser.send(json!({"type": "release"})).await;
     browser.send(json!({"type": "rewind", "tick": tick})).await;
-    let then = browser.state("that moment", |m| m["running"] == false && m["tick"].as_u64() <= Some(tick)).await;
+    let then = browser.state("that moment", |m| m["running"] == false && m["tick"].as_u64().unwrap() <= tick).await;
     assert!(!then["hand_m"].is_null(), "{then}");
     // A refused input changes nothing, not even that.
     browser.send(json!({"type": "set_goal", "x_m": 9.0, "y_m": 9.0})).await;
@@ -387,7 +387,7 @@ async fn a_goal_given_up_does_not_stop_the_fetch() {
     browser.send(json!({"type": "release"})).await;
     browser.send(json!({"type": "step", "ticks": 600})).await;
     let fetched = browser.state("fetched", |m| m["mode"] == 2 && m["switches"] == 2).await;
-    assert!(fetched["phase"] == "transporting" && fetched["leg_steps"].as_u64() < Some(20), "{fetched}");
+    assert!(fetched["phase"] == "transporting" && fetched["leg_steps"].as_u64().unwrap() < 20, "{fetched}");
     lab.close().await;
 }
 

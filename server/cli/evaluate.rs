@@ -64,6 +64,7 @@ pub struct Arguments {
 
 pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let experiments = experiments(arguments)?;
+    check_distinct(&experiments)?;
     // Before anything runs: what cannot be written is said now.
     for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
         std::fs::write(path, "").with_context(|| path.display().to_string())?;
@@ -118,6 +119,20 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
         }
     }
     Ok(experiments)
+}
+
+/// Cells of one name would be taken for the same trials.
+fn check_distinct(experiments: &[Experiment]) -> anyhow::Result<()> {
+    for (index, one) in experiments.iter().enumerate() {
+        let Cell { controller, map, disturbances } = &one.cell;
+        let is_twice = experiments[..index].iter().any(|other| other.cell == one.cell);
+        anyhow::ensure!(
+            !is_twice,
+            "{} on {map} with {disturbances} disturbances is asked for twice; maps of one file name count as one",
+            controller.as_str()
+        );
+    }
+    Ok(())
 }
 
 /// Runs what is asked for, on all cores, behind a bar.

@@ -72,9 +72,10 @@ fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let scenario = &mut case.scenario;
     scenario.controller = arguments.controller.unwrap_or(scenario.controller);
     scenario.parameters = super::evaluate::parameters_with(&scenario.parameters, &arguments.set)?;
-    let arena = Arena::open(&scenario.map)?;
+    let scenario = case.scenario.clone();
+    let arena = case.arena()?;
     let mut camera = arena.camera(&super::open_gpu()?)?;
-    let (mut trace, mut tally) = (Trace::of(&arena.map, scenario), Tally::default());
+    let (mut trace, mut tally) = (Trace::of(&arena.map, &scenario), Tally::default());
     let outcome = case.run(&arena, &mut camera, &mut |record| {
         trace.add(record);
         tally.add(&record.moment);

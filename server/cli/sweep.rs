@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     println!("images     {} × {}, one a centimetre, {obstacles} of them over a wall", sweep.columns, sweep.rows);
     match taken {
         0 => println!("kept       in {}", arguments.out.display()),
-        _ => println!("taken      in {:.1} s, kept in {}", started.elapsed().as_secs_f64(), arguments.out.display()),
+        _ => println!("taken      in {:.1} s, for {}", started.elapsed().as_secs_f64(), arguments.out.display()),
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -9,7 +9,8 @@ use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_pr
 
 use super::{CellResult, EvaluateError, Evaluation, Stage, Venue, Watch, run, unrecorded};
 use crate::camera::{CameraError, Gpu};
-use crate::map::Map;
+use crate::faults;
+use crate::map::MapError;
 use crate::trial::Arena;
 
 /// Why there is nothing to run on.
@@ -54,7 +55,13 @@ impl Engine {
     /// All cores but one, and a device like `gpu`. To be called in a thread that gives way: a driver that draws on
     /// the processor does so in threads that it starts here, and they inherit that.
     pub(super) fn new(gpu: &Gpu) -> Result<Self, EngineError> {
-        Ok(Self { pool: gentle_pool("evaluate")?, gpu: gpu.another()? })
+        // A driver's panic ends one evaluation, not all that wait.
+        let another = catch_unwind(AssertUnwindSafe(|| gpu.another()));
+        let gpu = another.unwrap_or_else(|panic| {
+            let (adapter, reason) = (gpu.adapter_name().to_owned(), faults::words(&*panic));
+            Err(CameraError::DeviceRefused { adapter, reason })
+        })?;
+        Ok(Self { pool: gentle_pool("evaluate")?, gpu })
     }
 
     /// Runs an evaluation to its end, whatever that is.
@@ -65,7 +72,8 @@ impl Engine {
     fn run_cells(&self, evaluation: &Evaluation) -> Result<(), EvaluateError> {
         for (index, cell) in evaluation.cells.iter().enumerate() {
             let began = Instant::now();
-            let venue = Venue::of(Arena::of(Map::shipped(&cell.map)?));
+            let map = evaluation.map(cell).ok_or_else(|| MapError::Unknown { name: cell.map.clone() })?;
+            let venue = Venue::of(Arena::of(map.clone()));
             let experiment = evaluation.experiment(cell, &venue);
             let watch = Watch {
                 stop: evaluation.stop(),
@@ -86,11 +94,7 @@ fn ending(work: impl FnOnce() -> Result<(), EvaluateError>) -> Stage {
         Ok(Ok(())) => Stage::Done,
         Ok(Err(EvaluateError::Stopped)) => Stage::Cancelled,
         Ok(Err(error)) => Stage::Failed(error.to_string()),
-        Err(panic) => {
-            let text = panic.downcast_ref::<String>().map(String::as_str);
-            let text = text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("without a word");
-            Stage::Failed(format!("a trial panicked: {text}"))
-        }
+        Err(panic) => Stage::Failed(format!("a trial panicked: {}", faults::words(&*panic))),
     }
 }
 
@@ -99,6 +103,7 @@ mod tests {
     use super::*;
     use crate::camera::AdapterChoice;
     use crate::evaluate::{Cell, EvaluationQuery};
+    use crate::map::Map;
     use crate::scenario::ControllerName;
 
     fn engine() -> Engine {
@@ -114,7 +119,8 @@ mod tests {
             episodes: 2,
             seed: 1,
         };
-        Evaluation::new("a test".into(), query, vec![cell])
+        let maps = Map::shipped(map).into_iter().collect();
+        Evaluation::new("a test".into(), query, vec![cell], maps)
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::sync::{Arc, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Row, Venue};
+use crate::map::Map;
 use crate::scenario::Parameters;
 
 /// An evaluation. Whoever runs it writes, all others look.
@@ -17,6 +18,8 @@ pub struct Evaluation {
     pub query: EvaluationQuery,
     /// What that comes to, in the order in which it runs.
     pub cells: Vec<Cell>,
+    /// The maps that these name.
+    maps: Vec<Map>,
     /// Every tick of every trial looks at it.
     stop: AtomicBool,
     progress: Mutex<Progress>,
@@ -94,11 +97,16 @@ impl Progress {
 }
 
 impl Evaluation {
-    /// One that waits; `cells` are the query's.
-    pub(super) fn new(id: String, query: EvaluationQuery, cells: Vec<Cell>) -> Arc<Self> {
+    /// One that waits; `cells` and `maps` are the query's.
+    pub(super) fn new(id: String, query: EvaluationQuery, cells: Vec<Cell>, maps: Vec<Map>) -> Arc<Self> {
         let progress =
             Progress { stage: Stage::Waiting, cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
-        Arc::new(Self { id, query, cells, stop: AtomicBool::new(false), progress: Mutex::new(progress) })
+        Arc::new(Self { id, query, cells, maps, stop: AtomicBool::new(false), progress: Mutex::new(progress) })
+    }
+
+    /// Where a cell's trials take place.
+    pub(super) fn map(&self, cell: &Cell) -> Option<&Map> {
+        self.maps.iter().find(|map| map.name() == cell.map)
     }
 
     /// How far it is.

@@ -126,6 +126,9 @@ pub enum EvaluateError {
         /// How many there are.
         episodes: u32,
     },
+    /// A recording is not whole.
+    #[error("recording: {0}")]
+    NotRecorded(String),
     /// A trial could not be made or go on.
     #[error(transparent)]
     Trial(#[from] TrialError),
@@ -229,9 +232,7 @@ pub fn episode(
 pub fn run(experiments: &[Experiment], gpu: &Arc<Gpu>, watch: &Watch<'_>) -> Result<Vec<Vec<Episode>>, EvaluateError> {
     let mut wanted = Vec::new();
     for (number, experiment) in experiments.iter().enumerate() {
-        if !(1..=100_000).contains(&experiment.episodes) {
-            return Err(EvaluateError::Episodes(experiment.episodes));
-        }
+        check_episodes(experiment)?;
         wanted.extend((0..experiment.episodes).map(|index| (number, index)));
     }
     let done = wanted.into_par_iter().map(|(number, index)| {
@@ -246,6 +247,13 @@ pub fn run(experiments: &[Experiment], gpu: &Arc<Gpu>, watch: &Watch<'_>) -> Res
     Ok(of_each)
 }
 
+fn check_episodes(experiment: &Experiment) -> Result<(), EvaluateError> {
+    match experiment.episodes {
+        1..=100_000 => Ok(()),
+        other => Err(EvaluateError::Episodes(other)),
+    }
+}
+
 /// Runs one trial of an experiment, with a camera of its venue.
 pub fn run_one(
     experiment: &Experiment,
@@ -253,6 +261,7 @@ pub fn run_one(
     gpu: &Arc<Gpu>,
     watch: &Watch<'_>,
 ) -> Result<Episode, EvaluateError> {
+    check_episodes(experiment)?;
     if index >= experiment.episodes {
         return Err(EvaluateError::Episode { index, episodes: experiment.episodes });
     }
@@ -272,5 +281,6 @@ pub fn run_one(
         if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     venue.keep(camera);
+    sink.finish().map_err(EvaluateError::NotRecorded)?;
     Ok(Episode { index, trace, ..ran })
 }

@@ -5,7 +5,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
-use crate::map::{Map, MapError};
+use crate::map::{Library, Map, MapError};
 use crate::scenario::ControllerName;
 
 /// Cells of one evaluation.
@@ -23,7 +23,7 @@ pub struct EvaluationQuery {
     /// Sub-controllers 2.
     #[schema(value_type = std::collections::BTreeSet<ControllerName>, min_items = 1)]
     pub controllers: Vec<ControllerName>,
-    /// Names of shipped maps.
+    /// Names of maps, shipped or added.
     #[schema(value_type = std::collections::BTreeSet<String>, min_items = 1, example = json!(["posts"]))]
     pub maps: Vec<String>,
     /// Scripted disturbances a trial, 0 to 10.
@@ -126,10 +126,6 @@ impl EvaluationQuery {
         if cells > CELL_LIMIT {
             return Err(QueryError::TooManyCells { cells });
         }
-        for (index, name) in self.maps.iter().enumerate() {
-            // A name only: no client path touches the file system.
-            Map::shipped(name).map_err(|error| QueryError::Map { index, error })?;
-        }
         for (index, &value) in self.disturbances.iter().enumerate() {
             if !DISTURBANCES.contains(&value) {
                 return Err(QueryError::Range {
@@ -153,6 +149,17 @@ impl EvaluationQuery {
             }
         }
         Ok(made)
+    }
+
+    /// Its maps, as they are now: one that is taken out later stays with who asked before.
+    ///
+    /// # Errors
+    /// [`QueryError::Map`].
+    pub fn maps(&self, library: &Library) -> Result<Vec<Map>, QueryError> {
+        // Names only: no client path touches the file system.
+        let find =
+            |(index, name): (usize, &String)| library.find(name).map_err(|error| QueryError::Map { index, error });
+        self.maps.iter().enumerate().map(find).collect()
     }
 }
 
@@ -220,7 +227,7 @@ mod tests {
             (EvaluationQuery { episodes: 1001, ..query() }, "episodes", &["1001"]),
             (EvaluationQuery { maps: all, disturbances: vec![0, 1], ..query() }, "maps", &["28 cells", "24"]),
         ] {
-            let error = bad.cells().unwrap_err();
+            let error = bad.cells().and_then(|_| bad.maps(&Library::default())).unwrap_err();
             assert_eq!(error.field(), field, "{error}");
             assert!(parts.iter().all(|part| error.to_string().contains(part)), "{error}");
         }

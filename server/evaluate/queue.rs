@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use super::engine::{Engine, give_way};
 use super::{Evaluation, EvaluationQuery, QueryError, Stage};
 use crate::camera::Gpu;
+use crate::map::Library;
 
 /// Evaluations that may wait while one runs.
 const WAITING_LIMIT: usize = 4;
@@ -80,6 +81,7 @@ impl Shared {
             };
             tracing::info!(id = evaluation.id, ?stage, "evaluation ends");
             evaluation.end(stage);
+            self.lock().prune();
         }
     }
 }
@@ -108,10 +110,11 @@ impl Queue {
         Ok(Self { shared, thread: Mutex::new(Some(thread)) })
     }
 
-    /// Takes an evaluation in.
-    pub fn submit(&self, query: EvaluationQuery) -> Result<Arc<Evaluation>, SubmitError> {
-        // Reads the maps that it names, so nobody has to wait for it.
+    /// Takes an evaluation in, on maps of a library.
+    pub fn submit(&self, query: EvaluationQuery, library: &Library) -> Result<Arc<Evaluation>, SubmitError> {
         let cells = query.cells()?;
+        // Reads them, so nobody has to wait for it.
+        let maps = query.maps(library)?;
         let mut line = self.shared.lock();
         if line.closing {
             return Err(SubmitError::Closing);
@@ -122,7 +125,7 @@ impl Queue {
         }
         line.made += 1;
         line.prune();
-        let evaluation = Evaluation::new(format!("evaluation-{}", line.made), query, cells);
+        let evaluation = Evaluation::new(format!("evaluation-{}", line.made), query, cells, maps);
         line.evaluations.push_back(evaluation.clone());
         self.shared.news.notify_one();
         Ok(evaluation)

@@ -18,6 +18,7 @@ use crate::control::limits::LEAST_MANIPULABILITY_M3;
 use crate::geometry::schema::{Numbers3, Numbers6, Rows3};
 use crate::geometry::{Isometry3, Matrix3, Vector3};
 use crate::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
+use crate::magnetics::plane::{self, Plane, PlaneQuery};
 use crate::magnetics::{cuboid::Cuboid, force};
 use crate::plant::manipulability_map;
 use crate::protocol::{WorkspaceMap, WorkspaceQuery};
@@ -162,6 +163,15 @@ pub async fn pull(State(server): State<Arc<Server>>, WholeBody(body): WholeBody)
     let query: PullQuery = parse(&body)?;
     let curve = server.work(move |_| curves::pull(&query)).await?;
     curve.map(Json).map_err(|error| no_curve(&error))
+}
+
+/// The field and the pull on the bead over the table around the block.
+#[utoipa::path(post, path = "/api/magnetics/plane", tag = "calculator", request_body = PlaneQuery,
+    responses((status = 200, body = Plane), OutOfRange, Unavailable))]
+pub async fn plane(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<Plane>, Problem> {
+    let query: PlaneQuery = parse(&body)?;
+    let plane = server.work(move |_| plane::plane(&query)).await?;
+    plane.map(Json).map_err(|error| no_curve(&error))
 }
 
 /// How far and how fast the block drags the bead, over its height.

@@ -32,7 +32,7 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: EvaluationQuery = parse(&body)?;
     // Reading the maps that it names blocks.
-    let evaluation = server.work(move |server| server.evaluations.submit(query)).await??;
+    let evaluation = server.work(move |server| server.evaluations.submit(query, &server.maps.all)).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())

@@ -18,7 +18,7 @@ use crate::protocol::{
     ServerMessage, StateMessage,
 };
 use crate::scenario::ControllerName;
-use crate::session::{CommandError, Session, View};
+use crate::session::{CommandError, Recalled, Session, View};
 
 /// Camera frames go out at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
@@ -145,7 +145,7 @@ impl Hub {
 
     /// Starts a comparison, which tells of itself.
     pub async fn fork(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
-        let past = self.session.recall(tick).await?;
+        let past = self.session.recall(tick, Recalled::Present).await?;
         if !past.has_goal() {
             return Err(CommandError::NoGoal { tick });
         }

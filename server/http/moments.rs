@@ -14,12 +14,12 @@ use super::problem::Problem;
 use super::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::image::EncodeError;
 use crate::protocol::MomentMessage;
-use crate::session::{CommandError, Past};
+use crate::session::{CommandError, Past, Recalled};
 use crate::trial::{Case, Moment, TickRecord, TrialError};
 
 /// The moment, lived through again beside the session.
 async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(Past, Moment, TickRecord), Problem> {
-    let past = find(server, id)?.session.recall(tick).await.map_err(|error| problem(&error))?;
+    let past = find(server, id)?.session.recall(tick, Recalled::Step).await.map_err(|error| problem(&error))?;
     let relived = server.work(move |server| {
         let mut camera = past.camera(&server.gpu)?;
         let (before, record) = past.relive(&mut camera)?;

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use candle_core::Tensor;
 
 use super::learner::{features_of, features_of_all};
-use super::sweep::{STEP_M, Sweep, SweepError, cells, center};
+use super::sweep::{STEP_M, Sweep, cells, center};
 use super::terrain::places;
-use crate::camera::Gpu;
+use crate::camera::{CameraError, Gpu};
 use crate::geometry::{Point2, Rect};
 use crate::policy::{Fusion, Judgement, Policy, PolicyError};
 use crate::trial::Arena;
@@ -40,7 +40,7 @@ enum Seen {
 pub enum AtlasError {
     /// No images.
     #[error(transparent)]
-    Sweep(#[from] SweepError),
+    Camera(#[from] CameraError),
     /// Nowhere to be.
     #[error("map: {map:?} has no place that keeps {clearance_m} m from the walls, as the policy does")]
     NoRoom {

@@ -30,22 +30,6 @@ const KEPT: usize = 32;
 /// A sweep has no bead: it lies where no camera sees it.
 const OUT_OF_SIGHT_M: f64 = 100.0;
 
-/// Why there is no sweep.
-#[derive(Debug, thiserror::Error)]
-pub enum SweepError {
-    /// An image could not be taken.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    /// The cache could not be read or written.
-    #[error("sweep: {path}: {error}")]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        error: std::io::Error,
-    },
-}
-
 /// One image for each cell of the workspace, taken over its centre.
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
@@ -78,13 +62,13 @@ impl Sweep {
     /// Takes all images on all cores, one every `spacing_m`; `progress` is called after each.
     ///
     /// # Errors
-    /// [`SweepError::Camera`].
+    /// [`CameraError`].
     pub fn take(
         arena: &Arena,
         gpu: &Arc<Gpu>,
         spacing_m: f64,
         progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, SweepError> {
+    ) -> Result<Self, CameraError> {
         let (columns, rows) = cells(arena, spacing_m);
         let views = (0..rows)
             .into_par_iter()
@@ -125,24 +109,28 @@ impl Sweep {
     }
 
     /// The sweep kept in `folder`, or a new one, which is then kept. What is kept is found by a hash of all
-    /// that makes the images; a file that is torn or of another version is made anew.
+    /// that makes the images; a file that is torn or of another version is made anew. What cannot be kept is seen anew
+    /// the next time.
     ///
     /// # Errors
-    /// [`SweepError`].
+    /// [`CameraError`].
     pub fn open(
         arena: &Arena,
         gpu: &Arc<Gpu>,
         folder: &Path,
         spacing_m: f64,
         progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, SweepError> {
+    ) -> Result<Self, CameraError> {
         let path = folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m)));
         if let Some(kept) = read(&path, cells(arena, spacing_m)) {
             return Ok(kept);
         }
         let sweep = Self::take(arena, gpu, spacing_m, progress)?;
         prune(folder);
-        sweep.write(folder, &path).map_err(|error| SweepError::Io { path, error })?;
+        // What was seen is as good without being kept.
+        if let Err(error) = sweep.write(folder, &path) {
+            tracing::warn!(%error, path = %path.display(), "sweep not kept");
+        }
         Ok(sweep)
     }
 

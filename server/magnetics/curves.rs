@@ -38,11 +38,13 @@ pub enum CurveError {
         /// Greatest value allowed.
         most: f64,
     },
-    /// Too few points for a curve or too many.
-    #[error("count must be from 2 to {POINTS_LIMIT}, not {value}")]
+    /// Too few points or too many.
+    #[error("count must be from 2 to {most}, not {value}")]
     Count {
         /// The offending value.
         value: u32,
+        /// Greatest value allowed.
+        most: u32,
     },
 }
 
@@ -265,14 +267,14 @@ impl View {
 }
 
 /// NaN is in no range.
-fn in_range(field: &'static str, value: f64, (least, most): (f64, f64)) -> Result<(), CurveError> {
+pub(super) fn in_range(field: &'static str, value: f64, (least, most): (f64, f64)) -> Result<(), CurveError> {
     if (least..=most).contains(&value) { Ok(()) } else { Err(CurveError::Range { field, value, least, most }) }
 }
 
 /// `count` numbers from `first` to `last`.
 fn evenly(first: f64, last: f64, count: u32) -> Result<Vec<f64>, CurveError> {
     if !(2..=POINTS_LIMIT).contains(&count) {
-        return Err(CurveError::Count { value: count });
+        return Err(CurveError::Count { value: count, most: POINTS_LIMIT });
     }
     let step = (last - first) / f64::from(count - 1);
     Ok((0..count).map(|k| first + step * f64::from(k)).collect())

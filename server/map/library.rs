@@ -13,7 +13,14 @@ const ADDED: &str = "map-";
 /// Maps by name. Shared by all sessions and by whoever adds maps; a session that has loaded a map keeps it.
 #[derive(Debug, Default)]
 pub struct Library {
-    added: RwLock<BTreeMap<u32, Map>>,
+    added: RwLock<Added>,
+}
+
+#[derive(Debug, Default)]
+struct Added {
+    maps: BTreeMap<u32, Map>,
+    /// The greatest number given up to now: a name that was a map's never becomes another's.
+    last: u32,
 }
 
 impl Library {
@@ -23,7 +30,7 @@ impl Library {
     /// When there is none.
     pub fn find(&self, name: &str) -> Result<Map, MapError> {
         let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
-        match number(name).and_then(|number| added.get(&number)) {
+        match number(name).and_then(|number| added.maps.get(&number)) {
             Some(map) => Ok(map.clone()),
             None => Map::shipped(name),
         }
@@ -32,7 +39,7 @@ impl Library {
     /// All names: the shipped ones, sorted, then the added ones, the oldest first.
     pub fn names(&self) -> Vec<String> {
         let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
-        Map::shipped_names().into_iter().chain(added.values().map(|map| map.name().to_owned())).collect()
+        Map::shipped_names().into_iter().chain(added.maps.values().map(|map| map.name().to_owned())).collect()
     }
 
     /// Adds a drawing under a name of its own.
@@ -43,12 +50,11 @@ impl Library {
         // Read before anyone has to wait for it; the name comes last.
         let mut map = Map::from_svg("", svg)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
-        if added.len() >= ADDED_MAPS {
-            return Err(MapError::TooMany { most: ADDED_MAPS });
-        }
-        let number = added.last_key_value().map_or(1, |(last, _)| last + 1);
+        let number = added.last.checked_add(1).filter(|_| added.maps.len() < ADDED_MAPS);
+        let number = number.ok_or(MapError::TooMany { most: ADDED_MAPS })?;
         map.name = format!("{ADDED}{number}");
-        added.insert(number, map.clone());
+        added.maps.insert(number, map.clone());
+        added.last = number;
         Ok(map)
     }
 
@@ -60,18 +66,24 @@ impl Library {
         let number = number(name).ok_or_else(|| MapError::Unknown { name: name.to_owned() })?;
         let map = Map::from_svg(name, svg)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
-        if added.len() >= ADDED_MAPS {
+        if added.maps.len() >= ADDED_MAPS {
             return Err(MapError::TooMany { most: ADDED_MAPS });
         }
-        added.insert(number, map);
+        added.maps.insert(number, map);
+        added.last = added.last.max(number);
         Ok(())
     }
 
     /// Takes an added map out, if it is there; sessions that have loaded it keep it.
     pub fn remove(&self, name: &str) -> Option<Map> {
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
-        number(name).and_then(|number| added.remove(&number))
+        number(name).and_then(|number| added.maps.remove(&number))
     }
+}
+
+/// Whether a name is one that an added map has or had.
+pub fn is_added(name: &str) -> bool {
+    number(name).is_some()
 }
 
 /// The number of an added map, written as we write it.
@@ -100,6 +112,8 @@ mod tests {
             assert!(matches!(library.find(name), Err(MapError::Unknown { .. })), "{name}");
         }
         assert!(library.restore("../x", &drawing).is_err());
+        assert!(library.remove("map-8").is_some());
+        assert_eq!(library.add(&drawing).unwrap().name(), "map-9", "a link to map-8 leads to no other map");
     }
 
     #[test]

@@ -24,7 +24,7 @@ use rayon::prelude::*;
 /// Instead of the switching law's reason, which no longer matters.
 const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
 /// Edges of a tree that are shown at most; more could not be told apart.
-const MOST_EDGES: usize = 4000;
+pub const MOST_EDGES: usize = 4000;
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;
 
@@ -86,6 +86,7 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::Trial(_) => ("trial_failed", None),
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
+            CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),
             CommandError::Forgotten => ("forgotten", None),
             CommandError::Busy => ("busy", None),
             CommandError::Unanswered => ("unanswered", None),

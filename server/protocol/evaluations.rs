@@ -64,7 +64,7 @@ pub struct EvaluationFailure {
     pub cell: u32,
     /// Which trial of the evaluation's seed.
     pub index: u32,
-    /// Seed of the trial itself, as text: a number of JavaScript does not hold it.
+    /// Seed of the trial itself, as text.
     pub seed: String,
     /// Bead and tool at the start.
     #[schema(value_type = Option<Numbers2>)]

@@ -2,17 +2,48 @@
 
 use ts_rs::{Config, TS};
 
+use super::convert::MOST_EDGES;
 use super::*;
+use crate::control::CONTROL_PERIOD_S;
 use crate::evaluate::{Cell, Comparison, EvaluationQuery, PairedMean, PaperRow, Row};
 use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
+use crate::magnetics::plane::{Plane, PlaneQuery};
+use crate::map::MAX_SVG_BYTES;
+use crate::perception::OBSTACLE_MEAN;
 use crate::plant::{BeadMotion, BlockOrientation, ToolOrientation};
-use crate::scenario::{AttractorLaw, RlPolicy, SwitchingLaw, When};
+use crate::scenario::{
+    AttractorLaw, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, RlPolicy, SCRIPT_LIMIT, SwitchingLaw, When,
+};
+use crate::session::SPEED_MAX;
+use crate::trial::GOAL_RADIUS_M;
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/protocol.gen.ts");
 
 fn declaration<T: TS>(config: &Config) -> String {
     let docs = T::docs().unwrap_or_default();
     format!("{docs}export {}\n", T::decl(config))
+}
+
+/// What the page says of the server's limits and periods.
+fn constants() -> String {
+    [
+        constant("CONTROL_PERIOD_S", CONTROL_PERIOD_S, "A control step is due at the first tick at or after each."),
+        constant("SPEED_MAX", SPEED_MAX, "Fastest that time runs."),
+        constant("GOAL_RADIUS_M", GOAL_RADIUS_M, "A goal is reached within it."),
+        constant("OBSTACLE_MEAN", OBSTACLE_MEAN, "Darker places are obstacles."),
+        constant("SCRIPT_LIMIT", SCRIPT_LIMIT, "Entries of a script."),
+        constant("MOST_STEPS", MOST_STEPS, "Last control step that a script may wait for."),
+        constant("MOST_IMPULSE_N_S", MOST_IMPULSE_N_S, "Strongest kick."),
+        constant("MOST_DRIFT_N", MOST_DRIFT_N, "Strongest push."),
+        constant("MOST_SECONDS", MOST_SECONDS, "Longest push, and longest blindness of the tracker."),
+        constant("MOST_EDGES", MOST_EDGES, "Edges of a tree that are sent."),
+        constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
+    ]
+    .concat()
+}
+
+fn constant(name: &str, value: impl std::fmt::Display, about: &str) -> String {
+    format!("/** {about} */\nexport const {name} = {value};\n\n")
 }
 
 fn generated() -> String {
@@ -23,6 +54,7 @@ fn generated() -> String {
         format!("export const PROTOCOL_VERSION = {PROTOCOL_VERSION};"),
         format!("export const BINARY_CAMERA_JPEG = {BINARY_CAMERA_JPEG};"),
         format!("export const BINARY_OBSERVATION = {BINARY_OBSERVATION};\n"),
+        constants(),
         declaration::<Polygon>(c),
         declaration::<Rect>(c),
         declaration::<ControllerName>(c),
@@ -59,6 +91,8 @@ fn generated() -> String {
         declaration::<PullCurve>(c),
         declaration::<ReachQuery>(c),
         declaration::<ReachCurve>(c),
+        declaration::<PlaneQuery>(c),
+        declaration::<Plane>(c),
         declaration::<WorkspaceQuery>(c),
         declaration::<WorkspaceMap>(c),
         declaration::<JudgementLayer>(c),

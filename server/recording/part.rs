@@ -41,49 +41,54 @@ impl Naming {
     }
 
     /// The next part's name.
-    fn claim(&self) -> Result<String, RecordingError> {
+    fn claim(&self) -> Result<Claim, RecordingError> {
         match self {
-            Self::Archive { archive, session } => archive.claim(session),
+            Self::Archive { archive, session } => {
+                Ok(Claim { id: archive.claim(session)?, archive: Some(archive.clone()) })
+            }
             Self::Alone { folder, name } => {
                 std::fs::create_dir_all(folder).map_err(|error| RecordingError::Io { path: folder.clone(), error })?;
-                Ok(name.clone())
+                Ok(Claim { id: name.clone(), archive: None })
             }
         }
     }
+}
 
-    fn release(&self, id: &str) {
-        if let Self::Archive { archive, .. } = self {
-            archive.release(id);
+/// The name of a part that is being written; whatever becomes of that, it is given back.
+struct Claim {
+    id: String,
+    archive: Option<Arc<Archive>>,
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        if let Some(archive) = &self.archive {
+            archive.release(&self.id);
         }
     }
 }
 
 /// Two open files.
 struct Part {
-    id: String,
     writer: Writer,
     log: LogWriter<File>,
     since: Instant,
     /// Whether it was said that it is over.
     said_over: bool,
+    /// Given back when the files are closed.
+    claim: Claim,
 }
 
 impl Part {
     fn create(naming: &Naming, recording: Option<&str>, options: &Options) -> Result<Self, RecordingError> {
         check_room(naming.folder(), options)?;
-        let id = naming.claim()?;
-        let made = Self::open(naming.folder(), &id, recording.unwrap_or(&id), options);
-        if made.is_err() {
-            naming.release(&id);
-        }
-        made
-    }
-
-    fn open(folder: &Path, id: &str, recording: &str, options: &Options) -> Result<Self, RecordingError> {
+        let (folder, claim) = (naming.folder(), naming.claim()?);
+        let id = &claim.id;
         let path = folder.join(format!("{id}.ferry"));
         let file = File::create(&path).map_err(|error| RecordingError::Io { path, error })?;
-        let writer = Writer::create(&folder.join(format!("{id}.rrd")), recording, id, options.image_every)?;
-        Ok(Self { id: id.to_owned(), writer, log: LogWriter::new(file)?, since: Instant::now(), said_over: false })
+        let path = folder.join(format!("{id}.rrd"));
+        let writer = Writer::create(&path, recording.unwrap_or(id), id, options.image_every)?;
+        Ok(Self { writer, log: LogWriter::new(file)?, since: Instant::now(), said_over: false, claim })
     }
 }
 
@@ -106,7 +111,7 @@ impl Keeper {
         let part = Part::create(&naming, None, &options)?;
         let now = Instant::now();
         Ok(Self {
-            recording: part.id.clone(),
+            recording: part.claim.id.clone(),
             naming,
             options,
             part,
@@ -156,9 +161,7 @@ impl Keeper {
             self.flush()?;
             let next = Part::create(&self.naming, Some(&self.recording), &self.options)?;
             let over = std::mem::replace(&mut self.part, next);
-            let closed = over.writer.close();
-            self.naming.release(&over.id);
-            closed?;
+            over.writer.close()?;
         }
         self.part.writer.begin(&opening, &mut self.course)?;
         self.push(Entry::Begin(Box::new(opening.logged)));
@@ -188,9 +191,7 @@ impl Keeper {
 
     pub(super) fn close(mut self) -> Result<(), RecordingError> {
         let flushed = self.flush();
-        let closed = self.part.writer.close();
-        self.naming.release(&self.part.id);
-        flushed.and(closed)
+        flushed.and(self.part.writer.close())
     }
 }
 

@@ -7,13 +7,13 @@ use utoipa::ToSchema;
 /// Most disturbances of one script.
 pub const SCRIPT_LIMIT: usize = 64;
 /// Control steps of a goal at which a script may strike: the limit that a goal has.
-const MOST_STEPS: u32 = 600;
+pub const MOST_STEPS: u32 = 600;
 /// Largest kick: it sends the resting bead off at about 4 m/s.
-const MOST_IMPULSE_N_S: f64 = 2e-3;
+pub const MOST_IMPULSE_N_S: f64 = 2e-3;
 /// Largest push: about twice the bead's weight.
-const MOST_DRIFT_N: f64 = 0.01;
+pub const MOST_DRIFT_N: f64 = 0.01;
 /// Longest drift or dropout.
-const MOST_SECONDS: f64 = 60.0;
+pub const MOST_SECONDS: f64 = 60.0;
 
 /// One disturbance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]

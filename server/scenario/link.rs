@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{Parameters, Scenario};
 use crate::geometry::Point2;
-use crate::map::Map;
+use crate::map::{Map, is_added};
 
 /// Raised with that of the page.
 const VERSION: u32 = 1;
@@ -12,7 +12,8 @@ const VERSION: u32 = 1;
 impl Scenario {
     /// The link, `#` included; `None` where the page has no such map, or for a script, which the page writes itself.
     pub fn link(&self) -> Option<String> {
-        if !self.script.is_empty() || !Map::shipped_names().contains(&self.map) {
+        let is_known = Map::shipped_names().contains(&self.map) || is_added(&self.map);
+        if !self.script.is_empty() || !is_known {
             return None;
         }
         let mut link = format!("#v={VERSION}&map={}&controller={}", self.map, self.controller.as_str());

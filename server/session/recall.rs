@@ -1,8 +1,9 @@
 //! What the session's thread tells of moments gone by.
 
 use super::worker::Worker;
-use super::{CommandError, Past};
+use super::{CommandError, Past, Recalled};
 use crate::camera::Eye;
+use crate::control::step_is_due;
 use crate::trial::{Case, Timed, TrialState};
 
 impl<E: Eye> Worker<E> {
@@ -13,12 +14,17 @@ impl<E: Eye> Worker<E> {
         let waiting = self.trial.waiting_inputs().iter().map(|input| (tick, input.clone()));
         let inputs = told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting);
         let inputs = inputs.map(|(tick, input)| Timed { tick, input }).collect();
-        Case::of(&self.trial, inputs).ok_or(CommandError::NoGoal { tick })
+        Case::of(&self.trial, inputs).ok_or(CommandError::NothingCarried { tick })
     }
 
-    pub(super) fn recall(&self, tick: u64) -> Result<Past, CommandError> {
-        let state =
-            if tick == self.trial.state().world.tick { self.trial.snapshot() } else { self.moment(tick)?.clone() };
+    pub(super) fn recall(&self, tick: u64, which: Recalled) -> Result<Past, CommandError> {
+        let is_present = tick == self.trial.state().world.tick;
+        let state = match which {
+            Recalled::Present if is_present => self.trial.snapshot(),
+            // It starts now, with all that it was told while time stands.
+            Recalled::Step if is_present && step_is_due(tick) => self.trial.snapshot(),
+            _ => self.moment(tick)?.clone(),
+        };
         let inputs = self.timeline.inputs_after(state.world.tick);
         Ok(Past::new(&self.trial, state, inputs))
     }

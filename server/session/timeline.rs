@@ -6,6 +6,8 @@ use crate::trial::{Input, TrialState};
 
 /// Four snapshots a second for ten minutes, a few kilobytes each.
 const MOST: usize = 2400;
+/// More inputs than a hand gives in ten minutes, sixty times a second; a few hundred bytes each.
+const MOST_INPUTS: usize = 50_000;
 
 /// Snapshots in order of tick.
 #[derive(Debug, Default)]
@@ -22,19 +24,27 @@ impl Timeline {
         if self.moments.back().is_some_and(|last| last.world.tick == state.world.tick) {
             self.moments.pop_back();
         }
-        if self.moments.len() == MOST {
-            self.moments.pop_front();
-        }
         self.moments.push_back(state);
-        let oldest = self.moments.front().map_or(0, |state| state.world.tick);
-        while self.inputs.front().is_some_and(|&(tick, _)| tick < oldest) {
-            self.inputs.pop_front();
+        if self.moments.len() > MOST {
+            self.drop_oldest();
         }
     }
 
     /// Notes inputs that came before a tick.
     pub fn note(&mut self, tick: u64, inputs: &[Input]) {
         self.inputs.extend(inputs.iter().map(|input| (tick, input.clone())));
+        while self.inputs.len() > MOST_INPUTS && self.moments.len() > 1 {
+            self.drop_oldest();
+        }
+    }
+
+    /// A moment, and the inputs that only it needs.
+    fn drop_oldest(&mut self) {
+        self.moments.pop_front();
+        let oldest = self.moments.front().map_or(0, |state| state.world.tick);
+        while self.inputs.front().is_some_and(|&(tick, _)| tick < oldest) {
+            self.inputs.pop_front();
+        }
     }
 
     /// Inputs that a state of this tick does not hold yet.

@@ -13,6 +13,7 @@ use super::timeline::Timeline;
 use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, Eye};
 use crate::control::step_is_due;
+use crate::faults;
 use crate::geometry::Point2;
 use crate::map::Library;
 use crate::scenario::Scenario;
@@ -106,10 +107,7 @@ impl<E: Eye> Worker<E> {
         let reason = match outcome {
             Ok(Ok(())) => return,
             Ok(Err(error)) => error.to_string(),
-            Err(panic) => {
-                let text = panic.downcast_ref::<String>().map(String::as_str);
-                text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("it panicked").to_owned()
-            }
+            Err(panic) => faults::words(&*panic),
         };
         tracing::error!(reason, "session ended");
         let mut last = View::clone(&publish.borrow());
@@ -157,18 +155,22 @@ impl<E: Eye> Worker<E> {
         match request {
             Request::Obey { command, answer } => {
                 let result = self.obey(command);
+                if let Some(fault) = self.broken.take() {
+                    let _ = answer.send(Err(CommandError::Ended));
+                    return Err(fault);
+                }
                 self.announce();
                 publish.send_replace(Arc::new(self.view()));
                 let _ = answer.send(result);
             }
-            Request::Recall { tick, answer } => {
-                let _ = answer.send(self.recall(tick));
+            Request::Recall { tick, moment, answer } => {
+                let _ = answer.send(self.recall(tick, moment));
             }
             Request::Case { answer } => {
                 let _ = answer.send(self.case());
             }
         }
-        self.broken.take().map_or(Ok(()), Err)
+        Ok(())
     }
 
     pub(super) fn obey(&mut self, command: Command) -> Result<(), CommandError> {
@@ -266,7 +268,7 @@ impl<E: Eye> Worker<E> {
         }
         let configures = done?;
         if before.is_some_and(|before| before != self.hashes()) {
-            self.timeline.forget_after(tick);
+            self.forget_after(tick);
         }
         if configures {
             self.scenery = Arc::new(self.next_scenery(0));
@@ -339,7 +341,9 @@ impl<E: Eye> Worker<E> {
 
     pub(super) fn tick(&mut self) -> Result<(), TrialError> {
         self.drop_past_hand()?;
-        if step_is_due(self.trial.state().world.tick) {
+        let tick = self.trial.state().world.tick;
+        if step_is_due(tick) {
+            self.forget_after(tick);
             self.timeline.keep(self.trial.snapshot());
         }
         let mut record = self.trial.tick(Source::Eye(&mut self.eye))?;
@@ -368,14 +372,24 @@ impl<E: Eye> Worker<E> {
         }
     }
 
-    /// To whoever listens, and into the journal in place of what came after it before a rewind.
-    fn tell(&mut self, event: Event) {
-        let journal = Arc::make_mut(&mut self.journal);
-        journal.retain(|told| told.tick <= event.tick);
-        if journal.len() == JOURNAL {
-            journal.remove(0);
+    /// What lay after a tick happens anew, or never.
+    fn forget_after(&mut self, tick: u64) {
+        self.timeline.forget_after(tick);
+        if self.journal.iter().any(|told| told.tick > tick) {
+            Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
         }
-        journal.push(event.clone());
+    }
+
+    /// To whoever listens, and into the journal.
+    fn tell(&mut self, event: Event) {
+        // Once only: a control step that was gone back to happens again at its own tick.
+        if !self.journal.contains(&event) {
+            let journal = Arc::make_mut(&mut self.journal);
+            if journal.len() == JOURNAL {
+                journal.remove(0);
+            }
+            journal.push(event.clone());
+        }
         let _ = self.events.send(event);
     }
 }

@@ -7,9 +7,10 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::{Arena, Counters, Input, InputError, Source, TickRecord, Trial, TrialError};
+use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
 use crate::camera::Eye;
 use crate::files::read_at_most;
+use crate::map::{Map, MapError};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Scenario, Shipped, ShippedError};
 
@@ -17,6 +18,8 @@ use crate::scenario::{Scenario, Shipped, ShippedError};
 const TIME_TO_DELIVER_S: f64 = 60.0;
 /// What is delivered already may come so much later: with another adapter images differ, and decisions with them.
 const SLACK_S: f64 = 10.0;
+/// Without an expectation it ends so long after the last input, should it never rest: without a goal nothing does.
+const REST_S: f64 = 600.0;
 /// A larger file is no case: an hour of dragging comes to a tenth of it.
 const BYTES_MOST: u64 = 64 << 20;
 /// A day of ticks: whoever waits for a later one waits for ever.
@@ -30,6 +33,9 @@ pub struct Case {
     pub about: String,
     /// How the trial is set up.
     pub scenario: Scenario,
+    /// Its map, where that does not come with Ferry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<LoggedMap>,
     /// What is done in it, in order of ticks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<Timed>,
@@ -83,7 +89,7 @@ impl Case {
     pub fn open(name_or_path: &str) -> Result<Self, ShippedError> {
         if !name_or_path.ends_with(".json") {
             let Shipped { about, scenario } = Shipped::open(name_or_path)?;
-            return Ok(Self { about, scenario, inputs: Vec::new(), expect: None });
+            return Ok(Self { about, scenario, map: None, inputs: Vec::new(), expect: None });
         }
         let unreadable = |reason: String| ShippedError::Unreadable { path: name_or_path.to_owned(), reason };
         let bytes = read_at_most(Path::new(name_or_path), BYTES_MOST).map_err(|error| unreadable(error.to_string()))?;
@@ -110,14 +116,24 @@ impl Case {
     /// to expect.
     pub fn of(trial: &Trial, inputs: Vec<Timed>) -> Option<Self> {
         let world = &trial.state().world;
-        let ticks = |time_s: f64| (time_s / SERVO_PERIOD_S) as u64;
         let under_way = world.goal_m.is_some() && world.counters.goal_steps > 0;
         let deliveries = world.counters.deliveries + u32::from(under_way);
         let time_s = if under_way { TIME_TO_DELIVER_S } else { SLACK_S };
         let scenario = trial.scenario().clone();
         let about = format!("{} on {}, with what a hand did.", scenario.controller.as_str(), scenario.map);
         let expect = Expectation { deliveries, by_tick: world.tick + ticks(time_s) };
-        (deliveries > 0).then_some(Self { about, scenario, inputs, expect: Some(expect) })
+        let own = &trial.arena().map;
+        let is_shipped = Map::shipped(own.name()).is_ok_and(|map| map.svg() == own.svg());
+        let map = (!is_shipped).then(|| LoggedMap::from(own));
+        (deliveries > 0).then_some(Self { about, scenario, map, inputs, expect: Some(expect) })
+    }
+
+    /// Where it takes place.
+    ///
+    /// # Errors
+    /// When its map is none, or not to be had.
+    pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
+        self.map.as_ref().map_or_else(|| Arena::open(&self.scenario.map), LoggedMap::arena)
     }
 
     /// Runs it in an arena made of its map, until what is expected has come, or its time is over; without an
@@ -129,6 +145,7 @@ impl Case {
         watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
     ) -> Result<CaseOutcome, TrialError> {
         let mut trial = Trial::new(self.scenario.clone(), arena.clone())?;
+        let last_tick = self.inputs.last().map_or(0, |last| last.tick);
         let mut inputs = self.inputs.iter().peekable();
         let mut refused = Vec::new();
         loop {
@@ -146,7 +163,8 @@ impl Case {
                 Some(Expectation { deliveries, by_tick }) => {
                     moment.counters.deliveries >= deliveries || record.tick >= by_tick
                 }
-                None => rests,
+                // Without a goal it never rests.
+                None => rests || record.tick >= last_tick + ticks(REST_S),
             };
             if stopped || (over && inputs.peek().is_none()) {
                 let (phase, counters) = (moment.phase.to_string(), moment.counters);
@@ -154,6 +172,10 @@ impl Case {
             }
         }
     }
+}
+
+fn ticks(time_s: f64) -> u64 {
+    (time_s / SERVO_PERIOD_S) as u64
 }
 
 #[cfg(test)]
@@ -164,7 +186,7 @@ mod tests {
     fn a_case_that_would_never_end_is_refused() {
         let scenario = serde_json::to_string(&Scenario::idle("open", 1)).unwrap();
         let case = |rest: &str| Case::from_json(format!(r#"{{"about":"","scenario":{scenario}{rest}}}"#).as_bytes());
-        assert!(case("").is_ok());
+        assert!(case("").is_ok(), "without an expectation `run` ends it");
         assert!(case(r#","inputs":[{"tick":10800000,"input":"release"}]"#).is_ok());
         let error = case(r#","inputs":[{"tick":10800001,"input":"release"}]"#).unwrap_err();
         assert_eq!(error, "inputs: tick is 10800001, it must be at most 10800000, a day");

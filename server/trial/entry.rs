@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError};
@@ -26,6 +27,9 @@ pub struct LoggedBeginning {
     /// The map; left out where it is that of the beginning before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<LoggedMap>,
+    /// Hash of the file of a policy of one's own, used in place of the shipped ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub policy_hash: Option<u64>,
     /// Where it goes on; left out, it is at its start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<Box<TrialState>>,
@@ -37,13 +41,14 @@ impl LoggedBeginning {
         Self {
             scenario: trial.scenario().clone(),
             map: Some(LoggedMap::from(&trial.arena().map)),
+            policy_hash: trial.arena().policy.as_ref().map(|policy| policy.hash()),
             state: (how == Beginning::Resumed).then(|| Box::new(trial.snapshot())),
         }
     }
 }
 
 /// A map as it was drawn: those that ship with Ferry may change.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LoggedMap {
     /// Name, for people.
     pub name: String,

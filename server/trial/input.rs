@@ -157,8 +157,10 @@ fn check_finite(field: &'static str, point: Point2<f64>) -> Result<(), InputErro
 impl Trial {
     /// Applies one input between two ticks, or refuses it and changes nothing.
     pub fn apply(&mut self, input: Input) -> Result<(), InputError> {
-        // A hand may always let go.
-        if self.inputs.len() >= WAITING_MOST && !matches!(input, Input::Release) {
+        // A hand may always let go; while time stands it puts the bead down.
+        let holds = self.state.world.plant.hand.is_some();
+        let lets_go = holds && matches!(input, Input::Release | Input::Place { .. });
+        if self.inputs.len() >= WAITING_MOST && !lets_go {
             return Err(InputError::TooManyWait);
         }
         match &input {
@@ -292,13 +294,19 @@ mod tests {
     #[test]
     fn while_time_stands_so_many_inputs_wait_and_no_more() {
         let mut trial = Trial::new(Scenario::idle("open", 1), Arena::open("open").unwrap()).unwrap();
-        for _ in 0..WAITING_MOST {
+        trial.apply(Input::Drag { x_m: 0.0, y_m: -0.4, lift: false }).unwrap();
+        for _ in 1..WAITING_MOST {
             trial.apply(Input::ClearGoal).unwrap();
         }
         let before = trial.state().world_hash();
         let goal = Input::SetGoal { x_m: 0.1, y_m: -0.3 };
         assert_eq!(trial.apply(goal.clone()), Err(InputError::TooManyWait));
         assert_eq!(trial.state().world_hash(), before);
+        for last in [Input::Release, Input::Place { x_m: 0.0, y_m: -0.4 }] {
+            let mut held = trial.clone();
+            held.apply(last.clone()).unwrap();
+            assert_eq!(held.apply(last), Err(InputError::TooManyWait), "it holds nothing any more");
+        }
         trial.apply(Input::Release).unwrap();
         let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
         assert_eq!(trial.tick(Source::Eye(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);

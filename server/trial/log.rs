@@ -240,7 +240,12 @@ mod tests {
 
     fn beginning() -> Entry {
         let map = Some(LoggedMap::from(&Map::shipped("open").unwrap()));
-        Entry::Begin(Box::new(LoggedBeginning { scenario: Scenario::idle("open", 3), map, state: None }))
+        Entry::Begin(Box::new(LoggedBeginning {
+            scenario: Scenario::idle("open", 3),
+            map,
+            policy_hash: None,
+            state: None,
+        }))
     }
 
     fn written() -> (Vec<u8>, Vec<usize>, Vec<Entry>) {

@@ -40,6 +40,17 @@ pub enum ReplayError {
         /// What is wrong.
         error: TrialError,
     },
+    /// Its decisions cannot be made again.
+    #[error(
+        "trial {trial}: a policy of its own decided, with hash {policy_hash:016x}, and only shipped ones can decide again; \
+         without a camera the log's decisions are taken"
+    )]
+    Policy {
+        /// Which trial of the log, from 1.
+        trial: u32,
+        /// Hash of the policy's file.
+        policy_hash: u64,
+    },
     /// What was done then is refused now.
     #[error("trial {trial}, tick {tick}: an input of the log is refused: {error}")]
     Refused {
@@ -83,6 +94,9 @@ pub fn replay(
                     None => replayed.trials += 1,
                 }
                 let number = replayed.trials.max(1);
+                if let (Some(policy_hash), Some(_)) = (beginning.policy_hash, &eyes) {
+                    return Err(ReplayError::Policy { trial: number, policy_hash });
+                }
                 if let Some(map) = &beginning.map {
                     arena = Some(map.arena().map_err(|error| ReplayError::Map { trial: number, error })?);
                 }

@@ -23,6 +23,11 @@ pub trait Sink: Send {
     fn wants_beginning(&mut self) -> bool;
     /// `recording`, or why not.
     fn status(&self) -> String;
+    /// Nothing more comes: writes what waits and says why not all of it is kept, if so.
+    ///
+    /// # Errors
+    /// The reason.
+    fn finish(self: Box<Self>) -> Result<(), String>;
 }
 
 /// Keeps nothing.
@@ -44,5 +49,9 @@ impl Sink for Nowhere {
     fn status(&self) -> String {
         let colon = if self.reason.is_empty() { "" } else { ": " };
         format!("not recording{colon}{}", self.reason)
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), String> {
+        Ok(())
     }
 }

@@ -137,6 +137,7 @@ const LAYERS = Object.fromEntries(
   [
     'Trails',
     'Capture',
+    'Field and pull',
     'Ghosts',
     'Camera field',
     'Sensed',

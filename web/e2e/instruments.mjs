@@ -163,7 +163,16 @@ export async function disturbsByScript({ lab }) {
 
   // Now, by keyboard alone.
   await page.getByLabel('Time of the disturbance').selectOption('now');
-  await x.fill(String(away[0]));
+  // Key by key, with signs and points, as one types it.
+  for (const [field, value] of [
+    [x, away[0]],
+    [page.getByLabel('y of the new place in metres'), away[1]],
+  ]) {
+    await field.focus();
+    await page.keyboard.press('ControlOrMeta+a');
+    await page.keyboard.type(value.toFixed(3));
+    check((await field.inputValue()) === value.toFixed(3), `typed: ${await field.inputValue()}`);
+  }
   await x.press('Enter');
   await until('moved now', async () => distance(await lab.point('bead'), away) < 0.01);
   await lab.button('Disturb').click();

@@ -91,6 +91,14 @@ async function logsInByLink(browser, url, token) {
     await page.getByTestId('connection').waitFor();
     await until('live', () => isLive(page));
     check(page.url() === `${url}/s/anna`, `${round}, the address is ${page.url()}`);
+    // Followed in the very tab: only what stands after `#` changes.
+    const again = page.waitForEvent('load');
+    await page.evaluate((link) => {
+      document.location.href = link;
+    }, `${url}/s/anna#token=${token}`);
+    await again;
+    await until('live again', () => isLive(page));
+    check(page.url() === `${url}/s/anna`, `${round}, in the same tab, it is ${page.url()}`);
     await page.goto('about:blank');
   }
   const asked = told.concat(await historyOf(page)).filter((one) => one.includes(token));

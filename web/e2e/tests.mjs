@@ -165,8 +165,13 @@ async function obeysTheKeyboard({ lab }) {
 
   await keyboard.press(' ');
   await until('running', () => lab.state.running);
-  await keyboard.press('d');
+  // A key that is held takes once.
+  await keyboard.down('d');
   await until('the hand', () => lab.state.hand_m);
+  for (let i = 0; i < 3; i++) await keyboard.down('d');
+  await keyboard.up('d');
+  await lab.page.waitForTimeout(300);
+  check(lab.state.hand_m, 'the held key let go');
   await keyboard.press('Escape');
   await until('no hand', () => !lab.state.hand_m);
   await keyboard.press(' ');
@@ -178,6 +183,19 @@ async function bindsParametersBothWays({ lab }) {
   await threshold.fill('8');
   await threshold.press('Enter');
   await until('T = 8 cm', () => lab.scene.parameters.threshold_m === 0.08);
+  // A slider that goes back to where it was leaves nothing behind.
+  const slider = lab.page.getByRole('slider', { name: 'Threshold T slider' });
+  const box = await slider.boundingBox();
+  const { min, max } = await slider.evaluate(({ min, max }) => ({ min, max }));
+  const at = box.x + 8 + ((8 - min) / (max - min)) * (box.width - 16);
+  const y = box.y + box.height / 2;
+  await lab.page.mouse.move(at, y);
+  await lab.page.mouse.down();
+  await lab.page.mouse.move(at + 40, y, { steps: 4 });
+  await until('it moves', async () => (await threshold.inputValue()) !== '8.0');
+  await lab.page.mouse.move(at, y, { steps: 4 });
+  await lab.page.mouse.up();
+  await until('it is back', async () => (await threshold.inputValue()) === '8.0');
   await lab.button('Restore defaults').click();
   await until(
     'defaults',
@@ -240,6 +258,36 @@ async function showsSingularities({ lab }) {
   await lab.screenshot('singularity');
   await lab.layer('Singularity', false);
   await until('the bare floor', async () => (await look()) === bare);
+}
+
+async function showsTheField({ lab }) {
+  await lab.reset();
+  // Between the arrows, some centimetres beside the tool.
+  const [x, y] = await lab.point('bead');
+  const look = () => lab.look([x + 0.04, y - 0.005]);
+  const bare = await look();
+  await lab.layer('Field and pull');
+  await until('the layer', async () => (await look()) !== bare);
+  // The dipole of the block at 10 cm; specification §2 has its pull.
+  const field_mt = await lab.number('field-greatest');
+  check(field_mt > 1.5 && field_mt < 4, `|B| is ${field_mt} mT`);
+  const pull_mn = await lab.number('field-pull');
+  check(pull_mn > 1 && pull_mn < 3, `the pull is ${pull_mn} mN`);
+  await lab.screenshot('field');
+  await tuneHeight(lab, '150');
+  await until('less of it', async () => (await lab.number('field-greatest')) < 0.5 * field_mt);
+  await lab.button('Restore defaults').click();
+  await until('as before', async () => (await lab.number('field-greatest')) === field_mt);
+  await lab.layer('Field and pull', false);
+  await until('the bare floor', async () => (await look()) === bare);
+}
+
+async function tuneHeight(lab, value_mm) {
+  await lab.page.getByText('Magnet and bead', { exact: true }).click();
+  const height = lab.page.getByRole('spinbutton', { name: 'Tool height' });
+  await height.fill(value_mm);
+  await height.press('Enter');
+  await lab.page.getByText('Magnet and bead', { exact: true }).click();
 }
 
 async function showsWhatTheCameraTells({ lab }) {
@@ -316,8 +364,34 @@ async function goesBackInTime({ lab }) {
   await lab.page.mouse.click(box.x + 0.4 * box.width, box.y + box.height / 2);
   await until('an earlier tick', () => lab.state.tick < 0.6 * end);
   const earlier = lab.state.tick;
+
+  // By keyboard from one control step to the next, both ways.
+  const timeline = lab.page.getByLabel('Timeline');
+  const thumb = async () => Number(await timeline.inputValue());
+  await timeline.focus();
+  await lab.page.keyboard.press('ArrowRight');
+  const next = await until('the next step', () => lab.state.tick > earlier && lab.state.tick);
+  check(next - earlier >= 31 && next - earlier <= 32, `from ${earlier} it went to ${next}`);
+  await until('its thumb', async () => (await thumb()) === next);
+  await lab.page.keyboard.press('ArrowLeft');
+  await until('the step before', () => lab.state.tick === earlier);
+  await until('its thumb again', async () => (await thumb()) === earlier);
+
+  // Away and back to where it began: what runs on moves the thumb again.
+  const y = box.y + box.height / 2;
+  const { mouse } = lab.page;
+  const share = await timeline.evaluate((one) => (one.value - one.min) / (one.max - one.min));
+  const at = box.x + 8 + share * (box.width - 16);
+  await mouse.move(at, y);
+  await mouse.down();
+  await mouse.move(at - 60, y, { steps: 4 });
+  await mouse.move(at, y, { steps: 4 });
+  await mouse.up();
+  await lab.page.waitForTimeout(500);
+  const { tick } = lab.state;
   await lab.button('Step').click();
-  await until('one tick', () => lab.state.tick === earlier + 1);
+  await until('one tick', () => lab.state.tick === tick + 1);
+  await until('a thumb that follows', async () => (await thumb()) === tick + 1);
 }
 
 async function looksRight({ lab, browser, server }) {
@@ -369,6 +443,7 @@ export const TESTS = [
   ['binds parameters both ways', bindsParametersBothWays],
   ['shows what the magnet can', showsWhatTheMagnetCan],
   ['shows singularities', showsSingularities],
+  ["shows the magnet's field", showsTheField],
   ['shows what the camera tells', showsWhatTheCameraTells],
   ['decides by quantiles', decidesByQuantiles],
   ['says that the policy has not seen a map', saysWhatThePolicyHasNotSeen],

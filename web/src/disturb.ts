@@ -10,8 +10,7 @@ import type {
   When,
 } from './protocol.gen';
 
-/** The server's limits. */
-export const SCRIPT_LIMIT = 64;
+/** With more, nothing else would happen. */
 export const MOST_RANDOM = 20;
 
 export const DIRECTIONS = [

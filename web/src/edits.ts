@@ -70,6 +70,7 @@ export function createEdits(session: Session): Edits {
       const now = values();
       if (!now) return;
       const whole = withFollowers(GROUPS, now, change);
+      setMoving({});
       setEdits({ ...edits(), ...whole });
       session.send({ type: 'configure', parameters: { ...now, ...whole } });
       clearTimeout(timer);

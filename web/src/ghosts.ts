@@ -6,7 +6,6 @@ import { distance, type Vec2 } from './transform';
 
 /** Simulated seconds a second while ghosts play. */
 const PLAY_SPEED = 2;
-const TICK_S = 0.008;
 
 export interface Ghost {
   readonly tool_m: Vec2;
@@ -49,14 +48,23 @@ export interface Ghosts {
   look(tick: number): void;
   play(): void;
   pause(): void;
+  /** Those of this moment, until the next comparison is asked for. */
   hide(): void;
+  show(): void;
 }
 
-export function createGhosts(newest: Accessor<ComparisonMessage | undefined>): Ghosts {
-  const [hidden, setHidden] = createSignal<ComparisonMessage>();
+export function createGhosts(
+  newest: Accessor<ComparisonMessage | undefined>,
+  tick_s: Accessor<number>,
+): Ghosts {
+  const [hidden, setHidden] = createSignal<Pick<ComparisonMessage, 'trial' | 'tick'>>();
   const [tick, setTick] = createSignal(0);
   const [playing, setPlaying] = createSignal(false);
-  const comparison = createMemo(() => (newest() === hidden() ? undefined : newest()));
+  const comparison = createMemo(() => {
+    const [now, gone] = [newest(), hidden()];
+    // It is told of again and again while it runs.
+    return now?.trial === gone?.trial && now?.tick === gone?.tick ? undefined : now;
+  });
   let frame = 0;
 
   const pause = (): void => {
@@ -72,7 +80,7 @@ export function createGhosts(newest: Accessor<ComparisonMessage | undefined>): G
     const step = (now_ms: number): void => {
       const shown = comparison();
       if (!shown) return;
-      const next = tick() + ((now_ms - before_ms) / 1000 / TICK_S) * PLAY_SPEED;
+      const next = tick() + ((now_ms - before_ms) / 1000 / tick_s()) * PLAY_SPEED;
       before_ms = now_ms;
       setTick(Math.min(lastTick(shown), next));
       if (next < lastTick(shown)) frame = requestAnimationFrame(step);
@@ -104,5 +112,6 @@ export function createGhosts(newest: Accessor<ComparisonMessage | undefined>): G
     play,
     pause,
     hide: () => setHidden(newest()),
+    show: () => setHidden(undefined),
   };
 }

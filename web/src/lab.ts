@@ -52,9 +52,17 @@ export interface Lab {
   showLayer(layer: Layer, on: boolean): void;
   send(message: ClientMessage): void;
   inspect(event: EventMessage | undefined): void;
-  openTab(tab: string): void;
+  openTab(tab: string | undefined): void;
   notify(place: Place, text: string): void;
   dismiss(place: Place, id: number): void;
+}
+
+/** Where another operates, that one is asked. */
+export function takeControl(lab: Lab): void {
+  lab.send({ type: 'take_control' });
+  if (lab.hello()?.operator_present) {
+    lab.notify('session', 'Asked: the operator has to release control.');
+  }
 }
 
 const HIDDEN_FLUSH_MS = 250;
@@ -111,7 +119,10 @@ export function createLab(page: Location): Lab {
   const pictures = new Map<number, Picture>();
 
   const remember = (before: Model, after: Model): void => {
-    if (before.scene && before.scene.trial !== after.scene?.trial) history.clear();
+    if (before.scene && before.scene.trial !== after.scene?.trial) {
+      history.clear();
+      inspect(undefined);
+    }
     if (!after.state || after.state === before.state) return;
     if (before.state && after.state.newest_tick < before.state.newest_tick) {
       // Down to the moment itself, which a reset may have changed.
@@ -178,7 +189,12 @@ export function createLab(page: Location): Lab {
   const send = (message: ClientMessage): void => {
     // `release` is sent blindly when a hold ends; a lost socket has released it already.
     if (connection.send(message)) take({ type: 'sent', command: message.type });
+    if (message.type === 'fork') ghosts.show();
   };
+  const ghosts = createGhosts(
+    createMemo(() => model().comparison),
+    () => scene()?.tick_s ?? Infinity,
+  );
   const edits = createEdits({ scene, refusals, canOperate, send });
   return {
     session,
@@ -191,7 +207,7 @@ export function createLab(page: Location): Lab {
     seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
     marks: createMemo(() => model().marks),
-    ghosts: createGhosts(createMemo(() => model().comparison)),
+    ghosts,
     inspected,
     opened,
     notices: createMemo(() => model().notices),
@@ -216,7 +232,7 @@ export function createLab(page: Location): Lab {
       inspect(event);
     },
     openTab: (tab) => {
-      setOpened({ tab });
+      setOpened(tab === undefined ? undefined : { tab });
     },
     notify: (place, text) => {
       take({ type: 'notice', place, text });

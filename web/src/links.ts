@@ -8,7 +8,7 @@ import {
   untrack,
   type Accessor,
 } from 'solid-js';
-import type { Lab } from './lab';
+import { takeControl, type Lab } from './lab';
 import { experimentFrom, linkOf, loadMessage, type Experiment, type Reading } from './link';
 
 export interface Links {
@@ -87,10 +87,7 @@ export function createLinks(lab: Lab, page: Window): Links {
     load() {
       setWanted(true);
       if (lab.canOperate()) return;
-      lab.send({ type: 'take_control' });
-      if (lab.hello()?.operator_present) {
-        lab.notify('session', 'Asked: the operator has to release control.');
-      }
+      takeControl(lab);
     },
     open(link) {
       const scene = lab.scene();

@@ -2,9 +2,10 @@
 
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
+import { keepFocus } from './focus';
 import { createLab } from './lab';
 import { createLinks } from './links';
-import { takeToken } from './login/token';
+import { carriesToken, takeToken } from './login/token';
 import { AsidePanel } from './panels/AsidePanel';
 import { CameraPanel } from './panels/CameraPanel';
 import { ControllerPanel } from './panels/ControllerPanel';
@@ -56,7 +57,14 @@ function Page(): JSX.Element {
 
 // A link to log in with, in a browser that has: nothing of it may stay in the address.
 takeToken(window);
+// The same link followed in this very tab: as if it had been opened anew, in front of whoever reads the address.
+window.addEventListener('hashchange', (event) => {
+  if (!carriesToken(window)) return;
+  event.stopImmediatePropagation();
+  window.location.reload();
+});
 
 const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');
+keepFocus(document);
 render(() => <Page />, root);

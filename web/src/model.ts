@@ -61,7 +61,7 @@ export interface Model {
   /** The last fork of this trial, as far as it has come. */
   readonly comparison: ComparisonMessage | undefined;
   readonly notices: Readonly<Partial<Record<Place, Notice>>>;
-  /** Grows with each refusal, so that forms know when to show the server's truth again. */
+  /** Grows with each refusal and each new connection, so that forms know when to show the server's truth again. */
   readonly refusals: number;
   /** Grows when the server has let go of a bead, since it heard nothing of the hand. */
   readonly silences: number;
@@ -192,7 +192,9 @@ function withLink(model: Model, link: Link): Model {
   if (link.kind === 'live' && model.link.kind === 'lost') {
     // The session tells anew what happened in it.
     const own = model.log.filter((line) => line.kind === 'link' || line.kind === 'error');
-    const fresh = { ...next, log: own, marks: [], comparison: undefined };
+    // What was chosen while the line died may have come to nothing.
+    const refusals = next.refusals + 1;
+    const fresh = { ...next, log: own, marks: [], comparison: undefined, refusals };
     return withLine(fresh, 'link', 'Connected again.', undefined);
   }
   return next;

@@ -4,6 +4,40 @@ export const PROTOCOL_VERSION = 6;
 export const BINARY_CAMERA_JPEG = 1;
 export const BINARY_OBSERVATION = 2;
 
+/** A control step is due at the first tick at or after each. */
+export const CONTROL_PERIOD_S = 0.25;
+
+/** Fastest that time runs. */
+export const SPEED_MAX = 64;
+
+/** A goal is reached within it. */
+export const GOAL_RADIUS_M = 0.02;
+
+/** Darker places are obstacles. */
+export const OBSTACLE_MEAN = 150;
+
+/** Entries of a script. */
+export const SCRIPT_LIMIT = 64;
+
+/** Last control step that a script may wait for. */
+export const MOST_STEPS = 600;
+
+/** Strongest kick. */
+export const MOST_IMPULSE_N_S = 0.002;
+
+/** Strongest push. */
+export const MOST_DRIFT_N = 0.01;
+
+/** Longest push, and longest blindness of the tracker. */
+export const MOST_SECONDS = 60;
+
+/** Edges of a tree that are sent. */
+export const MOST_EDGES = 4000;
+
+/** Largest drawing of a map. */
+export const MAX_SVG_BYTES = 1048576;
+
+
 /**
  * A filled polygon with holes, in metres.
  *
@@ -1096,6 +1130,40 @@ largest_speed_m_s: Array<number | null>,
 lift_off_m: number, };
 
 /**
+ * What [`plane`] is computed for.
+ */
+export type PlaneQuery = { 
+/**
+ * How the block hangs.
+ */
+orientation: Orientation, 
+/**
+ * Its lower face above the table, m: at least the bead's diameter.
+ */
+lower_face_height_m: number, 
+/**
+ * How far the square reaches from below the block's middle, m, along the block's x and y.
+ */
+reach_m: number, 
+/**
+ * Places of a row and of a column, evenly spaced, the first and the last at the edges.
+ */
+count: number, };
+
+/**
+ * The field in a square around the block: an entry a place, row by row from the least x and y.
+ */
+export type Plane = { 
+/**
+ * |B|, T.
+ */
+field_t: Array<number>, 
+/**
+ * Pull on the bead in the table's plane, N.
+ */
+pull_n: Array<[number, number]>, };
+
+/**
  * Body of `POST /api/kinematics/workspace`.
  */
 export type WorkspaceQuery = { 
@@ -1195,6 +1263,7 @@ action: number, };
 
 /**
  * What the session's policy thinks of every place of the map on the way to a goal, by the default camera's images.
+ * Places are a centimetre apart, farther where there would be more than 4000.
  */
 export type ValueMap = { 
 /**
@@ -1299,7 +1368,7 @@ export type EvaluationQuery = {
  */
 controllers: Array<ControllerName>, 
 /**
- * Names of shipped maps.
+ * Names of maps, shipped or added.
  */
 maps: Array<string>, 
 /**
@@ -1605,7 +1674,7 @@ cell: number,
  */
 index: number, 
 /**
- * Seed of the trial itself, as text: a number of JavaScript does not hold it.
+ * Seed of the trial itself, as text.
  */
 seed: string, 
 /**

@@ -1,11 +1,9 @@
 // Speeds and steps of simulated time. Pure.
 
 import { fixed, speed } from './format';
+import { CONTROL_PERIOD_S, SPEED_MAX } from './protocol.gen';
 
-export const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4, 8, 64] as const;
-export const FASTEST = 64;
-/** A control step is due at the first tick at or after each quarter of a second. */
-const CONTROL_PERIOD_S = 0.25;
+export const SPEEDS: readonly number[] = [0.125, 0.25, 0.5, 1, 2, 4, 8, SPEED_MAX];
 /** Below this share of what was asked, the machine is at its limit. */
 const LIMITED = 0.85;
 
@@ -46,5 +44,5 @@ export function lostWords(times: number): string | undefined {
 }
 
 export function speedName(factor: number): string {
-  return factor === FASTEST ? `max (${speed(factor)})` : speed(factor);
+  return factor === SPEED_MAX ? `max (${speed(factor)})` : speed(factor);
 }

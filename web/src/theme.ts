@@ -1,18 +1,14 @@
 // Dark or light: what the person chose here, else what the system prefers.
 
 import { createSignal, type Accessor } from 'solid-js';
+import { recall, remember } from './storage';
 
 export type Theme = 'dark' | 'light';
-const KEY = 'ferry.theme';
+const KEY = 'theme';
 
 function stored(): Theme | undefined {
-  try {
-    const value = localStorage.getItem(KEY);
-    return value === 'dark' || value === 'light' ? value : undefined;
-  } catch {
-    // Storage may be forbidden; the choice then lasts as long as the page.
-    return undefined;
-  }
+  const value = recall(KEY);
+  return value === 'dark' || value === 'light' ? value : undefined;
 }
 
 export function createTheme(): { theme: Accessor<Theme>; toggle: () => void } {
@@ -31,11 +27,7 @@ export function createTheme(): { theme: Accessor<Theme>; toggle: () => void } {
     theme,
     toggle: () => {
       chosen = theme() === 'dark' ? 'light' : 'dark';
-      try {
-        localStorage.setItem(KEY, chosen);
-      } catch {
-        // See `stored`.
-      }
+      remember(KEY, chosen);
       apply();
     },
   };

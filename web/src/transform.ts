@@ -69,11 +69,6 @@ export function clampToRect(rect: Rect, point: Vec2): [number, number] {
   ];
 }
 
-export function insideRect(rect: Rect, point: Vec2): boolean {
-  const clamped = clampToRect(rect, point);
-  return clamped[0] === point[0] && clamped[1] === point[1];
-}
-
 function crossings(ring: readonly Vec2[], [x, y]: Vec2): number {
   let count = 0;
   let previous = ring.at(-1);

@@ -1,7 +1,7 @@
 // The story of an event: what stood against what, and what the active sub-controller went by. Pure.
 
 import { ACTIONS } from './actions';
-import { centimetres, clock, fixed, millimetres } from './format';
+import { centimetres, clock, counted, fixed, millimetres } from './format';
 import { CONTROLLER_LABELS } from './parameters';
 import type { EventKind, EventMessage, MomentMessage } from './protocol.gen';
 import { distance } from './transform';
@@ -58,7 +58,7 @@ function transport(moment: MomentMessage): string {
   switch (controller) {
     case 'attractor': {
       const count = overlay.obstacles.length;
-      return `${name} sensed ${count} ${count === 1 ? 'obstacle' : 'obstacles'} in the picture.`;
+      return `${name} sensed ${counted(count, 'obstacle')} in the picture.`;
     }
     case 'errt': {
       const corners = overlay.plan?.way.length ?? 0;

@@ -120,7 +120,7 @@ fn impossible_queries_are_refused_by_name() {
     let error = pull(&PullQuery { direction_rad: f64::NAN, ..PULL }).unwrap_err();
     assert_eq!(error.to_string(), "direction_rad must be from -6.283185307179586 to 6.283185307179586, not NaN");
     for value in [0, 1, 2001, u32::MAX] {
-        assert_eq!(pull(&PullQuery { count: value, ..PULL }), Err(CurveError::Count { value }));
-        assert_eq!(reach(&ReachQuery { count: value, ..REACH }), Err(CurveError::Count { value }));
+        assert_eq!(pull(&PullQuery { count: value, ..PULL }), Err(CurveError::Count { value, most: POINTS_LIMIT }));
+        assert_eq!(reach(&ReachQuery { count: value, ..REACH }), Err(CurveError::Count { value, most: POINTS_LIMIT }));
     }
 }

@@ -1,6 +1,6 @@
 // One evaluation: how far it is, its rows, its failures.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import type { Lab } from '../lab';
 import type { EvaluationSummary } from '../protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
@@ -58,6 +58,12 @@ export function EvaluationPanel(props: {
   const { lab } = props;
   const report = createReport(() => props.summary);
   const [refusal, setRefusal] = createSignal<string>();
+  createEffect(
+    on(
+      () => props.summary.id,
+      () => setRefusal(undefined),
+    ),
+  );
   const said = createMemo(() => milestone(props.summary));
   const measured = (): readonly EvaluationSummary[] => props.list.all() ?? [];
   const cancel = async (): Promise<void> => {

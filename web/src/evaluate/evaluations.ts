@@ -57,9 +57,11 @@ export function createEvaluationList(): EvaluationList {
   const [trouble, setTrouble] = createSignal<string>();
   let timer: ReturnType<typeof setTimeout> | undefined;
   let asked = 0;
+  let isClosed = false;
 
   const look = async (): Promise<void> => {
     clearTimeout(timer);
+    if (isClosed) return;
     asked += 1;
     const number = asked;
     try {
@@ -78,6 +80,7 @@ export function createEvaluationList(): EvaluationList {
     clearTimeout(timer);
     // An answer under way is nobody's any more.
     asked += 1;
+    isClosed = true;
   });
 
   return {

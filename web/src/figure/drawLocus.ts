@@ -2,7 +2,8 @@
 
 import type { Palette } from '../palette';
 import { distance, pxFromWorld, type Vec2, type View } from '../transform';
-import { GOAL_RADIUS_M, drawTrail } from '../workspace/drawMoving';
+import { GOAL_RADIUS_M } from '../protocol.gen';
+import { drawTrail } from '../workspace/drawMoving';
 import type { Sample } from './sample';
 
 const DOT_PX = 3;

@@ -2,9 +2,8 @@
 
 import { fixed } from '../format';
 import type { Palette } from '../palette';
-import type { Polygon, Rect } from '../protocol.gen';
+import { GOAL_RADIUS_M, type Polygon, type Rect } from '../protocol.gen';
 import { fitView, pxFromWorld, type Vec2 } from '../transform';
-import { GOAL_RADIUS_M } from '../workspace/drawMoving';
 import { LOCUS_LETTER, PARTS, partRange, type Part } from './parts';
 import type { Sample } from './sample';
 

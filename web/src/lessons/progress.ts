@@ -1,5 +1,6 @@
 // Which lessons are done, and what was predicted: kept in the browser. Pure, but for the storage.
 
+import { recall, remember } from '../storage';
 import type { Lesson } from './lesson';
 
 export interface Progress {
@@ -9,7 +10,7 @@ export interface Progress {
 }
 
 export const NO_PROGRESS: Progress = { done: [], choices: {} };
-const KEY = 'ferry.lessons';
+const KEY = 'lessons';
 
 function field(value: unknown, name: string): unknown {
   if (typeof value !== 'object' || value === null) return undefined;
@@ -39,18 +40,9 @@ export function progressFrom(text: string | null, lessons: readonly Lesson[]): P
 }
 
 export function storedProgress(lessons: readonly Lesson[]): Progress {
-  try {
-    return progressFrom(localStorage.getItem(KEY), lessons);
-  } catch {
-    // Storage may be forbidden; progress then lasts as long as the page.
-    return NO_PROGRESS;
-  }
+  return progressFrom(recall(KEY), lessons);
 }
 
 export function storeProgress(progress: Progress): void {
-  try {
-    localStorage.setItem(KEY, JSON.stringify(progress));
-  } catch {
-    // See `storedProgress`.
-  }
+  remember(KEY, JSON.stringify(progress));
 }

@@ -7,10 +7,14 @@ interface Page {
 
 const CARRIED = '#token=';
 
+export function carriesToken(page: Page): boolean {
+  return page.location.hash.startsWith(CARRIED);
+}
+
 /** The token that the page's address carries, which is taken out of it and of the history. */
 export function takeToken(page: Page): string | undefined {
   const { hash, pathname, search } = page.location;
-  if (!hash.startsWith(CARRIED)) return undefined;
+  if (!carriesToken(page)) return undefined;
   const carried = hash.slice(CARRIED.length);
   const end = carried.indexOf('&');
   const rest = end < 0 ? '' : `#${carried.slice(end + 1)}`;

@@ -4,10 +4,23 @@ import { Suspense, lazy, type JSX } from 'solid-js';
 import { LogPanel } from './LogPanel';
 import { Tabs, type Tab, type PanelProps } from './Tabs';
 
+/** Another version of the server has other files. */
+function Missing(): JSX.Element {
+  return (
+    <p class="placeholder" role="alert">
+      The lessons could not be loaded; reload the page.
+    </p>
+  );
+}
+
 // Loaded when somebody wants to learn.
 const LazyLessons = lazy(async () => {
-  const { LessonsPanel } = await import('../lessons/LessonsPanel');
-  return { default: LessonsPanel };
+  try {
+    const { LessonsPanel } = await import('../lessons/LessonsPanel');
+    return { default: LessonsPanel };
+  } catch {
+    return { default: Missing };
+  }
 });
 
 function Lessons(props: PanelProps): JSX.Element {

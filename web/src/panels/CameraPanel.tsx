@@ -4,10 +4,10 @@ import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../format';
 import { blocksPath, patchPath } from '../homography';
 import type { Lab } from '../lab';
+import { OBSTACLE_MEAN } from '../protocol.gen';
 
 /** Side of the camera's image. */
 const CAMERA_PX = 480;
-const OBSTACLE_BELOW = 150;
 const OBSERVATION_PX = 84;
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
@@ -78,7 +78,7 @@ export function CameraPanel(props: { lab: Lab }): JSX.Element {
             <span
               class="verdict"
               classList={{ obstacle: overlay().obstacle }}
-              title={`Obstacle test: the mean of the 15×15 pixels around the tool is below ${OBSTACLE_BELOW}`}
+              title={`Obstacle test: the mean of the 15×15 pixels around the tool is below ${OBSTACLE_MEAN}`}
             >
               {overlay().obstacle ? 'obstacle' : 'free'}{' '}
               <span class="number">{fixed(overlay().center_mean, 0)}</span>

@@ -81,7 +81,9 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
         value={shown()}
         disabled={form.disabled()}
         onInput={(event) => {
-          form.move(stored(event.currentTarget.valueAsNumber));
+          const change = stored(event.currentTarget.valueAsNumber);
+          // Back where it began it is let go without a change.
+          form.move(change[field.name] === form.values()[field.name] ? {} : change);
         }}
         onPointerCancel={() => {
           form.move({});

@@ -1,7 +1,7 @@
 // Who, what, and how it stands: connection, role, mode, counters.
 
 import { For, Show, type JSX } from 'solid-js';
-import type { Lab } from '../lab';
+import { takeControl, type Lab } from '../lab';
 import type { Theme } from '../theme';
 import { VIEWS, type View } from '../views';
 import { Connection } from './Connection';
@@ -27,38 +27,21 @@ function RoleBox(props: { lab: Lab }): JSX.Element {
       <span class="role" data-testid="role">
         {operator() ? 'operator' : 'viewer'}
       </span>
-      <Show
-        when={operator()}
-        fallback={
-          <button
-            type="button"
-            class="small primary"
-            onClick={() => {
-              lab.send({ type: 'take_control' });
-              if (lab.hello()?.operator_present) {
-                lab.notify('session', 'Asked: the operator has to release control.');
-              }
-            }}
-          >
-            Take control
-          </button>
-        }
+      <button
+        type="button"
+        class="small"
+        classList={{ primary: !operator() || lab.hello()?.asked === true }}
+        onClick={() => {
+          if (operator()) lab.send({ type: 'release_control' });
+          else takeControl(lab);
+        }}
       >
-        <button
-          type="button"
-          class="small"
-          classList={{ primary: lab.hello()?.asked ?? false }}
-          onClick={() => {
-            lab.send({ type: 'release_control' });
-          }}
-        >
-          Release control
-        </button>
-        <Show when={lab.hello()?.asked}>
-          <span class="asked" data-testid="asked">
-            another asks for it
-          </span>
-        </Show>
+        {operator() ? 'Release control' : 'Take control'}
+      </button>
+      <Show when={operator() && lab.hello()?.asked}>
+        <span class="asked" data-testid="asked">
+          another asks for it
+        </span>
       </Show>
     </Show>
   );

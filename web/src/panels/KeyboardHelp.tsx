@@ -4,22 +4,14 @@ import { For, createSignal, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from '../pageShortcuts';
 import { attachShortcuts, keyName } from '../shortcuts';
 import type { Lab } from '../lab';
+import { recall, remember } from '../storage';
 import type { View } from '../views';
 
-const KEY = 'ferry.shortcuts';
-
-function stored(): boolean {
-  try {
-    return localStorage.getItem(KEY) !== 'off';
-  } catch {
-    // Storage may be forbidden; the choice then lasts as long as the page.
-    return true;
-  }
-}
+const KEY = 'shortcuts';
 
 export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
   let dialog!: HTMLDialogElement;
-  const [areOn, setOn] = createSignal(stored());
+  const [areOn, setOn] = createSignal(recall(KEY) !== 'off');
   const open = (): void => {
     if (!dialog.open) dialog.showModal();
   };
@@ -28,11 +20,7 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
   onCleanup(attachShortcuts(shortcuts, areOn));
   const choose = (on: boolean): void => {
     setOn(on);
-    try {
-      localStorage.setItem(KEY, on ? 'on' : 'off');
-    } catch {
-      // See `stored`.
-    }
+    remember(KEY, on ? 'on' : 'off');
   };
   return (
     <>

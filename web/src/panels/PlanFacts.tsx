@@ -2,12 +2,9 @@
 
 import type { JSX } from 'solid-js';
 import { fixed } from '../format';
-import type { PlanLayer, StateMessage } from '../protocol.gen';
+import { MOST_EDGES, type PlanLayer, type StateMessage } from '../protocol.gen';
 import { wayWords } from '../workspace/plan';
 import { Fact } from './Fact';
-
-/** Edges of the tree that the server tells at most. */
-const MOST_EDGES = 4000;
 
 export function PlanFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.Element {
   const edges = (): string => {

@@ -58,7 +58,11 @@ function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX
     const drawing = svg();
     const file = name();
     if (drawing === undefined || file === undefined) return;
-    download(`${file}.png`, await pngOf(drawing, FIGURE_PX));
+    try {
+      download(`${file}.png`, await pngOf(drawing, FIGURE_PX));
+    } catch {
+      lab.notify('transport', 'This browser could not draw the figure as a PNG.');
+    }
   };
   return (
     <div class="plot-tools" role="group" aria-label="Plots">

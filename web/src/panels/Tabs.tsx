@@ -3,6 +3,7 @@
 import { For, createEffect, createSignal, type Component, type JSX } from 'solid-js';
 import { Dynamic } from 'solid-js/web';
 import type { Lab } from '../lab';
+import { recall, remember } from '../storage';
 import type { Theme } from '../theme';
 
 export interface PanelProps {
@@ -35,13 +36,21 @@ export function Tabs(
 ): JSX.Element {
   const tools = document.createElement('div');
   tools.className = 'tab-tools';
-  const [index, setIndex] = createSignal(0);
+  // A look at another view, or a reload, is no reason to lose one's place.
+  const key = `tab.${props.area}`;
+  const kept = props.tabs.findIndex(({ id }) => id === recall(key));
+  const [index, setIndex] = createSignal(Math.max(0, kept));
+  createEffect(() => {
+    remember(key, tab().id);
+  });
   const tab = () => props.tabs[index()] ?? props.tabs[0];
   const buttons: HTMLButtonElement[] = [];
   createEffect(() => {
     const asked = props.lab.opened()?.tab;
     const found = props.tabs.findIndex(({ id }) => id === asked);
-    if (found >= 0) setIndex(found);
+    if (found < 0) return;
+    setIndex(found);
+    props.lab.openTab(undefined);
   });
   const onKey = (event: KeyboardEvent): void => {
     const move = MOVES[event.key];

@@ -1,9 +1,10 @@
 // The ticks that can be gone back to, with what happened on the way.
 
-import { createEffect, createMemo, createSignal, type JSX } from 'solid-js';
+import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
 import { clock } from '../format';
 import type { Lab } from '../lab';
 import { Limiter } from '../limiter';
+import { ticksToControlStep } from '../steps';
 import { EventMarks } from './EventMarks';
 import { ScriptMarks } from './ScriptMarks';
 
@@ -33,6 +34,14 @@ export function Timeline(props: { lab: Lab }): JSX.Element {
     slider.value = String(tick());
   });
   let settle: ReturnType<typeof setTimeout> | undefined;
+  const letGo = (): void => {
+    rewinds.flush();
+    clearTimeout(settle);
+    settle = setTimeout(() => setScrubbed(undefined), SETTLE_MS);
+  };
+  onCleanup(() => {
+    clearTimeout(settle);
+  });
 
   return (
     <div class="timeline">
@@ -54,10 +63,17 @@ export function Timeline(props: { lab: Lab }): JSX.Element {
             setScrubbed(to);
             rewinds.offer(to);
           }}
-          onChange={() => {
-            rewinds.flush();
-            clearTimeout(settle);
-            settle = setTimeout(() => setScrubbed(undefined), SETTLE_MS);
+          onChange={letGo}
+          // Back where it began it is let go without a change.
+          onPointerUp={letGo}
+          onPointerCancel={letGo}
+          onKeyDown={(event) => {
+            if (event.key !== 'ArrowRight' && event.key !== 'ArrowUp') return;
+            // One can go to control steps only: the next tick is none.
+            event.preventDefault();
+            const now = tick();
+            const next = now + ticksToControlStep(now, lab.scene()?.tick_s ?? Infinity);
+            if (next <= newest()) lab.send({ type: 'rewind', tick: next });
           }}
         />
       </div>

@@ -118,12 +118,16 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
 
 export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
   const { lab, links } = props;
+  // A memo of its own: other news must not make the list anew under the pointer.
+  const target = createMemo(() => lab.state()?.speed_target ?? 1);
   const speeds = createMemo(() => {
-    const target = lab.state()?.speed_target ?? 1;
-    const all = [...new Set([...SPEEDS, target])].sort((a, b) => a - b);
+    const all = [...new Set([...SPEEDS, target()])].sort((a, b) => a - b);
     return all.map((factor) => [String(factor), speedName(factor)] as const);
   });
-  const maps = createMemo(() => (lab.scene()?.maps ?? []).map((name) => [name, name] as const));
+  const names = createMemo(() => lab.scene()?.maps ?? [], [], {
+    equals: (a, b) => a.join() === b.join(),
+  });
+  const maps = createMemo(() => names().map((name) => [name, name] as const));
   const loadMap = (map: string): void => {
     const scene = lab.scene();
     const state = lab.state();
@@ -144,7 +148,7 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
         <RunButtons lab={lab} />
         <TruthSelect
           label="Speed"
-          value={String(lab.state()?.speed_target ?? 1)}
+          value={String(target())}
           options={speeds()}
           refusals={lab.refusals()}
           disabled={!lab.canOperate()}

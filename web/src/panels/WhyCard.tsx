@@ -43,18 +43,25 @@ function Story(props: { moment: MomentMessage; path: string }): JSX.Element {
   );
 }
 
+const isSame = (a: EventMessage, b: EventMessage): boolean =>
+  a.tick === b.tick && a.kind === b.kind && a.text === b.text;
+
 function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
   const { lab } = props;
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
   const [moment] = createResource(path, get<MomentMessage>);
-  const place = createMemo(() => lab.marks().indexOf(props.event));
+  // By what it says: who connects again is told of it again.
+  const place = createMemo(() => lab.marks().findIndex((one) => isSame(one, props.event)));
+  const isPast = (): boolean => place() < 0;
   const beside = (step: number): EventMessage | undefined => lab.marks()[place() + step];
   createEffect(
     on(
       () => props.event,
       () => {
-        card.focus();
+        const focused = document.activeElement;
+        const stays = card.contains(focused) && !focused?.matches(':disabled');
+        if (!stays) card.focus();
       },
     ),
   );
@@ -78,7 +85,7 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
           type="button"
           class="bare"
           aria-label="Previous event"
-          disabled={place() < 0 || !beside(-1)}
+          disabled={isPast() || !beside(-1)}
           onClick={() => {
             lab.inspect(beside(-1));
           }}
@@ -89,7 +96,7 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
           type="button"
           class="bare"
           aria-label="Next event"
-          disabled={place() < 0 || !beside(1)}
+          disabled={isPast() || !beside(1)}
           onClick={() => {
             lab.inspect(beside(1));
           }}
@@ -102,6 +109,9 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
       </header>
       <div class="why-body">
         <p class="why-sentence">{sentence(props.event.text)}</p>
+        <Show when={isPast()}>
+          <p class="hint">What runs now took another course: this is none of its past.</p>
+        </Show>
         <Switch fallback={<p class="hint">Looking back …</p>}>
           <Match when={moment.error as unknown}>
             {(error) => (
@@ -112,14 +122,16 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
               </p>
             )}
           </Match>
-          <Match when={moment()}>{(found) => <Story moment={found()} path={path()} />}</Match>
+          <Match when={!moment.loading && moment()}>
+            {(found) => <Story moment={found()} path={path()} />}
+          </Match>
         </Switch>
       </div>
       <footer>
         <button
           type="button"
           class="small"
-          disabled={!lab.canOperate()}
+          disabled={!lab.canOperate() || isPast()}
           title="Back to the control step at or before this event: time pauses there"
           onClick={() => {
             lab.send({ type: 'rewind', tick: props.event.tick });
@@ -130,7 +142,7 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
         <button
           type="button"
           class="small primary"
-          disabled={!lab.canOperate()}
+          disabled={!lab.canOperate() || isPast()}
           title="Runs this moment on under every controller"
           onClick={() => {
             lab.send({ type: 'fork', tick: props.event.tick });

@@ -2,9 +2,13 @@
 
 import { BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, Mesh } from 'three';
 import type { History } from '../history';
-import type { Parameters, SceneMessage, StateMessage } from '../protocol.gen';
+import {
+  GOAL_RADIUS_M,
+  type Parameters,
+  type SceneMessage,
+  type StateMessage,
+} from '../protocol.gen';
 import type { Vec2 } from '../transform';
-import { GOAL_RADIUS_M } from '../workspace/drawMoving';
 import type { Layer } from '../workspace/layers';
 import { TRAIL_S } from '../workspace/paint';
 import { ORDER, type Paints } from './paints';

@@ -4,7 +4,6 @@ import { Match, Show, Switch, createSignal, onCleanup, type JSX } from 'solid-js
 import {
   DIRECTIONS,
   KINDS,
-  SCRIPT_LIMIT,
   TIMES,
   blind,
   kick,
@@ -17,16 +16,19 @@ import {
   type Time,
 } from '../disturb';
 import type { Lab } from '../lab';
-import type { Disturbance, When } from '../protocol.gen';
+import {
+  MOST_DRIFT_N,
+  MOST_IMPULSE_N_S,
+  MOST_SECONDS,
+  MOST_STEPS,
+  SCRIPT_LIMIT,
+  type Disturbance,
+  type When,
+} from '../protocol.gen';
 import { ScriptList } from './ScriptList';
 import { Amount, Choice, PlaceFields, type Place } from './disturbFields';
 import type { Picker } from './picker';
 
-/** The server's limits, in shown units. */
-const MOST_KICK_MN_S = 2;
-const MOST_PUSH_MN = 10;
-const MOST_SECONDS = 60;
-const MOST_STEPS = 600;
 /** An hour of a trial. */
 const LATEST_S = 3600;
 const FARTHEST_CM = 100;
@@ -118,7 +120,7 @@ export function DisturbBar(props: { lab: Lab; id: string; picker: Picker }): JSX
             <Amount
               name="Strength of the kick in mN·s"
               unit="mN·s"
-              most={MOST_KICK_MN_S}
+              most={1000 * MOST_IMPULSE_N_S}
               value={kick_mn_s()}
               disabled={disabled()}
               onValue={setKick}
@@ -128,7 +130,7 @@ export function DisturbBar(props: { lab: Lab; id: string; picker: Picker }): JSX
             <Amount
               name="Force of the push in mN"
               unit="mN"
-              most={MOST_PUSH_MN}
+              most={1000 * MOST_DRIFT_N}
               value={push_mn()}
               disabled={disabled()}
               onValue={setPush}

@@ -32,7 +32,7 @@ export function ValueLegend(props: {
   hasGoal: boolean;
 }): JSX.Element {
   const waits = (): string | undefined =>
-    props.error === undefined ? 'looking at the map from every centimetre…' : undefined;
+    props.error === undefined ? 'looking at the map from everywhere…' : undefined;
   return (
     <div class="map-legend" role="group" aria-label="Values">
       <span>Value</span>

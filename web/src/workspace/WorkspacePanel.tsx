@@ -10,6 +10,7 @@ import type { Theme } from '../theme';
 import { insidePolygon } from '../transform';
 import { DisturbBar } from './DisturbBar';
 import { createFields } from './fields';
+import { FieldLegend } from './FieldLegend';
 import { FlowLegend } from './FlowLegend';
 import { HeatLegend } from './HeatLegend';
 import { PlanStage } from './PlanStage';
@@ -69,7 +70,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         disturbing={disturbing()}
         onDisturbing={setDisturbing}
       />
-      <Show when={disturbing() && lab.canOperate()}>
+      <Show when={disturbing()}>
         <DisturbBar lab={lab} id="disturb" picker={stage.picker} />
       </Show>
       <div class="stage">
@@ -91,6 +92,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       </div>
       <Show when={fields.showsHeat()}>
         <HeatLegend answer={fields.heatAnswer()} />
+      </Show>
+      <Show when={fields.showsField()}>
+        <FieldLegend answer={fields.fieldAnswer()} />
       </Show>
       <Show when={fields.showsFlow() && lab.scene()}>
         {(scene) => (

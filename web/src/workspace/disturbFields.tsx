@@ -1,7 +1,7 @@
 // The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
 
-import { For, Show, type JSX } from 'solid-js';
-import { fixed } from '../format';
+import { For, Show, createEffect, onCleanup, type JSX } from 'solid-js';
+import type { Vec2 } from '../transform';
 import type { Picker } from './picker';
 
 export function Amount(props: {
@@ -17,12 +17,19 @@ export function Amount(props: {
   disabled: boolean;
   onValue: (value: number) => void;
 }): JSX.Element {
+  let input!: HTMLInputElement;
+  createEffect(() => {
+    // What is being typed says the value already, or nothing yet: written anew, it would lose its sign or its point.
+    const { value } = props;
+    if (!Number.isNaN(value) && input.valueAsNumber !== value) input.value = String(value);
+  });
   return (
     <label class="amount">
       <Show when={props.lead}>
         <span class="unit">{props.lead}</span>
       </Show>
       <input
+        ref={input}
         type="number"
         class="number"
         aria-label={props.name}
@@ -30,7 +37,6 @@ export function Amount(props: {
         max={props.most}
         step={props.whole ? 1 : 'any'}
         required
-        value={props.value}
         disabled={props.disabled}
         onInput={(event) => {
           props.onValue(event.currentTarget.valueAsNumber);
@@ -84,6 +90,14 @@ export function PlaceFields(props: {
 }): JSX.Element {
   let button!: HTMLButtonElement;
   const rounded = (value: number): number => Number(value.toFixed(3));
+  const take = ([x_m, y_m]: Vec2): void => {
+    props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
+    button.focus();
+  };
+  const isPicking = (): boolean => props.picker.asks(take);
+  onCleanup(() => {
+    if (isPicking()) props.picker.cancel();
+  });
   return (
     <>
       <Amount
@@ -113,19 +127,16 @@ export function PlaceFields(props: {
         ref={button}
         type="button"
         class="small"
-        aria-pressed={props.picker.isPicking()}
+        aria-pressed={isPicking()}
         aria-label={`Pick ${props.name} on the map`}
-        title={`Now (${fixed(props.value.x_m, 3)}, ${fixed(props.value.y_m, 3)}) m; click here, then the place`}
+        title="Click here, then the place"
         disabled={props.disabled}
         onClick={() => {
-          if (props.picker.isPicking()) {
+          if (isPicking()) {
             props.picker.cancel();
             return;
           }
-          props.picker.begin(([x_m, y_m]) => {
-            props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
-            button.focus();
-          });
+          props.picker.begin(take);
           document.querySelector<HTMLElement>('.stage-canvas')?.focus();
         }}
       >

@@ -1,11 +1,14 @@
 // What moves on the workspace, from the far layer to the near one.
 
-import type { OverlayMessage, SceneMessage, StateMessage } from '../protocol.gen';
+import {
+  GOAL_RADIUS_M,
+  type OverlayMessage,
+  type SceneMessage,
+  type StateMessage,
+} from '../protocol.gen';
 import { pxFromWorld, type Vec2, type View } from '../transform';
 import type { Palette } from '../palette';
 
-/** *Reached* and *delivered* are both judged by this radius. */
-export const GOAL_RADIUS_M = 0.02;
 /** The bead is 5 mm: on a small canvas it is drawn larger than life, or nobody finds it. */
 const MIN_BEAD_PX = 4.5;
 const TRACKED_PX = 4;

@@ -4,14 +4,16 @@ import { createMemo, type Accessor } from 'solid-js';
 import { createAnswer, type Answer } from '../answers';
 import type { Lab } from '../lab';
 import type { Palette } from '../palette';
-import type { WorkspaceMap, WorkspaceQuery } from '../protocol.gen';
+import type { Plane, PlaneQuery, WorkspaceMap, WorkspaceQuery } from '../protocol.gen';
 import type { Vec2 } from '../transform';
 import { createHeat, type Heat } from './drawHeat';
+import { createFieldPicture, type FieldPicture } from './drawPlane';
 import { createSeen, type Seen } from './drawSeen';
 import { createFlowLayer, type FlowLayer } from './flowLayer';
 import { createGoal } from './goal';
 import { workspaceQuery } from './heat';
 import type { Layer } from './layers';
+import { planeQuery } from './plane';
 import { createValueLayer, type ValueLayer } from './valueLayer';
 
 export interface Fields {
@@ -21,6 +23,9 @@ export interface Fields {
   readonly heatAnswer: Accessor<Answer<WorkspaceMap>>;
   readonly heat: Accessor<Heat | undefined>;
   readonly seen: Accessor<Seen | undefined>;
+  readonly showsField: Accessor<boolean>;
+  readonly fieldAnswer: Accessor<Answer<Plane>>;
+  readonly field: Accessor<FieldPicture | undefined>;
   readonly showsFlow: Accessor<boolean>;
   readonly flow: FlowLayer;
   readonly showsValue: Accessor<boolean>;
@@ -54,6 +59,17 @@ export function createFields(
     return message && createSeen(message, palette());
   });
 
+  const showsField = createMemo(() => layers().has('field'));
+  const fieldAnswer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {
+    const parameters = lab.tuning();
+    const asks = showsField() && lab.link().kind === 'live';
+    return asks && parameters ? planeQuery(parameters) : undefined;
+  });
+  const field = createMemo(() => {
+    const plane = fieldAnswer().data;
+    return plane && showsField() ? createFieldPicture(plane, palette()) : undefined;
+  });
+
   const showsFlow = createMemo(() => layers().has('flow'));
   const showsValue = createMemo(() => layers().has('value'));
   return {
@@ -62,6 +78,9 @@ export function createFields(
     heatAnswer,
     heat: () => (showsHeat() ? heat() : undefined),
     seen,
+    showsField,
+    fieldAnswer,
+    field,
     showsFlow,
     flow: createFlowLayer(lab, goal, showsFlow),
     showsValue,

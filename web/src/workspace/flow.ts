@@ -1,6 +1,13 @@
 // The attractor's flow field: what to ask for, how long its arrows are, where they end. Pure.
 
-import type { FlowField, FlowQuery, Rect, SceneMessage, SeenMessage } from '../protocol.gen';
+import {
+  GOAL_RADIUS_M,
+  type FlowField,
+  type FlowQuery,
+  type Rect,
+  type SceneMessage,
+  type SeenMessage,
+} from '../protocol.gen';
 import { distance, type Vec2 } from '../transform';
 
 const PLACES_ACROSS = 40;
@@ -12,7 +19,6 @@ const LONGEST = 0.85;
 /** Of the greatest speed: below it nothing moves. */
 const STILL = 0.02;
 /** Within this of the goal the bead is delivered. */
-const GOAL_RADIUS_M = 0.02;
 
 /** In units of the spacing: a stride along the flow, and how far one gets in so many strides at least. */
 const STRIDE = 0.3;

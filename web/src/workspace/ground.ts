@@ -10,6 +10,7 @@ import type { Flow } from './drawFlow';
 import type { Heat } from './drawHeat';
 import { wallPath } from './drawMap';
 import { createPlan, type Plan } from './drawPlan';
+import type { FieldPicture } from './drawPlane';
 import type { Seen } from './drawSeen';
 import { createValues, type Values } from './drawValue';
 import type { Fields } from './fields';
@@ -30,6 +31,8 @@ export interface Ground {
   readonly seen: Seen | undefined;
   /** What ERRT plans, when it does. */
   readonly plan: Plan | undefined;
+  /** The magnet's field, when it is shown: it goes with the tool. */
+  readonly field: FieldPicture | undefined;
   /** The attractor's flow, when it is shown. */
   readonly flow: Flow | undefined;
   /** A fork, and the tick at which its branches are shown. */
@@ -83,6 +86,7 @@ export function createGround(
       values: values(),
       seen: fields.seen(),
       plan: plan(),
+      field: fields.field(),
       flow: fields.flow.flow(),
       ghosts: ghosts(),
       layers: layers(),

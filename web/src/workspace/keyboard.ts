@@ -81,7 +81,8 @@ export function attachKeyboard(
       if (!at || event.repeat) return;
       place(at);
     } else if (event.key === 'd' || event.key === 'D') {
-      takeOrRelease();
+      // A held key takes once.
+      if (!event.repeat) takeOrRelease();
     } else if (event.key === 'Escape') {
       hand.dispatch({ type: 'cancel' });
       escape();

@@ -1,11 +1,14 @@
 // What can be drawn over the workspace, as the person chooses it.
 
+import { recall, remember } from '../storage';
+
 export const LAYER_GROUPS = [
   {
     title: 'Motion',
     layers: [
       ['trail', 'Trails'],
       ['capture', 'Capture'],
+      ['field', 'Field and pull'],
       ['ghosts', 'Ghosts'],
     ],
   },
@@ -36,7 +39,7 @@ export type Layer = (typeof LAYER_GROUPS)[number]['layers'][number][0];
 const LAYERS: readonly Layer[] = LAYER_GROUPS.flatMap(({ layers }) => layers.map(([id]) => id));
 /** Those that cover nothing. */
 const FIRST_LAYERS: readonly Layer[] = ['sensed', 'trail', 'camera', 'capture', 'ghosts', 'plan'];
-const KEY = 'ferry.layers';
+const KEY = 'layers';
 
 /** What was stored, less the layers that are none any more; the first ones when there is no choice in it. */
 export function layersFrom(text: string | null): ReadonlySet<Layer> {
@@ -51,18 +54,9 @@ export function layersFrom(text: string | null): ReadonlySet<Layer> {
 }
 
 export function storedLayers(): ReadonlySet<Layer> {
-  try {
-    return layersFrom(localStorage.getItem(KEY));
-  } catch {
-    // Storage may be forbidden; the choice then lasts as long as the page.
-    return layersFrom(null);
-  }
+  return layersFrom(recall(KEY));
 }
 
 export function storeLayers(layers: ReadonlySet<Layer>): void {
-  try {
-    localStorage.setItem(KEY, JSON.stringify([...layers]));
-  } catch {
-    // See `storedLayers`.
-  }
+  remember(KEY, JSON.stringify([...layers]));
 }

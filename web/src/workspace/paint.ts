@@ -19,6 +19,7 @@ import {
   drawTrail,
 } from './drawMoving';
 import { drawObstacles, drawPlan } from './drawPlan';
+import { drawField } from './drawPlane';
 import { drawBlocks, drawRectangles, drawSeen } from './drawSeen';
 import { drawValues } from './drawValue';
 import type { Ground } from './ground';
@@ -120,9 +121,10 @@ export function paintGround(ctx: Ctx, ground: Ground): void {
 }
 
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { view, palette, scene, layers } = picture.ground;
+  const { view, palette, scene, layers, field } = picture.ground;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
   clipped(ctx, picture.ground, () => {
+    if (field) drawField(ctx, view, palette, tool, field);
     if (layers.has('trail')) paintTrails(ctx, picture, state);
     if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_sees_m);
     if (layers.has('capture')) drawCapture(ctx, view, palette, tool, scene.capture_m);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { SeenMessage } from '../protocol.gen';
-import { seenAt, seenPixels, seenShare, type Rgba } from './seen';
+import { seenAt, seenPixels, type Rgba } from './seen';
 
 const SEEN: SeenMessage = {
   number: 1,
@@ -36,9 +36,5 @@ describe('what was seen', () => {
     expect(isSeen([0.5, 0.5])).toBe(true);
     expect(isSeen([0.5, 2])).toBe(true);
     expect(isSeen([1.5, 1.5])).toBe(false);
-  });
-
-  it('counts what is known', () => {
-    expect(seenShare(SEEN)).toBeCloseTo(4 / 6);
   });
 });

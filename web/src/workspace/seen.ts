@@ -3,9 +3,8 @@
 import type { SeenMessage } from '../protocol.gen';
 import type { Vec2 } from '../transform';
 
+/** A cell's state; free is 1, an obstacle 2. */
 export const UNKNOWN = 0;
-export const FREE = 1;
-export const OBSTACLE = 2;
 
 export type Rgba = readonly [number, number, number, number];
 
@@ -46,10 +45,4 @@ export function seenAt(seen: SeenMessage): (point: Vec2) => boolean {
     const row = Math.min(rows - 1, Math.floor((y_m - workspace.y_min_m) * perY_m));
     return (cells[row * columns + column] ?? UNKNOWN) !== UNKNOWN;
   };
-}
-
-/** Share of the workspace that was seen. */
-export function seenShare(seen: SeenMessage): number {
-  const known = seen.runs.reduce((sum, [state, count]) => sum + (state === UNKNOWN ? 0 : count), 0);
-  return known / (seen.columns * seen.rows);
 }

@@ -1,5 +1,7 @@
 // From above or in space: how the workspace is shown, as the person chooses it.
 
+import { recall, remember } from '../storage';
+
 export const VIEW_MODES = [
   ['plan', 'Plan'],
   ['scene', '3-D'],
@@ -7,7 +9,7 @@ export const VIEW_MODES = [
 
 export type ViewMode = (typeof VIEW_MODES)[number][0];
 
-const KEY = 'ferry.view';
+const KEY = 'view';
 
 /** What was stored, or the plan when that is no mode. */
 export function viewModeFrom(text: string | null): ViewMode {
@@ -15,18 +17,9 @@ export function viewModeFrom(text: string | null): ViewMode {
 }
 
 export function storedViewMode(): ViewMode {
-  try {
-    return viewModeFrom(localStorage.getItem(KEY));
-  } catch {
-    // Storage may be forbidden; the choice then lasts as long as the page.
-    return 'plan';
-  }
+  return viewModeFrom(recall(KEY));
 }
 
 export function storeViewMode(mode: ViewMode): void {
-  try {
-    localStorage.setItem(KEY, mode);
-  } catch {
-    // See `storedViewMode`.
-  }
+  remember(KEY, mode);
 }

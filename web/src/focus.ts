@@ -1,0 +1,30 @@
+// Whoever works by keyboard stays where they are when the control under their hand goes away.
+
+const FOCUSABLE =
+  ':is(button, input, select, textarea, summary, a[href], [tabindex="0"]):not(:disabled)';
+
+/** When what had the focus is taken off the page, gives it to the first control in the nearest part that is left. */
+export function keepFocus(page: Document): void {
+  let around: readonly Element[] = [];
+  page.addEventListener('focusin', ({ target }) => {
+    const parts: Element[] = [];
+    for (let one = target as Element | null; one; one = one.parentElement) parts.push(one);
+    around = parts;
+  });
+  const look = (): void => {
+    const [last, ...parts] = around;
+    if (!last || last.isConnected || page.activeElement !== page.body) return;
+    around = [];
+    const left = parts.filter((part) => part.isConnected);
+    for (const part of left) {
+      const next = [...part.querySelectorAll<HTMLElement>(FOCUSABLE)].find((one) =>
+        one.checkVisibility(),
+      );
+      if (next) {
+        next.focus();
+        return;
+      }
+    }
+  };
+  new MutationObserver(look).observe(page.body, { childList: true, subtree: true });
+}

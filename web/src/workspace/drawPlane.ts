@@ -1,0 +1,49 @@
+// The layer of the magnet's field: it hangs under the tool, wherever that is.
+
+import type { Palette } from '../palette';
+import type { Plane } from '../protocol.gen';
+import { pxFromWorld, type Vec2, type View } from '../transform';
+import { arrowPath } from './drawFlow';
+import { heatRamp } from './drawHeat';
+import type { Arrow } from './flow';
+import { HALF_SIDE_M, SIDE_PX, planeArrows, planePixels } from './plane';
+
+const ARROW_ALPHA = 0.6;
+
+export interface FieldPicture {
+  readonly image: HTMLCanvasElement;
+  readonly arrows: readonly Arrow[];
+}
+
+export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture {
+  const image = document.createElement('canvas');
+  image.width = SIDE_PX;
+  image.height = SIDE_PX;
+  const pixels = new ImageData(planePixels(plane, heatRamp(palette)), SIDE_PX, SIDE_PX);
+  image.getContext('2d')?.putImageData(pixels, 0, 0);
+  return { image, arrows: planeArrows(plane) };
+}
+
+export function drawField(
+  ctx: CanvasRenderingContext2D,
+  view: View,
+  palette: Palette,
+  [x_m, y_m]: Vec2,
+  field: FieldPicture,
+): void {
+  const side = 2 * HALF_SIDE_M * view.pxPerM;
+  ctx.imageSmoothingEnabled = true;
+  ctx.drawImage(
+    field.image,
+    ...pxFromWorld(view, [x_m - HALF_SIDE_M, y_m + HALF_SIDE_M]),
+    side,
+    side,
+  );
+  const [originX, originY] = pxFromWorld(view, [x_m, y_m]);
+  ctx.save();
+  ctx.strokeStyle = palette.text;
+  ctx.lineWidth = 1;
+  ctx.globalAlpha = ARROW_ALPHA;
+  ctx.stroke(arrowPath({ ...view, originX, originY }, field.arrows));
+  ctx.restore();
+}
