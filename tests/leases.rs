@@ -111,7 +111,8 @@ async fn a_hand_that_says_nothing_lets_go_and_time_stands() {
     browser.send(json!({"type": "drag", "x_m": null, "y_m": 0})).await;
     let error = browser.until("the hand's end", |m| m["type"] == "error" && m["code"] == "hand_silent").await;
     assert!(began.elapsed() > Duration::from_secs(5), "{error}");
-    browser.state("let go, and stands", |m| m["hand_m"].is_null() && m["running"] == false).await;
+    let (_, state) = lab.ask("GET", "/api/sessions/main/state", "").await;
+    assert_eq!((&state["hand_m"], &state["running"]), (&Value::Null, &json!(false)), "{state}");
     lab.close().await;
 }
 

@@ -4,6 +4,9 @@ import { readFile } from 'node:fs/promises';
 import { check, until } from './harness.mjs';
 import { distance } from './lab.mjs';
 
+/** The trial of the last such carry. */
+let carried;
+
 /** A carry with the bead taken away in the middle of it, delivered in the end. */
 async function disturbedCarry(lab) {
   await lab.reset();
@@ -26,6 +29,12 @@ async function disturbedCarry(lab) {
   await lab.run();
   await lab.delivered(1);
   await lab.button('Pause').click();
+  carried = lab.scene.trial;
+}
+
+/** The same, unless it is there already. */
+async function withCarry(lab) {
+  if (carried !== lab.scene.trial) await disturbedCarry(lab);
 }
 
 /** Opens an event in time by what it tells, through the others when it shares their button. */
@@ -68,6 +77,7 @@ export async function tellsWhy({ lab }) {
 }
 
 export async function comparesControllers({ lab }) {
+  await withCarry(lab);
   const { newest_tick: newest, world_hash: hash } = lab.state;
   const card = await openEvent(lab, 'Disturbance');
   await card.getByRole('button', { name: 'Compare controllers from here' }).click();
@@ -132,6 +142,7 @@ export async function comparesControllers({ lab }) {
 
 /** What was dragged a moment ago, as a file that the tests can repeat. */
 export async function keepsADragAsACase({ lab }) {
+  await withCarry(lab);
   await lab.page.getByRole('tab', { name: 'Events' }).click();
   const coming = lab.page.waitForEvent('download');
   await lab.page.getByRole('link', { name: 'Keep as test case' }).click();

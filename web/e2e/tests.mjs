@@ -283,11 +283,12 @@ async function showsTheField({ lab }) {
 }
 
 async function tuneHeight(lab, value_mm) {
-  await lab.page.getByText('Magnet and bead', { exact: true }).click();
+  const group = lab.page.locator('summary').filter({ hasText: /^Magnet and bead/ });
+  await group.click();
   const height = lab.page.getByRole('spinbutton', { name: 'Tool height' });
   await height.fill(value_mm);
   await height.press('Enter');
-  await lab.page.getByText('Magnet and bead', { exact: true }).click();
+  await group.click();
 }
 
 async function showsWhatTheCameraTells({ lab }) {
