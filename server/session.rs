@@ -24,7 +24,7 @@ use crate::geometry::Point2;
 use crate::map::{Library, MapError};
 use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
-use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, TrialError};
+use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, Trial, TrialError};
 
 pub use pacing::{SPEED_MAX, SPEED_MIN};
 pub use past::{Past, Progress};
@@ -136,7 +136,7 @@ pub struct Scenery {
     /// Raised when a trial is set up anew.
     pub trial: u64,
     /// Maps that can be loaded.
-    pub library: Arc<Library>,
+    pub known_maps: Arc<Library>,
     /// Map and free space.
     pub arena: Arc<Arena>,
     /// How the trial was set up.
@@ -145,6 +145,20 @@ pub struct Scenery {
     pub positioner: PositionerKind,
     /// Parameters in force.
     pub parameters: Parameters,
+}
+
+impl Scenery {
+    fn of(trial: &Trial, known_maps: Arc<Library>, version: u64, number: u64) -> Self {
+        Self {
+            version,
+            trial: number,
+            known_maps,
+            arena: trial.arena().clone(),
+            scenario: trial.scenario().clone(),
+            positioner: trial.state().world.plant.positioner.kind(),
+            parameters: trial.state().world.parameters.clone(),
+        }
+    }
 }
 
 /// The newest state, for watchers.

@@ -32,7 +32,7 @@ const END_WITHIN: Duration = Duration::from_secs(5);
 pub struct Sessions {
     gpu: Arc<Gpu>,
     archive: Arc<Archive>,
-    library: Arc<Library>,
+    known_maps: Arc<Library>,
     /// Another number after each change of the maps' names.
     maps: watch::Receiver<u64>,
     /// Sessions at once; each has a thread, a camera and a recording.
@@ -56,7 +56,7 @@ impl Sessions {
     pub fn new(
         gpu: Arc<Gpu>,
         archive: Arc<Archive>,
-        library: Arc<Library>,
+        known_maps: Arc<Library>,
         maps: watch::Receiver<u64>,
         most: usize,
         park_after: Duration,
@@ -64,7 +64,7 @@ impl Sessions {
         let sessions = Self {
             gpu,
             archive,
-            library,
+            known_maps,
             maps,
             most,
             park_after,
@@ -187,7 +187,7 @@ impl Sessions {
                 Box::new(Nowhere { reason: error.to_string() })
             }
         };
-        let session = Session::start(id, scenario, self.library.clone(), self.gpu.clone(), sink)?;
+        let session = Session::start(id, scenario, self.known_maps.clone(), self.gpu.clone(), sink)?;
         tracing::info!(session = id, "session opened");
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))
     }

@@ -117,7 +117,7 @@ impl From<&Scenery> for SceneMessage {
         let p = &scenery.parameters;
         Self {
             map: map.name().to_owned(),
-            maps: scenery.library.names(),
+            maps: scenery.known_maps.names(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
             controllers: ControllerName::ALL.to_vec(),

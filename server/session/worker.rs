@@ -58,7 +58,7 @@ impl<E: Eye> Worker<E> {
     ) -> Result<Self, TrialError> {
         let mut eye = make_eye(&arena)?;
         let trial = Trial::new(scenario, arena)?;
-        let scenery = Arc::new(scenery_of(&trial, library, 0, 0));
+        let scenery = Arc::new(Scenery::of(&trial, library, 0, 0));
         sink.begin(&trial, Beginning::SetUp);
         let sight = Arc::new((0, trial.look(&mut eye)?));
         let mut timeline = Timeline::default();
@@ -219,7 +219,7 @@ impl<E: Eye> Worker<E> {
             }
             Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, disturbances, script } => {
                 // A name only: no client path touches the file system.
-                let arena = Arena::of(self.scenery.library.find(&map)?);
+                let arena = Arena::of(self.scenery.known_maps.find(&map)?);
                 let present = self.trial.state();
                 let scenario = Scenario {
                     map,
@@ -316,7 +316,7 @@ impl<E: Eye> Worker<E> {
 
     fn next_scenery(&self, new_trials: u64) -> Scenery {
         let (version, trial) = (self.scenery.version + 1, self.scenery.trial + new_trials);
-        scenery_of(&self.trial, self.scenery.library.clone(), version, trial)
+        Scenery::of(&self.trial, self.scenery.known_maps.clone(), version, trial)
     }
 
     /// Shows what the camera sees now, without a control step.
@@ -391,17 +391,5 @@ impl<E: Eye> Worker<E> {
             journal.push(event.clone());
         }
         let _ = self.events.send(event);
-    }
-}
-
-fn scenery_of(trial: &Trial, library: Arc<Library>, version: u64, number: u64) -> Scenery {
-    Scenery {
-        version,
-        trial: number,
-        library,
-        arena: trial.arena().clone(),
-        scenario: trial.scenario().clone(),
-        positioner: trial.state().world.plant.positioner.kind(),
-        parameters: trial.state().world.parameters.clone(),
     }
 }

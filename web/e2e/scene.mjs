@@ -137,6 +137,20 @@ export async function turnsTheScene({ lab }) {
   check(differ(back, home) < 1e-3, 'Home is elsewhere');
 }
 
+export async function showsTheFieldInSpace({ lab }) {
+  await lab.reset();
+  await open(lab);
+  await settled(lab);
+  const look = () => canvasOf(lab).screenshot();
+  const bare = await look();
+  await lab.layer('Field and pull');
+  await until('a picture with it', async () => !(await look()).equals(bare));
+  await settled(lab);
+  await lab.screenshot('scene-field');
+  await lab.layer('Field and pull', false);
+  await until('a picture without it', async () => (await look()).equals(bare));
+}
+
 export async function obeysTheKeyboardInSpace({ lab }) {
   await lab.reset();
   await open(lab);

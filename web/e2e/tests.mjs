@@ -47,6 +47,7 @@ import {
   placesAGoalInSpace,
   saysWhatIsMissing,
   turnsTheScene,
+  showsTheFieldInSpace,
 } from './scene.mjs';
 import { PROOF } from './proof.mjs';
 import { SESSIONS } from './sessions.mjs';
@@ -475,6 +476,7 @@ export const TESTS = [
   ['places a goal in space', placesAGoalInSpace],
   ['disturbs in space', disturbsInSpace],
   ['turns the scene', turnsTheScene],
+  ['shows the field in space', showsTheFieldInSpace],
   ['obeys the keyboard in space', obeysTheKeyboardInSpace],
   ['frees what the scene held', frees],
   ['goes back to the plan', goesBackToThePlan],

@@ -13,11 +13,13 @@ import type { History } from '../history';
 import type { Palette } from '../palette';
 import type { SceneMessage, StateMessage } from '../protocol.gen';
 import type { TableView, Vec2 } from '../transform';
+import type { FieldPicture } from '../workspace/drawPlane';
 import type { GroundPicture } from '../workspace/groundPicture';
 import type { Layer } from '../workspace/layers';
 import { Arm, HIDING } from './arm';
 import { Bead, type Pull } from './bead';
 import { Eye } from './eye';
+import { FieldSheet } from './fieldSheet';
 import { Floor } from './floor';
 import type { LookName } from './looks';
 import { Marks } from './marks';
@@ -70,6 +72,7 @@ export class SceneView {
   private readonly eye: Eye;
   private setting: Setting | undefined;
   private floor: Floor | undefined;
+  private field: FieldSheet | undefined;
   private now: Now | undefined;
   private view: TableView | undefined;
   private frame: number | undefined;
@@ -168,6 +171,18 @@ export class SceneView {
     this.request();
   }
 
+  /** Hangs the magnet's field under the tool, or takes it away. */
+  hang(picture: FieldPicture | undefined): void {
+    if (this.field?.of === picture) return;
+    this.removeField();
+    if (picture) {
+      this.field = new FieldSheet(picture, this.palette, this.paints);
+      this.world.add(this.field.mesh);
+    }
+    this.place();
+    this.request();
+  }
+
   update(now: Now): void {
     this.now = now;
     this.place();
@@ -194,6 +209,7 @@ export class SceneView {
     this.canvas.removeEventListener('webglcontextrestored', this.request);
     this.clear();
     this.removeFloor();
+    this.removeField();
     disposeGeometries(this.arm.group);
     this.light.dispose();
     this.paints.dispose();
@@ -218,6 +234,13 @@ export class SceneView {
     this.floor = undefined;
   }
 
+  private removeField(): void {
+    if (!this.field) return;
+    this.world.remove(this.field.mesh);
+    this.field.dispose();
+    this.field = undefined;
+  }
+
   private place(): void {
     const { now, setting } = this;
     if (!now || !setting) return;
@@ -226,6 +249,7 @@ export class SceneView {
     this.arm.group.visible = state.joints_rad !== null;
     if (state.joints_rad) this.arm.pose(state.joints_rad);
     tool.place(state.tool_m);
+    this.field?.place(state.tool_m);
     marks.place(state, now.history, now.layers);
     marks.placeCursor(now.cursor);
     bead.place(state);

@@ -100,6 +100,11 @@ export class Paints {
     for (const name of names) this.over(name).opacity = opacity;
   }
 
+  /** What cuts off all that is not over the workspace. */
+  overTheTable(): Plane[] {
+    return [...this.borders];
+  }
+
   clipTo({ x_min_m, x_max_m, y_min_m, y_max_m }: Rect): void {
     const [left, right, front, back] = this.borders;
     left.constant = -x_min_m;
@@ -125,7 +130,7 @@ export class Paints {
       depthTest: !through,
       depthWrite: false,
       opacity,
-      clippingPlanes: clipped ? [...this.borders] : [],
+      clippingPlanes: clipped ? this.overTheTable() : [],
     };
   }
 

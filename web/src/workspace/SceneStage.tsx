@@ -99,6 +99,10 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
   });
 
   createEffect(() => {
+    drawing()?.hang(props.fields.field());
+  });
+
+  createEffect(() => {
     const drag = hand.drag();
     const holds =
       drag.kind === 'held' ? drag.by !== 'keyboard' : drag.kind === 'pressed' && drag.onBead;

@@ -1,0 +1,53 @@
+// The magnet's field on the table, as the plan draws it: a sheet that goes with the tool.
+
+import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
+import type { Palette } from '../palette';
+import { drawField, type FieldPicture } from '../workspace/drawPlane';
+import { HALF_SIDE_M } from '../workspace/plane';
+import { ORDER, type Paints } from './paints';
+
+const PICTURE_PX = 512;
+/** Over the shadow that lies on the floor. */
+const UP_M = 4e-4;
+
+export class FieldSheet {
+  readonly mesh: Mesh;
+  private readonly texture: CanvasTexture;
+  private readonly material: MeshBasicMaterial;
+
+  constructor(
+    readonly of: FieldPicture,
+    palette: Palette,
+    paints: Paints,
+  ) {
+    const canvas = document.createElement('canvas');
+    canvas.width = PICTURE_PX;
+    canvas.height = PICTURE_PX;
+    const ctx = canvas.getContext('2d');
+    const half_px = PICTURE_PX / 2;
+    const view = { originX: half_px, originY: half_px, pxPerM: half_px / HALF_SIDE_M };
+    if (ctx) drawField(ctx, view, palette, [0, 0], of);
+    this.texture = new CanvasTexture(canvas);
+    this.texture.colorSpace = SRGBColorSpace;
+    this.material = new MeshBasicMaterial({
+      map: this.texture,
+      transparent: true,
+      depthTest: false,
+      depthWrite: false,
+      clippingPlanes: paints.overTheTable(),
+    });
+    const side_m = 2 * HALF_SIDE_M;
+    this.mesh = new Mesh(new PlaneGeometry(side_m, side_m), this.material);
+    this.mesh.renderOrder = ORDER.marks;
+  }
+
+  place([x_m, y_m]: readonly [number, number, number]): void {
+    this.mesh.position.set(x_m, y_m, UP_M);
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.texture.dispose();
+    this.material.dispose();
+  }
+}
