@@ -51,8 +51,11 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
   const [moment] = createResource(path, get<MomentMessage>);
-  // By what it says: who connects again is told of it again.
-  const place = createMemo(() => lab.marks().findIndex((one) => isSame(one, props.event)));
+  const place = createMemo(() => {
+    const at = lab.marks().indexOf(props.event);
+    // Who connects again is told of it again.
+    return at >= 0 ? at : lab.marks().findIndex((one) => isSame(one, props.event));
+  });
   const isPast = (): boolean => place() < 0;
   const beside = (step: number): EventMessage | undefined => lab.marks()[place() + step];
   createEffect(
