@@ -15,7 +15,7 @@ export function FieldLegend(props: { answer: Answer<Plane> }): JSX.Element {
         {(plane) => (
           <>
             <span class="number">0</span>
-            <span class="heat-ramp" aria-hidden="true" />
+            <span class="heat-ramp of-field" aria-hidden="true" />
             <span class="number" data-testid="field-greatest">
               {fieldWords(plane())}
             </span>

@@ -4,8 +4,8 @@ import type { Palette } from '../palette';
 import type { Plane } from '../protocol.gen';
 import { pxFromWorld, type Vec2, type View } from '../transform';
 import { arrowPath } from './drawFlow';
-import { heatRamp } from './drawHeat';
 import type { Arrow } from './flow';
+import type { Ramp } from './heat';
 import { HALF_SIDE_M, SIDE_PX, planeArrows, planePixels } from './plane';
 
 const ARROW_ALPHA = 0.6;
@@ -19,7 +19,8 @@ export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture
   const image = document.createElement('canvas');
   image.width = SIDE_PX;
   image.height = SIDE_PX;
-  const pixels = new ImageData(planePixels(plane, heatRamp(palette)), SIDE_PX, SIDE_PX);
+  const ramp: Ramp = [palette['field-low'], palette['field-middle'], palette['field-high']];
+  const pixels = new ImageData(planePixels(plane, ramp), SIDE_PX, SIDE_PX);
   image.getContext('2d')?.putImageData(pixels, 0, 0);
   return { image, arrows: planeArrows(plane) };
 }
