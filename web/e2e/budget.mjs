@@ -81,7 +81,7 @@ async function measured(meter, lab) {
   await meter.start();
   await lab.page.waitForTimeout(RUN_MS);
   const figures = figuresOf([await meter.stop()]);
-  await lab.button('Pause').click();
+  await lab.pause();
   console.log(`      ${words(figures)}`);
   console.log(`      step to frame p95 ${stepped.step_to_frame_p95_ms?.toFixed(1)} ms`);
   figures.step_to_frame_p95_ms = stepped.step_to_frame_p95_ms;

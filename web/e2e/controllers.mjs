@@ -65,8 +65,7 @@ export async function decidesByQuantiles({ lab }) {
 
   await lab.run();
   await until('a judgement', () => lab.overlay?.judgement);
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
   const names = ['plus-x', 'minus-x', 'plus-y', 'minus-y'];
   const shown = () => Promise.all(names.map((name) => signed(lab, `rl-value-${name}`)));
   // What is shown may be a frame behind what came.
@@ -102,7 +101,7 @@ export async function decidesByQuantiles({ lab }) {
   await lab.speed('8');
   await lab.run();
   await lab.delivered(1);
-  await lab.button('Pause').click();
+  await lab.pause();
   await lab.layer('Value', false);
   await legend.waitFor({ state: 'detached' });
   await select(lab, 'Attractor');
@@ -115,8 +114,7 @@ export async function saysWhatThePolicyHasNotSeen({ lab }) {
   await lab.click(lab.freePoints(await lab.point('bead'), 0.06, 0.2)[0]);
   await lab.run();
   await lab.page.getByTestId('rl-unseen').waitFor();
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
   check(!lab.overlay.judgement.trained_on.includes(lab.scene.map), 'it has seen the map');
   await select(lab, 'Attractor');
 }
@@ -132,8 +130,7 @@ export async function carriesAlongAWay({ lab }) {
   await until('a plan', async () => (await lab.number('plan-plans')) >= 1);
   await until('a way', async () => (await lab.text('plan-way')).endsWith('cm'));
   await until('a little of the way', () => lab.overlay?.plan?.way.length > 1);
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
 
   const { way, obstacles } = lab.overlay.plan;
   const corners = way.map(([x, y]) => [x, y]);
@@ -155,7 +152,7 @@ export async function carriesAlongAWay({ lab }) {
   await lab.speed('8');
   await lab.run();
   await lab.delivered(1);
-  await lab.button('Pause').click();
+  await lab.pause();
   await select(lab, 'Attractor');
   await until('no plan', async () => (await lab.page.getByTestId('plan-plans').count()) === 0);
 }

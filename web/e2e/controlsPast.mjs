@@ -52,7 +52,9 @@ async function withGhosts(lab) {
   for (const name of ['RL', 'ERRT']) {
     await lab.page.getByLabel(`Compare ${name}`, { exact: true }).uncheck();
   }
+  lab.sent.fork = undefined;
   await lab.button('Compare from here').click();
+  await until('the question', () => lab.sent.fork);
   await ghosts(lab);
 }
 

@@ -97,7 +97,7 @@ export async function letsGoByItself({ lab }) {
     await page.mouse.up();
     if (what === 'another view') await lab.button('Laboratory').click();
   }
-  await lab.button('Pause').click();
+  await lab.pause();
   // What was drawn of the hand is gone with it, and the page hears of one press once.
   await lab.reset();
   const sent = [];

@@ -55,8 +55,7 @@ async function holdsStill({ lab }) {
     lab.sent.drag = undefined;
     await lab.page.waitForTimeout(1200);
     check(!lab.sent.drag, `the ${how} has let go, and says that it holds`);
-    await lab.button('Pause').click();
-    await until('paused', () => !lab.state.running);
+    await lab.pause();
   }
   await view(lab, 'Plan').check();
 }

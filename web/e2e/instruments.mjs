@@ -25,8 +25,7 @@ export async function plotsThePapersFigure({ lab }) {
   await lab.click(lab.freePoints(bead, 0.25, 0.4)[0]);
   await lab.run();
   await until('some way', () => lab.state.sim_time_s > 4);
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
   for (const part of PARTS) {
     await until(`numbers in ${part}`, async () => /\d/.test(await words(lab, part)));
   }
@@ -140,8 +139,7 @@ export async function disturbsByScript({ lab }) {
 
   await lab.run();
   await until('the move', () => lab.state.disturbances === 1);
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
   // Back before it: the hollow mark lies ahead.
   const track = await page.getByLabel('Timeline').boundingBox();
   await page.mouse.click(track.x + 0.2 * track.width, track.y + track.height / 2);
@@ -197,7 +195,7 @@ export async function keepsTime({ lab }) {
     // Only where less is achieved than asked does it say so.
     return factor && text.includes('machine limit') === Number(factor) < 54.4;
   });
-  await lab.button('Pause').click();
+  await lab.pause();
   await lab.speed('1');
 }
 
@@ -280,7 +278,7 @@ export async function saysWhatHappens({ lab, browser, server }) {
   await lab.run();
   for (let i = 0; i < 3; i++) await lab.button('Kick now').click();
   await until('the kicks', () => lab.state.disturbances >= 3);
-  await lab.button('Pause').click();
+  await lab.pause();
   await lab.button('Disturb').click();
   await lab.button('Release control').click();
   await until('the role', async () =>

@@ -203,6 +203,12 @@ export class Lab {
     return this.button('Run').click();
   }
 
+  /** The session stands when this returns. */
+  async pause() {
+    await this.button('Pause').click();
+    await until('paused', () => !this.state.running);
+  }
+
   /** Free points, those with the shortest straight free way from `from` to walk first. */
   freePoints(from, least_m, most_m) {
     const { x_min_m, x_max_m, y_min_m, y_max_m } = this.scene.workspace;

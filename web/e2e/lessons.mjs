@@ -164,7 +164,7 @@ async function runStep(lab, action, after, speed) {
     );
   }
   await until('all tasks', () => lab.button('Next').isEnabled(), LESSON_MS);
-  await lab.button('Pause').click();
+  await lab.pause();
 }
 
 /** Title, the right choice, runs, and of the first run the button to press, and after which task. */

@@ -59,7 +59,7 @@ async function drawsItsOwn(lab, server) {
   await lab.click(lab.freePoints(await lab.point('bead'), 0.1, 0.2)[0]);
   await lab.run();
   await lab.delivered(1);
-  await lab.button('Pause').click();
+  await lab.pause();
   // Others find the maps that they know.
   const gone = await page.request.delete(`${server.url}/api/maps/${name}`);
   check(gone.status() === 204, `the server keeps ${name}: ${gone.status()}`);

@@ -10,9 +10,7 @@ export function nearby(lab) {
 }
 
 export async function pause(lab) {
-  if (!lab.state.running) return;
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  if (lab.state.running) await lab.pause();
 }
 
 export async function run(lab) {

@@ -14,8 +14,7 @@ async function disturbedCarry(lab) {
   await lab.click(goal);
   await lab.run();
   await until('transport', () => lab.state.leg_steps > 4);
-  await lab.button('Pause').click();
-  await until('pause', () => !lab.state.running);
+  await lab.pause();
   // While time stands a drag puts the bead down: nothing depends on how fast this machine is.
   const bead = await lab.point('bead');
   const [away] = lab.freePoints(bead, 0.15, 0.25);
@@ -28,7 +27,7 @@ async function disturbedCarry(lab) {
   await lab.speed('4');
   await lab.run();
   await lab.delivered(1);
-  await lab.button('Pause').click();
+  await lab.pause();
   carried = lab.scene.trial;
 }
 
@@ -85,12 +84,17 @@ export async function comparesControllers({ lab }) {
   // What is cleared stays away though more of it is computed, until it is asked for again.
   await lab.button('Clear ghosts').click();
   const told = lab.comparison;
-  await until('more of it', () => lab.comparison !== told || !lab.comparison.running);
+  await until('more of it', () => lab.comparison !== told || lab.comparison?.running === false);
   await lab.drawn();
   check((await panel.count()) === 0, 'cleared ghosts came back');
   await openEvent(lab, 'Disturbance');
+  lab.sent.fork = undefined;
   await card.getByRole('button', { name: 'Compare controllers from here' }).click();
+  await until('the question', () => lab.sent.fork);
   const rows = panel.getByRole('row');
+  // What was known of this moment is shown until the new answers come: the last of these is waited for.
+  await until('all of it', () => lab.comparison && !lab.comparison.running, 60_000);
+  await lab.drawn();
   await until(
     'three results',
     async () => {

@@ -16,7 +16,7 @@ export async function listsRecordings({ lab }) {
   await lab.click(lab.freePoints(await lab.point('bead'), 0.2, 0.4)[0]);
   await lab.run();
   await until('four seconds', () => lab.state.sim_time_s > 4);
-  await lab.button('Pause').click();
+  await lab.pause();
 
   await lab.button('Recordings').click();
   const row = rowOf(lab);

@@ -67,7 +67,7 @@ export async function placesAGoalInSpace({ lab }) {
   check(distance(set, goal) < 0.002, `the goal is at ${set}, not at ${goal}`);
   await lab.run();
   await until('a carried bead', () => lab.state.phase === 'transporting');
-  await lab.button('Pause').click();
+  await lab.pause();
 }
 
 export async function disturbsInSpace({ lab }) {
@@ -98,7 +98,7 @@ export async function disturbsInSpace({ lab }) {
     'dragging the bead turned the view',
   );
   check(!lab.state.goal_m, 'dragging the bead placed a goal');
-  await lab.button('Pause').click();
+  await lab.pause();
 }
 
 export async function turnsTheScene({ lab }) {

@@ -43,8 +43,7 @@ async function standBesideEachOther({ lab, browser, server }) {
     check(link.startsWith(`${server.url}/s/anna#`), `the link is ${link}`);
     await page.keyboard.press('Escape');
     for (const name of ['Attractor flow', 'Value']) await anna.layer(name, false);
-    await anna.button('Pause').click();
-    await until('paused', () => !anna.state.running);
+    await anna.pause();
   } finally {
     await anna.page.context().close();
   }

@@ -94,8 +94,7 @@ async function soak({ browser, server }) {
         `${sample.listeners} listeners, server ${mb(sample.server_rss_bytes)} MB; ${words(samples.at(-1))}`,
     );
   }
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
   await meter.start();
   await stepThrough(lab, STEPS);
   const { step_to_frame_p95_ms } = figuresOf([await meter.stop()]);

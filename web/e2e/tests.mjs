@@ -322,7 +322,7 @@ async function showsWhatTheCameraTells({ lab }) {
   await page.getByLabel('Blocks', { exact: true }).selectOption('rectangles');
   await lab.run();
   await until('a second', () => lab.state.sim_time_s > 1);
-  await lab.button('Pause').click();
+  await lab.pause();
 
   const here = lab.state.tool_m;
   const look = () => lab.look([here[0] + 0.25 * (here[0] > 0 ? -1 : 1), here[1]]);
@@ -352,15 +352,14 @@ async function kicksTheBead({ lab }) {
   await lab.page.getByRole('log').getByText('a kick of 0.80 mN·s').waitFor();
   await lab.screenshot('kick');
   await lab.button('Disturb').click();
-  await lab.button('Pause').click();
+  await lab.pause();
 }
 
 async function goesBackInTime({ lab }) {
   await lab.reset({ speed: '8' });
   await lab.run();
   await until('three seconds', () => lab.state.sim_time_s > 3);
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
   const end = lab.state.tick;
   const box = await lab.page.getByLabel('Timeline').boundingBox();
   await lab.page.mouse.click(box.x + 0.4 * box.width, box.y + box.height / 2);
@@ -401,7 +400,7 @@ async function looksRight({ lab, browser, server }) {
   await lab.click(lab.freePoints(await lab.point('bead'), 0.2, 0.4)[0]);
   await lab.run();
   await until('some history', () => lab.state.sim_time_s > 6);
-  await lab.button('Pause').click();
+  await lab.pause();
   await lab.screenshot('dark');
   await lab.button('Use light colours').click();
   await lab.screenshot('light');

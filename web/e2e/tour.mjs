@@ -23,8 +23,7 @@ async function settle(lab) {
   await until('a goal', () => lab.state.goal_m);
   await lab.run();
   await until('a history', () => lab.state.newest_tick > HISTORY_TICKS);
-  await lab.button('Pause').click();
-  await until('paused', () => !lab.state.running);
+  await lab.pause();
 }
 
 /** The panel or bar that something is in. */
@@ -93,7 +92,7 @@ async function* moments(lab) {
   await lab.run();
   await until('running', () => lab.state.running);
   yield { name: 'running', panel: page.locator('footer.bar') };
-  await lab.button('Pause').click();
+  await lab.pause();
   await lab.button('Release control').click();
   await lab.button('Take control').waitFor();
   yield { name: 'viewer', panel: page.locator('header.bar') };
