@@ -1,4 +1,4 @@
-//! The page's types are these types: `web/src/protocol.gen.ts` is generated, and compared here.
+//! The page's types are these types: `web/src/net/protocol.gen.ts` is generated, and compared here.
 
 use ts_rs::{Config, TS};
 
@@ -17,7 +17,7 @@ use crate::scenario::{
 use crate::session::SPEED_MAX;
 use crate::trial::GOAL_RADIUS_M;
 
-const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/protocol.gen.ts");
+const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/net/protocol.gen.ts");
 
 fn declaration<T: TS>(config: &Config) -> String {
     let docs = T::docs().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! A scenario as the part of the page's address after `#` (`web/src/link.ts` reads it).
+//! A scenario as the part of the page's address after `#` (`web/src/lab/experimentLink.ts` reads it).
 
 use serde_json::Value;
 
@@ -72,7 +72,7 @@ mod tests {
             parameters,
             ..Scenario::idle("colon", 0)
         };
-        // `web/src/link.test.ts` reads this one.
+        // `web/src/lab/experimentLink.test.ts` reads this one.
         assert_eq!(
             tuned.link().unwrap(),
             "#v=1&map=colon&controller=errt&seed=9007199254740991&start=-0.1234567890123,-0.3&goal=0.1,0.0000001\

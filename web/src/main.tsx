@@ -2,22 +2,22 @@
 
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { render } from 'solid-js/web';
-import { keepFocus } from './focus';
-import { createLab } from './lab';
-import { createLinks } from './links';
-import { carriesToken, takeToken } from './login/token';
-import { AsidePanel } from './panels/AsidePanel';
-import { CameraPanel } from './panels/CameraPanel';
-import { ControllerPanel } from './panels/ControllerPanel';
-import { EvaluateView } from './panels/EvaluateView';
-import { Header } from './panels/Header';
-import { LiveRegion } from './panels/LiveRegion';
-import { LowerPanel } from './panels/LowerPanel';
-import { RecordingsView } from './panels/RecordingsView';
-import { Transport } from './panels/Transport';
-import { createTheme } from './theme';
-import type { View } from './views';
-import { WorkspacePanel } from './workspace/WorkspacePanel';
+import { keepFocus } from './app/focus';
+import { createLab } from './lab/lab';
+import { createLinks } from './lab/pageExperiment';
+import { carriesToken, takeToken } from './pages/login/token';
+import { AsidePanel } from './app/AsidePanel';
+import { CameraPanel } from './features/camera/CameraPanel';
+import { ControllerPanel } from './features/controller/ControllerPanel';
+import { EvaluateView } from './features/evaluate/EvaluateView';
+import { Header } from './app/Header';
+import { LiveRegion } from './app/LiveRegion';
+import { LowerPanel } from './app/LowerPanel';
+import { RecordingsView } from './features/recordings/RecordingsView';
+import { Transport } from './features/playback/PlaybackBar';
+import { createTheme } from './ui/theme';
+import type { View } from './app/views';
+import { WorkspacePanel } from './app/WorkspacePanel';
 
 function Page(): JSX.Element {
   const { theme, toggle } = createTheme();

@@ -9,19 +9,19 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
-import type { History } from '../history';
-import type { Palette } from '../palette';
-import type { SceneMessage, StateMessage } from '../protocol.gen';
-import type { TableView, Vec2 } from '../transform';
-import type { FieldPicture } from '../workspace/drawPlane';
-import type { GroundPicture } from '../workspace/groundPicture';
-import type { Layer } from '../workspace/layers';
+import type { History } from '../lab/history';
+import type { Palette } from '../ui/palette';
+import type { SceneMessage, StateMessage } from '../net/protocol.gen';
+import type { TableView, Vec2 } from '../plan/transform';
+import type { FieldPicture } from '../features/field/drawPlane';
+import type { GroundPicture } from '../plan/floorPicture';
+import type { Layer } from '../lab/layers';
 import { Arm, HIDING } from './arm';
 import { Bead, type Pull } from './bead';
-import { Eye } from './eye';
+import { Eye } from './orbitCamera';
 import { FieldSheet } from './fieldSheet';
 import { Floor } from './floor';
-import type { LookName } from './looks';
+import type { LookName } from './viewpoints';
 import { Marks } from './marks';
 import { Paints } from './paints';
 import { disposeGeometries } from './solids';

@@ -2,9 +2,9 @@
 
 import { Group, Mesh, SphereGeometry, Sprite, SpriteMaterial, CanvasTexture, Vector3 } from 'three';
 import type { PerspectiveCamera } from 'three';
-import type { Palette } from '../palette';
-import type { StateMessage } from '../protocol.gen';
-import type { Vec2 } from '../transform';
+import type { Palette } from '../ui/palette';
+import type { StateMessage } from '../net/protocol.gen';
+import type { Vec2 } from '../plan/transform';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';

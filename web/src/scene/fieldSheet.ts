@@ -1,9 +1,9 @@
 // The magnet's field on the table, as the plan draws it: a sheet that goes with the tool.
 
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
-import type { Palette } from '../palette';
-import { drawField, type FieldPicture } from '../workspace/drawPlane';
-import { HALF_SIDE_M } from '../workspace/plane';
+import type { Palette } from '../ui/palette';
+import { drawField, type FieldPicture } from '../features/field/drawPlane';
+import { HALF_SIDE_M } from '../features/field/plane';
 import { ORDER, type Paints } from './paints';
 
 const PICTURE_PX = 512;

@@ -10,13 +10,9 @@ import {
   SRGBColorSpace,
   ShadowMaterial,
 } from 'three';
-import type { Palette } from '../palette';
-import type { Rect } from '../protocol.gen';
-import {
-  createNumbersPicture,
-  repaintNumbers,
-  type GroundPicture,
-} from '../workspace/groundPicture';
+import type { Palette } from '../ui/palette';
+import type { Rect } from '../net/protocol.gen';
+import { createNumbersPicture, repaintNumbers, type GroundPicture } from '../plan/floorPicture';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 

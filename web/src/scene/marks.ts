@@ -1,16 +1,16 @@
 // What is drawn on the table and over it rather than there: goal, capture, the camera's field, trails, cursor.
 
 import { BufferGeometry, CircleGeometry, Float32BufferAttribute, Group, Mesh } from 'three';
-import type { History } from '../history';
+import type { History } from '../lab/history';
 import {
   GOAL_RADIUS_M,
   type Parameters,
   type SceneMessage,
   type StateMessage,
-} from '../protocol.gen';
-import type { Vec2 } from '../transform';
-import type { Layer } from '../workspace/layers';
-import { TRAIL_S } from '../workspace/paint';
+} from '../net/protocol.gen';
+import type { Vec2 } from '../plan/transform';
+import type { Layer } from '../lab/layers';
+import { TRAIL_S } from '../plan/paint';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries, type Point } from './solids';
 import { Strokes } from './strokes';

@@ -10,8 +10,8 @@ import {
   type Material,
 } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-import type { Palette } from '../palette';
-import type { Rect } from '../protocol.gen';
+import type { Palette } from '../ui/palette';
+import type { Rect } from '../net/protocol.gen';
 
 export type PaintName = keyof Palette;
 

@@ -13,9 +13,9 @@ import {
   Shape,
   Vector2,
 } from 'three';
-import type { Palette } from '../palette';
-import type { Polygon, Rect, SceneMessage } from '../protocol.gen';
-import { groundMargins } from '../workspace/groundPicture';
+import type { Palette } from '../ui/palette';
+import type { Polygon, Rect, SceneMessage } from '../net/protocol.gen';
+import { groundMargins } from '../plan/floorPicture';
 import { Numbers } from './floor';
 import type { Paints } from './paints';
 import { disposeGeometries } from './solids';

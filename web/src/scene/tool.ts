@@ -1,8 +1,8 @@
 // The magnet, and what holds it: the gripper's fingers on the arm, a portal on the planar stage.
 
 import { Group } from 'three';
-import type { Orientation, Rect } from '../protocol.gen';
-import { groundMargins } from '../workspace/groundPicture';
+import type { Orientation, Rect } from '../net/protocol.gen';
+import { groundMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
 import { Solids, disposeGeometries, type Point } from './solids';
 import { EDGE_M } from './table';

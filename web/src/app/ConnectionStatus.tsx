@@ -1,0 +1,83 @@
+// Whose page this is, whether it hears of its session, and the way back where it does not.
+
+import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
+import { loggedOut } from '../net/access';
+import type { Lab } from '../lab/lab';
+import type { Link } from '../lab/model';
+import { MAIN } from '../net/session';
+
+function linkText(link: Link): string {
+  switch (link.kind) {
+    case 'connecting':
+      return 'connecting';
+    case 'live':
+      return 'live';
+    case 'lost':
+      return `reconnecting, attempt ${link.attempt}`;
+    case 'outdated':
+      return 'server has another version: reload the page';
+  }
+}
+
+function Reload(props: { label: string; title: string }): JSX.Element {
+  return (
+    <button
+      type="button"
+      class="small primary"
+      title={props.title}
+      onClick={() => {
+        window.location.reload();
+      }}
+    >
+      {props.label}
+    </button>
+  );
+}
+
+/** In the browser's tab, where several sessions may stand beside each other. */
+function nameTab(session: string): void {
+  createEffect(() => {
+    const before = document.title;
+    document.title = `${session} – ${before}`;
+    onCleanup(() => {
+      document.title = before;
+    });
+  });
+}
+
+export function Connection(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const isNamed = lab.session !== MAIN;
+  if (isNamed) nameTab(lab.session);
+  const hasEnded = (): boolean => lab.ended() !== undefined;
+  return (
+    <>
+      <div class="whose">
+        <Show when={isNamed}>
+          <span class="session-name" data-testid="session-name" title={`Session ${lab.session}`}>
+            <span class="visually-hidden">Session </span>
+            {lab.session}
+          </span>
+        </Show>
+        <span
+          class="link"
+          data-link={hasEnded() ? 'ended' : lab.link().kind}
+          data-testid="connection"
+          title={lab.ended()}
+        >
+          {hasEnded() ? 'session ended' : linkText(lab.link())}
+        </span>
+      </div>
+      <Show when={hasEnded()}>
+        <Reload label="Begin anew" title="Reloads the page, which begins the session anew" />
+      </Show>
+      {/* The region is always there: screen readers announce what appears inside of it. */}
+      <span class="logged-out" role="alert" aria-label="Login">
+        <Show when={loggedOut()}>
+          <span>login has ended</span>
+          <Reload label="Log in again" title="Reloads the page, which asks for the token" />
+        </Show>
+      </span>
+    </>
+  );
+}

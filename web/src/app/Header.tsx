@@ -1,0 +1,134 @@
+// Who, what, and how it stands: connection, role, mode, counters.
+
+import { For, Show, type JSX } from 'solid-js';
+import { takeControl, type Lab } from '../lab/lab';
+import type { Theme } from '../ui/theme';
+import { VIEWS, type View } from './views';
+import { Connection } from './ConnectionStatus';
+import { KeyboardHelp } from './KeyboardHelp';
+import { NoticeBar } from '../ui/NoticeBar';
+
+function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
+  return (
+    <div class="counter">
+      <dt>{props.label}</dt>
+      <dd class="number" data-testid={props.testid}>
+        {props.value ?? '–'}
+      </dd>
+    </div>
+  );
+}
+
+function RoleBox(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const operator = (): boolean => lab.hello()?.role === 'operator';
+  return (
+    <Show when={lab.link().kind === 'live' && lab.hello()}>
+      <span class="role" data-testid="role">
+        {operator() ? 'operator' : 'viewer'}
+      </span>
+      <button
+        type="button"
+        class="small"
+        classList={{ primary: !operator() || lab.hello()?.asked === true }}
+        onClick={() => {
+          if (operator()) lab.send({ type: 'release_control' });
+          else takeControl(lab);
+        }}
+      >
+        {operator() ? 'Release control' : 'Take control'}
+      </button>
+      <Show when={operator() && lab.hello()?.asked}>
+        <span class="asked" data-testid="asked">
+          another asks for it
+        </span>
+      </Show>
+    </Show>
+  );
+}
+
+interface HeaderProps {
+  readonly lab: Lab;
+  readonly theme: () => Theme;
+  readonly onTheme: () => void;
+  readonly view: View;
+  readonly onView: (view: View) => void;
+}
+
+export function Header(props: HeaderProps): JSX.Element {
+  const { lab } = props;
+  return (
+    <header class="bar top">
+      <div class="brand">
+        <h1>Ferry</h1>
+        <p class="safety">Simulation, not safety-rated</p>
+      </div>
+      <nav class="views" aria-label="Views">
+        <For each={VIEWS}>
+          {([id, title]) => (
+            <button
+              type="button"
+              class="small"
+              aria-current={props.view === id ? 'page' : undefined}
+              onClick={() => {
+                props.onView(id);
+              }}
+            >
+              {title}
+            </button>
+          )}
+        </For>
+      </nav>
+      <div class="session">
+        <Connection lab={lab} />
+        <RoleBox lab={lab} />
+        <Show when={lab.state()}>
+          {(state) => (
+            <span
+              class="recording"
+              data-recording={state().recording === 'recording' ? 'on' : 'off'}
+              data-testid="recording"
+              title={`${state().recording}; rendered by ${lab.hello()?.adapter ?? 'an unknown adapter'}`}
+            >
+              {state().recording === 'recording' ? 'rec' : state().recording}
+            </span>
+          )}
+        </Show>
+        <NoticeBar lab={lab} place="session" />
+      </div>
+      <div class="mode" data-mode={lab.state()?.mode ?? 0}>
+        <span class="mode-label">mode</span>
+        <span class="mode-badge number" data-testid="mode">
+          {lab.state()?.mode ?? '–'}
+        </span>
+        <span
+          class="phase"
+          data-testid="phase"
+          data-phase={lab.state()?.phase}
+          title={lab.state()?.phase}
+        >
+          {lab.state()?.phase ?? '–'}
+        </span>
+      </div>
+      <dl class="counters">
+        <Counter label="delivered" testid="deliveries" value={lab.state()?.deliveries} />
+        <Counter label="switches" testid="switches" value={lab.state()?.switches} />
+        <Counter label="disturbed" testid="disturbances" value={lab.state()?.disturbances} />
+        <Counter label="steps" testid="steps" value={lab.state()?.steps} />
+      </dl>
+      <div class="page-tools">
+        <KeyboardHelp lab={lab} view={props.view} />
+        <button
+          type="button"
+          class="small"
+          aria-label={props.theme() === 'dark' ? 'Use light colours' : 'Use dark colours'}
+          onClick={() => {
+            props.onTheme();
+          }}
+        >
+          {props.theme() === 'dark' ? 'Light' : 'Dark'}
+        </button>
+      </div>
+    </header>
+  );
+}

@@ -1,0 +1,30 @@
+// One place that screen readers listen to: switches, deliveries, disturbances, connection, role.
+
+import { createEffect, createSignal, on, type JSX } from 'solid-js';
+import { createSpeaker, heardOf, newsOf, roleWords } from './announce';
+import type { Lab } from '../lab/lab';
+
+export function LiveRegion(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const [said, setSaid] = createSignal('');
+  const say = createSpeaker(setSaid);
+  let heard = heardOf(lab.log());
+  createEffect(
+    on(lab.log, (log) => {
+      const news = newsOf(log, heard);
+      heard = heardOf(log);
+      if (news !== undefined) say(news);
+    }),
+  );
+  createEffect(
+    on(lab.hello, (now, before) => {
+      const words = roleWords(before, now);
+      if (words !== undefined) say(words);
+    }),
+  );
+  return (
+    <div class="visually-hidden" role="status" aria-live="polite" data-testid="live-region">
+      {said()}
+    </div>
+  );
+}

@@ -1,0 +1,86 @@
+// Head of the plan view: what carries the magnet, which layers are shown, what can be done.
+
+import { For, Show, type JSX } from 'solid-js';
+import type { Lab } from '../lab/lab';
+import { LayerMenu } from './LayerMenu';
+import type { Layer } from '../lab/layers';
+import { VIEW_MODES, type ViewMode } from './viewMode';
+
+/** Radio buttons, so that arrow keys go between them as everywhere. */
+function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {
+  return (
+    <fieldset class="view-switch" role="radiogroup" aria-label="View">
+      <For each={VIEW_MODES}>
+        {([id, label]) => (
+          <label>
+            <input
+              type="radio"
+              name="workspace-view"
+              checked={props.mode === id}
+              onChange={() => {
+                props.onMode(id);
+              }}
+            />
+            {label}
+          </label>
+        )}
+      </For>
+    </fieldset>
+  );
+}
+
+export function WorkspaceHead(props: {
+  lab: Lab;
+  mode: ViewMode;
+  onMode: (mode: ViewMode) => void;
+  layers: ReadonlySet<Layer>;
+  onLayer: (layer: Layer, on: boolean) => void;
+  disturbId: string;
+  disturbing: boolean;
+  onDisturbing: (on: boolean) => void;
+}): JSX.Element {
+  const { lab } = props;
+  const hasArm = (): boolean => lab.scene()?.positioner !== 'planar_stage';
+  const reason = (layer: Layer): string | undefined =>
+    layer === 'singularity' && !hasArm()
+      ? 'The planar stage has no arm, and so no singularities.'
+      : undefined;
+  return (
+    <header class="panel-head">
+      <h2>
+        Workspace
+        <Show when={!hasArm()}>
+          <span class="remark" data-testid="positioner">
+            Planar stage, no arm
+          </span>
+        </Show>
+      </h2>
+      <div class="buttons">
+        <ViewSwitch mode={props.mode} onMode={props.onMode} />
+        <LayerMenu layers={props.layers} onLayer={props.onLayer} reason={reason} />
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate() || !lab.state()?.goal_m}
+          onClick={() => {
+            lab.send({ type: 'clear_goal' });
+          }}
+        >
+          Clear goal
+        </button>
+        <button
+          type="button"
+          class="small"
+          aria-expanded={props.disturbing}
+          aria-controls={props.disturbId}
+          disabled={!lab.canOperate()}
+          onClick={() => {
+            props.onDisturbing(!props.disturbing);
+          }}
+        >
+          Disturb
+        </button>
+      </div>
+    </header>
+  );
+}

@@ -1,0 +1,147 @@
+// The workspace, from above or in space: click places the goal, dragging the bead is the disturbance.
+
+import { Show, createMemo, createSignal } from 'solid-js';
+import type { JSX } from 'solid-js';
+import { fixed } from '../ui/format';
+import type { Lab } from '../lab/lab';
+import { createPalette } from '../ui/palette';
+import { NoticeBar } from '../ui/NoticeBar';
+import type { Theme } from '../ui/theme';
+import { insidePolygon } from '../plan/transform';
+import { DisturbBar } from '../features/disturb/DisturbBar';
+import { createFields } from './fields';
+import { FieldLegend } from '../features/field/FieldLegend';
+import { FlowLegend } from '../features/flow/FlowLegend';
+import { HeatLegend } from '../features/singularity/HeatLegend';
+import { PlanStage } from '../plan/PlanView';
+import { SceneStage } from '../scene/ScenePanel';
+import { createStage } from '../plan/interaction';
+import { ValueLegend } from '../features/values/ValueLegend';
+import { storeViewMode, storedViewMode, type ViewMode } from './viewMode';
+import { WorkspaceHead } from './WorkspaceHead';
+
+const HELP_ID = 'workspace-help';
+
+export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
+  const { lab } = props;
+  const [mode, setMode] = createSignal(storedViewMode());
+  const [disturbing, setDisturbing] = createSignal(false);
+  const { layers } = lab;
+  const palette = createPalette(() => props.theme());
+  const stage = createStage(lab);
+  const fields = createFields(lab, layers, palette);
+
+  const readout = createMemo(() => {
+    const scene = lab.scene();
+    const at = stage.at();
+    if (!at || !scene) return undefined;
+    return { at, wall: scene.walls.some((wall) => insidePolygon(wall, at)) };
+  });
+  const spoken = createMemo(() => {
+    const at = stage.cursor();
+    return stage.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
+  });
+
+  const choose = (next: ViewMode): void => {
+    setMode(next);
+    storeViewMode(next);
+  };
+  const stale = (): string | undefined => {
+    const ended = lab.ended();
+    if (ended !== undefined)
+      return `The session has ended: ${ended}; reloading the page begins it anew.`;
+    return lab.link().kind === 'live'
+      ? undefined
+      : 'No connection: this is the last state received.';
+  };
+  const stageProps = { lab, stage, fields, layers, palette, helpId: HELP_ID };
+
+  return (
+    <section class="panel workspace">
+      <WorkspaceHead
+        lab={lab}
+        mode={mode()}
+        onMode={choose}
+        layers={layers()}
+        onLayer={(layer, on) => {
+          lab.showLayer(layer, on);
+        }}
+        disturbId="disturb"
+        disturbing={disturbing()}
+        onDisturbing={setDisturbing}
+      />
+      <Show when={disturbing()}>
+        <DisturbBar lab={lab} id="disturb" picker={stage.picker} />
+      </Show>
+      <div class="stage">
+        <Show when={mode() === 'scene'} fallback={<PlanStage {...stageProps} />}>
+          <SceneStage
+            {...stageProps}
+            onPlan={() => {
+              choose('plan');
+            }}
+          />
+        </Show>
+        <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
+        <Show when={stage.picker.isPicking()}>
+          <p class="picking" role="status">
+            Pick a place: click it, or arrows and Enter. Esc ends.
+          </p>
+        </Show>
+        <NoticeBar lab={lab} place="workspace" />
+      </div>
+      <Show when={fields.showsHeat()}>
+        <HeatLegend answer={fields.heatAnswer()} />
+      </Show>
+      <Show when={fields.showsField()}>
+        <FieldLegend answer={fields.fieldAnswer()} />
+      </Show>
+      <Show when={fields.showsFlow() && lab.scene()}>
+        {(scene) => (
+          <FlowLegend
+            answer={fields.flow.answer()}
+            flow={fields.flow.flow()}
+            hasGoal={fields.goal() !== undefined}
+            law={scene().parameters.attractor_law}
+          />
+        )}
+      </Show>
+      <Show when={fields.showsValue()}>
+        <ValueLegend
+          map={fields.value.map()}
+          error={fields.value.error()}
+          hasGoal={fields.goal() !== undefined}
+        />
+      </Show>
+      <footer class="panel-foot">
+        <p id={HELP_ID} class="hint">
+          <Show
+            when={mode() === 'scene'}
+            fallback="Click: goal · drag the bead: disturb, Shift lifts it over walls · keys: arrows, Enter, D"
+          >
+            Click: goal · drag the bead: disturb, Shift lifts · drag, wheel: view · arrows, Enter, D
+            <span class="visually-hidden">
+              · brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home
+              resets it · the right mouse button moves it
+            </span>
+          </Show>
+        </p>
+        <output class="readout" aria-live="off">
+          <Show when={readout()} fallback="x –   y –">
+            {(here) => (
+              <>
+                <Show when={here().wall}>
+                  <span class="wall-hint">wall </span>
+                </Show>
+                x {fixed(here().at[0], 3)} y {fixed(here().at[1], 3)} m
+              </>
+            )}
+          </Show>
+        </output>
+        <span class="visually-hidden" aria-live="polite">
+          {spoken()}
+        </span>
+      </footer>
+    </section>
+  );
+}

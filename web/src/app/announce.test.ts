@@ -1,0 +1,69 @@
+import { describe, expect, it } from 'vitest';
+import { createSpeaker, heardOf, newsOf, roleWords } from './announce';
+import type { LogLine } from '../lab/model';
+import type { Hello } from '../net/protocol.gen';
+
+const line = (id: number, kind: LogLine['kind'], text: string = kind, count = 1): LogLine => ({
+  id,
+  kind,
+  text,
+  count,
+  sim_time_s: 0,
+  event: undefined,
+});
+
+describe('the news', () => {
+  it('are the newest worth saying, each once', () => {
+    const log = [line(1, 'session'), line(2, 'switch'), line(3, 'delivered'), line(4, 'refused')];
+    const heard = heardOf([]);
+    expect(newsOf(log, heard)).toBe('delivered');
+    expect(newsOf(log, heardOf(log))).toBeUndefined();
+  });
+
+  it('are news again when they happen again', () => {
+    const before = [line(1, 'disturbance', 'a kick')];
+    expect(newsOf([line(1, 'disturbance', 'a kick', 2)], heardOf(before))).toBe('a kick');
+  });
+
+  it('tell a change of role, and no first role', () => {
+    const as = (role: Hello['role']): Hello => ({
+      protocol: 1,
+      session: 'main',
+      version: '',
+      role,
+      epoch: 1,
+      operator_present: true,
+      asked: false,
+      adapter: '',
+    });
+    expect(roleWords(undefined, as('operator'))).toBeUndefined();
+    expect(roleWords(as('operator'), as('operator'))).toBeUndefined();
+    expect(roleWords(as('operator'), as('viewer'))).toBe('You are watching.');
+    expect(roleWords(as('viewer'), as('operator'))).toBe('You have control.');
+  });
+});
+
+describe('the speaker', () => {
+  it('says the newest once a second, and the same again as something new', () => {
+    let nowMs = 0;
+    let later: (() => void) | undefined;
+    const said: string[] = [];
+    const say = createSpeaker((text) => said.push(text), {
+      nowMs: () => nowMs,
+      later: (action) => {
+        later = action;
+      },
+    });
+    say('a');
+    say('b');
+    say('c');
+    expect(said).toEqual(['a']);
+    nowMs = 1000;
+    later?.();
+    expect(said).toEqual(['a', 'c']);
+    nowMs = 2000;
+    say('c');
+    expect(said[2]).not.toBe('c');
+    expect(said[2]?.trim()).toBe('c');
+  });
+});

@@ -1,0 +1,25 @@
+// From above or in space: how the workspace is shown, as the person chooses it.
+
+import { recall, remember } from '../ui/storage';
+
+export const VIEW_MODES = [
+  ['plan', 'Plan'],
+  ['scene', '3-D'],
+] as const;
+
+export type ViewMode = (typeof VIEW_MODES)[number][0];
+
+const KEY = 'view';
+
+/** What was stored, or the plan when that is no mode. */
+export function viewModeFrom(text: string | null): ViewMode {
+  return VIEW_MODES.find(([mode]) => mode === text)?.[0] ?? 'plan';
+}
+
+export function storedViewMode(): ViewMode {
+  return viewModeFrom(recall(KEY));
+}
+
+export function storeViewMode(mode: ViewMode): void {
+  remember(KEY, mode);
+}

@@ -1,0 +1,166 @@
+// What the controllers see: the end-effector image with its test patch, and the observation.
+
+import { Show, createEffect, createSignal, type JSX } from 'solid-js';
+import { counted, fixed } from '../../ui/format';
+import { blocksPath, patchPath } from '../../lab/homography';
+import type { Lab } from '../../lab/lab';
+import { OBSTACLE_MEAN } from '../../net/protocol.gen';
+
+/** Side of the camera's image. */
+const CAMERA_PX = 480;
+const OBSERVATION_PX = 84;
+
+type BlocksShown = 'none' | 'quadtree' | 'rectangles';
+
+/** Writes a gray picture, a byte a pixel, on a canvas of its size. */
+function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
+  const ctx = canvas.getContext('2d');
+  if (!ctx) return;
+  const image = ctx.createImageData(OBSERVATION_PX, OBSERVATION_PX);
+  gray.forEach((value, index) => {
+    image.data.fill(value, 4 * index, 4 * index + 3);
+    image.data[4 * index + 3] = 255;
+  });
+  ctx.putImageData(image, 0, 0);
+}
+
+export function CameraPanel(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  let cameraCanvas!: HTMLCanvasElement;
+  let channel0!: HTMLCanvasElement;
+  let channel1!: HTMLCanvasElement;
+  const [seen, setSeen] = createSignal(false);
+
+  let decoding = false;
+  createEffect(() => {
+    const picture = lab.camera();
+    // While one picture is decoded, newer ones replace each other in the signal.
+    if (picture && !decoding) void decode(picture.bytes);
+  });
+  async function decode(bytes: Uint8Array<ArrayBuffer>): Promise<void> {
+    decoding = true;
+    try {
+      const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/jpeg' }));
+      cameraCanvas.getContext('2d')?.drawImage(bitmap, 0, 0, CAMERA_PX, CAMERA_PX);
+      bitmap.close();
+      setSeen(true);
+    } catch {
+      lab.notify('session', 'A camera picture could not be decoded.');
+    }
+    decoding = false;
+    const newest = lab.camera();
+    if (newest && newest.bytes !== bytes) void decode(newest.bytes);
+  }
+
+  createEffect(() => {
+    const picture = lab.observation();
+    const size = OBSERVATION_PX * OBSERVATION_PX;
+    if (picture?.bytes.length !== 2 * size) return;
+    drawGray(channel0, picture.bytes.subarray(0, size));
+    drawGray(channel1, picture.bytes.subarray(size));
+  });
+
+  const [blocksShown, setBlocksShown] = createSignal<BlocksShown>('none');
+  const blocks = (): string => {
+    const overlay = lab.overlay();
+    const shown = blocksShown();
+    if (!overlay || shown === 'none') return '';
+    const { picture_from_table, blocks: layer } = overlay;
+    const one = shown === 'rectangles' ? layer.rectangles : [...layer.dark, ...layer.free];
+    return blocksPath(picture_from_table, layer, one);
+  };
+  return (
+    <section class="panel camera" aria-labelledby="camera-title">
+      <header class="panel-head">
+        <h2 id="camera-title">Camera</h2>
+        <Show when={lab.overlay()}>
+          {(overlay) => (
+            <span
+              class="verdict"
+              classList={{ obstacle: overlay().obstacle }}
+              title={`Obstacle test: the mean of the 15×15 pixels around the tool is below ${OBSTACLE_MEAN}`}
+            >
+              {overlay().obstacle ? 'obstacle' : 'free'}{' '}
+              <span class="number">{fixed(overlay().center_mean, 0)}</span>
+            </span>
+          )}
+        </Show>
+      </header>
+      <div class="pictures">
+        <figure class="camera-figure">
+          <div class="picture-frame">
+            <canvas
+              ref={cameraCanvas}
+              width={CAMERA_PX}
+              height={CAMERA_PX}
+              role="img"
+              aria-label="Live image of the end-effector camera"
+            />
+            <svg
+              class="patch"
+              classList={{ obstacle: lab.overlay()?.obstacle ?? false }}
+              viewBox={`0 0 ${CAMERA_PX} ${CAMERA_PX}`}
+              aria-hidden="true"
+            >
+              <path class="blocks" d={blocks()} />
+              <Show when={lab.overlay()}>{(overlay) => <path d={patchPath(overlay())} />}</Show>
+            </svg>
+            <Show when={!seen()}>
+              <p class="placeholder">No picture yet</p>
+            </Show>
+          </div>
+          <figcaption class="blocks-choice">
+            <span>
+              <label for="blocks-shown">Blocks</label>{' '}
+              <select
+                id="blocks-shown"
+                value={blocksShown()}
+                onChange={(event) => {
+                  setBlocksShown(event.currentTarget.value as BlocksShown);
+                }}
+              >
+                <option value="none">hidden</option>
+                <option value="quadtree">quadtree</option>
+                <option value="rectangles">rectangles</option>
+              </select>
+            </span>
+            <Show when={lab.overlay()?.blocks}>
+              {(layer) => (
+                <span
+                  class="number"
+                  data-testid="blocks"
+                  title="The dark blocks of the quadtree, merged into as few rectangles as possible: N − L − H + C of them"
+                >
+                  {counted(layer().rectangles.length, 'rectangle')}; the quadtree alone{' '}
+                  {layer().dark.length}
+                </span>
+              )}
+            </Show>
+          </figcaption>
+        </figure>
+        <figure>
+          <canvas
+            ref={channel0}
+            class="pixels"
+            width={OBSERVATION_PX}
+            height={OBSERVATION_PX}
+            role="img"
+            aria-label="Observation, channel 0: the camera image at 84 by 84"
+          />
+          <figcaption>Network: image</figcaption>
+        </figure>
+        <figure>
+          <canvas
+            ref={channel1}
+            class="pixels"
+            width={OBSERVATION_PX}
+            height={OBSERVATION_PX}
+            role="img"
+            aria-label="Observation, channel 1: goal above, tool below, x left, y right"
+          />
+          <figcaption>Network: goal, tool</figcaption>
+        </figure>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,270 @@
+// Fork: one moment under several controllers, with the same disturbances, and how each fares.
+
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import type uPlot from 'uplot';
+import { centimetres, clock, fixed } from '../../ui/format';
+import { errors_m, lastTick } from '../../lab/comparison';
+import type { Lab } from '../../lab/lab';
+import { createPalette } from '../../ui/palette';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
+import type { CurveContext } from '../../ui/curve';
+import { CurvePlot } from '../../ui/CurvePlot';
+import { NoticeBar } from '../../ui/NoticeBar';
+import type { PanelProps, TabProps } from '../../ui/Tabs';
+
+const CONTROLLERS: readonly ControllerName[] = ['rl', 'errt', 'attractor'];
+const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
+const CM = 100;
+
+function Start(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const [chosen, setChosen] = createSignal<ReadonlySet<ControllerName>>(new Set(CONTROLLERS));
+  const toggle = (name: ControllerName, on: boolean): void => {
+    const next = new Set(chosen());
+    if (on) next.add(name);
+    else next.delete(name);
+    setChosen(next);
+  };
+  return (
+    <div class="compare-start">
+      <fieldset>
+        <legend class="visually-hidden">Controllers to compare</legend>
+        <For each={CONTROLLERS}>
+          {(name) => (
+            <label class="check">
+              <input
+                type="checkbox"
+                checked={chosen().has(name)}
+                aria-label={`Compare ${CONTROLLER_LABELS[name]}`}
+                onChange={(event) => {
+                  toggle(name, event.currentTarget.checked);
+                }}
+              />
+              {CONTROLLER_LABELS[name]}
+            </label>
+          )}
+        </For>
+      </fieldset>
+      <button
+        type="button"
+        class="small primary"
+        disabled={!lab.canOperate() || chosen().size === 0}
+        title="Runs this moment on under each controller, beside the session"
+        onClick={() => {
+          const state = lab.state();
+          if (!state) return;
+          const controllers = CONTROLLERS.filter((name) => chosen().has(name));
+          lab.send({ type: 'fork', tick: state.tick, controllers });
+        }}
+      >
+        Compare from here
+      </button>
+      <span class="compare-of" role="status">
+        <Show when={lab.ghosts.comparison()}>
+          {(comparison) => (
+            <>
+              from {clock(comparison().sim_time_s)}
+              <Show when={comparison().running}>, running …</Show>
+              <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
+            </>
+          )}
+        </Show>
+      </span>
+    </div>
+  );
+}
+
+function outcome(comparison: ComparisonMessage, branch: Branch, tick_s: number): string {
+  if (branch.delivered_tick !== null) {
+    return `delivered, ${clock((branch.delivered_tick - comparison.tick) * tick_s)}`;
+  }
+  if (!branch.done) return comparison.running ? 'running' : 'cut short';
+  return branch.phase;
+}
+
+function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.Element {
+  return (
+    <table class="compare-table">
+      <caption class="visually-hidden">How each controller fares from this moment</caption>
+      <thead>
+        <tr>
+          <th scope="col">Controller</th>
+          <th scope="col">Outcome</th>
+          <th scope="col" title="Mean distance of tool and bead during transport">
+            mean e
+          </th>
+          <th scope="col" title="Largest difference in x during transport">
+            max x
+          </th>
+          <th scope="col" title="Largest difference in y during transport">
+            max y
+          </th>
+          <th scope="col">switches</th>
+          <th scope="col">steps</th>
+        </tr>
+      </thead>
+      <tbody>
+        <For each={props.comparison.branches}>
+          {(branch) => (
+            <tr>
+              <th scope="row" class="swatch" data-controller={branch.controller}>
+                {CONTROLLER_LABELS[branch.controller]}
+                <Show when={branch.controller === props.comparison.controller}>
+                  <span class="tag" title="The controller in use at that moment">
+                    in use
+                  </span>
+                </Show>
+              </th>
+              <td title={outcome(props.comparison, branch, props.tick_s)}>
+                {outcome(props.comparison, branch, props.tick_s)}
+              </td>
+              <td class="number">{centimetres(branch.tracking_error_mean_m)}</td>
+              <td class="number">{centimetres(branch.tracking_error_max_x_m)}</td>
+              <td class="number">{centimetres(branch.tracking_error_max_y_m)}</td>
+              <td class="number">{branch.switches}</td>
+              <td class="number">{branch.steps}</td>
+            </tr>
+          )}
+        </For>
+      </tbody>
+    </table>
+  );
+}
+
+function Player(props: { lab: Lab; comparison: ComparisonMessage; tick_s: number }): JSX.Element {
+  const { ghosts } = props.lab;
+  const since_s = (): number => (ghosts.tick() - props.comparison.tick) * props.tick_s;
+  return (
+    <div class="compare-player">
+      <button
+        type="button"
+        class="small"
+        onClick={() => {
+          if (ghosts.playing()) ghosts.pause();
+          else ghosts.play();
+        }}
+      >
+        {ghosts.playing() ? 'Pause ghosts' : 'Play ghosts'}
+      </button>
+      <input
+        type="range"
+        aria-label="Time of the ghosts"
+        aria-valuetext={`${fixed(since_s(), 1)} seconds after the moment`}
+        min={props.comparison.tick}
+        max={lastTick(props.comparison)}
+        step={props.comparison.ticks_a_sample}
+        value={ghosts.tick()}
+        onInput={(event) => {
+          ghosts.look(event.currentTarget.valueAsNumber);
+        }}
+      />
+      <span class="number compare-time">+{fixed(since_s(), 1)} s</span>
+      <button
+        type="button"
+        class="small"
+        onClick={() => {
+          ghosts.hide();
+        }}
+      >
+        Clear ghosts
+      </button>
+    </div>
+  );
+}
+
+/** Seconds since the moment, then errors in centimetres, a column a controller. */
+function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedData {
+  const errors = CONTROLLERS.map((name) => {
+    const branch = comparison.branches.find(({ controller }) => controller === name);
+    return branch ? errors_m(branch) : [];
+  });
+  const count = Math.max(0, ...errors.map((column) => column.length));
+  const rows = Array.from({ length: count }, (_, row) => row);
+  const sample_s = comparison.ticks_a_sample * tick_s;
+  return [
+    rows.map((row) => (row + 1) * sample_s),
+    ...errors.map((column) =>
+      rows.map((row) => {
+        const error_m = column[row];
+        return error_m === undefined ? null : error_m * CM;
+      }),
+    ),
+  ];
+}
+
+function Errors(
+  props: PanelProps & { comparison: ComparisonMessage; tick_s: number },
+): JSX.Element {
+  const { lab } = props;
+  const palette = createPalette(() => props.theme());
+  const threshold_cm = (): number => (lab.scene()?.parameters.threshold_m ?? 0) * CM;
+  const shown_s = (): number => (lab.ghosts.tick() - props.comparison.tick) * props.tick_s;
+  const rules = createMemo(() => [
+    { axis: 'y', at: threshold_cm(), label: 'T', color: 'danger', dashed: true } as const,
+    { axis: 'x', at: shown_s(), label: '', color: 'muted', dashed: false } as const,
+  ]);
+  const context: CurveContext = {
+    palette,
+    lines: KEYS,
+    fillsBetween: false,
+    xRange: () => [
+      0,
+      Math.max(1, (lastTick(props.comparison) - props.comparison.tick) * props.tick_s),
+    ],
+    yRange: (max) => [0, Math.max(1.2 * threshold_cm(), 1.1 * max)],
+    xText: (value) => `${value} s`,
+    yText: (value) => fixed(value, 0),
+    shades: () => [],
+    rules,
+    onCursor: () => undefined,
+  };
+  return (
+    <CurvePlot
+      title="Error norm"
+      unit="cm"
+      name="Error norm of each controller against time since the moment"
+      keys={KEYS}
+      theme={props.theme}
+      context={context}
+      data={columns(props.comparison, props.tick_s)}
+    />
+  );
+}
+
+export function ComparePanel(props: TabProps): JSX.Element {
+  const { lab } = props;
+  const tick_s = (): number => lab.scene()?.tick_s ?? 0;
+  return (
+    <div class="compare">
+      <div class="compare-main">
+        <Start lab={lab} />
+        <NoticeBar lab={lab} place="compare" />
+        <Show
+          when={lab.ghosts.comparison()}
+          fallback={
+            <p class="hint">
+              Runs the moment shown now on under each controller, for 60 s at most, with the same
+              disturbances: pause or go back on the timeline to just before one, and compare. The
+              session itself is left alone.
+            </p>
+          }
+        >
+          {(comparison) => (
+            <>
+              <div class="compare-scroll" tabindex="0" role="group" aria-label="Results">
+                <Results comparison={comparison()} tick_s={tick_s()} />
+              </div>
+              <Player lab={lab} comparison={comparison()} tick_s={tick_s()} />
+            </>
+          )}
+        </Show>
+      </div>
+      <Show when={lab.ghosts.comparison()}>
+        {(comparison) => (
+          <Errors lab={lab} theme={props.theme} comparison={comparison()} tick_s={tick_s()} />
+        )}
+      </Show>
+    </div>
+  );
+}

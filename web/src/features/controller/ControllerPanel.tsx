@@ -1,0 +1,82 @@
+// Which controller runs, why, and with which parameters.
+
+import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { ControllerName } from '../../net/protocol.gen';
+import { NoticeBar } from '../../ui/NoticeBar';
+import { ParameterForm } from './ParameterForm';
+import { PlanFacts } from '../planner/PlannerFacts';
+import { SwitchingLaw } from './SwitchingLaw';
+import { ValueFans } from '../values/ValueFans';
+
+function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element {
+  const { lab } = props;
+  let input!: HTMLInputElement;
+  const active = createMemo(() => lab.state()?.controller === props.name);
+  // After a refusal the click has to be undone, though nothing changed on the server.
+  createEffect(
+    on([active, lab.refusals], ([now]) => {
+      input.checked = now;
+    }),
+  );
+  return (
+    <label>
+      <input
+        ref={input}
+        type="radio"
+        name="controller"
+        value={props.name}
+        disabled={!lab.canOperate()}
+        onChange={() => {
+          lab.send({ type: 'select_controller', controller: props.name });
+        }}
+      />
+      {CONTROLLER_LABELS[props.name]}
+    </label>
+  );
+}
+
+function ControllerChoice(props: { lab: Lab; names: readonly ControllerName[] }): JSX.Element {
+  const { lab } = props;
+  return (
+    <fieldset class="choice" role="radiogroup" aria-label="Controller">
+      <For each={props.names}>{(name) => <ControllerRadio lab={lab} name={name} />}</For>
+    </fieldset>
+  );
+}
+
+export function ControllerPanel(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  return (
+    <section class="panel controller">
+      <header class="panel-head">
+        <h2>Controller</h2>
+        <Show when={lab.scene()}>
+          {(scene) => <ControllerChoice lab={lab} names={scene().controllers} />}
+        </Show>
+      </header>
+      <Show when={lab.scene()}>
+        {(scene) => (
+          <>
+            <Show when={lab.state()}>
+              {(state) => (
+                <>
+                  <SwitchingLaw state={state()} scene={scene()} />
+                  <Show when={lab.overlay()?.plan}>
+                    {(plan) => <PlanFacts plan={plan()} state={state()} />}
+                  </Show>
+                  <Show when={lab.overlay()?.judgement}>
+                    {(judgement) => <ValueFans judgement={judgement()} map={scene().map} />}
+                  </Show>
+                </>
+              )}
+            </Show>
+            <ParameterForm lab={lab} scene={scene()} />
+          </>
+        )}
+      </Show>
+      <NoticeBar lab={lab} place="controller" />
+    </section>
+  );
+}

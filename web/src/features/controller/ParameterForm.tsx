@@ -1,0 +1,53 @@
+// The parameters, bound both ways: edits go out whole, and what the server says is shown.
+
+import { For, Index, Show, createMemo, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { GROUPS } from '../../lab/parameterGroups';
+import type { Group } from '../../lab/parameters';
+import type { SceneMessage } from '../../net/protocol.gen';
+import { FieldRow, createForm, type Form } from '../../lab/ParameterField';
+
+function GroupBox(props: { form: Form; group: Group }): JSX.Element {
+  const { form, group } = props;
+  const changed = (): number =>
+    group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
+  return (
+    <details class="group" open={group.open}>
+      <summary>
+        {group.title}
+        <Show when={changed() > 0}>
+          <span class="changed-count">{changed()} changed</span>
+        </Show>
+      </summary>
+      <Index each={group.fields}>{(field) => <FieldRow form={form} field={field()} />}</Index>
+    </details>
+  );
+}
+
+export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
+  const { lab } = props;
+  const form = createForm(lab, () => props.scene);
+  const controller = createMemo(() => lab.state()?.controller);
+  // Those of other controllers have no effect now.
+  const groups = createMemo(() =>
+    GROUPS.filter((group) => !group.controller || group.controller === controller()),
+  );
+  return (
+    <div class="parameters">
+      <div class="parameters-head">
+        <h3>Parameters</h3>
+        <button
+          type="button"
+          class="small"
+          disabled={form.disabled()}
+          onClick={() => {
+            form.edit(props.scene.defaults);
+          }}
+        >
+          Restore defaults
+        </button>
+      </div>
+      <For each={groups()}>{(group) => <GroupBox form={form} group={group} />}</For>
+    </div>
+  );
+}

@@ -1,0 +1,197 @@
+// The switching law as a diagram: the tracker's bead, the comparison, the two sub-controllers.
+
+import { Show, type JSX } from 'solid-js';
+import { centimetres, fixed, newtons } from '../../ui/format';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type {
+  Parameters,
+  PositionerKind,
+  SceneMessage,
+  StateMessage,
+} from '../../net/protocol.gen';
+import { Fact } from '../../ui/Fact';
+
+const GAUGE_WIDTH = 272;
+const GAUGE_LEFT = 4;
+/** From here on, lift-off is near. */
+const LIFT_ALARM = 0.97;
+
+interface Props {
+  readonly state: StateMessage;
+  readonly parameters: Parameters;
+}
+
+function ruleText(parameters: Parameters): string {
+  const threshold = centimetres(parameters.threshold_m);
+  return parameters.switching_law === 'literal'
+    ? `2 while e ≤ T = ${threshold}, else 1`
+    : `1→2 at e ≤ ${centimetres(parameters.fetch_radius_m)}, 2→1 at e > T = ${threshold}`;
+}
+
+function Block(props: {
+  y: number;
+  name: string;
+  does: string;
+  active: boolean;
+  mode: 1 | 2;
+}): JSX.Element {
+  return (
+    <g
+      class="block"
+      classList={{ active: props.active }}
+      data-mode={props.mode}
+      data-active={props.active ? 'true' : 'false'}
+    >
+      <rect x="112" y={props.y} width="116" height="38" rx="5" />
+      <text class="name" x="170" y={props.y + 16}>
+        {props.name}
+      </text>
+      <text class="does" x="170" y={props.y + 30}>
+        {props.does}
+      </text>
+    </g>
+  );
+}
+
+function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
+  const first = (): boolean => props.state.mode === 1;
+  const literal = (): boolean => props.parameters.switching_law === 'literal';
+  return (
+    <svg
+      class="law"
+      viewBox="0 0 280 128"
+      role="img"
+      aria-label={`Switching law: sub-controller ${props.state.mode} is active`}
+    >
+      <defs>
+        <marker id="arrow" viewBox="0 0 6 6" refX="5" refY="3" markerWidth="6" markerHeight="6">
+          <path d="M0 0 6 3 0 6z" class="arrow" />
+        </marker>
+      </defs>
+      <g class="block fixed">
+        <rect x="1" y="33" width="62" height="38" rx="5" />
+        <text class="name" x="32" y="49">
+          e
+        </text>
+        <text class="does" x="32" y="63">
+          tool − bead
+        </text>
+      </g>
+      <g class="block fixed">
+        <rect x="246" y="33" width="33" height="38" rx="5" />
+        <text class="name narrow" x="262.5" y="56">
+          {props.positioner === 'arm' ? 'arm' : 'stage'}
+        </text>
+      </g>
+      <Block y={6} name="Sub-controller 1" does="approach the bead" active={first()} mode={1} />
+      <Block
+        y={60}
+        name="Sub-controller 2"
+        does={`transport: ${CONTROLLER_LABELS[props.state.controller]}`}
+        active={!first()}
+        mode={2}
+      />
+      <path class="wire" d="M63 52h18" />
+      <circle class="pivot" cx="83" cy="52" r="3" />
+      <path class="wire" classList={{ active: first(), m1: first() }} d="M100 25h10" />
+      <path class="wire" classList={{ active: !first(), m2: !first() }} d="M100 79h10" />
+      <path
+        class="lever"
+        data-mode={props.state.mode}
+        d={first() ? 'M83 52 100 25' : 'M83 52 100 79'}
+      />
+      <path
+        class="wire"
+        classList={{ active: first(), m1: first() }}
+        d="M228 25h9v20h7"
+        marker-end="url(#arrow)"
+      />
+      <path
+        class="wire"
+        classList={{ active: !first(), m2: !first() }}
+        d="M228 79h9v-20h7"
+        marker-end="url(#arrow)"
+      />
+      <path class="wire back" d="M262 71v44H32v-42" marker-end="url(#arrow)" />
+      <text class="does" x="147" y="111">
+        {literal() ? 'literal law' : 'magnet, bead, tracker'}
+      </text>
+    </svg>
+  );
+}
+
+function Gauge(props: Props): JSX.Element {
+  const full_m = (): number => 1.5 * props.parameters.threshold_m;
+  const at = (value_m: number): number =>
+    GAUGE_LEFT + Math.min(1, Math.max(0, value_m / full_m())) * GAUGE_WIDTH;
+  const fetch = (): number =>
+    props.parameters.switching_law === 'literal'
+      ? at(props.parameters.threshold_m)
+      : at(props.parameters.fetch_radius_m);
+  const threshold = (): number => at(props.parameters.threshold_m);
+  return (
+    <svg class="gauge" viewBox="0 0 280 22" aria-hidden="true">
+      <rect class="zone m2" x={GAUGE_LEFT} y="8" width={fetch() - GAUGE_LEFT} height="6" />
+      <rect class="zone between" x={fetch()} y="8" width={threshold() - fetch()} height="6" />
+      <rect
+        class="zone m1"
+        x={threshold()}
+        y="8"
+        width={GAUGE_LEFT + GAUGE_WIDTH - threshold()}
+        height="6"
+      />
+      <path class="mark" d={`M${threshold()} 4v14`} />
+      <path
+        class="needle"
+        data-mode={props.state.mode}
+        d={`M${at(props.state.tracking_error_m)} 8l-5-8h10zM${at(props.state.tracking_error_m)} 14l-5 8h10z`}
+      />
+    </svg>
+  );
+}
+
+/** Distances at which the pull beats friction somewhere around the tool. */
+function captureText(capture_m: SceneMessage['capture_m']): string {
+  const reaches = capture_m.filter((reach) => reach !== null);
+  if (reaches.length === 0) return 'nowhere';
+  const near_m = Math.min(...reaches.map(([near]) => near));
+  const bounded = reaches.map(([, far]) => far).filter((far) => far !== null);
+  if (bounded.length < reaches.length) return `${centimetres(near_m)} and on`;
+  const text = `${fixed(near_m * 100, 1)} to ${centimetres(Math.max(...bounded))}`;
+  return reaches.length < capture_m.length ? `${text}, in part` : text;
+}
+
+export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }): JSX.Element {
+  return (
+    <div class="switching">
+      <Diagram
+        state={props.state}
+        parameters={props.scene.parameters}
+        positioner={props.scene.positioner}
+      />
+      <Gauge state={props.state} parameters={props.scene.parameters} />
+      <dl class="margins">
+        <Fact name="e" value={centimetres(props.state.tracking_error_m)} />
+        <Fact name="T" value={centimetres(props.scene.parameters.threshold_m)} />
+        <Fact
+          name="lift / weight"
+          value={fixed(props.state.lift_ratio, 2)}
+          alarm={props.state.lift_ratio > LIFT_ALARM}
+        />
+        <Fact name="pull" value={newtons(props.state.pull_n)} />
+        <Fact
+          name="captures at"
+          value={captureText(props.scene.capture_m)}
+          alarm={props.scene.capture_m.every((reach) => reach === null)}
+        />
+      </dl>
+      <p class="reason" data-testid="reason">
+        {props.state.reason}
+      </p>
+      <Show when={props.state.refusal}>
+        {(refusal) => <p class="refusal">Held: {refusal()}</p>}
+      </Show>
+      <p class="rule">{ruleText(props.scene.parameters)}</p>
+    </div>
+  );
+}

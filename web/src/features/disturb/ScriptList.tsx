@@ -1,0 +1,81 @@
+// The disturbances that belong to the scenario: those of its script, and how many at random.
+
+import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
+import { MOST_RANDOM, describe, describeWhen, restart } from '../../lab/disturbance';
+import type { Lab } from '../../lab/lab';
+import type { Scripted } from '../../net/protocol.gen';
+import { Amount } from './disturbFields';
+
+export function ScriptList(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const script = (): readonly Scripted[] => lab.scene()?.scenario.script ?? [];
+  const inForce = (): number => lab.scene()?.scenario.disturbances ?? 0;
+  const [random, setRandom] = createSignal(inForce());
+  createEffect(
+    on([inForce, lab.refusals], ([count]) => {
+      setRandom(count);
+    }),
+  );
+  const load = (change: Parameters<typeof restart>[2]): void => {
+    const scene = lab.scene();
+    const state = lab.state();
+    if (scene && state) lab.send(restart(scene, state, change));
+  };
+  const words = ({ at, disturbance }: Scripted): string =>
+    `${describeWhen(at, lab.scene()?.tick_s ?? 0)}: ${describe(disturbance)}`;
+  return (
+    <div class="script">
+      <form
+        class="random"
+        onSubmit={(event) => {
+          event.preventDefault();
+          load({ disturbances: random() });
+        }}
+      >
+        <Amount
+          name="Number of random moves"
+          unit="random moves while the bead is carried"
+          least={0}
+          most={MOST_RANDOM}
+          whole
+          value={random()}
+          disabled={!lab.canOperate()}
+          onValue={setRandom}
+        />
+        <button
+          type="submit"
+          class="small"
+          disabled={!lab.canOperate() || random() === inForce()}
+          title="The trial begins again with the same seed"
+        >
+          Set and restart
+        </button>
+      </form>
+      <Show when={script().length > 0}>
+        <ol aria-label="Script">
+          <For each={script()}>
+            {(entry, index) => (
+              <li>
+                <div>
+                  <span>{words(entry)}</span>
+                  <button
+                    type="button"
+                    class="bare"
+                    disabled={!lab.canOperate()}
+                    aria-label={`Remove and restart: ${words(entry)}`}
+                    title="Remove from the script and restart"
+                    onClick={() => {
+                      load({ script: script().filter((_, at) => at !== index()) });
+                    }}
+                  >
+                    ×
+                  </button>
+                </div>
+              </li>
+            )}
+          </For>
+        </ol>
+      </Show>
+    </div>
+  );
+}

@@ -1,0 +1,147 @@
+// The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
+
+import { For, Show, createEffect, onCleanup, type JSX } from 'solid-js';
+import type { Vec2 } from '../../plan/transform';
+import type { Picker } from '../../plan/picker';
+
+export function Amount(props: {
+  name: string;
+  /** What stands before the number. */
+  lead?: string;
+  unit?: string;
+  least?: number;
+  most: number;
+  /** Whole numbers only. */
+  whole?: boolean;
+  value: number;
+  disabled: boolean;
+  onValue: (value: number) => void;
+}): JSX.Element {
+  let input!: HTMLInputElement;
+  createEffect(() => {
+    // What is being typed says the value already, or nothing yet: written anew, it would lose its sign or its point.
+    const { value } = props;
+    if (!Number.isNaN(value) && input.valueAsNumber !== value) input.value = String(value);
+  });
+  return (
+    <label class="amount">
+      <Show when={props.lead}>
+        <span class="unit">{props.lead}</span>
+      </Show>
+      <input
+        ref={input}
+        type="number"
+        class="number"
+        aria-label={props.name}
+        min={props.least ?? 0.01}
+        max={props.most}
+        step={props.whole ? 1 : 'any'}
+        required
+        disabled={props.disabled}
+        onInput={(event) => {
+          props.onValue(event.currentTarget.valueAsNumber);
+        }}
+      />
+      <Show when={props.unit}>
+        <span class="unit">{props.unit}</span>
+      </Show>
+    </label>
+  );
+}
+
+export function Choice<T extends string>(props: {
+  name: string;
+  options: readonly (readonly [T, string])[];
+  value: T;
+  disabled: boolean;
+  onValue: (value: T) => void;
+}): JSX.Element {
+  return (
+    <select
+      aria-label={props.name}
+      disabled={props.disabled}
+      onChange={(event) => {
+        props.onValue(event.currentTarget.value as T);
+      }}
+    >
+      <For each={props.options}>
+        {([id, label]) => (
+          <option value={id} selected={props.value === id}>
+            {label}
+          </option>
+        )}
+      </For>
+    </select>
+  );
+}
+
+export interface Place {
+  readonly x_m: number;
+  readonly y_m: number;
+}
+
+/** Names are `x of NAME in metres` and so on. */
+export function PlaceFields(props: {
+  name: string;
+  value: Place;
+  disabled: boolean;
+  picker: Picker;
+  onValue: (value: Place) => void;
+}): JSX.Element {
+  let button!: HTMLButtonElement;
+  const rounded = (value: number): number => Number(value.toFixed(3));
+  const take = ([x_m, y_m]: Vec2): void => {
+    props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
+    button.focus();
+  };
+  const isPicking = (): boolean => props.picker.asks(take);
+  onCleanup(() => {
+    if (isPicking()) props.picker.cancel();
+  });
+  return (
+    <>
+      <Amount
+        name={`x of ${props.name} in metres`}
+        lead="x"
+        least={-10}
+        most={10}
+        value={props.value.x_m}
+        disabled={props.disabled}
+        onValue={(x_m) => {
+          props.onValue({ ...props.value, x_m });
+        }}
+      />
+      <Amount
+        name={`y of ${props.name} in metres`}
+        lead="y"
+        unit="m"
+        least={-10}
+        most={10}
+        value={props.value.y_m}
+        disabled={props.disabled}
+        onValue={(y_m) => {
+          props.onValue({ ...props.value, y_m });
+        }}
+      />
+      <button
+        ref={button}
+        type="button"
+        class="small"
+        aria-pressed={isPicking()}
+        aria-label={`Pick ${props.name} on the map`}
+        title="Click here, then the place"
+        disabled={props.disabled}
+        onClick={() => {
+          if (isPicking()) {
+            props.picker.cancel();
+            return;
+          }
+          props.picker.begin(take);
+          document.querySelector<HTMLElement>('.stage-canvas')?.focus();
+        }}
+      >
+        Pick
+      </button>
+    </>
+  );
+}

@@ -1,0 +1,104 @@
+// Evaluate: the paper's experiment, asked for on the left and told on the right.
+
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { EvaluationForm } from './EvaluationForm';
+import { EvaluationPanel } from './EvaluationPanel';
+import { createEvaluationList } from './evaluations';
+import { isActive, numberOf, stageWords, subject, episodesDone, episodesInAll } from './progress';
+import type { Lab } from '../../lab/lab';
+import type { EvaluationSummary } from '../../net/protocol.gen';
+
+/** Outside of the view, so that a look at the laboratory does not lose it. */
+const [chosen, setChosen] = createSignal<string>();
+
+function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Element {
+  return (
+    <button
+      type="button"
+      class="evaluation-entry"
+      aria-current={props.current ? 'true' : undefined}
+      onClick={() => {
+        setChosen(props.summary.id);
+      }}
+    >
+      <span class="entry-head">
+        <strong>{numberOf(props.summary.id)}</strong>
+        <span class="evaluation-stage number" data-stage={props.summary.stage}>
+          {isActive(props.summary)
+            ? `${episodesDone(props.summary)} of ${episodesInAll(props.summary)}`
+            : stageWords(props.summary)}
+        </span>
+      </span>
+      <span class="entry-about">
+        {subject(props.summary)}; {props.summary.query.episodes} a cell, seed{' '}
+        {props.summary.query.seed}
+      </span>
+    </button>
+  );
+}
+
+export function EvaluateView(props: { lab: Lab; onLaboratory: () => void }): JSX.Element {
+  const list = createEvaluationList();
+  const all = (): readonly EvaluationSummary[] => list.all() ?? [];
+  const ids = createMemo(() => all().map(({ id }) => id), [], {
+    equals: (a, b) => a.join() === b.join(),
+  });
+  const byId = (id: string | undefined): EvaluationSummary | undefined =>
+    all().find((one) => one.id === id);
+  /** The one that was chosen, else the newest. */
+  const shown = createMemo(() => byId(chosen()) ?? all().at(-1));
+  return (
+    <main class="view evaluate">
+      <div class="evaluate-left">
+        <section class="panel" aria-label="New evaluation">
+          <header class="panel-head">
+            <h2>New evaluation</h2>
+          </header>
+          <EvaluationForm lab={props.lab} list={list} measured={all()} onBegun={setChosen} />
+        </section>
+        <section class="panel" aria-label="Evaluations">
+          <header class="panel-head">
+            <h2>Evaluations</h2>
+          </header>
+          <div role="alert">
+            <Show when={list.trouble()}>{(text) => <p class="refusal">{text()}</p>}</Show>
+          </div>
+          <div class="evaluation-entries">
+            <For each={ids().toReversed()}>
+              {(id) => (
+                <Show when={byId(id)}>
+                  {(summary) => <Entry summary={summary()} current={shown()?.id === id} />}
+                </Show>
+              )}
+            </For>
+            <Show when={list.all()?.length === 0}>
+              <p class="placeholder">
+                None yet. They stay until the server ends, the last 16 of them.
+              </p>
+            </Show>
+          </div>
+        </section>
+      </div>
+      <Show
+        when={shown()}
+        fallback={
+          <section class="panel evaluation">
+            <p class="placeholder">
+              The paper's experiment: random starts and goals, counted. Choose controllers and maps,
+              and run. It goes on in the background, and the live session keeps its pace.
+            </p>
+          </section>
+        }
+      >
+        {(summary) => (
+          <EvaluationPanel
+            lab={props.lab}
+            list={list}
+            summary={summary()}
+            onLaboratory={props.onLaboratory}
+          />
+        )}
+      </Show>
+    </main>
+  );
+}

@@ -1,0 +1,206 @@
+// What to evaluate.
+
+import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { EvaluationSummary } from '../../net/protocol.gen';
+import { Refusal, type EvaluationList } from './evaluations';
+import { roughly } from './progress';
+import {
+  PAPERS,
+  estimate_s,
+  faultsOf,
+  queryOf,
+  sizeWords,
+  toggled,
+  type Draft,
+  type Faults,
+  type Field,
+} from './request';
+
+const DISTURBANCES = [0, 3] as const;
+
+/** Outside of the form, so that a look at the laboratory does not lose it. */
+const [draft, setDraft] = createSignal<Draft>(PAPERS);
+
+function Fault(props: { id: string; text: string | undefined }): JSX.Element {
+  return (
+    <div id={props.id} role="alert">
+      <Show when={props.text}>{(text) => <p class="refusal">{text()}</p>}</Show>
+    </div>
+  );
+}
+
+function Choice<T extends string | number>(props: {
+  legend: string;
+  all: readonly T[];
+  chosen: readonly T[];
+  label?: (item: T) => string;
+  fault: string | undefined;
+  onChoose: (chosen: T[]) => void;
+}): JSX.Element {
+  const id = createUniqueId();
+  return (
+    <fieldset class="boxes" aria-describedby={id}>
+      <legend>{props.legend}</legend>
+      <div class="box-row">
+        <For each={props.all}>
+          {(item) => (
+            <label>
+              <input
+                type="checkbox"
+                checked={props.chosen.includes(item)}
+                onChange={({ currentTarget }) => {
+                  props.onChoose(toggled(props.all, props.chosen, item, currentTarget.checked));
+                }}
+              />
+              {props.label?.(item) ?? item}
+            </label>
+          )}
+        </For>
+      </div>
+      <Fault id={id} text={props.fault} />
+    </fieldset>
+  );
+}
+
+function Whole(props: {
+  label: string;
+  value: string;
+  fault: string | undefined;
+  onInput: (value: string) => void;
+}): JSX.Element {
+  const id = createUniqueId();
+  const fault = createUniqueId();
+  return (
+    <div class="whole">
+      <div class="field">
+        <label for={id}>{props.label}</label>
+        <input
+          id={id}
+          class="number"
+          type="number"
+          min="0"
+          step="1"
+          value={props.value}
+          aria-invalid={props.fault !== undefined}
+          aria-describedby={fault}
+          onInput={({ currentTarget }) => {
+            props.onInput(currentTarget.value);
+          }}
+        />
+      </div>
+      <Fault id={fault} text={props.fault} />
+    </div>
+  );
+}
+
+export function EvaluationForm(props: {
+  lab: Lab;
+  list: EvaluationList;
+  measured: readonly EvaluationSummary[];
+  onBegun: (id: string) => void;
+}): JSX.Element {
+  const { lab } = props;
+  const [faults, setFaults] = createSignal<Faults>({});
+  const [busy, setBusy] = createSignal(false);
+  // What is being changed is no longer at fault.
+  const change = (field: Field, part: Partial<Draft>): void => {
+    setDraft({ ...draft(), ...part });
+    setFaults({ ...faults(), [field]: undefined, form: undefined });
+  };
+  const scope = (): string => {
+    const made = queryOf(draft());
+    if ('faults' in made) return '';
+    const time_s = estimate_s(made.query, props.measured);
+    const estimate =
+      time_s === undefined ? 'how long that takes is not measured yet' : `about ${roughly(time_s)}`;
+    return `${sizeWords(made.query)}; ${estimate}.`;
+  };
+  const begin = async (): Promise<void> => {
+    const made = queryOf(draft());
+    if ('faults' in made) {
+      setFaults(made.faults);
+      return;
+    }
+    setFaults({});
+    setBusy(true);
+    try {
+      props.onBegun(await props.list.begin(made.query));
+    } catch (reason) {
+      setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
+    } finally {
+      setBusy(false);
+    }
+  };
+  return (
+    <form
+      class="evaluation-form"
+      novalidate
+      onSubmit={(event) => {
+        event.preventDefault();
+        // Enter in a field submits also where the button is disabled.
+        if (lab.canOperate() && !busy()) void begin();
+      }}
+    >
+      <Choice
+        legend="Controllers"
+        all={lab.scene()?.controllers ?? []}
+        chosen={draft().controllers}
+        label={(name) => CONTROLLER_LABELS[name]}
+        fault={faults().controllers}
+        onChoose={(controllers) => {
+          change('controllers', { controllers });
+        }}
+      />
+      <Choice
+        legend="Maps"
+        all={lab.scene()?.maps ?? []}
+        chosen={draft().maps}
+        fault={faults().maps}
+        onChoose={(maps) => {
+          change('maps', { maps });
+        }}
+      />
+      <Choice
+        legend="Disturbances an episode"
+        all={DISTURBANCES}
+        chosen={draft().disturbances}
+        fault={faults().disturbances}
+        onChoose={(disturbances) => {
+          change('disturbances', { disturbances });
+        }}
+      />
+      <div class="wholes">
+        <Whole
+          label="Episodes a cell"
+          value={draft().episodes}
+          fault={faults().episodes}
+          onInput={(episodes) => {
+            change('episodes', { episodes });
+          }}
+        />
+        <Whole
+          label="Seed"
+          value={draft().seed}
+          fault={faults().seed}
+          onInput={(seed) => {
+            change('seed', { seed });
+          }}
+        />
+      </div>
+      <p class="hint" data-testid="evaluation-scope">
+        {scope()}
+      </p>
+      <div class="submit">
+        <button type="submit" class="primary" disabled={!lab.canOperate() || busy()}>
+          Run
+        </button>
+        <Show when={!lab.canOperate()}>
+          <span class="hint">Only the operator starts and cancels evaluations.</span>
+        </Show>
+      </div>
+      <Fault id="evaluation-refused" text={faults().form} />
+    </form>
+  );
+}

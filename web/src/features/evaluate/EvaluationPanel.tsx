@@ -1,0 +1,146 @@
+// One evaluation: how far it is, its rows, its failures.
+
+import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import type { EvaluationSummary } from '../../net/protocol.gen';
+import { ComparisonTable } from './ComparisonTable';
+import { createReport, type EvaluationList } from './evaluations';
+import { EvaluationTable } from './EvaluationTable';
+import { FailureList } from './FailureList';
+import {
+  isActive,
+  milestone,
+  numberOf,
+  remaining_s,
+  roughly,
+  stageWords,
+  subject,
+  episodesDone,
+  episodesInAll,
+} from './progress';
+import { REPORTS, reportAddress } from './table';
+
+function Progress(props: {
+  summary: EvaluationSummary;
+  measured: readonly EvaluationSummary[];
+}): JSX.Element {
+  const done = (): number => episodesDone(props.summary);
+  const all = (): number => episodesInAll(props.summary);
+  const words = (): string => {
+    const counts = `${done()} of ${all()} episodes`;
+    if (!isActive(props.summary)) return counts;
+    if (props.summary.stage === 'waiting') return `${counts}, waits for another evaluation`;
+    const left_s = remaining_s(props.summary, props.measured);
+    return left_s === undefined ? counts : `${counts}, about ${roughly(left_s)} left`;
+  };
+  return (
+    <div class="evaluation-progress">
+      <progress
+        max={all()}
+        value={done()}
+        aria-label="Progress"
+        aria-valuetext={words()}
+        data-stage={props.summary.stage}
+      />
+      <span class="number" data-testid="evaluation-progress">
+        {words()}
+      </span>
+    </div>
+  );
+}
+
+export function EvaluationPanel(props: {
+  lab: Lab;
+  list: EvaluationList;
+  summary: EvaluationSummary;
+  onLaboratory: () => void;
+}): JSX.Element {
+  const { lab } = props;
+  const report = createReport(() => props.summary);
+  const [refusal, setRefusal] = createSignal<string>();
+  createEffect(
+    on(
+      () => props.summary.id,
+      () => setRefusal(undefined),
+    ),
+  );
+  const said = createMemo(() => milestone(props.summary));
+  const measured = (): readonly EvaluationSummary[] => props.list.all() ?? [];
+  const cancel = async (): Promise<void> => {
+    setRefusal(undefined);
+    try {
+      await props.list.cancel(props.summary.id);
+    } catch (reason) {
+      setRefusal(reason instanceof Error ? reason.message : String(reason));
+    }
+  };
+  return (
+    <section class="panel evaluation" aria-label={`Evaluation ${numberOf(props.summary.id)}`}>
+      <header class="panel-head">
+        <h2>
+          Evaluation {numberOf(props.summary.id)}
+          <span class="about">
+            {subject(props.summary)}; {props.summary.query.episodes} a cell, seed{' '}
+            {props.summary.query.seed}
+          </span>
+        </h2>
+        <span
+          class="evaluation-stage"
+          data-stage={props.summary.stage}
+          data-testid="evaluation-stage"
+        >
+          {stageWords(props.summary)}
+        </span>
+        <Show when={isActive(props.summary)}>
+          <button
+            type="button"
+            class="small"
+            disabled={!lab.canOperate()}
+            onClick={() => void cancel()}
+          >
+            Cancel
+          </button>
+        </Show>
+      </header>
+      <p class="visually-hidden" role="status" data-testid="evaluation-said">
+        {said()}
+      </p>
+      <Progress summary={props.summary} measured={measured()} />
+      <div role="alert">
+        <Show when={refusal() ?? props.summary.message}>
+          {(text) => <p class="refusal">{text()}</p>}
+        </Show>
+      </div>
+      <EvaluationTable summary={props.summary} rows={report()?.rows ?? []} />
+      <p class="hint">
+        Controllers of a map get the same starts, goals, seeds and pushes. The paper counts RL
+        alone, on its robot and in one maze, after which <em>colon</em> is drawn: 30 episodes
+        without disturbances and 30 with; how many each had it does not say, its figure shows three.
+      </p>
+      <Show when={report()}>
+        {(now) => (
+          <>
+            <Show when={now().rows.length > 0}>
+              <div class="downloads">
+                <span class="hint">Download</span>
+                <For each={REPORTS}>
+                  {(ending) => (
+                    <a class="button small" href={reportAddress(now().id, ending)} download="">
+                      {ending.toUpperCase()}
+                    </a>
+                  )}
+                </For>
+              </div>
+            </Show>
+            <Show when={now().comparisons.length > 0}>
+              <h3>Paired differences</h3>
+              <ComparisonTable comparisons={now().comparisons} />
+            </Show>
+            <h3>Failures</h3>
+            <FailureList lab={lab} report={now()} onLaboratory={props.onLaboratory} />
+          </>
+        )}
+      </Show>
+    </section>
+  );
+}

@@ -1,0 +1,112 @@
+// Trials whose bead did not arrive, each to be set up again.
+
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { EvaluationFailure, EvaluationReport } from '../../net/protocol.gen';
+import { setUpAgain } from './setUp';
+import { reason } from './table';
+
+/** Shown at first, and more at a time: a controller may fail a thousand times. */
+const PAGE = 50;
+
+function FailureRow(props: {
+  lab: Lab;
+  report: EvaluationReport;
+  failure: EvaluationFailure;
+  onLaboratory: () => void;
+}): JSX.Element {
+  const { lab } = props;
+  const cell = () => props.report.cells[props.failure.cell];
+  const label = (): string => {
+    const now = cell();
+    return now ? `${CONTROLLER_LABELS[now.controller]}, ${now.map}, ${now.disturbances}` : '';
+  };
+  const setUp = (): void => {
+    const now = cell();
+    const defaults = lab.scene()?.defaults;
+    if (!now || !defaults) return;
+    lab.send(setUpAgain(now, props.failure, defaults));
+    props.onLaboratory();
+  };
+  return (
+    <tr>
+      <th scope="row">{props.failure.index}</th>
+      <td>{label()}</td>
+      <td class="failure-why">{reason(props.failure)}</td>
+      <td>{props.failure.steps}</td>
+      <td>
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate()}
+          aria-label={`Set it up: episode ${props.failure.index} of ${label()}`}
+          title="Loads this episode into the live session"
+          onClick={setUp}
+        >
+          Set it up
+        </button>
+      </td>
+    </tr>
+  );
+}
+
+export function FailureList(props: {
+  lab: Lab;
+  report: EvaluationReport;
+  onLaboratory: () => void;
+}): JSX.Element {
+  const [shown, setShown] = createSignal(PAGE);
+  const failures = createMemo(() => props.report.failures.slice(0, shown()));
+  return (
+    <Show
+      when={failures().length > 0}
+      fallback={
+        <p class="placeholder">
+          {props.report.rows.length > 0
+            ? 'None: every bead of these rows was delivered.'
+            : 'None yet: they come with the rows.'}
+        </p>
+      }
+    >
+      <div class="table-frame" tabindex="0" role="region" aria-label="Failures">
+        <table class="failures number">
+          <thead>
+            <tr>
+              <th scope="col">Episode</th>
+              <th scope="col">Controller, map, disturbances</th>
+              <th scope="col">Why</th>
+              <th scope="col">Steps</th>
+              <th scope="col">
+                <span class="visually-hidden">Again</span>
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            <For each={failures()}>
+              {(failure) => (
+                <FailureRow
+                  lab={props.lab}
+                  report={props.report}
+                  failure={failure}
+                  onLaboratory={props.onLaboratory}
+                />
+              )}
+            </For>
+          </tbody>
+        </table>
+      </div>
+      <Show when={props.report.failures.length > shown()}>
+        <button
+          type="button"
+          class="small more"
+          onClick={() => {
+            setShown(shown() + PAGE);
+          }}
+        >
+          Show more of {props.report.failures.length}
+        </button>
+      </Show>
+    </Show>
+  );
+}

@@ -1,0 +1,130 @@
+// The server's evaluations: looked at again and again, often while one runs.
+
+import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { askServer } from '../../net/access';
+import { problemText } from '../../net/problem';
+import type {
+  EvaluationQuery,
+  EvaluationReport,
+  EvaluationSummary,
+  Evaluations,
+} from '../../net/protocol.gen';
+import { isActive } from './progress';
+
+const BUSY_MS = 500;
+/** Others may begin one. */
+const IDLE_MS = 3000;
+
+/** What the server says against a request. */
+export class Refusal extends Error {
+  constructor(
+    readonly detail: string,
+    readonly field?: string,
+  ) {
+    super(detail);
+  }
+}
+
+async function ask<A>(method: string, path: string, body?: unknown): Promise<A> {
+  const sent =
+    body === undefined
+      ? {}
+      : { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
+  const response = await askServer(path, { method, ...sent }).catch(() => {
+    throw new Refusal('The server does not answer.');
+  });
+  const answer: unknown = await response.json().catch(() => undefined);
+  if (response.ok) return answer as A;
+  const detail = problemText(answer) ?? `The server answered ${response.status}.`;
+  const field = (answer as { field?: unknown } | undefined)?.field;
+  throw typeof field === 'string' ? new Refusal(detail, field) : new Refusal(detail);
+}
+
+const PATH = '/api/evaluations';
+
+export interface EvaluationList {
+  /** In the order in which they were asked for; nothing before the first answer. */
+  readonly all: Accessor<readonly EvaluationSummary[] | undefined>;
+  /** Why the list is old, if it is. */
+  readonly trouble: Accessor<string | undefined>;
+  /** Begins one and gives its id. */
+  begin(query: EvaluationQuery): Promise<string>;
+  cancel(id: string): Promise<void>;
+}
+
+export function createEvaluationList(): EvaluationList {
+  const [all, setAll] = createSignal<readonly EvaluationSummary[]>();
+  const [trouble, setTrouble] = createSignal<string>();
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let asked = 0;
+  let isClosed = false;
+
+  const look = async (): Promise<void> => {
+    clearTimeout(timer);
+    if (isClosed) return;
+    asked += 1;
+    const number = asked;
+    try {
+      const { evaluations } = await ask<Evaluations>('GET', PATH);
+      if (number !== asked) return;
+      setAll(evaluations);
+      setTrouble(undefined);
+    } catch (reason) {
+      if (number !== asked) return;
+      setTrouble(reason instanceof Error ? reason.message : String(reason));
+    }
+    timer = setTimeout(() => void look(), all()?.some(isActive) ? BUSY_MS : IDLE_MS);
+  };
+  void look();
+  onCleanup(() => {
+    clearTimeout(timer);
+    // An answer under way is nobody's any more.
+    asked += 1;
+    isClosed = true;
+  });
+
+  return {
+    all,
+    trouble,
+    begin: async (query) => {
+      const { id } = await ask<EvaluationSummary>('POST', PATH, query);
+      await look();
+      return id;
+    },
+    cancel: async (id) => {
+      await ask<EvaluationSummary>('DELETE', `${PATH}/${id}`);
+      await look();
+    },
+  };
+}
+
+/** Rows and failures of an evaluation, fetched when there are more of them. */
+export function createReport(
+  summary: Accessor<EvaluationSummary | undefined>,
+): Accessor<EvaluationReport | undefined> {
+  const [report, setReport] = createSignal<EvaluationReport>();
+  let asking: string | undefined;
+  // Each look at the list asks again, should the last answer not have come.
+  createEffect(() => {
+    const now = summary();
+    const had = report();
+    if (!now || (had && version(had) === version(now)) || asking === version(now)) return;
+    const asked = version(now);
+    asking = asked;
+    void ask<EvaluationReport>('GET', `${PATH}/${now.id}`)
+      .then((answer) => {
+        if (asking === asked) setReport(answer);
+      })
+      // Why it does not come, the list says.
+      .catch(() => undefined)
+      .finally(() => {
+        if (asking === asked) asking = undefined;
+      });
+  });
+  return () => (report()?.id === summary()?.id ? report() : undefined);
+}
+
+/** What a report's rows and failures depend on. */
+function version({ id, stage, rows_done }: EvaluationSummary): string {
+  return [id, stage, rows_done].join(' ');
+}

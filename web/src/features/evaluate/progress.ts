@@ -1,0 +1,113 @@
+// How far an evaluation is and how long it will take. Pure.
+
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { Cell, EvaluationSummary } from '../../net/protocol.gen';
+
+export function isActive({ stage }: EvaluationSummary): boolean {
+  return stage === 'running' || stage === 'waiting';
+}
+
+export function episodesDone(summary: EvaluationSummary): number {
+  return summary.cells.reduce((sum, cell) => sum + cell.done, 0);
+}
+
+export function episodesInAll(summary: EvaluationSummary): number {
+  return summary.cells.length * summary.query.episodes;
+}
+
+/** How much two cells have in common, as far as time is concerned. */
+function likeness(a: Cell, b: Cell): number {
+  return (
+    (a.controller === b.controller ? 4 : 0) +
+    (a.disturbances === b.disturbances ? 2 : 0) +
+    (a.map === b.map ? 1 : 0)
+  );
+}
+
+/** Seconds an episode of a cell takes, by the cells most like it that were measured; the newest of these counts. */
+export function secondsAnEpisode(
+  cell: Cell,
+  measured: readonly EvaluationSummary[],
+): number | undefined {
+  let best: { likeness: number; episode_s: number } | undefined;
+  for (const summary of measured) {
+    for (const other of summary.cells) {
+      if (other.done === 0) continue;
+      const alike = likeness(cell, other);
+      if (best && alike < best.likeness) continue;
+      best = { likeness: alike, episode_s: other.elapsed_s / other.done };
+    }
+  }
+  return best?.episode_s;
+}
+
+/** Seconds until an evaluation is through; nothing before its first episode where nothing was measured before. */
+export function remaining_s(
+  summary: EvaluationSummary,
+  measured: readonly EvaluationSummary[],
+): number | undefined {
+  let sum_s = 0;
+  for (const cell of summary.cells) {
+    const left = summary.query.episodes - cell.done;
+    if (left === 0) continue;
+    const episode_s = cell.done > 0 ? cell.elapsed_s / cell.done : secondsAnEpisode(cell, measured);
+    if (episode_s === undefined) return undefined;
+    sum_s += left * episode_s;
+  }
+  return sum_s;
+}
+
+/** `40 s`, `3 min`, `1 h 20 min`: no finer than an estimate is. */
+export function roughly(time_s: number): string {
+  if (time_s < 10) return `${Math.max(1, Math.ceil(time_s))} s`;
+  if (time_s < 55) return `${Math.ceil(time_s / 5) * 5} s`;
+  const minutes = Math.ceil(time_s / 60);
+  if (minutes < 60) return `${minutes} min`;
+  const rest = minutes % 60;
+  return `${Math.floor(minutes / 60)} h${rest === 0 ? '' : ` ${rest} min`}`;
+}
+
+/** `evaluation-3` is called 3. */
+export function numberOf(id: string): string {
+  return id.replace(/^evaluation-/, '');
+}
+
+const STAGE_WORDS = {
+  waiting: 'waits',
+  running: 'runs',
+  done: 'done',
+  cancelled: 'cancelled',
+  failed: 'failed',
+} as const;
+
+export function stageWords(summary: EvaluationSummary): string {
+  return STAGE_WORDS[summary.stage];
+}
+
+/** What it is about: `RL, ERRT on posts; 0 and 3 disturbances`. */
+export function subject({ query }: EvaluationSummary): string {
+  const controllers = query.controllers.map((name) => CONTROLLER_LABELS[name]).join(', ');
+  const disturbances = query.disturbances.join(' and ');
+  const noun = disturbances === '1' ? 'disturbance' : 'disturbances';
+  return `${controllers} on ${query.maps.join(', ')}; ${disturbances} ${noun}`;
+}
+
+/** What is worth saying aloud: a quarter done, a row, an end. The same text between. */
+export function milestone(summary: EvaluationSummary): string {
+  const name = `Evaluation ${numberOf(summary.id)}`;
+  const rows = `${summary.rows_done} of ${summary.cells.length} rows`;
+  switch (summary.stage) {
+    case 'waiting':
+      return `${name} waits for another.`;
+    case 'running': {
+      const quarters = Math.floor((4 * episodesDone(summary)) / episodesInAll(summary));
+      return `${name} runs: ${25 * quarters} % of its episodes, ${rows}.`;
+    }
+    case 'done':
+      return `${name} is done: ${rows}.`;
+    case 'cancelled':
+      return `${name} was cancelled after ${rows}.`;
+    case 'failed':
+      return `${name} failed after ${rows}: ${summary.message ?? 'without a word'}`;
+  }
+}

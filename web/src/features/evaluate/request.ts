@@ -1,0 +1,91 @@
+// What an evaluation is to do, as it is typed in. Pure.
+
+import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
+import { counted } from '../../ui/format';
+import { secondsAnEpisode } from './progress';
+
+export type Field = 'controllers' | 'maps' | 'disturbances' | 'episodes' | 'seed';
+
+export interface Draft {
+  readonly controllers: readonly ControllerName[];
+  readonly maps: readonly string[];
+  readonly disturbances: readonly number[];
+  /** As typed; empty where it is no number. */
+  readonly episodes: string;
+  readonly seed: string;
+}
+
+/** The paper's two experiments (§V-A). */
+export const PAPERS: Draft = {
+  controllers: ['rl'],
+  maps: ['colon'],
+  disturbances: [0, 3],
+  episodes: '30',
+  seed: '1',
+};
+
+export type Faults = Readonly<Partial<Record<Field | 'form', string | undefined>>>;
+
+const WHOLE = /^\d+$/;
+
+/** The query, or what keeps the draft from being one. How much is too much, the server says. */
+export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Faults } {
+  const faults: Partial<Record<Field, string>> = {};
+  if (draft.controllers.length === 0) faults.controllers = 'Choose at least one controller.';
+  if (draft.maps.length === 0) faults.maps = 'Choose at least one map.';
+  if (draft.disturbances.length === 0) faults.disturbances = 'Choose at least one.';
+  if (!WHOLE.test(draft.episodes)) faults.episodes = 'Episodes: a whole number from 1 to 1000.';
+  const seed = Number(draft.seed);
+  if (!WHOLE.test(draft.seed) || !Number.isSafeInteger(seed)) {
+    faults.seed = 'A seed is a whole number from 0 to 9007199254740991.';
+  }
+  if (Object.keys(faults).length > 0) return { faults };
+  const { controllers, maps, disturbances } = draft;
+  return {
+    query: {
+      controllers: [...controllers],
+      maps: [...maps],
+      disturbances: [...disturbances],
+      episodes: Number(draft.episodes),
+      seed,
+    },
+  };
+}
+
+const FIELDS: readonly Field[] = ['controllers', 'maps', 'disturbances', 'episodes', 'seed'];
+
+/** A refusal of the server, at the field it names: `maps[1]` belongs to the maps. */
+export function faultsOf(refusal: { detail: string; field?: string | undefined }): Faults {
+  const name = refusal.field?.replace(/\[.*$/, '');
+  const field = FIELDS.find((one) => one === name) ?? 'form';
+  return { [field]: refusal.detail };
+}
+
+/** With `item` or without it, in the order of `all`. */
+export function toggled<T>(all: readonly T[], chosen: readonly T[], item: T, on: boolean): T[] {
+  return all.filter((one) => (one === item ? on : chosen.includes(one)));
+}
+
+/** How much it is: `4 cells, 120 episodes`. */
+export function sizeWords(query: EvaluationQuery): string {
+  const cells = query.controllers.length * query.maps.length * query.disturbances.length;
+  return `${counted(cells, 'cell')}, ${counted(cells * query.episodes, 'episode')}`;
+}
+
+/** How long it will take by what was measured; nothing where nothing was. */
+export function estimate_s(
+  query: EvaluationQuery,
+  measured: readonly EvaluationSummary[],
+): number | undefined {
+  let sum_s = 0;
+  for (const map of query.maps) {
+    for (const disturbances of query.disturbances) {
+      for (const controller of query.controllers) {
+        const episode_s = secondsAnEpisode({ controller, map, disturbances }, measured);
+        if (episode_s === undefined) return undefined;
+        sum_s += episode_s * query.episodes;
+      }
+    }
+  }
+  return sum_s;
+}

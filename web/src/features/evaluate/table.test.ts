@@ -1,0 +1,85 @@
+import { describe, expect, it } from 'vitest';
+import { sceneOf } from '../../lab/testing';
+import { setUpAgain } from './setUp';
+import {
+  REPORTS,
+  cm,
+  decisionWords,
+  difference,
+  percentRange,
+  ratio,
+  reason,
+  reportAddress,
+  signed,
+} from './table';
+import { ROW, cellOf } from './testing';
+import type { EvaluationFailure } from '../../net/protocol.gen';
+
+const FAILURE: EvaluationFailure = {
+  cell: 0,
+  index: 7,
+  // More than a number of JavaScript holds.
+  seed: '11400714819323198492',
+  start_m: [-0.2, -0.3],
+  goal_m: [0.1, -0.4],
+  reached: false,
+  outcome: 'stopped: 150 steps without reaching the goal',
+  trouble: 'follows a wall',
+  refusal: null,
+  steps: 150,
+  disturbances: 0,
+};
+
+describe('text of a row', () => {
+  it('is short', () => {
+    expect(percentRange([0.8333, 1])).toBe('83–100 %');
+    expect(cm(0.0141)).toBe('1.4');
+    expect(cm(null)).toBe('–');
+    expect(decisionWords(ROW)).toBe('2.3 · 7.5');
+    expect(reason(FAILURE)).toBe('stopped: 150 steps without reaching the goal; follows a wall');
+  });
+});
+
+describe('differences', () => {
+  it('tell their direction and their interval', () => {
+    expect(difference(-0.105, [-0.155, -0.0649], 100, 1)).toBe('−10.5 (−15.5 to −6.5)');
+    expect(difference(0.5, [-0.25, 1.25], 1, 1)).toBe('+0.5 (−0.3 to +1.3)');
+    expect(signed(0, 1)).toBe('0.0');
+    expect(ratio(null)).toBe('–');
+    expect(ratio(1.0432)).toBe('1.043');
+  });
+});
+
+describe('files', () => {
+  it('come from the server', () => {
+    expect(REPORTS.map((ending) => reportAddress('evaluation-3', ending))).toEqual([
+      '/api/evaluations/evaluation-3/report.html',
+      '/api/evaluations/evaluation-3/report.csv',
+      '/api/evaluations/evaluation-3/report.json',
+    ]);
+  });
+});
+
+describe('setUpAgain', () => {
+  const { defaults } = sceneOf('posts');
+
+  it('asks for the very trial', () => {
+    const cell = cellOf({ map: 'colon', controller: 'attractor', disturbances: 3 });
+    expect(setUpAgain(cell, FAILURE, defaults)).toEqual({
+      type: 'load_scenario',
+      map: 'colon',
+      controller: 'attractor',
+      disturbances: 3,
+      seed: '11400714819323198492',
+      start_m: [-0.2, -0.3],
+      goal_m: [0.1, -0.4],
+      parameters: defaults,
+    });
+  });
+
+  it('leaves out what the trial did not say', () => {
+    expect(setUpAgain(cellOf(), { ...FAILURE, goal_m: null }, defaults)).not.toHaveProperty(
+      'goal_m',
+    );
+  });
+});

@@ -1,0 +1,51 @@
+// Rows as text: in the table, and in the files to download. Pure.
+
+import { fixed } from '../../ui/format';
+import type { EvaluationFailure, Row } from '../../net/protocol.gen';
+
+export function percentRange([low, high]: readonly [number, number]): string {
+  return `${fixed(100 * low, 0)}–${fixed(100 * high, 0)} %`;
+}
+
+/** Centimetres without their unit, which stands in the column's head. */
+export function cm(value_m: number | null): string {
+  return value_m === null ? '–' : fixed(100 * value_m, 1);
+}
+
+export function decisionWords(row: Row): string {
+  return `${fixed(row.decision_ms_p50, 1)} · ${fixed(row.decision_ms_p99, 1)}`;
+}
+
+/** Why a trial failed: how it ended, and what stood in the way. */
+export function reason({ outcome, trouble, refusal }: EvaluationFailure): string {
+  return [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
+}
+
+/** `1.043`, or a dash where no bead arrived. */
+export function ratio(value: number | null): string {
+  return value === null ? '–' : fixed(value, 3);
+}
+
+/** `−2.5`, `+0.1`: a difference tells its direction. */
+export function signed(value: number, digits: number): string {
+  const text = fixed(value, digits);
+  return value > 0 ? `+${text}` : text;
+}
+
+/** A difference and its interval, in a unit of `scale` to the number's. */
+export function difference(
+  mean: number,
+  [low, high]: readonly [number, number],
+  scale: number,
+  digits: number,
+): string {
+  const text = (value: number): string => signed(value * scale, digits);
+  return `${text(mean)} (${text(low)} to ${text(high)})`;
+}
+
+/** The server's files of an evaluation. */
+export const REPORTS = ['html', 'csv', 'json'] as const;
+
+export function reportAddress(id: string, ending: (typeof REPORTS)[number]): string {
+  return `/api/evaluations/${encodeURIComponent(id)}/report.${ending}`;
+}

@@ -1,0 +1,50 @@
+// The layer of the magnet's field: it hangs under the tool, wherever that is.
+
+import type { Palette } from '../../ui/palette';
+import type { Plane } from '../../net/protocol.gen';
+import { pxFromWorld, type Vec2, type View } from '../../plan/transform';
+import { arrowPath } from '../flow/drawFlow';
+import type { Arrow } from '../flow/flow';
+import type { Ramp } from '../singularity/heat';
+import { HALF_SIDE_M, SIDE_PX, planeArrows, planePixels } from './plane';
+
+const ARROW_ALPHA = 0.6;
+
+export interface FieldPicture {
+  readonly image: HTMLCanvasElement;
+  readonly arrows: readonly Arrow[];
+}
+
+export function createFieldPicture(plane: Plane, palette: Palette): FieldPicture {
+  const image = document.createElement('canvas');
+  image.width = SIDE_PX;
+  image.height = SIDE_PX;
+  const ramp: Ramp = [palette['field-low'], palette['field-middle'], palette['field-high']];
+  const pixels = new ImageData(planePixels(plane, ramp), SIDE_PX, SIDE_PX);
+  image.getContext('2d')?.putImageData(pixels, 0, 0);
+  return { image, arrows: planeArrows(plane) };
+}
+
+export function drawField(
+  ctx: CanvasRenderingContext2D,
+  view: View,
+  palette: Palette,
+  [x_m, y_m]: Vec2,
+  field: FieldPicture,
+): void {
+  const side = 2 * HALF_SIDE_M * view.pxPerM;
+  ctx.imageSmoothingEnabled = true;
+  ctx.drawImage(
+    field.image,
+    ...pxFromWorld(view, [x_m - HALF_SIDE_M, y_m + HALF_SIDE_M]),
+    side,
+    side,
+  );
+  const [originX, originY] = pxFromWorld(view, [x_m, y_m]);
+  ctx.save();
+  ctx.strokeStyle = palette.text;
+  ctx.lineWidth = 1;
+  ctx.globalAlpha = ARROW_ALPHA;
+  ctx.stroke(arrowPath({ ...view, originX, originY }, field.arrows));
+  ctx.restore();
+}

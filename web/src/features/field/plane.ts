@@ -1,0 +1,80 @@
+// |B| and the pull around the magnet, at the height of the bead on the table: colours that fade out, and arrows. Pure.
+
+import { fixed } from '../../ui/format';
+import type { Parameters, Plane, PlaneQuery } from '../../net/protocol.gen';
+import type { Vec2 } from '../../plan/transform';
+import type { Arrow } from '../flow/flow';
+import { heatColor, type Ramp } from '../singularity/heat';
+
+/** As far as the magnet catches a bead, and somewhat farther. */
+const REACH_M = 0.15;
+const COUNT = 61;
+/** An arrow every so many places, 2 cm. */
+const EVERY = 4;
+const SPACING_M = (2 * REACH_M) / (COUNT - 1);
+/** Of the distance between two arrows: the longest. */
+const LONGEST = 0.9;
+/** A share of the greatest pull below which there is no arrow. */
+const LEAST_PULL = 0.02;
+const MOST_ALPHA = 190;
+
+export function planeQuery(parameters: Parameters): PlaneQuery {
+  return {
+    orientation: parameters.block_orientation,
+    lower_face_height_m: parameters.tool_height_m,
+    reach_m: REACH_M,
+    count: COUNT,
+  };
+}
+
+export const greatestField_t = ({ field_t }: Plane): number => Math.max(...field_t);
+
+export const greatestPull_n = ({ pull_n }: Plane): number =>
+  Math.max(...pull_n.map(([x, y]) => Math.hypot(x, y)));
+
+/** Where a place lies from below the magnet. */
+function offsetOf(place: number): Vec2 {
+  const along = (index: number): number => index * SPACING_M - REACH_M;
+  return [along(place % COUNT), along(Math.floor(place / COUNT))];
+}
+
+/** A pixel a place, RGBA, the upper row first as in a picture; the weaker, the more of the table is seen. */
+export function planePixels(plane: Plane, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
+  const pixels = new Uint8ClampedArray(4 * COUNT * COUNT);
+  const most_t = greatestField_t(plane);
+  plane.field_t.forEach((value_t, place) => {
+    const share = value_t / most_t;
+    const row = COUNT - 1 - Math.floor(place / COUNT);
+    // Round: the corners of the square are farther off than its sides.
+    const left = 1 - Math.hypot(...offsetOf(place)) / REACH_M;
+    const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MOST_ALPHA;
+    pixels.set([...heatColor(ramp, share), alpha], 4 * (row * COUNT + (place % COUNT)));
+  });
+  return pixels;
+}
+
+/** Pulls on a bead, from below the magnet; the longest is the strongest. */
+export function planeArrows(plane: Plane): Arrow[] {
+  const most_n = greatestPull_n(plane);
+  return plane.pull_n.flatMap(([x_n, y_n], place) => {
+    const isDrawn = (place % COUNT) % EVERY === 2 && Math.floor(place / COUNT) % EVERY === 2;
+    const [x_m, y_m] = offsetOf(place);
+    const share = Math.hypot(x_n, y_n) / most_n;
+    if (!isDrawn || share < LEAST_PULL || Math.hypot(x_m, y_m) > REACH_M) return [];
+    const scale = (LONGEST * EVERY * SPACING_M) / most_n;
+    const to_m: Vec2 = [x_m + scale * x_n, y_m + scale * y_n];
+    return [{ from_m: [x_m, y_m], to_m, isSeen: true }];
+  });
+}
+
+/** Of the picture, from below the magnet: a pixel is around its place. */
+export const HALF_SIDE_M = REACH_M + SPACING_M / 2;
+export const SIDE_PX = COUNT;
+
+export function fieldWords(plane: Plane): string {
+  return fixed(1000 * greatestField_t(plane), 2);
+}
+
+export function strongestWords(plane: Plane): string {
+  return fixed(1000 * greatestPull_n(plane), 2);
+}

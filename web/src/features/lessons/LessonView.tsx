@@ -1,0 +1,267 @@
+// One lesson, one step at a time: predict, run, explain.
+
+import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import type { Lesson, Run } from './lesson';
+import type { Lessons } from './store';
+import type { Track } from './track';
+
+interface Props {
+  readonly lab: Lab;
+  readonly store: Lessons;
+  readonly lesson: Lesson;
+}
+
+function stepNames({ runs }: Lesson): readonly string[] {
+  const named = runs.length === 1 ? ['Run'] : runs.map((_, index) => `Run ${index + 1}`);
+  return ['Predict', ...named, 'Explain'];
+}
+
+function Predict(props: Props): JSX.Element {
+  const { store, lesson } = props;
+  return (
+    <fieldset class="lesson-choices" role="radiogroup" aria-labelledby="lesson-question">
+      <p id="lesson-question">{lesson.question}</p>
+      <For each={lesson.choices}>
+        {({ id, text }) => (
+          <label>
+            <input
+              type="radio"
+              name={`lesson-${lesson.id}`}
+              value={id}
+              checked={store.progress().choices[lesson.id] === id}
+              onChange={() => {
+                store.choose(id);
+              }}
+            />
+            <span>{text}</span>
+          </label>
+        )}
+      </For>
+    </fieldset>
+  );
+}
+
+function RunStep(props: Props & { run: Run }): JSX.Element {
+  const { lab, store } = props;
+  const doneCount = (): number => {
+    const track = store.track();
+    return track ? props.run.tasks.filter((task) => task.done(track)).length : 0;
+  };
+  const follows = (): boolean => store.track() !== undefined && !store.isElsewhere();
+  return (
+    <>
+      <Show when={props.run.title}>{(title) => <p class="lesson-run">{title()}</p>}</Show>
+      <For each={props.run.words}>{(words) => <p>{words}</p>}</For>
+      <div class="lesson-buttons">
+        <button
+          type="button"
+          class="small"
+          classList={{ primary: !follows() }}
+          disabled={!lab.canOperate()}
+          onClick={() => {
+            store.setUp();
+          }}
+        >
+          {store.track() ? 'Set it up again' : 'Set it up'}
+        </button>
+        <For each={props.run.actions}>
+          {(action) => (
+            <button
+              type="button"
+              class="small"
+              disabled={!lab.canOperate() || !follows()}
+              onClick={() => {
+                const [scene, state] = [lab.scene(), lab.state()];
+                if (scene && state) lab.send(action.message(scene, state));
+              }}
+            >
+              {action.label}
+            </button>
+          )}
+        </For>
+      </div>
+      <Show when={!lab.canOperate()}>
+        <p class="lesson-note">
+          {lab.link().kind === 'live'
+            ? 'You are watching: take control, at the top, to set it up.'
+            : 'No connection to the server: nothing can be set up now.'}
+        </p>
+      </Show>
+      <Show when={store.isElsewhere()}>
+        <p class="lesson-note">
+          The page shows another experiment now. Set this one up again to go on with it.
+        </p>
+      </Show>
+      <ul class="lesson-tasks">
+        <For each={props.run.tasks}>
+          {(task) => {
+            const isDone = (): boolean => {
+              const track = store.track();
+              return track !== undefined && task.done(track);
+            };
+            return (
+              <li classList={{ done: isDone() }}>
+                <span class="task-mark" aria-hidden="true">
+                  {isDone() ? '✓' : ''}
+                </span>
+                <span>
+                  {task.text}
+                  <Show when={isDone()}>
+                    <span class="visually-hidden"> (done)</span>
+                  </Show>
+                </span>
+              </li>
+            );
+          }}
+        </For>
+      </ul>
+      <p class="lesson-count number" role="status">
+        {doneCount()} of {props.run.tasks.length} done
+      </p>
+    </>
+  );
+}
+
+function Explain(props: Props): JSX.Element {
+  const { store, lesson } = props;
+  const text = (id: string | undefined): string | undefined =>
+    lesson.choices.find((choice) => choice.id === id)?.text;
+  /** Tracks of all runs, if they were run since the lesson was opened. */
+  const tracks = () => {
+    const all = store.tracks().filter((track) => track !== undefined);
+    return all.length === lesson.runs.length ? all : undefined;
+  };
+  const chosen = (): string | undefined => store.progress().choices[lesson.id];
+  const isRight = (measured: readonly Track[]): boolean => lesson.outcome(measured) === chosen();
+  return (
+    <Show
+      when={tracks()}
+      fallback={
+        <p class="lesson-note">You have done this lesson. Run it again to see your numbers here.</p>
+      }
+    >
+      {(measured) => (
+        <>
+          <dl class="lesson-verdict" data-right={isRight(measured())}>
+            <Show when={!isRight(measured())}>
+              <div>
+                <dt>You said</dt>
+                <dd>{text(chosen()) ?? 'nothing'}</dd>
+              </div>
+            </Show>
+            <div>
+              <dt>{isRight(measured()) ? 'You were right' : 'It was'}</dt>
+              <dd data-testid="lesson-outcome">{text(lesson.outcome(measured()))}</dd>
+            </div>
+          </dl>
+          <dl class="facts lesson-facts" aria-label="Measured in your run">
+            <For each={lesson.facts(measured())}>
+              {([name, value]) => (
+                <div>
+                  <dt>{name}</dt>
+                  <dd class="number">{value}</dd>
+                </div>
+              )}
+            </For>
+          </dl>
+        </>
+      )}
+    </Show>
+  );
+}
+
+export function LessonView(props: Props): JSX.Element {
+  const { lab, store, lesson } = props;
+  let heading!: HTMLHeadingElement;
+  let body!: HTMLDivElement;
+  const names = stepNames(lesson);
+  const last = names.length - 1;
+  createEffect(
+    on(store.step, () => {
+      body.scrollTop = 0;
+      heading.focus({ preventScroll: true });
+    }),
+  );
+  return (
+    <>
+      <header class="lesson-head">
+        <button
+          type="button"
+          class="bare"
+          aria-label="All lessons"
+          title="All lessons"
+          onClick={() => {
+            store.close();
+          }}
+        >
+          ‹
+        </button>
+        <h3>{lesson.title}</h3>
+      </header>
+      <ol class="lesson-steps" aria-label="Steps">
+        <For each={names}>
+          {(name, index) => (
+            <li aria-current={store.step() === index() ? 'step' : undefined}>{name}</li>
+          )}
+        </For>
+      </ol>
+      <div ref={body} class="lesson-body">
+        <h4 ref={heading} class="visually-hidden" tabindex="-1">
+          {names[store.step()]}
+        </h4>
+        <Switch>
+          <Match when={store.step() === 0}>
+            <Predict lab={lab} store={store} lesson={lesson} />
+          </Match>
+          <Match when={store.run()} keyed>
+            {(run) => <RunStep lab={lab} store={store} lesson={lesson} run={run} />}
+          </Match>
+          <Match when={store.step() === last}>
+            <Explain lab={lab} store={store} lesson={lesson} />
+            <For each={lesson.why}>{(words) => <p>{words}</p>}</For>
+            <p class="lesson-paper">Paper: {lesson.paper}</p>
+          </Match>
+        </Switch>
+      </div>
+      <footer class="lesson-foot">
+        <button
+          type="button"
+          class="small"
+          disabled={store.step() === 0}
+          onClick={() => {
+            store.go(store.step() - 1);
+          }}
+        >
+          Back
+        </button>
+        <Show
+          when={store.step() < last}
+          fallback={
+            <button
+              type="button"
+              class="small primary"
+              onClick={() => {
+                store.finish();
+              }}
+            >
+              Finish
+            </button>
+          }
+        >
+          <button
+            type="button"
+            class="small"
+            classList={{ primary: store.mayGoOn() }}
+            disabled={!store.mayGoOn()}
+            onClick={() => {
+              store.go(store.step() + 1);
+            }}
+          >
+            Next
+          </button>
+        </Show>
+      </footer>
+    </>
+  );
+}

@@ -1,0 +1,85 @@
+// The lessons: a list, or the open one.
+
+import { For, Show, onMount, untrack, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { LessonView } from './LessonView';
+import { LESSONS } from './lessons';
+import { lessonsOf, type Lessons } from './store';
+
+function LessonList(props: { store: Lessons }): JSX.Element {
+  const { store } = props;
+  const cards = new Map<string, HTMLButtonElement>();
+  onMount(() => {
+    // The keyboard goes on where it left the list.
+    const left = untrack(store.left);
+    if (left) cards.get(left.id)?.focus();
+  });
+  const done = (): number => store.progress().done.length;
+  const isFresh = (): boolean => done() === 0 && Object.keys(store.progress().choices).length === 0;
+  return (
+    <>
+      <p class="lessons-intro">
+        Predict, run, explain, here on this page.{' '}
+        <span class="number">
+          {done()} of {LESSONS.length} done.
+        </span>
+      </p>
+      <ol class="lesson-list">
+        <For each={LESSONS}>
+          {(lesson) => {
+            const isDone = (): boolean => store.progress().done.includes(lesson.id);
+            return (
+              <li>
+                <button
+                  ref={(card) => cards.set(lesson.id, card)}
+                  type="button"
+                  class="lesson-card"
+                  classList={{ done: isDone() }}
+                  onClick={() => {
+                    store.open(lesson);
+                  }}
+                >
+                  <span class="lesson-title">
+                    {lesson.title}
+                    <Show when={isDone()}>
+                      <span class="lesson-done">
+                        <span aria-hidden="true">✓</span>
+                        <span class="visually-hidden">(done)</span>
+                      </span>
+                    </Show>
+                  </span>
+                  <span class="lesson-aim">
+                    {lesson.aim} <span class="lesson-minutes">{lesson.minutes} min</span>
+                  </span>
+                </button>
+              </li>
+            );
+          }}
+        </For>
+      </ol>
+      <button
+        type="button"
+        class="small start-over"
+        disabled={isFresh()}
+        title="Forgets which lessons are done and what was predicted"
+        onClick={() => {
+          store.startOver();
+        }}
+      >
+        Start over
+      </button>
+    </>
+  );
+}
+
+export function LessonsPanel(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const store = lessonsOf(lab);
+  return (
+    <div class="lessons">
+      <Show when={store.lesson()} fallback={<LessonList store={store} />} keyed>
+        {(lesson) => <LessonView lab={lab} store={store} lesson={lesson} />}
+      </Show>
+    </div>
+  );
+}

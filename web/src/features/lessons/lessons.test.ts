@@ -1,0 +1,117 @@
+import { describe, expect, it } from 'vitest';
+import { sceneOf, stateAt } from '../../lab/testing';
+import { allDone } from './lesson';
+import { LESSONS } from './lessons';
+import { progressFrom } from './progress';
+import { beginTrack, type Track } from './track';
+
+const START = beginTrack({
+  scene: sceneOf('posts'),
+  state: stateAt(0),
+  overlay: undefined,
+  marks: [],
+});
+
+function track(change: Partial<Track>): Track {
+  return { ...START, ...change };
+}
+
+function lesson(id: string) {
+  const found = LESSONS.find((one) => one.id === id);
+  if (!found) throw new Error(`no lesson ${id}`);
+  return found;
+}
+
+const delivered = (time_s: number, plans = 0): Partial<Track> => ({
+  deliveries: [{ time_s, plans }],
+});
+
+describe('every lesson', () => {
+  it.each(LESSONS.map((one) => [one.title, one] as const))('%s is whole', (_, one) => {
+    const ids = one.choices.map(({ id }) => id);
+    expect(new Set(ids).size).toBe(ids.length);
+    expect(ids.length).toBeGreaterThanOrEqual(2);
+    expect(ids.length).toBeLessThanOrEqual(4);
+    const tracks = one.runs.map(() => START);
+    // Whatever was measured, one of the choices came true, and there are numbers.
+    expect(ids).toContain(one.outcome(tracks));
+    expect(one.facts(tracks).length).toBeGreaterThan(0);
+    for (const run of one.runs) {
+      expect(run.tasks.length).toBeGreaterThan(1);
+      // Nothing is done before it has happened.
+      expect(run.tasks.filter((task) => task.done(START))).toEqual([]);
+      expect(allDone(run, undefined)).toBe(false);
+    }
+    expect(one.paper).toMatch(/^Section [IV]+/);
+  });
+
+  it('has an id of its own', () => {
+    expect(new Set(LESSONS.map(({ id }) => id)).size).toBe(LESSONS.length);
+  });
+});
+
+describe('what came true follows from what was measured', () => {
+  it.each<[string, Partial<Track>[], string]>([
+    ['magnet', [{ carryingError_m: 0.002 }], 'below'],
+    ['magnet', [{ carryingError_m: 0.016 }], 'behind'],
+    ['magnet', [{ carryingError_m: 0.09 }], 'edge'],
+    ['lose', [{ fetchedAt_s: 5 }], 'fetches'],
+    ['threshold', [delivered(10), { losses: 4, ...delivered(14) }], 'later'],
+    ['threshold', [delivered(10), { losses: 4, ...delivered(9) }], 'sooner'],
+    ['threshold', [delivered(10), delivered(10)], 'nothing'],
+    ['chatter', [{ switches: 40 }, {}], 'turns'],
+    ['chatter', [{ switches: 2, ...delivered(15) }, {}], 'carries'],
+    ['attractor', [{ lingered_s: 30 }, delivered(6)], 'stuck'],
+    ['attractor', [delivered(6), delivered(6)], 'around'],
+    ['errt', [{ deliveries: [13, 14].map((plans) => ({ time_s: plans, plans })) }], 'once'],
+    ['errt', [{ deliveries: [13, 25].map((plans) => ({ time_s: plans, plans })) }], 'same'],
+    ['errt', [{ deliveries: [13, 13].map((plans) => ({ time_s: plans, plans })) }], 'never'],
+    ['policy', [delivered(16), { lingered_s: 30 }], 'lost'],
+    ['policy', [delivered(16), delivered(17)], 'same'],
+    ['policy', [delivered(16), delivered(30)], 'longer'],
+    ['lift-off', [{ liftedAt_m: 0.0943 }, {}], 'soon'],
+    ['lift-off', [{ liftedAt_m: 0.05 }, {}], 'half'],
+  ])('%s %j: %s', (id, changes, outcome) => {
+    expect(lesson(id).outcome(changes.map(track))).toBe(outcome);
+  });
+});
+
+describe('a button of a lesson', () => {
+  it('lowers the magnet, but not below what the server allows', () => {
+    const [lower] = lesson('lift-off').runs[0].actions;
+    const scene = sceneOf('open');
+    const height = (tool_height_m: number): number => {
+      scene.parameters = { ...scene.parameters, tool_height_m };
+      const message = lower?.message(scene, stateAt(0));
+      return message?.type === 'configure' ? message.parameters.tool_height_m : NaN;
+    };
+    expect(height(0.1)).toBe(0.098);
+    expect(height(0.0905)).toBe(0.09);
+  });
+});
+
+describe('progress', () => {
+  it('is what was stored', () => {
+    const stored = { done: ['errt', 'magnet'], choices: { errt: 'once' } };
+    expect(progressFrom(JSON.stringify(stored), LESSONS)).toEqual({
+      // In the order of the lessons.
+      done: ['magnet', 'errt'],
+      choices: { errt: 'once' },
+    });
+  });
+
+  it.each([
+    null,
+    '',
+    '{',
+    '7',
+    '"done"',
+    '[]',
+    '{"done":7,"choices":[]}',
+    '{"done":{"magnet":true},"choices":"errt"}',
+    '{"done":["flying",null,3],"choices":{"errt":"perhaps","flying":"once","magnet":7}}',
+    '{"choices":{"__proto__":{"errt":"once"}}}',
+  ])('is none in %s', (text) => {
+    expect(progressFrom(text, LESSONS)).toEqual({ done: [], choices: {} });
+  });
+});

@@ -1,0 +1,164 @@
+// Which lesson is open, how far it is, and what its experiments have shown. Lives as long as the page, so that a
+// lesson goes on while another tab is looked at.
+
+import {
+  createEffect,
+  createMemo,
+  createRoot,
+  createSignal,
+  untrack,
+  type Accessor,
+} from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
+import type { Layer } from '../../lab/layers';
+import { allDone, type Lesson, type Run } from './lesson';
+import { LESSONS } from './lessons';
+import { NO_PROGRESS, storeProgress, storedProgress, type Progress } from './progress';
+import { beginTrack, observe, type Track } from './track';
+
+type Tracks = readonly (Track | undefined)[];
+
+export interface Lessons {
+  readonly progress: Accessor<Progress>;
+  readonly lesson: Accessor<Lesson | undefined>;
+  /** The one that was open before. */
+  readonly left: Accessor<Lesson | undefined>;
+  /** 0 predict, then the runs, then explain. */
+  readonly step: Accessor<number>;
+  readonly run: Accessor<Run | undefined>;
+  /** Of the runs up to now. */
+  readonly tracks: Accessor<Tracks>;
+  readonly track: Accessor<Track | undefined>;
+  /** Whether the page shows another experiment than the one that is followed. */
+  readonly isElsewhere: Accessor<boolean>;
+  /** Whether the next step is open. */
+  readonly mayGoOn: Accessor<boolean>;
+  open(lesson: Lesson): void;
+  close(): void;
+  go(step: number): void;
+  choose(choice: string): void;
+  /** Loads the run's experiment. */
+  setUp(): void;
+  /** The lesson is done. */
+  finish(): void;
+  startOver(): void;
+}
+
+function createLessons(lab: Lab): Lessons {
+  const [progress, setProgress] = createSignal(storedProgress(LESSONS));
+  const [lesson, setLesson] = createSignal<Lesson>();
+  const [left, setLeft] = createSignal<Lesson>();
+  const [step, setStep] = createSignal(0);
+  const [tracks, setTracks] = createSignal<Tracks>([]);
+  /** Layers that a lesson has switched on and is to switch off again. */
+  let lent: readonly Layer[] = [];
+
+  const keep = (next: Progress): void => {
+    setProgress(next);
+    storeProgress(next);
+  };
+  const run = createMemo(() => lesson()?.runs[step() - 1]);
+  const track = createMemo(() => tracks()[step() - 1]);
+  const isItsTrial = createMemo(() => {
+    const scene = lab.scene();
+    return scene !== undefined && run()?.link === linkAsSetUp(scene);
+  });
+
+  createEffect(() => {
+    const [scene, state] = [lab.scene(), lab.state()];
+    if (!run() || !scene || !state) return;
+    const heard = { scene, state, overlay: lab.overlay(), marks: lab.marks() };
+    untrack(() => {
+      const before = track();
+      const follows = before?.trial === scene.trial;
+      // Before its first tick, so that nothing is missed.
+      const isAtStart = isItsTrial() && state.tick === 0;
+      if (!follows && !isAtStart) return;
+      const next = isAtStart ? beginTrack(heard) : before && observe(before, heard);
+      const all = [...tracks()];
+      all[step() - 1] = next;
+      setTracks(all);
+    });
+  });
+
+  /** Those that `still` needs stay. */
+  const giveBackLayers = (still: readonly Layer[] = []): void => {
+    for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
+    lent = lent.filter((layer) => still.includes(layer));
+  };
+  const leave = (): void => {
+    giveBackLayers();
+    setLeft(lesson());
+    setLesson(undefined);
+    setStep(0);
+    setTracks([]);
+  };
+
+  return {
+    progress,
+    lesson,
+    left,
+    step,
+    run,
+    tracks,
+    track,
+    isElsewhere: () => {
+      const now = track();
+      return now !== undefined && now.trial !== lab.scene()?.trial;
+    },
+    mayGoOn: () => {
+      const now = lesson();
+      if (!now) return false;
+      if (step() === 0) return progress().choices[now.id] !== undefined;
+      const here = run();
+      return !here || allDone(here, track()) || progress().done.includes(now.id);
+    },
+    open(next) {
+      leave();
+      setLesson(next);
+    },
+    close: leave,
+    go: setStep,
+    choose(choice) {
+      const now = lesson();
+      if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
+    },
+    setUp() {
+      const [here, scene] = [run(), lab.scene()];
+      if (!here || !scene) return;
+      const read = experimentFrom(here.link, scene);
+      if (read.kind !== 'experiment') return;
+      setTracks(tracks().map((old, index) => (index === step() - 1 ? undefined : old)));
+      lab.send(loadMessage(read.experiment, scene.defaults));
+      lab.send({ type: 'set_speed', factor: here.speed });
+      giveBackLayers(here.layers);
+      const off = here.layers.filter((layer) => !lab.layers().has(layer));
+      for (const layer of off) lab.showLayer(layer, true);
+      lent = [...lent, ...off];
+    },
+    finish() {
+      const now = lesson();
+      if (now && !progress().done.includes(now.id)) {
+        keep({ ...progress(), done: [...progress().done, now.id] });
+      }
+      leave();
+    },
+    startOver() {
+      leave();
+      keep(NO_PROGRESS);
+    },
+  };
+}
+
+const stores = new WeakMap<Lab, Lessons>();
+
+/** The lessons of a laboratory: made once, whichever panel shows them. */
+export function lessonsOf(lab: Lab): Lessons {
+  let store = stores.get(lab);
+  if (!store) {
+    store = createRoot(() => createLessons(lab));
+    stores.set(lab, store);
+  }
+  return store;
+}

@@ -1,0 +1,135 @@
+// What a lesson measures while its experiment runs: folds what the page hears into a few numbers. Pure.
+
+import type {
+  EventMessage,
+  OverlayMessage,
+  SceneMessage,
+  StateMessage,
+} from '../../net/protocol.gen';
+
+/** A tool that stays within this of where it was lingers. */
+const LINGER_M = 0.03;
+
+export interface Heard {
+  readonly scene: SceneMessage;
+  readonly state: StateMessage;
+  readonly overlay: OverlayMessage | undefined;
+  /** Events of the trial, oldest first. */
+  readonly marks: readonly EventMessage[];
+}
+
+export interface Delivery {
+  readonly time_s: number;
+  /** Ways that ERRT had planned by then. */
+  readonly plans: number;
+}
+
+export interface Track {
+  /** Number of the trial that it follows. */
+  readonly trial: number;
+  readonly time_s: number;
+  readonly tool_m: readonly [number, number];
+  /** As the frames showed it: a little less than it was when time runs fast. */
+  readonly travelled_m: number;
+  readonly goalDistance_m: number | null;
+  readonly greatestError_m: number;
+  /** The same while sub-controller 2 carried the bead, undisturbed. */
+  readonly carryingError_m: number;
+  readonly switches: number;
+  readonly losses: number;
+  /** When the bead was first lost, and first fetched after that. */
+  readonly lostAt_s: number | undefined;
+  readonly fetchedAt_s: number | undefined;
+  readonly disturbances: number;
+  readonly deliveries: readonly Delivery[];
+  readonly stopped: boolean;
+  /** Longest time that the tool stayed in one place on its way. */
+  readonly lingered_s: number;
+  readonly plans: number;
+  readonly greatestLift: number;
+  /** Height of the magnet when the bead jumped. */
+  readonly liftedAt_m: number | undefined;
+  /** Where it began to linger, and when. */
+  readonly anchor: { readonly at: readonly [number, number]; readonly time_s: number };
+}
+
+export function beginTrack({ scene, state }: Heard): Track {
+  const at = [state.tool_m[0], state.tool_m[1]] as const;
+  return {
+    trial: scene.trial,
+    time_s: state.sim_time_s,
+    tool_m: at,
+    travelled_m: 0,
+    goalDistance_m: state.goal_distance_m,
+    greatestError_m: 0,
+    carryingError_m: 0,
+    switches: 0,
+    losses: 0,
+    lostAt_s: undefined,
+    fetchedAt_s: undefined,
+    disturbances: 0,
+    deliveries: [],
+    stopped: false,
+    lingered_s: 0,
+    plans: 0,
+    greatestLift: 0,
+    liftedAt_m: undefined,
+    anchor: { at, time_s: state.sim_time_s },
+  };
+}
+
+function distance_m(a: readonly [number, number], b: readonly [number, number]): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+const isLoss = ({ kind, text }: EventMessage): boolean =>
+  kind === 'switch' && text.startsWith('sub-controller 1');
+
+function lingering(track: Track, state: StateMessage, at: readonly [number, number]) {
+  const { anchor, lingered_s } = track;
+  const isOnItsWay = state.phase === 'transporting' && !state.hand_m;
+  if (!isOnItsWay || distance_m(anchor.at, at) > LINGER_M) {
+    return { anchor: { at, time_s: state.sim_time_s }, lingered_s };
+  }
+  return { anchor, lingered_s: Math.max(lingered_s, state.sim_time_s - anchor.time_s) };
+}
+
+/** Deliveries told by `marks`; what had been planned by then was planned by the time one hears of them. */
+function delivered(track: Track, marks: readonly EventMessage[], plans: number) {
+  const times_s = marks.filter(({ kind }) => kind === 'delivered').map((mark) => mark.sim_time_s);
+  if (times_s.length === track.deliveries.length) return track.deliveries;
+  return times_s.map((time_s, index) => track.deliveries[index] ?? { time_s, plans });
+}
+
+/** What is known after one more frame; another trial leaves a track as it is. */
+export function observe(track: Track, { scene, state, overlay, marks }: Heard): Track {
+  if (scene.trial !== track.trial) return track;
+  const at = [state.tool_m[0], state.tool_m[1]] as const;
+  const plans = Math.max(track.plans, overlay?.plan?.plans ?? 0);
+  const lostMark = marks.find(isLoss);
+  const fetchedMark = marks.find(
+    (mark) => mark.kind === 'switch' && !isLoss(mark) && lostMark && mark.tick > lostMark.tick,
+  );
+  const isCarrying = state.phase === 'transporting' && state.mode === 2 && !state.hand_m;
+  const error_m = state.tracking_error_m;
+  return {
+    trial: track.trial,
+    time_s: state.sim_time_s,
+    tool_m: at,
+    travelled_m: track.travelled_m + distance_m(track.tool_m, at),
+    goalDistance_m: state.goal_distance_m,
+    greatestError_m: Math.max(track.greatestError_m, error_m),
+    carryingError_m: isCarrying ? Math.max(track.carryingError_m, error_m) : track.carryingError_m,
+    switches: Math.max(track.switches, state.switches),
+    losses: Math.max(track.losses, marks.filter(isLoss).length),
+    lostAt_s: track.lostAt_s ?? lostMark?.sim_time_s,
+    fetchedAt_s: track.fetchedAt_s ?? fetchedMark?.sim_time_s,
+    disturbances: Math.max(track.disturbances, state.disturbances),
+    deliveries: delivered(track, marks, plans),
+    stopped: track.stopped || state.phase.startsWith('stopped'),
+    plans,
+    greatestLift: Math.max(track.greatestLift, state.lift_ratio),
+    liftedAt_m: track.liftedAt_m ?? (state.phase === 'lifted off' ? state.tool_m[2] : undefined),
+    ...lingering(track, state, at),
+  };
+}

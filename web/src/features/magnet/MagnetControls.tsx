@@ -1,0 +1,36 @@
+// Block, height and friction beside the curves that they bend: the same parameters as in the form.
+
+import { For, Show, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { GROUPS } from '../../lab/parameterGroups';
+import type { Field } from '../../lab/parameters';
+import type { Parameters, SceneMessage } from '../../net/protocol.gen';
+import { FieldRow, createForm } from '../../lab/ParameterField';
+
+/** Short names, which are also others than in the form. */
+const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [
+  ['block_orientation', 'Magnet'],
+  ['tool_height_m', 'Height'],
+  ['friction', 'Friction'],
+];
+
+const FIELDS: readonly Field[] = LABELS.flatMap(([name, label]) =>
+  GROUPS.flatMap(({ fields }) => fields)
+    .filter((field) => field.name === name)
+    .map((field) => ({ ...field, label })),
+);
+
+function Controls(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
+  const form = createForm(props.lab, () => props.scene);
+  return (
+    <div class="magnet-controls" role="group" aria-label="Magnet and friction">
+      <For each={FIELDS}>{(field) => <FieldRow form={form} field={field} />}</For>
+    </div>
+  );
+}
+
+export function MagnetControls(props: { lab: Lab }): JSX.Element {
+  return (
+    <Show when={props.lab.scene()}>{(scene) => <Controls lab={props.lab} scene={scene()} />}</Show>
+  );
+}

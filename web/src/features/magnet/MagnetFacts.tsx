@@ -1,0 +1,54 @@
+// What the magnet can do at the height in force, in words.
+
+import type { JSX } from 'solid-js';
+import { fixed, millimetres } from '../../ui/format';
+import { breakaway, captureWords, rolls, speedWords, weightWords, type Side } from './magnet';
+import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
+import { Fact } from '../../ui/Fact';
+
+export function MagnetFacts(props: {
+  parameters: Parameters;
+  side: Side;
+  pull: PullCurve | undefined;
+  reach: ReachCurve | undefined;
+}): JSX.Element {
+  const lifted = (): boolean => props.pull?.is_lifted[0] ?? false;
+  return (
+    <dl class="facts">
+      <Fact
+        name="Weight left below"
+        help="What friction acts on, right below the block's middle"
+        testid="magnet-weight"
+        value={props.pull ? weightWords(props.pull) : '–'}
+        alarm={lifted()}
+      />
+      <Fact
+        name={props.side === 'bead' ? 'Captures toward it' : `Captures along ${props.side}`}
+        help="Offsets at which the pull beats friction"
+        testid="magnet-capture"
+        value={props.pull ? captureWords(props.pull.capture_m) : '–'}
+        alarm={props.pull?.capture_m === null}
+      />
+      <Fact
+        name="Lifts off below"
+        help="Height of the block's lower face below which the bead jumps to it"
+        testid="magnet-lift-off"
+        value={props.reach ? millimetres(props.reach.lift_off_m, 1) : '–'}
+        alarm={lifted()}
+      />
+      <Fact
+        name="Bead follows up to"
+        help="Where the pull less friction equals the viscous drag, at the best offset"
+        testid="magnet-speed"
+        value={props.reach ? speedWords(props.reach, props.parameters) : '–'}
+        alarm={props.reach?.largest_speed_m_s[0] === null}
+      />
+      <Fact
+        name={`Breakaway, ${rolls(props.parameters) ? 'rolling' : 'sliding'}`}
+        help="Pull at which a resting bead begins to move, in units of what is left of its weight"
+        testid="magnet-breakaway"
+        value={`${fixed(breakaway(props.parameters), 3)} × load`}
+      />
+    </dl>
+  );
+}

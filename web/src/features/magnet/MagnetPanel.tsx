@@ -1,0 +1,228 @@
+// What the magnet can do, for the parameters in force and while a slider moves.
+
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import type uPlot from 'uplot';
+import { createAnswer } from '../../net/requests';
+import { fixed } from '../../ui/format';
+import type { Lab } from '../../lab/lab';
+import {
+  HEIGHTS_M,
+  breakaway,
+  heldRatio,
+  pullQuery,
+  pullWords,
+  reachQuery,
+  reachWords,
+  SIDES,
+  directionOf,
+  shownOffset,
+  type Side,
+} from './magnet';
+import { createPalette } from '../../ui/palette';
+import type {
+  Parameters,
+  PullCurve,
+  PullQuery,
+  ReachCurve,
+  ReachQuery,
+} from '../../net/protocol.gen';
+import type { Theme } from '../../ui/theme';
+import { CurvePlot } from '../../ui/CurvePlot';
+import type { CurveContext } from '../../ui/curve';
+import { MagnetControls } from './MagnetControls';
+import { MagnetFacts } from './MagnetFacts';
+import type { PanelProps } from '../../ui/Tabs';
+
+function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters }): JSX.Element {
+  const { lab } = props;
+  const [side, setSide] = createSignal<Side>('x');
+  const [pointed, setPointed] = createSignal<string>();
+  const palette = createPalette(() => props.theme());
+  const direction_rad = createMemo(() => {
+    const state = lab.state();
+    return state ? directionOf(side(), state.tool_m, state.bead_m) : 0;
+  });
+  /** In whole millimetres: a mark need not follow every tremble. */
+  const distance_m = createMemo(() => {
+    const error_m = lab.state()?.tracking_error_m;
+    return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
+  });
+  // No question without a connection, so that it is asked again on the next one.
+  const asked =
+    <Q,>(question: (parameters: Parameters) => Q) =>
+    (): Q | undefined =>
+      lab.link().kind === 'live' ? question(props.parameters) : undefined;
+  const pull = createAnswer<PullQuery, PullCurve>(
+    '/api/magnetics/pull',
+    asked((parameters) => pullQuery(parameters, direction_rad())),
+  );
+  const reach = createAnswer<ReachQuery, ReachCurve>(
+    '/api/magnetics/reach',
+    asked((parameters) => reachQuery(parameters, direction_rad(), 'all')),
+  );
+  const here = createAnswer<ReachQuery, ReachCurve>(
+    '/api/magnetics/reach',
+    asked((parameters) => reachQuery(parameters, direction_rad(), 'here')),
+  );
+  const error = (): string | undefined => pull().error ?? reach().error ?? here().error;
+  const hint = (): string =>
+    props.parameters.tool_orientation === 'paper' && lab.scene()?.positioner === 'arm'
+      ? 'Drawn for an upright block; the tool hangs 3.2° off.'
+      : 'Point at a curve to read it.';
+  const friction = createMemo(() => breakaway(props.parameters));
+  const liftOff_m = (): number | undefined => reach().data?.lift_off_m;
+
+  const pullContext: CurveContext = {
+    palette,
+    lines: [
+      { label: 'lift', color: 'text' },
+      { label: 'pull', color: 'tool' },
+      { label: 'friction', color: 'bead' },
+    ],
+    fillsBetween: false,
+    xRange: () => [0, 100 * shownOffset(pull().data?.capture_m ?? null)],
+    yRange: (max) => [0, Math.max(1.15, 1.05 * max)],
+    xText: (value) => (value === 0 ? '' : `${value} cm`),
+    yText: (value) => fixed(value, 1),
+    shades: () => {
+      const capture_m = pull().data?.capture_m;
+      return capture_m ? [{ from: 100 * capture_m[0], to: 100 * capture_m[1], color: 'tool' }] : [];
+    },
+    rules: createMemo(() => {
+      const now_m = distance_m();
+      return [
+        { axis: 'y', at: 1, label: 'lift-off', color: 'danger', dashed: true },
+        ...(now_m === undefined
+          ? []
+          : [{ axis: 'x', at: 100 * now_m, label: 'bead', color: 'bead', dashed: false } as const]),
+      ] as const;
+    }),
+    onCursor: (index) => {
+      const curve = pull().data;
+      setPointed(index !== undefined && curve ? pullWords(curve, friction(), index) : undefined);
+    },
+  };
+  const pullData = createMemo<uPlot.AlignedData>(() => {
+    const curve = pull().data;
+    return curve
+      ? [
+          curve.offset_m.map((offset_m) => 100 * offset_m),
+          curve.lift_ratio,
+          curve.lateral_ratio,
+          heldRatio(curve, friction()),
+        ]
+      : [[], [], [], []];
+  });
+
+  const reachContext: CurveContext = {
+    palette,
+    lines: [
+      { label: 'outer end', color: 'tool' },
+      { label: 'inner end', color: 'tool' },
+    ],
+    fillsBetween: true,
+    xRange: () => [1000 * HEIGHTS_M[0], 1000 * HEIGHTS_M[1]],
+    yRange: (max) => [0, Math.max(5, 1.1 * max)],
+    xText: (value) => `${value} mm`,
+    yText: (value) => fixed(value, 0),
+    shades: () => {
+      const end_m = liftOff_m();
+      return end_m === undefined
+        ? []
+        : [
+            {
+              from: 1000 * HEIGHTS_M[0],
+              to: 1000 * Math.max(HEIGHTS_M[0], end_m),
+              color: 'danger',
+            },
+          ];
+    },
+    rules: createMemo(() => {
+      const end_m = liftOff_m();
+      const now = 1000 * props.parameters.tool_height_m;
+      return [
+        { axis: 'x', at: now, label: 'now', color: 'text', dashed: false },
+        ...(end_m === undefined
+          ? []
+          : [{ axis: 'x', at: 1000 * end_m, label: '', color: 'danger', dashed: true } as const]),
+      ] as const;
+    }),
+    onCursor: (index) => {
+      const curve = reach().data;
+      setPointed(index !== undefined && curve ? reachWords(curve, index) : undefined);
+    },
+  };
+  const reachData = createMemo<uPlot.AlignedData>(() => {
+    const curve = reach().data;
+    const column = (end: 0 | 1): (number | null)[] =>
+      curve?.capture_m.map((capture_m) => (capture_m ? 100 * capture_m[end] : null)) ?? [];
+    return [
+      curve?.lower_face_height_m.map((height_m) => 1000 * height_m) ?? [],
+      column(1),
+      column(0),
+    ];
+  });
+
+  return (
+    <div class="magnet" classList={{ refused: error() !== undefined }}>
+      <CurvePlot
+        title="Pull"
+        unit="of weight"
+        name={`Lift, pull and friction against the offset toward ${side()}; the bead is ${fixed(100 * (distance_m() ?? 0), 1)} cm away`}
+        theme={props.theme}
+        keys={pullContext.lines}
+        context={pullContext}
+        data={pullData()}
+      />
+      <CurvePlot
+        title="Capture by height"
+        unit="cm"
+        name="Captured offsets against the height of the block's lower face"
+        theme={props.theme}
+        keys={[{ label: 'lift-off', color: 'danger' }]}
+        context={reachContext}
+        data={reachData()}
+      />
+      <div class="magnet-words">
+        <MagnetControls lab={lab} />
+        <fieldset class="choice" role="radiogroup" aria-label="Bead beside the block, toward">
+          <span class="unit">Curves toward</span>
+          <For each={SIDES}>
+            {([id, name]) => (
+              <label>
+                <input
+                  type="radio"
+                  name="magnet-side"
+                  value={id}
+                  checked={side() === id}
+                  onChange={() => setSide(id)}
+                />
+                {name}
+              </label>
+            )}
+          </For>
+        </fieldset>
+        <MagnetFacts
+          parameters={props.parameters}
+          side={side()}
+          pull={pull().data}
+          reach={here().data}
+        />
+        <div role="alert">
+          <Show when={error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
+        </div>
+        <Show when={!error()}>
+          <p class="hint">{pointed() ?? hint()}</p>
+        </Show>
+      </div>
+    </div>
+  );
+}
+
+export function MagnetPanel(props: PanelProps): JSX.Element {
+  return (
+    <Show when={props.lab.tuning()} fallback={<p class="placeholder">No parameters yet.</p>}>
+      {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}
+    </Show>
+  );
+}

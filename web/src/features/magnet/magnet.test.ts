@@ -1,0 +1,127 @@
+import { describe, expect, it } from 'vitest';
+import {
+  directionOf,
+  breakaway,
+  captureWords,
+  heldRatio,
+  pullQuery,
+  pullWords,
+  reachQuery,
+  reachWords,
+  shownOffset,
+  speedWords,
+  weightWords,
+} from './magnet';
+import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
+import { sceneOf } from '../../lab/testing';
+
+const parameters = (change: Partial<Parameters> = {}): Parameters => ({
+  ...sceneOf('posts').parameters,
+  ...change,
+});
+
+const CURVE: PullCurve = {
+  offset_m: [0, 0.05],
+  lift_ratio: [1.2, 0.4],
+  lateral_ratio: [0, 0.3],
+  weight_ratio: [-0.2, 0.6],
+  is_lifted: [true, false],
+  drag_ratio: [null, 2.5],
+  capture_m: [0.02, 0.1],
+};
+
+const REACH: ReachCurve = {
+  lower_face_height_m: [0.1, 0.2],
+  capture_m: [[0.0044, 0.0947], null],
+  lift_ratio: [0.81, 0.06],
+  greatest_lift_ratio: [0.81, 0.06],
+  largest_speed_m_s: [0.079, null],
+  lift_off_m: 0.0944,
+};
+
+describe('the breakaway', () => {
+  it('is the friction of a bead that slides', () => {
+    expect(breakaway(parameters())).toBe(0.2);
+  });
+
+  it('is the rolling resistance of one that rolls, but never above the friction', () => {
+    expect(breakaway(parameters({ bead_motion: 'rolling' }))).toBe(0.01);
+    expect(breakaway(parameters({ bead_motion: 'rolling', friction: 0.005 }))).toBe(0.005);
+  });
+});
+
+describe('the questions', () => {
+  it('follow block, height, friction and direction', () => {
+    const asked = pullQuery(
+      parameters({ block_orientation: 'B', tool_height_m: 0.12 }),
+      Math.PI / 2,
+    );
+    expect(asked).toMatchObject({
+      orientation: 'B',
+      lower_face_height_m: 0.12,
+      friction: 0.2,
+      direction_rad: Math.PI / 2,
+    });
+  });
+
+  it('ask for all heights or for the one in force, and never without drag', () => {
+    const all = reachQuery(parameters({ drag_n_s_m: 0 }), 0, 'all');
+    expect([all.lowest_m, all.highest_m, all.count]).toEqual([0.09, 0.2, 56]);
+    expect(all.drag_n_s_m).toBeGreaterThan(0);
+    const here = reachQuery(parameters(), 0, 'here');
+    expect([here.lowest_m, here.highest_m]).toEqual([0.1, 0.1]);
+  });
+});
+
+describe('the words', () => {
+  it('say what is captured', () => {
+    expect(captureWords(null)).toBe('nothing');
+    expect(captureWords([0.0044, 0.0947])).toBe('4 to 95 mm');
+    expect(captureWords([0.0002, 0.261])).toBe('0.2 to 261 mm');
+    expect(captureWords([0, 0.5])).toBe('from 0 mm on');
+  });
+
+  it('say what is left of the weight', () => {
+    expect(weightWords(CURVE)).toBe('none: lifts off');
+    expect(weightWords({ ...CURVE, is_lifted: [false], weight_ratio: [0.19] })).toBe('19 %');
+  });
+
+  it('say how fast the bead can follow', () => {
+    expect(speedWords(REACH, parameters())).toBe('79 mm/s');
+    expect(speedWords(REACH, parameters({ drag_n_s_m: 0 }))).toBe('any speed');
+    expect(speedWords({ ...REACH, largest_speed_m_s: [null] }, parameters())).toBe('no speed');
+  });
+
+  it('read a curve at a point', () => {
+    expect(pullWords(CURVE, 0.2, 1)).toBe(
+      '50 mm beside: lift 0.40, pull 0.30, friction holds 0.12',
+    );
+    expect(pullWords(CURVE, 0.2, 0)).toBe('0 mm beside: lift 1.20, pull 0.00, lifted off');
+    expect(pullWords(CURVE, 0.2, 7)).toBeUndefined();
+    expect(reachWords(REACH, 0)).toBe('At 100 mm: captures 4 to 95 mm, follows 79 mm/s');
+    expect(reachWords(REACH, 1)).toBe('At 200 mm: captures nothing');
+  });
+});
+
+describe('the curve', () => {
+  it('has no friction where the bead lifts off', () => {
+    expect(heldRatio(CURVE, 0.2)).toEqual([null, 0.12]);
+  });
+
+  it('shows the whole capture', () => {
+    expect(shownOffset(null)).toBe(0.15);
+    expect(shownOffset([0, 0.0947])).toBe(0.15);
+    expect(shownOffset([0, 0.14])).toBe(0.2);
+    expect(shownOffset([0, 0.5])).toBe(0.5);
+  });
+});
+
+describe('the direction of the curves', () => {
+  it('is a side of the block, or toward the bead in steps of 5°', () => {
+    expect(directionOf('x', [0, 0], [0, 1])).toBe(0);
+    expect(directionOf('y', [0, 0], [1, 0])).toBeCloseTo(Math.PI / 2);
+    expect(directionOf('bead', [0.1, 0.1], [0.1, 0.05])).toBeCloseTo(-Math.PI / 2);
+    expect(directionOf('bead', [0, 0], [0.05, 0.001])).toBeCloseTo(0);
+    expect(directionOf('bead', [0, 0], [0, 0.0005])).toBe(0);
+  });
+});

@@ -1,0 +1,67 @@
+// What ERRT plans: its tree, its way with the clearance around it, and the obstacles that it plans around.
+
+import type { Palette } from '../../ui/palette';
+import type { PlanLayer } from '../../net/protocol.gen';
+import { pxFromWorld, type View } from '../../plan/transform';
+
+type Ctx = CanvasRenderingContext2D;
+
+const CORNER_PX = 3;
+
+/** Paths on the canvas: a tree of thousands of edges is not traced anew for every picture. */
+export interface Plan {
+  readonly tree: Path2D;
+  readonly way: Path2D;
+  readonly corners: Path2D;
+  readonly bandPx: number;
+  readonly obstacles: Path2D;
+}
+
+export function createPlan(layer: PlanLayer, view: View): Plan {
+  const [tree, way, corners, obstacles] = [new Path2D(), new Path2D(), new Path2D(), new Path2D()];
+  for (const [fromX, fromY, toX, toY] of layer.tree) {
+    tree.moveTo(...pxFromWorld(view, [fromX, fromY]));
+    tree.lineTo(...pxFromWorld(view, [toX, toY]));
+  }
+  for (const corner of layer.way) {
+    const [x, y] = pxFromWorld(view, corner);
+    way.lineTo(x, y);
+    corners.moveTo(x + CORNER_PX, y);
+    corners.arc(x, y, CORNER_PX, 0, 2 * Math.PI);
+  }
+  for (const rect of layer.obstacles) {
+    const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+    const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+    obstacles.rect(left, top, right - left, bottom - top);
+  }
+  const bandPx = 2 * (layer.clearance_m ?? 0) * view.pxPerM;
+  return { tree, way, corners, bandPx, obstacles };
+}
+
+export function drawPlan(ctx: Ctx, palette: Palette, plan: Plan): void {
+  ctx.strokeStyle = palette.plan;
+  ctx.lineWidth = 0.75;
+  ctx.globalAlpha = 0.35;
+  ctx.stroke(plan.tree);
+  ctx.lineJoin = 'round';
+  ctx.lineCap = 'round';
+  if (plan.bandPx > 0) {
+    ctx.globalAlpha = 0.16;
+    ctx.lineWidth = plan.bandPx;
+    ctx.stroke(plan.way);
+  }
+  ctx.globalAlpha = 1;
+  ctx.lineWidth = 2;
+  ctx.stroke(plan.way);
+  ctx.lineCap = 'butt';
+  ctx.fillStyle = palette.plan;
+  ctx.fill(plan.corners);
+}
+
+export function drawObstacles(ctx: Ctx, palette: Palette, plan: Plan): void {
+  ctx.strokeStyle = palette.plan;
+  ctx.lineWidth = 0.75;
+  ctx.globalAlpha = 0.7;
+  ctx.stroke(plan.obstacles);
+  ctx.globalAlpha = 1;
+}

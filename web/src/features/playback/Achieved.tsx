@@ -1,0 +1,31 @@
+// How fast simulated time goes, how late its ticks come, and whether some were given up.
+
+import { Show, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { achievedWords, lateWords, lostWords } from './steps';
+
+export function Achieved(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  const achieved = () =>
+    achievedWords(lab.state()?.speed_target ?? 1, lab.state()?.speed_achieved ?? 0);
+  const late = () => lateWords(lab.state()?.lateness_ms ?? 0);
+  const lost = () => lostWords(lab.state()?.missed_deadlines ?? 0);
+  return (
+    <span
+      class="achieved number"
+      data-testid="achieved"
+      title={['Simulated seconds a second that the server achieves', lost()]
+        .filter((words) => words !== undefined)
+        .join('; ')}
+    >
+      <Show when={lab.state()?.running} fallback="paused">
+        {achieved().text}
+        {/* At the machine's limit ticks are late in any case. */}
+        <Show when={achieved().limited ? 'machine limit' : late()}>
+          {(words) => <span class="limit">{words()}</span>}
+        </Show>
+      </Show>
+      <Show when={lost()}>{(words) => <span class="visually-hidden">; {words()}</span>}</Show>
+    </span>
+  );
+}

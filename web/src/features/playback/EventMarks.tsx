@@ -1,0 +1,97 @@
+// The events on the timeline, each a button that opens its story.
+
+import {
+  Index,
+  createEffect,
+  createMemo,
+  createSignal,
+  onCleanup,
+  onMount,
+  type JSX,
+} from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { Limiter } from '../../net/limiter';
+import { clusters } from './eventMarks';
+import type { EventMessage } from '../../net/protocol.gen';
+
+/** The side of a mark, as `--target` has it. */
+const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
+/**
+ * While time runs all marks move, a little at each state: hundreds of them, which nobody needs sixty
+ * times a second.
+ */
+const LAYOUTS_PER_S = 4;
+/** How far a key moves along the marks. */
+const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
+
+export function EventMarks(props: { lab: Lab; oldest: number; newest: number }): JSX.Element {
+  const { lab } = props;
+  let bar!: HTMLDivElement;
+  const [width_px, setWidth] = createSignal(0);
+  onMount(() => {
+    const observer = new ResizeObserver(() => {
+      setWidth(bar.clientWidth);
+    });
+    observer.observe(bar);
+    onCleanup(() => {
+      observer.disconnect();
+    });
+  });
+  const [line, setLine] = createSignal({ oldest: 0, newest: 0, marks: lab.marks() });
+  const layouts = new Limiter(1000 / LAYOUTS_PER_S, setLine);
+  createEffect(() => {
+    layouts.offer({ oldest: props.oldest, newest: props.newest, marks: lab.marks() });
+  });
+  const found = createMemo(() => {
+    const { oldest, newest, marks } = line();
+    const span = Math.max(1, newest - oldest);
+    const px = (tick: number): number => (width_px() * Math.min(span, tick - oldest)) / span;
+    const held = marks.filter((mark) => mark.tick >= oldest);
+    return width_px() > 0 ? clusters(held, px, GAP_PX) : [];
+  });
+  const [current, setCurrent] = createSignal<EventMessage>();
+  // One of them is reached by Tab: the last one chosen, else the newest.
+  const reached = createMemo(() => {
+    const chosen = current();
+    const index = found().findIndex(({ events }) => chosen && events.includes(chosen));
+    return index >= 0 ? index : found().length - 1;
+  });
+  const onKey = (event: KeyboardEvent): void => {
+    const move = MOVES[event.key];
+    if (move === undefined || found().length === 0) return;
+    event.preventDefault();
+    const index = Math.min(found().length - 1, Math.max(0, reached() + move));
+    setCurrent(found()[index]?.first);
+    bar.querySelectorAll('button')[index]?.focus();
+  };
+  const isOpen = (events: readonly EventMessage[]): boolean => {
+    const open = lab.inspected();
+    return open !== undefined && events.includes(open);
+  };
+  return (
+    <div ref={bar} class="event-marks" role="toolbar" aria-label="Events in time" onKeyDown={onKey}>
+      {/* By place and not by value: while time runs, every mark moves. */}
+      <Index each={found()}>
+        {(cluster, index) => (
+          <button
+            type="button"
+            class="mark"
+            data-kind={cluster().first.kind}
+            data-count={cluster().events.length > 1 ? cluster().events.length : undefined}
+            style={{ left: `${cluster().px}px` }}
+            tabindex={reached() === index ? 0 : -1}
+            aria-label={cluster().name}
+            title={`${cluster().name}. Why?`}
+            aria-pressed={isOpen(cluster().events)}
+            onClick={() => {
+              setCurrent(cluster().first);
+              lab.inspect(cluster().first);
+            }}
+          >
+            {cluster().symbol}
+          </button>
+        )}
+      </Index>
+    </div>
+  );
+}

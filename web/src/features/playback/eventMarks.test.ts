@@ -1,0 +1,34 @@
+import { expect, test } from 'vitest';
+import { clusters } from './eventMarks';
+import type { EventKind, EventMessage } from '../../net/protocol.gen';
+
+const at = (tick: number, kind: EventKind): EventMessage => ({
+  tick,
+  sim_time_s: tick * 0.008,
+  kind,
+  text: kind,
+});
+
+test('events that would overlap share a button, named by the most telling', () => {
+  const events = [at(0, 'goal'), at(10, 'disturbance'), at(12, 'switch'), at(200, 'delivered')];
+  const found = clusters(events, (tick) => tick, 24);
+  expect(found.map(({ px, symbol, events }) => [px, symbol, events.length])).toEqual([
+    [0, '⇄', 3],
+    [200, '✓', 1],
+  ]);
+  expect(found[0]?.name).toBe('Switch at 0.1 s: switch, and 2 more');
+  expect(found[1]?.name).toBe('Delivered at 1.6 s: delivered');
+});
+
+test('buttons keep their distance however many events there are', () => {
+  const events = Array.from({ length: 500 }, (_, tick) => at(tick, 'disturbance'));
+  const found = clusters(events, (tick) => tick / 2, 24);
+  for (const [index, { px }] of found.entries()) {
+    expect(px - (found[index - 1]?.px ?? -24)).toBeGreaterThanOrEqual(24);
+  }
+  expect(found.flatMap(({ events }) => events)).toEqual(events);
+});
+
+test('what is said of the session itself is no mark', () => {
+  expect(clusters([at(0, 'session')], (tick) => tick, 24)).toEqual([]);
+});

@@ -1,0 +1,63 @@
+// Events on a line too short for each: those that would overlap share a button. Pure.
+
+import type { EventKind, EventMessage } from '../../net/protocol.gen';
+import { eventTitle } from '../../lab/eventStory';
+
+/** What stands for an event in time, the most telling kind first; those that are none of them are not shown. */
+const SYMBOLS: readonly (readonly [EventKind, string])[] = [
+  ['lift_off', '↥'],
+  ['stopped', '■'],
+  ['switch', '⇄'],
+  ['disturbance', '✱'],
+  ['delivered', '✓'],
+  ['refused', '⊘'],
+  ['goal', '◎'],
+  ['reached', '◌'],
+];
+const RANKS = new Map(SYMBOLS.map(([kind], rank) => [kind, rank]));
+
+export function isMarked(event: EventMessage): boolean {
+  return RANKS.has(event.kind);
+}
+
+export interface Cluster {
+  /** Middle of the button. */
+  readonly px: number;
+  readonly events: readonly EventMessage[];
+  /** The most telling of them. */
+  readonly first: EventMessage;
+  readonly symbol: string;
+  readonly name: string;
+}
+
+function clusterOf(px: number, events: readonly EventMessage[], first: EventMessage): Cluster {
+  const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? SYMBOLS.length;
+  for (const event of events) if (rank(event) < rank(first)) first = event;
+  const others = events.length - 1;
+  const more = others === 0 ? '' : `, and ${others} more`;
+  return {
+    px,
+    events,
+    first,
+    symbol: SYMBOLS[rank(first)]?.[1] ?? '',
+    name: `${eventTitle(first)}: ${first.text}${more}`,
+  };
+}
+
+/** Events in the order of time, in clusters at least `gapPx` apart. */
+export function clusters(
+  events: readonly EventMessage[],
+  px: (tick: number) => number,
+  gapPx: number,
+): Cluster[] {
+  const found: Cluster[] = [];
+  for (const event of events) {
+    if (!isMarked(event)) continue;
+    const at = px(event.tick);
+    const last = found.at(-1);
+    if (last && at - last.px < gapPx) {
+      found[found.length - 1] = clusterOf(last.px, [...last.events, event], last.first);
+    } else found.push(clusterOf(at, [event], event));
+  }
+  return found;
+}

@@ -1,0 +1,97 @@
+// The way in the plane: where tool and bead have been, the goal, the walls, where the bead was disturbed.
+
+import type { Palette } from '../../ui/palette';
+import { distance, pxFromWorld, type Vec2, type View } from '../../plan/transform';
+import { GOAL_RADIUS_M } from '../../net/protocol.gen';
+import { drawTrail } from '../../plan/drawMoving';
+import type { Sample } from './sample';
+
+const DOT_PX = 3;
+const STRUCK_PX = 3.5;
+const WALL_ALPHA = 0.45;
+
+export interface LocusPicture {
+  readonly view: View;
+  readonly palette: Palette;
+  readonly walls: Path2D;
+  readonly sample: Sample;
+  readonly goal_m: Vec2 | undefined;
+  /** The sample whose places are marked: the one pointed at, else the present. */
+  readonly marked: number | undefined;
+}
+
+type Ctx = CanvasRenderingContext2D;
+
+function dot(ctx: Ctx, color: string, edge: string, at: Vec2): void {
+  ctx.beginPath();
+  ctx.arc(at[0], at[1], DOT_PX, 0, 2 * Math.PI);
+  ctx.fillStyle = color;
+  ctx.fill();
+  ctx.strokeStyle = edge;
+  ctx.lineWidth = 1;
+  ctx.stroke();
+}
+
+export function placesAt(sample: Sample, index: number): { tool: Vec2; bead: Vec2 } {
+  const { tool_x_m, tool_y_m, bead_x_m, bead_y_m } = sample.columns;
+  return {
+    tool: [tool_x_m[index] ?? 0, tool_y_m[index] ?? 0],
+    bead: [bead_x_m[index] ?? 0, bead_y_m[index] ?? 0],
+  };
+}
+
+export function drawLocus(ctx: Ctx, picture: LocusPicture): void {
+  const { view, palette, sample } = picture;
+  const { columns } = sample;
+  ctx.globalAlpha = WALL_ALPHA;
+  ctx.fillStyle = palette.wall;
+  ctx.fill(picture.walls, 'evenodd');
+  ctx.globalAlpha = 1;
+  drawTrail(ctx, view, palette.tool, columns.tool_x_m, columns.tool_y_m);
+  drawTrail(ctx, view, palette.bead, columns.bead_x_m, columns.bead_y_m);
+  if (picture.goal_m) {
+    const [x, y] = pxFromWorld(view, picture.goal_m);
+    ctx.beginPath();
+    ctx.arc(x, y, Math.max(DOT_PX, GOAL_RADIUS_M * view.pxPerM), 0, 2 * Math.PI);
+    ctx.strokeStyle = palette.goal;
+    ctx.lineWidth = 1.5;
+    ctx.stroke();
+  }
+  ctx.strokeStyle = palette.hand;
+  ctx.lineWidth = 1.75;
+  ctx.beginPath();
+  for (const { at_m } of sample.struck) {
+    const [x, y] = pxFromWorld(view, at_m);
+    ctx.moveTo(x - STRUCK_PX, y - STRUCK_PX);
+    ctx.lineTo(x + STRUCK_PX, y + STRUCK_PX);
+    ctx.moveTo(x + STRUCK_PX, y - STRUCK_PX);
+    ctx.lineTo(x - STRUCK_PX, y + STRUCK_PX);
+  }
+  ctx.stroke();
+  if (picture.marked === undefined) return;
+  const { tool, bead } = placesAt(sample, picture.marked);
+  dot(ctx, palette.tool, palette.floor, pxFromWorld(view, tool));
+  dot(ctx, palette.bead, palette.floor, pxFromWorld(view, bead));
+}
+
+/** Index of the sample whose tool or bead was nearest to a place, within `reachPx`; the later of equals. */
+export function sampleAt(
+  sample: Sample,
+  view: View,
+  at: Vec2,
+  reachPx: number,
+): number | undefined {
+  let best: number | undefined;
+  let bestPx = reachPx;
+  for (let index = 0; index < sample.columns.tick.length; index++) {
+    const { tool, bead } = placesAt(sample, index);
+    const px = Math.min(
+      distance(at, pxFromWorld(view, tool)),
+      distance(at, pxFromWorld(view, bead)),
+    );
+    if (px > bestPx) continue;
+    best = index;
+    bestPx = px;
+  }
+  return best;
+}

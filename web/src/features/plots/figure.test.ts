@@ -1,0 +1,175 @@
+import { describe, expect, it } from 'vitest';
+import { History } from '../../lab/history';
+import type { Palette } from '../../ui/palette';
+import type { EventMessage } from '../../net/protocol.gen';
+import { sceneOf, stateAt } from '../../lab/testing';
+import { sampleAt } from './drawLocus';
+import { figureSvg, roundTicks } from './figureSvg';
+import { axisRange } from './parts';
+import { Rotation } from './rotation';
+import { csvOf, nearestIndex, shownWindow, spansOf, takeSample, thinnedIndices } from './sample';
+
+const struckAt = (tick: number): EventMessage => ({
+  tick,
+  sim_time_s: tick * 0.008,
+  kind: 'disturbance',
+  text: 'disturbed',
+});
+
+function run(count: number, change: (tick: number) => Parameters<typeof stateAt>[1] = () => ({})) {
+  const history = new History();
+  for (let tick = 0; tick < count; tick++) history.push(stateAt(tick, change(tick)));
+  return history;
+}
+
+describe('the window', () => {
+  it('ends at the newest and is not younger than ten seconds', () => {
+    expect(shownWindow('60', 100, 100)).toEqual({ from_s: 40, to_s: 100 });
+    expect(shownWindow('60', 3, 3)).toEqual({ from_s: 0, to_s: 10 });
+    expect(shownWindow('all', 100, 20)).toEqual({ from_s: 0, to_s: 100 });
+  });
+
+  it('stands still while time is turned back within it, and goes along beyond', () => {
+    expect(shownWindow('60', 100, 50)).toEqual({ from_s: 40, to_s: 100 });
+    expect(shownWindow('10', 100, 50)).toEqual({ from_s: 45, to_s: 55 });
+    expect(shownWindow('10', 100, 2)).toEqual({ from_s: 0, to_s: 10 });
+  });
+});
+
+describe('a sample', () => {
+  it('keeps a peak of one tick among thousands', () => {
+    const history = run(50_000, (tick) => ({ tracking_error_m: tick === 31_234 ? 9 : 0.1 }));
+    const { columns } = takeSample(history, 'all', history.newest_s, []);
+    expect(columns.tick.length).toBeLessThan(2500);
+    expect(columns.tick[columns.error_m.indexOf(9)]).toBe(31_234);
+    expect(columns.tick[0]).toBe(0);
+    expect(columns.tick.at(-1)).toBe(49_999);
+    expect([...columns.tick]).toEqual([...columns.tick].sort((a, b) => a - b));
+  });
+
+  it('thins nothing that is short', () => {
+    expect(thinnedIndices(4, [new Float64Array(4)], 2)).toEqual([0, 1, 2, 3]);
+  });
+
+  it('knows when sub-controller 1 was active, and where the bead was struck', () => {
+    const history = run(2000, (tick) => ({ mode: tick >= 500 && tick < 700 ? 1 : 2 }));
+    const sample = takeSample(history, 'all', 4, [
+      struckAt(500),
+      { ...struckAt(600), kind: 'goal' },
+      struckAt(9000),
+    ]);
+    expect(sample.approaches).toEqual([[4, expect.closeTo(5.6)]]);
+    expect(sample.struck).toEqual([{ time_s: 4, at_m: [-499, 0] }]);
+    expect(sample.at_s).toBe(4);
+  });
+
+  it('has an approach that still goes on', () => {
+    expect(spansOf(Float64Array.of(0, 1, 2), Float64Array.of(2, 1, 1), 1)).toEqual([[1, 2]]);
+  });
+
+  it('is read at the nearest time', () => {
+    const times = Float64Array.of(0, 1, 5);
+    expect([-1, 0.4, 0.6, 2.9, 3.1, 99].map((time) => nearestIndex(times, time))).toEqual([
+      0, 0, 1, 1, 2, 2,
+    ]);
+    expect(nearestIndex(new Float64Array(), 1)).toBeUndefined();
+  });
+
+  it('is found in the plane, the later of two passes', () => {
+    const sample = takeSample(
+      run(100, (tick) => ({ bead_m: [tick % 50, 0, 0], tool_m: [tick % 50, 1, 0] })),
+      'all',
+      0.8,
+      [],
+    );
+    const view = { pxPerM: 10, originX: 0, originY: 0 };
+    const index = sampleAt(sample, view, [201, 3], 8);
+    expect(sample.columns.tick[index ?? 0]).toBe(70);
+    expect(sampleAt(sample, view, [900, 900], 8)).toBeUndefined();
+  });
+
+  it('becomes a table of every sample', () => {
+    const history = run(3);
+    const lines = csvOf(history, takeSample(history, 'all', 0, [struckAt(1)]))
+      .trim()
+      .split('\n');
+    expect(lines).toHaveLength(4);
+    expect(lines[0]).toMatch(/^tick,sim_time_s,tool_x_m.*,mode,disturbed$/);
+    expect(lines[2]).toBe('1,0.008,1,0,-1,0,2,0,2,1,1');
+    expect(lines[3]?.endsWith(',0')).toBe(true);
+  });
+});
+
+describe('a rotation', () => {
+  it('draws one part a frame, and a round more for what came meanwhile', () => {
+    const frames: (() => void)[] = [];
+    const done: (string | number)[] = [];
+    const rotation = new Rotation(
+      3,
+      () => done.push('begin'),
+      (part) => done.push(part),
+      (work) => frames.push(work),
+    );
+    rotation.offer();
+    rotation.offer();
+    expect(frames).toHaveLength(1);
+    frames.shift()?.();
+    rotation.offer();
+    while (frames.length > 0) frames.shift()?.();
+    expect(done).toEqual(['begin', 0, 1, 2, 'begin', 0, 1, 2]);
+    rotation.offer();
+    rotation.stop();
+    frames.shift()?.();
+    expect(done).toHaveLength(8);
+  });
+});
+
+describe('the axes', () => {
+  it('end on their grain and span two', () => {
+    expect(axisRange(0.2, 0.2, 2)).toEqual([-1, 3]);
+    expect(axisRange(0, 9.2, 2)).toEqual([0, 10]);
+  });
+
+  it('have round ticks', () => {
+    expect(roundTicks(0, 60, 4)).toEqual([0, 20, 40, 60]);
+    expect(roundTicks(-0.1, 0.1, 4).map((tick) => Number(tick.toFixed(6)))).toEqual([
+      -0.1, -0.05, 0, 0.05, 0.1,
+    ]);
+  });
+});
+
+describe('the figure as a file', () => {
+  it('has six parts, and no mark-up of its words', () => {
+    const history = run(2000, (tick) => ({
+      mode: tick < 300 ? 1 : 2,
+      bead_m: [tick / 1e4, -0.3, 0],
+      tool_m: [tick / 1e4, -0.35, 0],
+    }));
+    const { workspace } = sceneOf('posts');
+    const palette = new Proxy({}, { get: (_target, name) => `#${String(name)}` }) as Palette;
+    const svg = figureSvg({
+      title: 'a <map> & more',
+      palette,
+      sample: takeSample(history, 'all', 16, [struckAt(1000)]),
+      threshold_m: 0.1,
+      workspace,
+      walls: [
+        {
+          exterior: [
+            [0, -0.3],
+            [0.1, -0.3],
+            [0.1, -0.4],
+          ],
+          holes: [],
+        },
+      ],
+      goal_m: [0.1, -0.3],
+    });
+    for (const letter of 'abcdef') expect(svg).toContain(`(${letter}) `);
+    expect(svg).not.toContain('<map>');
+    expect(svg).not.toMatch(/NaN|Infinity|undefined|style=/);
+    // Struck once: an upright in each part against time, a cross in the plane.
+    expect(svg.match(/stroke="#hand"/g)).toHaveLength(5 + 2);
+    expect(svg.match(/fill="#mode-1"/g)).toHaveLength(5);
+  });
+});

@@ -1,0 +1,37 @@
+// What the parts of the figure share: the sample they show and the time that is pointed at.
+
+import { createSignal, type Accessor } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { takeSample, type Sample, type WindowChoice } from './sample';
+
+export interface Figure {
+  readonly sample: () => Sample | undefined;
+  readonly choice: Accessor<WindowChoice>;
+  /** Time under a pointer, in any part. */
+  readonly pointed_s: Accessor<number | undefined>;
+  point(time_s: number | undefined): void;
+  choose(choice: WindowChoice): void;
+  /** Takes a new sample of the history; the parts draw it in their turn. */
+  renew(): void;
+}
+
+export function createFigure(lab: Lab): Figure {
+  const [choice, setChoice] = createSignal<WindowChoice>('60');
+  const [pointed_s, setPointed] = createSignal<number>();
+  let sample: Sample | undefined;
+  return {
+    sample: () => sample,
+    choice,
+    pointed_s,
+    point: (time_s) => {
+      setPointed(time_s);
+    },
+    choose: (next) => {
+      setChoice(next);
+    },
+    renew: () => {
+      const state = lab.state();
+      if (state) sample = takeSample(lab.history, choice(), state.sim_time_s, lab.marks());
+    },
+  };
+}

@@ -1,0 +1,207 @@
+// The figure as a drawing of its own, for a file: the same six parts, whatever the screen's size. Pure.
+
+import { fixed } from '../../ui/format';
+import type { Palette } from '../../ui/palette';
+import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
+import { fitView, pxFromWorld, type Vec2 } from '../../plan/transform';
+import { LOCUS_LETTER, PARTS, partRange, type Part } from './parts';
+import type { Sample } from './sample';
+
+export interface FigureFacts {
+  /** What was run, in a line. */
+  readonly title: string;
+  readonly palette: Palette;
+  readonly sample: Sample;
+  readonly threshold_m: number;
+  readonly workspace: Rect;
+  readonly walls: readonly Polygon[];
+  readonly goal_m: Vec2 | undefined;
+}
+
+export const FIGURE_PX = { width: 960, height: 500 } as const;
+const COLUMNS = 3;
+const HEAD_PX = 30;
+const CELL = { width: FIGURE_PX.width / COLUMNS, height: (FIGURE_PX.height - HEAD_PX) / 2 };
+const INSET = { left: 46, right: 12, top: 24, bottom: 22 };
+const BOX = {
+  width: CELL.width - INSET.left - INSET.right,
+  height: CELL.height - INSET.top - INSET.bottom,
+};
+const TICKS = 4;
+const CROSS_PX = 4;
+
+/** About so many round numbers from `low` to `high`. */
+export function roundTicks(low: number, high: number, count: number): number[] {
+  const raw = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = ([1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-9)) ?? 10) * power;
+  const ticks: number[] = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) {
+    // Without the sign of a zero.
+    ticks.push(k * step + 0);
+  }
+  return ticks;
+}
+
+const escaped = (text: string): string =>
+  text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+
+const n = (value: number): string => value.toFixed(1);
+
+function text(at: Vec2, content: string, color: string, more = ''): string {
+  return `<text x="${n(at[0])}" y="${n(at[1])}" fill="${color}" ${more}>${escaped(content)}</text>`;
+}
+
+function polyline(points: readonly Vec2[], color: string): string {
+  const path = points.map(([x, y]) => `${n(x)},${n(y)}`).join(' ');
+  return `<polyline points="${path}" fill="none" stroke="${color}" stroke-width="1.5" stroke-linejoin="round"/>`;
+}
+
+function line(a: Vec2, b: Vec2, color: string, more = ''): string {
+  return `<line x1="${n(a[0])}" y1="${n(a[1])}" x2="${n(b[0])}" y2="${n(b[1])}" stroke="${color}" ${more}/>`;
+}
+
+function caption(
+  letter: string,
+  title: string,
+  keys: readonly { label: string; color: string }[],
+  palette: Palette,
+): string {
+  const marks = keys.map(({ label, color }, index) => {
+    const x = CELL.width - INSET.right - 46 * (keys.length - index);
+    return (
+      line([x, 12], [x + 12, 12], color, 'stroke-width="3"') + text([x + 16, 16], label, color)
+    );
+  });
+  return (
+    text([INSET.left, 16], `(${letter}) ${title}`, palette.text, 'font-weight="600"') +
+    marks.join('')
+  );
+}
+
+function timePart(part: Part, facts: FigureFacts): string {
+  const { sample, palette, threshold_m } = facts;
+  const times = sample.columns.sim_time_s;
+  const values = part.lines.map(({ column }) =>
+    [...sample.columns[column]].map((value) => value * part.scale),
+  );
+  const all = values.flat();
+  const [low, high] = partRange(
+    part,
+    all.reduce((least, value) => Math.min(least, value), Infinity),
+    all.reduce((most, value) => Math.max(most, value), -Infinity),
+    threshold_m,
+  );
+  const x = (time_s: number): number =>
+    INSET.left + (BOX.width * (time_s - sample.from_s)) / (sample.to_s - sample.from_s);
+  const y = (value: number): number => INSET.top + BOX.height * (1 - (value - low) / (high - low));
+  const bottom = INSET.top + BOX.height;
+  const right = INSET.left + BOX.width;
+  const out: string[] = [];
+  for (const [from_s, to_s] of sample.approaches) {
+    const width = Math.max(0.5, x(to_s) - x(from_s));
+    out.push(
+      `<rect x="${n(x(from_s))}" y="${INSET.top}" width="${n(width)}" height="${n(BOX.height)}" fill="${palette['mode-1']}" fill-opacity="0.16"/>`,
+    );
+  }
+  for (const tick of roundTicks(low, high, TICKS)) {
+    out.push(line([INSET.left, y(tick)], [right, y(tick)], palette.grid));
+    out.push(
+      text(
+        [INSET.left - 5, y(tick) + 4],
+        fixed(tick, part.digits),
+        palette.muted,
+        'text-anchor="end"',
+      ),
+    );
+  }
+  for (const tick of roundTicks(sample.from_s, sample.to_s, TICKS)) {
+    out.push(line([x(tick), INSET.top], [x(tick), bottom], palette.grid));
+    out.push(
+      text(
+        [x(tick), bottom + 14],
+        `${Number(tick.toFixed(3))} s`,
+        palette.muted,
+        'text-anchor="middle"',
+      ),
+    );
+  }
+  for (const { time_s } of sample.struck) {
+    out.push(line([x(time_s), INSET.top], [x(time_s), bottom], palette.hand));
+  }
+  if (part.threshold) {
+    const at = y(threshold_m * part.scale);
+    out.push(line([INSET.left, at], [right, at], palette.danger, 'stroke-dasharray="6 4"'));
+    out.push(text([INSET.left + 4, at - 3], 'T', palette.danger));
+  }
+  part.lines.forEach(({ color }, index) => {
+    const points = (values[index] ?? []).map((value, k): Vec2 => [x(times[k] ?? 0), y(value)]);
+    out.push(polyline(points, palette[color]));
+  });
+  const keys = part.lines.map(({ label, color }) => ({ label, color: palette[color] }));
+  return caption(part.letter, `${part.title} in ${part.unit}`, keys, palette) + out.join('');
+}
+
+function locusPart(facts: FigureFacts): string {
+  const { sample, palette, workspace } = facts;
+  const { columns } = sample;
+  const view = fitView(workspace, CELL.width, CELL.height, { ...INSET, left: 12, bottom: 8 });
+  const [left, top] = pxFromWorld(view, [workspace.x_min_m, workspace.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [workspace.x_max_m, workspace.y_min_m]);
+  const ring = (vertices: readonly Vec2[]): string =>
+    `M${vertices.map((vertex) => pxFromWorld(view, vertex).map(n).join(' ')).join('L')}Z`;
+  const walls = facts.walls
+    .flatMap(({ exterior, holes }) => [exterior, ...holes].map(ring))
+    .join('');
+  const way = (xs: Float64Array, ys: Float64Array): Vec2[] =>
+    [...xs].map((x_m, index) => pxFromWorld(view, [x_m, ys[index] ?? 0]));
+  const out = [
+    `<rect x="${n(left)}" y="${n(top)}" width="${n(right - left)}" height="${n(bottom - top)}" fill="${palette.floor}" stroke="${palette['wall-edge']}"/>`,
+    `<path d="${walls}" fill="${palette.wall}" fill-opacity="0.45" fill-rule="evenodd"/>`,
+    polyline(way(columns.tool_x_m, columns.tool_y_m), palette.tool),
+    polyline(way(columns.bead_x_m, columns.bead_y_m), palette.bead),
+  ];
+  if (facts.goal_m) {
+    const [x, y] = pxFromWorld(view, facts.goal_m);
+    out.push(
+      `<circle cx="${n(x)}" cy="${n(y)}" r="${n(GOAL_RADIUS_M * view.pxPerM)}" fill="none" stroke="${palette.goal}" stroke-width="1.5"/>`,
+    );
+  }
+  for (const { at_m } of sample.struck) {
+    const [x, y] = pxFromWorld(view, at_m);
+    for (const side of [1, -1]) {
+      out.push(
+        line(
+          [x - CROSS_PX, y - side * CROSS_PX],
+          [x + CROSS_PX, y + side * CROSS_PX],
+          palette.hand,
+          'stroke-width="2"',
+        ),
+      );
+    }
+  }
+  const keys = [
+    { label: 'tool', color: palette.tool },
+    { label: 'bead', color: palette.bead },
+  ];
+  return caption(LOCUS_LETTER, 'Locus', keys, palette) + out.join('');
+}
+
+/** In the paper's order, three parts a row. */
+export function figureSvg(facts: FigureFacts): string {
+  const { width, height } = FIGURE_PX;
+  const cells = [...PARTS.map((part) => timePart(part, facts)), locusPart(facts)];
+  const placed = cells.map((cell, index) => {
+    const x = (index % COLUMNS) * CELL.width;
+    const y = HEAD_PX + Math.floor(index / COLUMNS) * CELL.height;
+    return `<g transform="translate(${n(x)} ${n(y)})">${cell}</g>`;
+  });
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="11">` +
+    `<title>${escaped(facts.title)}</title>` +
+    `<rect width="${width}" height="${height}" fill="${facts.palette.panel}"/>` +
+    text([12, 20], facts.title, facts.palette.muted) +
+    placed.join('') +
+    '</svg>'
+  );
+}

@@ -1,0 +1,171 @@
+// What the figure shows: a window of the history, thinned to what a screen can show. Pure.
+
+import { COLUMNS, type Column, type History } from '../../lab/history';
+import type { EventMessage } from '../../net/protocol.gen';
+
+export const WINDOWS = [
+  ['10', '10 s'],
+  ['60', '60 s'],
+  ['all', 'All'],
+] as const;
+export type WindowChoice = (typeof WINDOWS)[number][0];
+
+/** A young trial is not squeezed into the first pixels of its window. */
+const LEAST_WINDOW_S = 10;
+/** So many intervals with their extremes: more than a part of the figure has pixels. */
+const INTERVALS = 300;
+/** The bead makes the peaks; the tool is too slow for any. */
+const PEAKS: readonly Column[] = ['bead_x_m', 'bead_y_m', 'error_m'];
+
+export interface Struck {
+  readonly time_s: number;
+  /** Where the bead was. */
+  readonly at_m: readonly [number, number];
+}
+
+export interface Sample {
+  readonly from_s: number;
+  readonly to_s: number;
+  /** The present moment, which lies before the newest when time was turned back. */
+  readonly at_s: number;
+  readonly columns: Readonly<Record<Column, Float64Array>>;
+  /** When sub-controller 1 was active. */
+  readonly approaches: readonly (readonly [from_s: number, to_s: number])[];
+  readonly struck: readonly Struck[];
+}
+
+/** Ends of what is shown: up to the newest, or around the present where the newest is too far ahead. */
+export function shownWindow(
+  choice: WindowChoice,
+  newest_s: number,
+  at_s: number,
+): { from_s: number; to_s: number } {
+  if (choice === 'all') return { from_s: 0, to_s: Math.max(LEAST_WINDOW_S, newest_s) };
+  const width_s = Number(choice);
+  const to_s = at_s >= newest_s - width_s ? newest_s : Math.min(newest_s, at_s + width_s / 2);
+  const from_s = Math.max(0, to_s - width_s);
+  return { from_s, to_s: Math.max(to_s, from_s + LEAST_WINDOW_S) };
+}
+
+/** Indices of at most `intervals` stretches: each one's first, its extremes in `columns`; and the last of all. */
+export function thinnedIndices(
+  length: number,
+  columns: readonly Float64Array[],
+  intervals: number,
+): number[] {
+  const perInterval = 2 * columns.length + 1;
+  if (length <= intervals * perInterval) return Array.from({ length }, (_, index) => index);
+  const indices: number[] = [];
+  for (let interval = 0; interval < intervals; interval++) {
+    const first = Math.floor((interval * length) / intervals);
+    const end = Math.floor(((interval + 1) * length) / intervals);
+    const picked = new Set([first]);
+    for (const column of columns) {
+      let least = first;
+      let most = first;
+      for (let index = first + 1; index < end; index++) {
+        if ((column[index] ?? 0) < (column[least] ?? 0)) least = index;
+        if ((column[index] ?? 0) > (column[most] ?? 0)) most = index;
+      }
+      picked.add(least).add(most);
+    }
+    indices.push(...[...picked].sort((a, b) => a - b));
+  }
+  if (indices.at(-1) !== length - 1) indices.push(length - 1);
+  return indices;
+}
+
+/** Stretches of `times` with `values` equal to `wanted`, each up to the next sample. */
+export function spansOf(
+  times: Float64Array,
+  values: Float64Array,
+  wanted: number,
+): [number, number][] {
+  const spans: [number, number][] = [];
+  let from: number | undefined;
+  values.forEach((value, index) => {
+    const time_s = times[index] ?? 0;
+    if (value === wanted) {
+      from ??= time_s;
+    } else if (from !== undefined) {
+      spans.push([from, time_s]);
+      from = undefined;
+    }
+  });
+  if (from !== undefined) spans.push([from, times.at(-1) ?? from]);
+  return spans;
+}
+
+/** The window's samples in all columns, without thinning; valid until the next push. */
+function whole(history: History, from_s: number, to_s: number): Record<Column, Float64Array> {
+  const views = history.window(from_s, to_s, COLUMNS);
+  return Object.fromEntries(
+    COLUMNS.map((name, index) => [name, views[index] ?? new Float64Array()]),
+  ) as Record<Column, Float64Array>;
+}
+
+export function takeSample(
+  history: History,
+  choice: WindowChoice,
+  at_s: number,
+  marks: readonly EventMessage[],
+): Sample {
+  const { from_s, to_s } = shownWindow(choice, history.newest_s, at_s);
+  const all = whole(history, from_s, to_s);
+  const times = all.sim_time_s;
+  const indices = thinnedIndices(
+    times.length,
+    PEAKS.map((name) => all[name]),
+    INTERVALS,
+  );
+  const thinned = COLUMNS.map((name) => {
+    const column = all[name];
+    return [name, Float64Array.from(indices, (index) => column[index] ?? Number.NaN)] as const;
+  });
+  return {
+    from_s,
+    to_s,
+    at_s,
+    columns: Object.fromEntries(thinned) as Record<Column, Float64Array>,
+    approaches: spansOf(times, all.mode, 1),
+    struck: marks
+      .filter(
+        ({ kind, sim_time_s }) =>
+          kind === 'disturbance' && sim_time_s >= from_s && sim_time_s <= to_s,
+      )
+      .map(({ tick, sim_time_s }) => ({
+        time_s: sim_time_s,
+        at_m: [history.before(tick, 'bead_x_m'), history.before(tick, 'bead_y_m')],
+      })),
+  };
+}
+
+/** Index of the sample nearest to `time_s`; none where there is no sample. */
+export function nearestIndex(times: Float64Array, time_s: number): number | undefined {
+  if (times.length === 0) return undefined;
+  let low = 0;
+  let high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] ?? 0) <= time_s) low = middle;
+    else high = middle;
+  }
+  return time_s - (times[low] ?? 0) <= (times[high] ?? 0) - time_s ? low : high;
+}
+
+/** The same window as a table, every sample of it, metres and seconds; `disturbed` counts strikes since the line before. */
+export function csvOf(history: History, { from_s, to_s, struck }: Sample): string {
+  const all = whole(history, from_s, to_s);
+  const lines = [[...COLUMNS, 'disturbed'].join(',')];
+  let next = 0;
+  all.sim_time_s.forEach((time_s, index) => {
+    let disturbed = 0;
+    while ((struck[next]?.time_s ?? Infinity) <= time_s) {
+      disturbed += 1;
+      next += 1;
+    }
+    const cells = COLUMNS.map((name) => String(Number((all[name][index] ?? 0).toFixed(6))));
+    lines.push([...cells, disturbed].join(','));
+  });
+  return `${lines.join('\n')}\n`;
+}

@@ -1,0 +1,75 @@
+// Rerun's viewer on one recording. It has a page of its own, for it may compile WebAssembly and this one may not.
+
+import { Show, createEffect, on, type Accessor, type JSX } from 'solid-js';
+import type { RecordingFile } from '../../net/protocol.gen';
+import { title } from './recordings';
+import type { Theme } from '../../ui/theme';
+import { viewerAddress, type ThemeMessage } from './viewerMessages';
+
+const LEAVE_KEY = 'F6';
+
+interface ViewerFrameProps {
+  readonly file: RecordingFile;
+  readonly theme: Accessor<Theme>;
+  readonly onAgain: () => void;
+  readonly onClose: () => void;
+}
+
+export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
+  let frame!: HTMLIFrameElement;
+  let closer!: HTMLButtonElement;
+  // The address holds the theme of the beginning; later ones are told, since a new address would start anew.
+  const address = viewerAddress(props.file.id, props.theme());
+  createEffect(
+    on(
+      () => props.theme(),
+      (theme) => {
+        const message: ThemeMessage = { type: 'theme', theme };
+        frame.contentWindow?.postMessage(message, location.origin);
+      },
+      { defer: true },
+    ),
+  );
+  // The viewer keeps the Tab key for itself; who came with the keyboard must get out again.
+  const listenForLeaving = (): void => {
+    const leave = (event: KeyboardEvent): void => {
+      if (event.key !== LEAVE_KEY) return;
+      event.preventDefault();
+      closer.focus();
+    };
+    frame.contentWindow?.addEventListener('keydown', leave, { capture: true });
+  };
+  return (
+    <section class="panel viewer" aria-labelledby="viewer-title">
+      <div class="panel-head">
+        <h2 id="viewer-title">{title(props.file)}</h2>
+        <Show when={props.file.live}>
+          <span class="viewer-note">still recording; this is what it had when opened</span>
+          <button
+            type="button"
+            class="small"
+            onClick={() => {
+              props.onAgain();
+            }}
+          >
+            Read again
+          </button>
+        </Show>
+        <span class="viewer-note">
+          <kbd>{LEAVE_KEY}</kbd> leaves the viewer
+        </span>
+        <button
+          ref={closer}
+          type="button"
+          class="small"
+          onClick={() => {
+            props.onClose();
+          }}
+        >
+          Close
+        </button>
+      </div>
+      <iframe ref={frame} src={address} title="Rerun viewer" onLoad={listenForLeaving} />
+    </section>
+  );
+}

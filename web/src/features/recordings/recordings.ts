@@ -1,0 +1,95 @@
+// The list of recordings: asked for while it is looked at, and how its entries read.
+
+import { createSignal, onCleanup, onMount, type Accessor } from 'solid-js';
+import { get } from '../../net/requests';
+import type { RecordingFile, RecordingList } from '../../net/protocol.gen';
+
+const REFRESH_MS = 3000;
+
+/** `7.0 kB`, `12.3 MB`: three digits at most, in powers of ten as disks are sold. */
+export function size(bytes: number): string {
+  const units = ['kB', 'MB', 'GB', 'TB'];
+  let value = bytes / 1000;
+  let unit = 0;
+  // 999.5 would read as 1000.
+  while (value >= 999.5 && unit < units.length - 1) {
+    value /= 1000;
+    unit += 1;
+  }
+  return `${value.toFixed(value < 99.95 ? 1 : 0)} ${units[unit] ?? ''}`;
+}
+
+export interface Started {
+  readonly day: string;
+  readonly time: string;
+}
+
+/** By the local clock, with seconds: sessions may start within one minute. */
+export function startedAt(started: string, locale?: string, timeZone?: string): Started {
+  const date = new Date(started);
+  const zone = timeZone === undefined ? {} : { timeZone };
+  return {
+    day: date.toLocaleDateString(locale, { dateStyle: 'medium', ...zone }),
+    time: date.toLocaleTimeString(locale, { timeStyle: 'medium', ...zone }),
+  };
+}
+
+/** What a recording is called on the page. */
+export function title({ id, session, started }: RecordingFile): string {
+  if (session === null || started === null) return id;
+  const { day, time } = startedAt(started);
+  return `${session}, ${day}, ${time}`;
+}
+
+/** Rerun's file, to be looked at, and the input log, to be run again. */
+export type Ending = 'rrd' | 'ferry';
+
+/** Where its file is. */
+export function fileAddress(id: string, ending: Ending): string {
+  return `/api/recordings/${encodeURIComponent(id)}.${ending}`;
+}
+
+export interface Recordings {
+  /** The newest list; none before the first answer. */
+  readonly list: Accessor<readonly RecordingFile[] | undefined>;
+  /** Why the last question was not answered. */
+  readonly error: Accessor<string | undefined>;
+  readonly refresh: () => void;
+}
+
+/** The list, asked for again and again while the page is visible. */
+export function createRecordings(): Recordings {
+  const [list, setList] = createSignal<readonly RecordingFile[]>();
+  const [error, setError] = createSignal<string>();
+  let asking = false;
+  let closed = false;
+  const ask = async (): Promise<void> => {
+    if (asking) return;
+    asking = true;
+    try {
+      const { recordings } = await get<RecordingList>('/api/recordings');
+      if (closed) return;
+      setList(recordings);
+      setError(undefined);
+    } catch (reason) {
+      if (!closed) setError(reason instanceof Error ? reason.message : String(reason));
+    } finally {
+      asking = false;
+    }
+  };
+  const refresh = (): void => void ask();
+  const whileVisible = (): void => {
+    if (document.visibilityState === 'visible') refresh();
+  };
+  onMount(() => {
+    refresh();
+    const timer = setInterval(whileVisible, REFRESH_MS);
+    document.addEventListener('visibilitychange', whileVisible);
+    onCleanup(() => {
+      closed = true;
+      clearInterval(timer);
+      document.removeEventListener('visibilitychange', whileVisible);
+    });
+  });
+  return { list, error, refresh };
+}

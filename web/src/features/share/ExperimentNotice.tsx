@@ -1,0 +1,58 @@
+// What the page's address asks for and has not got, and why.
+
+import { Match, Switch, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import { experimentWords } from '../../lab/experimentLink';
+import type { Links } from '../../lab/pageExperiment';
+
+export function LinkBar(props: { lab: Lab; links: Links }): JSX.Element {
+  const { lab, links } = props;
+  const close = (
+    <button
+      type="button"
+      class="bare"
+      aria-label="Dismiss the link"
+      onClick={() => {
+        links.forget();
+      }}
+    >
+      ×
+    </button>
+  );
+  // The region is always there: screen readers announce what appears inside of it.
+  return (
+    <div class="link-bar" role="alert" aria-label="Link">
+      <Switch>
+        <Match when={links.broken()}>
+          {(why) => (
+            <p class="link-broken">
+              <span>{why()}</span>
+              {close}
+            </p>
+          )}
+        </Match>
+        <Match when={links.asked()}>
+          {(experiment) => (
+            <p>
+              <span>
+                This link asks for {experimentWords(experiment())}
+                {lab.canOperate() ? '.' : '; take control to load it.'}
+              </span>
+              <button
+                type="button"
+                class="small primary"
+                disabled={lab.link().kind !== 'live'}
+                onClick={() => {
+                  links.load();
+                }}
+              >
+                Load
+              </button>
+              {close}
+            </p>
+          )}
+        </Match>
+      </Switch>
+    </div>
+  );
+}

@@ -1,0 +1,34 @@
+// Experiments by name; shows the name of the one that is on the page, as long as nothing of it was changed.
+
+import { createMemo, type JSX } from 'solid-js';
+import type { Lab } from '../../lab/lab';
+import type { Links } from '../../lab/pageExperiment';
+import { PRESETS } from './presets';
+import { TruthSelect } from '../../ui/ServerSelect';
+
+const NONE = '';
+const OPTIONS = [
+  [NONE, 'Preset…'] as const,
+  ...PRESETS.map(({ name, link }) => [link, name] as const),
+];
+
+export function PresetSelect(props: { lab: Lab; links: Links }): JSX.Element {
+  const { lab, links } = props;
+  const value = createMemo(() => {
+    const now = links.now();
+    return PRESETS.find(({ link }) => link === now)?.link ?? NONE;
+  });
+  return (
+    <TruthSelect
+      label="Preset"
+      hideLabel
+      value={value()}
+      options={OPTIONS}
+      refusals={lab.refusals()}
+      disabled={!lab.canOperate()}
+      onChoose={(link) => {
+        if (link !== NONE) links.open(link);
+      }}
+    />
+  );
+}

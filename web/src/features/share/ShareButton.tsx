@@ -1,0 +1,89 @@
+// The experiment on the page as a link to take along.
+
+import { Show, createEffect, createSignal, type JSX } from 'solid-js';
+import type { Links } from '../../lab/pageExperiment';
+import { createPopover } from '../../ui/popover';
+
+type Copied = 'no' | 'copied' | 'selected';
+
+const WORDS: Readonly<Record<Copied, string>> = {
+  no: '',
+  copied: 'Copied.',
+  selected: 'Selected: copy it with the keyboard or the menu.',
+};
+
+export function ShareButton(props: { links: Links }): JSX.Element {
+  let box!: HTMLDivElement;
+  let button!: HTMLButtonElement;
+  let field!: HTMLInputElement;
+  const [copied, setCopied] = createSignal<Copied>('no');
+  const { open, setOpen, onFocusOut } = createPopover(
+    () => box,
+    () => button,
+  );
+  const address = (): string => {
+    const { origin, pathname } = window.location;
+    return `${origin}${pathname}${props.links.now() ?? ''}`;
+  };
+  createEffect(() => {
+    // What was copied is no longer what stands there, or the popover is another one.
+    props.links.now();
+    open();
+    setCopied('no');
+  });
+  const select = (): void => {
+    field.focus();
+    field.select();
+    setCopied('selected');
+  };
+  const copy = (): void => {
+    // There is none on a page that came by plain HTTP from another machine.
+    const clipboard = navigator.clipboard as Clipboard | undefined;
+    if (!clipboard) {
+      select();
+      return;
+    }
+    clipboard.writeText(field.value).then(() => setCopied('copied'), select);
+  };
+  return (
+    <div ref={box} class="share" onFocusOut={onFocusOut}>
+      <button
+        ref={button}
+        type="button"
+        aria-expanded={open()}
+        aria-controls="share"
+        disabled={props.links.now() === undefined}
+        onClick={() => setOpen(!open())}
+      >
+        Share
+      </button>
+      <Show when={open()}>
+        <div id="share" class="share-box" role="group" aria-label="Share this experiment">
+          <div class="share-row">
+            <input
+              ref={field}
+              type="text"
+              readonly
+              aria-label="Link to this experiment"
+              value={address()}
+              onFocus={() => {
+                field.select();
+              }}
+            />
+            <button type="button" class="primary" onClick={copy}>
+              Copy
+            </button>
+          </div>
+          <p class="share-done" role="status">
+            {WORDS[copied()]}
+          </p>
+          <p>
+            The link holds map, seed, start and goal, the controller, all that was tuned, and
+            scripted disturbances. Opened on a Ferry server, it sets the experiment up at its start.
+          </p>
+          <p class="hint">Not in it: what you did by hand on the way, such as drags and kicks.</p>
+        </div>
+      </Show>
+    </div>
+  );
+}

@@ -1,0 +1,45 @@
+// What the colours of the layer of singularities mean.
+
+import { Show, type JSX } from 'solid-js';
+import type { Answer } from '../../net/requests';
+import type { WorkspaceMap } from '../../net/protocol.gen';
+import { heatRange, heatWords, refusedWords } from './heat';
+
+function Values(props: { map: WorkspaceMap }): JSX.Element {
+  return (
+    <>
+      <Show when={heatRange(props.map)}>
+        {(range) => (
+          <>
+            <span class="number" data-testid="heat-least">
+              {heatWords(range()[0])}
+            </span>
+            <span class="heat-ramp" aria-hidden="true" />
+            <span class="number" data-testid="heat-greatest">
+              {heatWords(range()[1])}
+            </span>
+            <span>·10⁻³ m³</span>
+          </>
+        )}
+      </Show>
+      <span class="aside">
+        <span class="heat-hatch" aria-hidden="true" />
+        singular (below {heatWords(props.map.least_m3)}) or out of reach: {refusedWords(props.map)}
+      </span>
+    </>
+  );
+}
+
+export function HeatLegend(props: { answer: Answer<WorkspaceMap> }): JSX.Element {
+  return (
+    <div class="map-legend" role="group" aria-label="Manipulability">
+      <span title="|det J| of the arm over the table; 0 is a singularity">Manipulability</span>
+      <Show when={props.answer.data} fallback={props.answer.error ? undefined : 'computing…'}>
+        {(map) => <Values map={map()} />}
+      </Show>
+      <span role="alert">
+        <Show when={props.answer.error}>{(text) => <span class="refusal">{text()}</span>}</Show>
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,63 @@
+// The layer of singularities: a smooth field of colours, and hatching where the arm is refused.
+
+import type { Palette } from '../../ui/palette';
+import type { WorkspaceMap } from '../../net/protocol.gen';
+import { pxFromWorld, type View } from '../../plan/transform';
+import { heatPixels, refusedRuns, type Ramp, type Run } from './heat';
+
+const HATCH_PX = 7;
+
+type Ctx = CanvasRenderingContext2D;
+
+export interface Heat {
+  readonly map: WorkspaceMap;
+  /** A pixel a cell. */
+  readonly image: HTMLCanvasElement;
+  readonly refused: readonly Run[];
+}
+
+export function heatRamp(palette: Palette): Ramp {
+  return [palette['heat-low'], palette['heat-middle'], palette['heat-high']];
+}
+
+export function createHeat(map: WorkspaceMap, palette: Palette): Heat {
+  const image = document.createElement('canvas');
+  image.width = map.columns;
+  image.height = map.rows;
+  const pixels = new ImageData(heatPixels(map, heatRamp(palette)), map.columns, map.rows);
+  image.getContext('2d')?.putImageData(pixels, 0, 0);
+  return { map, image, refused: refusedRuns(map) };
+}
+
+/** Slanted lines over the box; the clip cuts them to shape. */
+function hatch(ctx: Ctx, left: number, top: number, width: number, height: number): void {
+  ctx.beginPath();
+  for (let x = left - height; x < left + width; x += HATCH_PX) {
+    ctx.moveTo(x, top + height);
+    ctx.lineTo(x + height, top);
+  }
+  ctx.stroke();
+}
+
+export function drawHeat(ctx: Ctx, view: View, palette: Palette, heat: Heat): void {
+  const { columns, rows, origin_m, cell_m } = heat.map;
+  const side = cell_m * view.pxPerM;
+  const [left, bottom] = pxFromWorld(view, origin_m);
+  const top = bottom - rows * side;
+  ctx.drawImage(heat.image, left, top, columns * side, rows * side);
+  if (heat.refused.length === 0) return;
+  const cells = new Path2D();
+  for (const [row, column, count] of heat.refused) {
+    cells.rect(left + column * side, bottom - (row + 1) * side, count * side, side);
+  }
+  ctx.save();
+  ctx.clip(cells);
+  ctx.fillStyle = palette.danger;
+  ctx.globalAlpha = 0.15;
+  ctx.fillRect(left, top, columns * side, rows * side);
+  ctx.globalAlpha = 0.8;
+  ctx.strokeStyle = palette.danger;
+  ctx.lineWidth = 1.25;
+  hatch(ctx, left, top, columns * side, rows * side);
+  ctx.restore();
+}

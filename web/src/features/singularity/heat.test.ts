@@ -1,0 +1,90 @@
+import { describe, expect, it } from 'vitest';
+import type { WorkspaceMap } from '../../net/protocol.gen';
+import { sceneOf } from '../../lab/testing';
+import {
+  cellM,
+  heatColor,
+  heatPixels,
+  heatRange,
+  refusedRuns,
+  refusedWords,
+  workspaceQuery,
+  type Ramp,
+} from './heat';
+
+const RAMP: Ramp = ['#000000', '#646464', '#ff0080'];
+
+/** The upper row is out of reach in part, the lower one singular in part. */
+const MAP: WorkspaceMap = {
+  least_m3: 0.002,
+  columns: 3,
+  rows: 2,
+  origin_m: [0, 0],
+  cell_m: 0.1,
+  manipulability_m3: [0.001, 0.01, 0.03, null, null, 0.02],
+};
+
+describe('the question', () => {
+  const scene = sceneOf('posts');
+
+  it('follows map, height and orientation', () => {
+    const asked = workspaceQuery(scene, { ...scene.parameters, tool_height_m: 0.15 });
+    expect(asked).toEqual({
+      area: scene.workspace,
+      cell_m: 0.005,
+      tool_height_m: 0.15,
+      tool_orientation: 'vertical',
+    });
+  });
+
+  it('is not asked without an arm', () => {
+    const stage = { ...scene, positioner: 'planar_stage' as const };
+    expect(workspaceQuery(stage, scene.parameters)).toBeUndefined();
+  });
+
+  it('asks for coarser cells on a larger table', () => {
+    const table = { x_min_m: -1, x_max_m: 1, y_min_m: 0, y_max_m: 1 };
+    expect(2 / cellM(table)).toBeLessThanOrEqual(120);
+  });
+});
+
+describe('the legend', () => {
+  it('has the ends of what is not refused', () => {
+    expect(heatRange(MAP)).toEqual([0.01, 0.03]);
+    expect(heatRange({ ...MAP, manipulability_m3: [null, 0.001] })).toBeUndefined();
+  });
+
+  it('says how much is refused', () => {
+    expect(refusedWords(MAP)).toBe('50 %');
+    expect(refusedWords({ ...MAP, manipulability_m3: [0.01] })).toBe('none');
+    const almostNone = [null, ...new Array<number>(400).fill(0.01)];
+    expect(refusedWords({ ...MAP, manipulability_m3: almostNone })).toBe('under 1 %');
+  });
+});
+
+describe('the colours', () => {
+  it('go from the least over the middle to the greatest', () => {
+    expect(heatColor(RAMP, 0)).toEqual([0, 0, 0]);
+    expect(heatColor(RAMP, 0.25)).toEqual([50, 50, 50]);
+    expect(heatColor(RAMP, 0.5)).toEqual([100, 100, 100]);
+    expect(heatColor(RAMP, 1)).toEqual([255, 0, 128]);
+    expect(heatColor(RAMP, 7)).toEqual([255, 0, 128]);
+  });
+
+  it('stand upright: the upper row of the table is the first of the picture', () => {
+    const pixels = heatPixels(MAP, RAMP);
+    const at = (cell: number): number[] => [...pixels.subarray(4 * cell, 4 * cell + 4)];
+    expect(at(2)).toEqual([100, 100, 100, 255]);
+    expect(at(5)).toEqual([255, 0, 128, 255]);
+    expect(at(3)).toEqual([0, 0, 0, 255]);
+  });
+});
+
+describe('the hatching', () => {
+  it('covers what is singular or out of reach, in runs', () => {
+    expect(refusedRuns(MAP)).toEqual([
+      [0, 0, 1],
+      [1, 0, 2],
+    ]);
+  });
+});

@@ -1,0 +1,119 @@
+// The arm's manipulability over the workspace as colours, and where it is refused. Pure.
+
+import { fixed } from '../../ui/format';
+import type {
+  Parameters,
+  Rect,
+  SceneMessage,
+  WorkspaceMap,
+  WorkspaceQuery,
+} from '../../net/protocol.gen';
+
+/** Fine enough to look smooth, on the paper's workspace and on a table of two metres. */
+const LEAST_CELL_M = 0.005;
+const MOST_CELLS_A_SIDE = 120;
+
+type Rgb = readonly [number, number, number];
+/** Colours of the least, the middle and the greatest value, `#rrggbb`. */
+export type Ramp = readonly [string, string, string];
+
+/** Cells of a row next to each other: `[row, first column, number]`. */
+export type Run = readonly [number, number, number];
+
+export function cellM(area: Rect): number {
+  const side_m = Math.max(area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m);
+  return Math.max(LEAST_CELL_M, side_m / MOST_CELLS_A_SIDE);
+}
+
+/** What to ask for; nothing without an arm. */
+export function workspaceQuery(
+  scene: SceneMessage,
+  parameters: Parameters,
+): WorkspaceQuery | undefined {
+  if (scene.positioner !== 'arm') return undefined;
+  return {
+    area: scene.workspace,
+    cell_m: cellM(scene.workspace),
+    tool_height_m: parameters.tool_height_m,
+    tool_orientation: parameters.tool_orientation,
+  };
+}
+
+/** Not reached, or so near a singularity that no controller may go there. */
+export function isRefused(map: WorkspaceMap, value_m3: number | null | undefined): boolean {
+  return value_m3 === null || value_m3 === undefined || value_m3 < map.least_m3;
+}
+
+/** Least and greatest value of the cells that are not refused. */
+export function heatRange(map: WorkspaceMap): [number, number] | undefined {
+  let range: [number, number] | undefined;
+  for (const value_m3 of map.manipulability_m3) {
+    if (value_m3 === null || isRefused(map, value_m3)) continue;
+    range = range
+      ? [Math.min(range[0], value_m3), Math.max(range[1], value_m3)]
+      : [value_m3, value_m3];
+  }
+  return range;
+}
+
+export function rgb(color: string): Rgb {
+  const value = Number.parseInt(color.slice(1), 16);
+  return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
+}
+
+/** Colour of a share of the range, 0 to 1. */
+export function heatColor(ramp: Ramp, share: number): Rgb {
+  const inside = Math.min(1, Math.max(0, share));
+  const [from, to] = inside < 0.5 ? [ramp[0], ramp[1]] : [ramp[1], ramp[2]];
+  const along = inside < 0.5 ? 2 * inside : 2 * inside - 1;
+  const [a, b] = [rgb(from), rgb(to)];
+  const mix = (k: 0 | 1 | 2): number => Math.round(a[k] + along * (b[k] - a[k]));
+  return [mix(0), mix(1), mix(2)];
+}
+
+/**
+ * A pixel a cell, RGBA, the upper row first as in a picture. Refused cells, which are hatched, have
+ * the colour of the least value: a smoothed picture gets no edge from them.
+ */
+export function heatPixels(map: WorkspaceMap, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
+  const pixels = new Uint8ClampedArray(4 * map.columns * map.rows);
+  const [least_m3, greatest_m3] = heatRange(map) ?? [0, 0];
+  const span_m3 = greatest_m3 - least_m3;
+  map.manipulability_m3.forEach((value_m3, cell) => {
+    const row = map.rows - 1 - Math.floor(cell / map.columns);
+    const above_m3 = (value_m3 ?? 0) - least_m3;
+    const color = heatColor(ramp, span_m3 > 0 ? above_m3 / span_m3 : 0);
+    pixels.set([...color, 255], 4 * (row * map.columns + (cell % map.columns)));
+  });
+  return pixels;
+}
+
+export function refusedRuns(map: WorkspaceMap): Run[] {
+  const runs: Run[] = [];
+  for (let row = 0; row < map.rows; row++) {
+    let first: number | undefined;
+    for (let column = 0; column <= map.columns; column++) {
+      const refused =
+        column < map.columns && isRefused(map, map.manipulability_m3[row * map.columns + column]);
+      if (refused) first ??= column;
+      else if (first !== undefined) {
+        runs.push([row, first, column - first]);
+        first = undefined;
+      }
+    }
+  }
+  return runs;
+}
+
+/** In 10⁻³ m³. */
+export function heatWords(value_m3: number): string {
+  return fixed(value_m3 * 1000, 1);
+}
+
+/** Share of the cells that are refused, in words. */
+export function refusedWords(map: WorkspaceMap): string {
+  const refused = map.manipulability_m3.filter((value) => isRefused(map, value)).length;
+  if (refused === 0) return 'none';
+  const percent = (100 * refused) / map.manipulability_m3.length;
+  return percent < 1 ? 'under 1 %' : `${fixed(percent, 0)} %`;
+}

@@ -1,0 +1,44 @@
+// The layer of values: a colour a cell, and an arrow of the best step.
+
+import type { Palette } from '../../ui/palette';
+import type { ValueMap } from '../../net/protocol.gen';
+import { pxFromWorld, type View } from '../../plan/transform';
+import { arrowPath } from '../flow/drawFlow';
+import { heatRamp } from '../singularity/drawHeat';
+import { valueArrows, valuePicture, type ValuePicture } from './value';
+
+export interface Values {
+  readonly picture: ValuePicture;
+  readonly image: HTMLCanvasElement;
+  readonly spacing_m: number;
+  readonly arrows: Path2D;
+}
+
+export function createValues(map: ValueMap, palette: Palette, view: View): Values | undefined {
+  const picture = valuePicture(map, heatRamp(palette));
+  if (!picture) return undefined;
+  const image = document.createElement('canvas');
+  image.width = picture.columns;
+  image.height = picture.rows;
+  const pixels = new ImageData(picture.pixels, picture.columns, picture.rows);
+  image.getContext('2d')?.putImageData(pixels, 0, 0);
+  const arrows = arrowPath(view, valueArrows(map, view.pxPerM));
+  return { picture, image, spacing_m: map.spacing_m, arrows };
+}
+
+export function drawValues(
+  ctx: CanvasRenderingContext2D,
+  view: View,
+  palette: Palette,
+  values: Values,
+): void {
+  const { corner_m, columns, rows } = values.picture;
+  const side = values.spacing_m * view.pxPerM;
+  // Each cell was judged by itself: nothing is between two.
+  ctx.imageSmoothingEnabled = false;
+  ctx.drawImage(values.image, ...pxFromWorld(view, corner_m), columns * side, rows * side);
+  ctx.strokeStyle = palette.text;
+  ctx.lineWidth = 1;
+  ctx.globalAlpha = 0.55;
+  ctx.stroke(values.arrows);
+}

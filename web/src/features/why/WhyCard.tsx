@@ -1,0 +1,175 @@
+// The story of one event: why it came, what was seen, and ways to go on from there.
+
+import { Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
+import type { JSX } from 'solid-js';
+import { get } from '../../net/requests';
+import { centimetres, clock } from '../../ui/format';
+import type { Lab } from '../../lab/lab';
+import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
+import { sessionPath } from '../../net/session';
+import { eventTitle, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
+
+/** e on a scale up to twice the limit, and the limit in its middle. */
+function MarginBar(props: { moment: MomentMessage }): JSX.Element {
+  const share = (): number =>
+    Math.min(1, props.moment.error_m / (2 * props.moment.threshold_m || 1));
+  return (
+    <svg class="why-margin" viewBox="0 0 200 14" preserveAspectRatio="none" aria-hidden="true">
+      <rect class="scale" x="0" y="4" width="200" height="6" />
+      <rect class="error" x="0" y="4" width={200 * share()} height="6" />
+      <line class="limit" x1="100" x2="100" y1="0" y2="14" />
+    </svg>
+  );
+}
+
+function Story(props: { moment: MomentMessage; path: string }): JSX.Element {
+  const margin = createMemo(() => marginOf(props.moment));
+  return (
+    <>
+      <p class="why-margin-text number">
+        e {centimetres(margin().error_m)}, limit {centimetres(margin().threshold_m)}:{' '}
+        <strong>{margin().text}</strong>
+      </p>
+      <MarginBar moment={props.moment} />
+      <p>{whatItSaw(props.moment)}</p>
+      <img
+        class="why-picture"
+        src={`${props.path}/camera.png`}
+        width="480"
+        height="480"
+        alt={`What the camera saw at ${clock(props.moment.sim_time_s)}`}
+      />
+    </>
+  );
+}
+
+const isSame = (a: EventMessage, b: EventMessage): boolean =>
+  a.tick === b.tick && a.kind === b.kind && a.text === b.text;
+
+function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
+  const { lab } = props;
+  let card!: HTMLElement;
+  const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
+  const [moment] = createResource(path, get<MomentMessage>);
+  const place = createMemo(() => {
+    const at = lab.marks().indexOf(props.event);
+    // Who connects again is told of it again.
+    return at >= 0 ? at : lab.marks().findIndex((one) => isSame(one, props.event));
+  });
+  const isPast = (): boolean => place() < 0;
+  const beside = (step: number): EventMessage | undefined => lab.marks()[place() + step];
+  createEffect(
+    on(
+      () => props.event,
+      () => {
+        const focused = document.activeElement;
+        const stays = card.contains(focused) && !focused?.matches(':disabled');
+        if (!stays) card.focus();
+      },
+    ),
+  );
+  const close = (): void => {
+    lab.inspect(undefined);
+  };
+  return (
+    <section
+      ref={card}
+      class="why"
+      role="dialog"
+      aria-labelledby="why-title"
+      tabindex="-1"
+      onKeyDown={(event) => {
+        if (event.key === 'Escape') close();
+      }}
+    >
+      <header>
+        <h2 id="why-title">{eventTitle(props.event)}</h2>
+        <button
+          type="button"
+          class="bare"
+          aria-label="Previous event"
+          disabled={isPast() || !beside(-1)}
+          onClick={() => {
+            lab.inspect(beside(-1));
+          }}
+        >
+          ‹
+        </button>
+        <button
+          type="button"
+          class="bare"
+          aria-label="Next event"
+          disabled={isPast() || !beside(1)}
+          onClick={() => {
+            lab.inspect(beside(1));
+          }}
+        >
+          ›
+        </button>
+        <button type="button" class="bare" aria-label="Close" onClick={close}>
+          ×
+        </button>
+      </header>
+      <div class="why-body">
+        <p class="why-sentence">{sentence(props.event.text)}</p>
+        <Show when={isPast()}>
+          <p class="hint">What runs now took another course: this is none of its past.</p>
+        </Show>
+        <Switch fallback={<p class="hint">Looking back …</p>}>
+          <Match when={moment.error as unknown}>
+            {(error) => (
+              <p class="hint" role="alert">
+                {error() instanceof Error
+                  ? (error() as Error).message
+                  : 'The server does not answer.'}
+              </p>
+            )}
+          </Match>
+          <Match when={!moment.loading && moment()}>
+            {(found) => <Story moment={found()} path={path()} />}
+          </Match>
+        </Switch>
+      </div>
+      <footer>
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate() || isPast()}
+          title="Back to the control step at or before this event: time pauses there"
+          onClick={() => {
+            lab.send({ type: 'rewind', tick: props.event.tick });
+          }}
+        >
+          Go there
+        </button>
+        <button
+          type="button"
+          class="small primary"
+          disabled={!lab.canOperate() || isPast()}
+          title="Runs this moment on under every controller"
+          onClick={() => {
+            lab.send({ type: 'fork', tick: props.event.tick });
+            lab.openTab('compare');
+            close();
+          }}
+        >
+          Compare controllers from here
+        </button>
+      </footer>
+    </section>
+  );
+}
+
+/** Open while an event is inspected; focus goes back to where it came from. */
+export function WhyCard(props: { lab: Lab }): JSX.Element {
+  let from: Element | null = null;
+  createEffect(
+    on(props.lab.inspected, (now, before) => {
+      if (now && !before) from = document.activeElement;
+      if (!now && before && from instanceof HTMLElement) from.focus();
+    }),
+  );
+  return (
+    <Show when={props.lab.inspected()}>{(event) => <Card lab={props.lab} event={event()} />}</Show>
+  );
+}

@@ -1,0 +1,180 @@
+// One parameter in a row of a form: its name, its value, and how to change it.
+
+import { For, batch, createMemo, createUniqueId, type JSX } from 'solid-js';
+import {
+  digits,
+  shownMost,
+  shownValue,
+  storedValue,
+  type ChoiceField,
+  type Field,
+  type FlagField,
+  type NumberField,
+} from './parameters';
+import type { Lab } from './lab';
+import type { Parameters, SceneMessage } from '../net/protocol.gen';
+
+export interface Form {
+  /** In force, with edits that are on their way on top. */
+  readonly values: () => Parameters;
+  readonly defaults: () => Parameters;
+  readonly disabled: () => boolean;
+  /** Why a field has no effect now, if it has none. */
+  readonly idle: (name: keyof Parameters) => string | undefined;
+  /** What a slider shows while it is moved. */
+  readonly moving: () => Partial<Parameters>;
+  readonly move: (change: Partial<Parameters>) => void;
+  readonly edit: (change: Partial<Parameters>) => void;
+}
+
+function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
+  const { form, field } = props;
+  // While a slider moves, its number follows; it goes out when the slider is let go.
+  const shown = createMemo(() =>
+    shownValue(field, form.moving()[field.name] ?? form.values()[field.name]),
+  );
+  const max = (): number => shownMost(field, form.values());
+  // A memo, so that news of other parameters does not overwrite what is being typed.
+  const text = createMemo(() => shown().toFixed(digits(field.step)));
+  const stored = (value: number): Partial<Parameters> => ({
+    [field.name]: storedValue(field, value, form.values()),
+  });
+  const commit = (value: number): void => {
+    batch(() => {
+      form.move({});
+      if (Number.isFinite(value)) form.edit(stored(value));
+    });
+  };
+  const id = createUniqueId();
+  return (
+    <div
+      class="row"
+      classList={{ changed: form.values()[field.name] !== form.defaults()[field.name] }}
+    >
+      <label for={id} title={field.help}>
+        {field.label}
+      </label>
+      <span class="with-unit">
+        <input
+          id={id}
+          type="number"
+          class="number"
+          min={field.min}
+          max={max()}
+          step={field.step}
+          value={text()}
+          disabled={form.disabled()}
+          onChange={(event) => {
+            commit(event.currentTarget.valueAsNumber);
+            // What was out of range or no number at all must not stay on display.
+            event.currentTarget.value = text();
+          }}
+        />
+        <span class="unit">{field.unit}</span>
+      </span>
+      <input
+        type="range"
+        aria-label={`${field.label} slider`}
+        min={field.min}
+        max={max()}
+        step={field.step}
+        value={shown()}
+        disabled={form.disabled()}
+        onInput={(event) => {
+          const change = stored(event.currentTarget.valueAsNumber);
+          // Back where it began it is let go without a change.
+          form.move(change[field.name] === form.values()[field.name] ? {} : change);
+        }}
+        onPointerCancel={() => {
+          form.move({});
+        }}
+        onChange={(event) => {
+          commit(event.currentTarget.valueAsNumber);
+        }}
+      />
+    </div>
+  );
+}
+
+function ChoiceRow(props: { form: Form; field: ChoiceField }): JSX.Element {
+  const { form, field } = props;
+  const value = (): string => form.values()[field.name];
+  const id = createUniqueId();
+  return (
+    <div class="row" classList={{ changed: value() !== form.defaults()[field.name] }}>
+      <label for={id} title={field.help}>
+        {field.label}
+      </label>
+      <select
+        id={id}
+        disabled={form.disabled() || form.idle(field.name) !== undefined}
+        title={form.idle(field.name)}
+        onChange={(event) => {
+          form.edit({ [field.name]: event.currentTarget.value });
+        }}
+      >
+        <For each={field.options}>
+          {([option, label]) => (
+            <option value={option} selected={value() === option}>
+              {label}
+            </option>
+          )}
+        </For>
+      </select>
+    </div>
+  );
+}
+
+function FlagRow(props: { form: Form; field: FlagField }): JSX.Element {
+  const { form, field } = props;
+  const value = (): boolean => form.values()[field.name];
+  const id = createUniqueId();
+  return (
+    <div class="row" classList={{ changed: value() !== form.defaults()[field.name] }}>
+      <label for={id} title={field.help}>
+        {field.label}
+      </label>
+      <input
+        id={id}
+        type="checkbox"
+        checked={value()}
+        disabled={form.disabled()}
+        onChange={(event) => {
+          form.edit({ [field.name]: event.currentTarget.checked });
+        }}
+      />
+    </div>
+  );
+}
+
+export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
+  const { form, field } = props;
+  switch (field.kind) {
+    case 'number':
+      return <NumberRow form={form} field={field} />;
+    case 'choice':
+      return <ChoiceRow form={form} field={field} />;
+    case 'flag':
+      return <FlagRow form={form} field={field} />;
+  }
+}
+
+/** A form for the parameters of a scene; all forms of the page share the edits. */
+export function createForm(lab: Lab, scene: () => SceneMessage): Form {
+  return {
+    values: () => lab.edits.values() ?? scene().parameters,
+    defaults: () => scene().defaults,
+    disabled: () => !lab.canOperate(),
+    idle: (name) =>
+      name === 'tool_orientation' && scene().positioner === 'planar_stage'
+        ? 'The planar stage always holds the block upright.'
+        : undefined,
+    moving: lab.edits.moving,
+    move: (change) => {
+      lab.edits.move(change);
+    },
+    edit: (change) => {
+      lab.edits.edit(change);
+    },
+  };
+}

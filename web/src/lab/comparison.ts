@@ -1,0 +1,117 @@
+// A moment run on under several controllers: each branch is a ghost, shown at one time of all.
+
+import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
+import type { Branch, ComparisonMessage } from '../net/protocol.gen';
+import { distance, type Vec2 } from '../plan/transform';
+
+/** Simulated seconds a second while ghosts play. */
+const PLAY_SPEED = 2;
+
+export interface Ghost {
+  readonly tool_m: Vec2;
+  readonly bead_m: Vec2;
+}
+
+/** Tick of the last sample of the longest branch. */
+export function lastTick({ tick, ticks_a_sample, branches }: ComparisonMessage): number {
+  return tick + ticks_a_sample * Math.max(0, ...branches.map(({ samples }) => samples.length));
+}
+
+/** A branch at a tick; at its end when it has ended before. None before its first sample. */
+export function ghostAt(
+  comparison: ComparisonMessage,
+  branch: Branch,
+  tick: number,
+): Ghost | undefined {
+  const index = Math.round((tick - comparison.tick) / comparison.ticks_a_sample) - 1;
+  const sample = branch.samples[Math.min(Math.max(0, index), branch.samples.length - 1)];
+  return sample && { tool_m: [sample[0], sample[1]], bead_m: [sample[2], sample[3]] };
+}
+
+/** Distances of tool and bead in metres, one a sample. */
+export function errors_m(branch: Branch): number[] {
+  return branch.samples.map(([toolX, toolY, beadX, beadY]) =>
+    distance([toolX, toolY], [beadX, beadY]),
+  );
+}
+
+/** Whether the first is a later stage of the same comparison as the second. */
+function continues(now: ComparisonMessage, before: ComparisonMessage): boolean {
+  return now.trial === before.trial && now.tick === before.tick && before.running;
+}
+
+export interface Ghosts {
+  readonly comparison: Accessor<ComparisonMessage | undefined>;
+  /** The time at which they are shown. */
+  readonly tick: Accessor<number>;
+  readonly playing: Accessor<boolean>;
+  look(tick: number): void;
+  play(): void;
+  pause(): void;
+  /** Those of this moment, until the next comparison is asked for. */
+  hide(): void;
+  show(): void;
+}
+
+export function createGhosts(
+  newest: Accessor<ComparisonMessage | undefined>,
+  tick_s: Accessor<number>,
+): Ghosts {
+  const [hidden, setHidden] = createSignal<Pick<ComparisonMessage, 'trial' | 'tick'>>();
+  const [tick, setTick] = createSignal(0);
+  const [playing, setPlaying] = createSignal(false);
+  const comparison = createMemo(() => {
+    const [now, gone] = [newest(), hidden()];
+    // It is told of again and again while it runs.
+    return now?.trial === gone?.trial && now?.tick === gone?.tick ? undefined : now;
+  });
+  let frame = 0;
+
+  const pause = (): void => {
+    cancelAnimationFrame(frame);
+    setPlaying(false);
+  };
+  const play = (): void => {
+    const now = comparison();
+    if (!now || playing()) return;
+    if (tick() >= lastTick(now)) setTick(now.tick);
+    setPlaying(true);
+    let before_ms = performance.now();
+    const step = (now_ms: number): void => {
+      const shown = comparison();
+      if (!shown) return;
+      const next = tick() + ((now_ms - before_ms) / 1000 / tick_s()) * PLAY_SPEED;
+      before_ms = now_ms;
+      setTick(Math.min(lastTick(shown), next));
+      if (next < lastTick(shown)) frame = requestAnimationFrame(step);
+      else setPlaying(false);
+    };
+    frame = requestAnimationFrame(step);
+  };
+
+  createEffect(
+    on(comparison, (now, before) => {
+      if (!now) pause();
+      // They grow as they are computed, unless someone is looking at an earlier time.
+      else if (!before || !continues(now, before) || tick() === lastTick(before)) {
+        pause();
+        setTick(lastTick(now));
+      }
+    }),
+  );
+  onCleanup(pause);
+
+  return {
+    comparison,
+    tick,
+    playing,
+    look: (to) => {
+      pause();
+      setTick(to);
+    },
+    play,
+    pause,
+    hide: () => setHidden(newest()),
+    show: () => setHidden(undefined),
+  };
+}

@@ -1,0 +1,93 @@
+// The story of an event: what stood against what, and what the active sub-controller went by. Pure.
+
+import { ACTIONS } from './actions';
+import { centimetres, clock, counted, fixed, millimetres } from '../ui/format';
+import { CONTROLLER_LABELS } from './parameters';
+import type { EventKind, EventMessage, MomentMessage } from '../net/protocol.gen';
+import { distance } from '../plan/transform';
+
+const TITLES: Readonly<Record<EventKind, string>> = {
+  switch: 'Switch',
+  disturbance: 'Disturbance',
+  goal: 'Goal',
+  reached: 'Reached',
+  delivered: 'Delivered',
+  lift_off: 'Lift-off',
+  refused: 'Refused',
+  stopped: 'Stopped',
+  session: 'Session',
+};
+
+export function eventTitle(event: Pick<EventMessage, 'kind' | 'sim_time_s'>): string {
+  return `${TITLES[event.kind]} at ${clock(event.sim_time_s)}`;
+}
+
+/** What happened, with a capital and a full stop. */
+export function sentence(text: string): string {
+  const trimmed = text.trim();
+  const end = /[.!?]$/.test(trimmed) ? '' : '.';
+  return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + end;
+}
+
+export interface Margin {
+  readonly error_m: number;
+  readonly threshold_m: number;
+  /** By how much the switching law was over its threshold; negative when within. */
+  readonly over_m: number;
+  readonly text: string;
+}
+
+export function marginOf(moment: MomentMessage): Margin {
+  const { error_m, threshold_m } = moment;
+  const over_m = error_m - threshold_m;
+  const side = over_m > 0 ? 'over' : 'within';
+  return {
+    error_m,
+    threshold_m,
+    over_m,
+    text: `${millimetres(Math.abs(over_m))} ${side} the limit`,
+  };
+}
+
+const place = ([x_m, y_m]: readonly [number, number]): string =>
+  `(${fixed(x_m, 3)}, ${fixed(y_m, 3)}) m`;
+
+function transport(moment: MomentMessage): string {
+  const { overlay, controller } = moment;
+  const name = CONTROLLER_LABELS[controller];
+  switch (controller) {
+    case 'attractor': {
+      const count = overlay.obstacles.length;
+      return `${name} sensed ${counted(count, 'obstacle')} in the picture.`;
+    }
+    case 'errt': {
+      const corners = overlay.plan?.way.length ?? 0;
+      return corners > 0
+        ? `${name} followed a way of ${corners} points, around all that it had seen.`
+        : `${name} had no way yet.`;
+    }
+    case 'rl': {
+      const judged = overlay.judgement;
+      const action = judged && ACTIONS[judged.taken];
+      if (!judged || !action) return `${name} had judged no picture yet.`;
+      return `${name} chose ${action.arrow} ${action.name}, worth ${fixed(judged.values[judged.taken] ?? 0, 2)} of the return.`;
+    }
+  }
+}
+
+/** What the active sub-controller went by, in sentences. */
+export function whatItSaw(moment: MomentMessage): string {
+  const tracker = millimetres(distance(moment.bead_tracked_m, moment.bead_m), 1);
+  const bead = `The tracker had the bead at ${place(moment.bead_tracked_m)}, ${tracker} from where it was.`;
+  const parts = [bead];
+  if (moment.mode === 1) {
+    parts.push('Sub-controller 1 flies after it and needs no picture.');
+  } else if (!moment.goal_m) {
+    parts.push('Without a goal, sub-controller 2 holds.');
+  } else {
+    const left = centimetres(distance(moment.tool_m, moment.goal_m));
+    parts.push(transport(moment), `The goal was ${left} away.`);
+  }
+  if (moment.refusal !== null) parts.push(`The arm held: ${sentence(moment.refusal)}`);
+  return parts.join(' ');
+}

@@ -1,0 +1,253 @@
+import { describe, expect, it } from 'vitest';
+import {
+  experimentFrom,
+  experimentOf,
+  linkAsSetUp,
+  linkOf,
+  linkText,
+  loadMessage,
+  type Experiment,
+  type Known,
+} from './experimentLink';
+import { GROUPS } from './parameterGroups';
+import { LESSONS } from '../features/lessons/lessons';
+import { PRESETS } from '../features/share/presets';
+import type { Disturbance, Parameters, Scripted, When } from '../net/protocol.gen';
+import { sceneOf, stateAt } from './testing';
+
+const { defaults } = sceneOf('colon');
+const KNOWN: Known = {
+  maps: [
+    'attractor-example',
+    'attractor-example-arm',
+    'colon',
+    'colon-folds',
+    'open',
+    'posts',
+    'vessels',
+    // No shipped map has such a name, but one might.
+    'Übung & Prüfung #1 = 100 %',
+  ],
+  controllers: ['rl', 'errt', 'attractor'],
+  defaults,
+};
+
+/** The same numbers in [0, 1) every time (mulberry32). */
+function chances(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+/** An experiment with anything in it that a link can hold. */
+function anyExperiment(chance: () => number): Experiment {
+  const pick = <T>(all: readonly T[]): T => {
+    const one = all[Math.floor(chance() * all.length)];
+    if (one === undefined) throw new Error('nothing to pick from');
+    return one;
+  };
+  const some = (): number => (chance() - 0.5) * 10 ** Math.floor(chance() * 12 - 9);
+  const place = (): [number, number] => [some(), some()];
+  const disturbance = (): Disturbance =>
+    pick<() => Disturbance>([
+      () => ({ displace: { x_m: some(), y_m: some() } }),
+      () => ({ impulse: { x_n_s: some(), y_n_s: some() } }),
+      () => ({ drift: { x_n: some(), y_n: some(), for_s: some() } }),
+      () => ({ dropout: { for_s: some() } }),
+    ])();
+  const when = (): When =>
+    pick<() => When>([
+      () => ({ tick: Math.floor(chance() * 1e6) }),
+      () => ({ step: Math.floor(chance() * 600) }),
+      () => ({ passes_x_m: some() }),
+      () => ({ near: { x_m: some(), y_m: some(), within_m: some() } }),
+    ])();
+  const parameters: Partial<Record<keyof Parameters, unknown>> = {};
+  for (const field of GROUPS.flatMap(({ fields }) => fields)) {
+    if (chance() < 0.7) continue;
+    const value =
+      field.kind === 'number'
+        ? some()
+        : field.kind === 'flag'
+          ? chance() < 0.5
+          : pick(field.options)[0];
+    if (value !== defaults[field.name]) parameters[field.name] = value;
+  }
+  const script = Array.from({ length: Math.floor(chance() * 4) }, (): Scripted => ({
+    at: when(),
+    disturbance: disturbance(),
+  }));
+  return {
+    map: pick(KNOWN.maps),
+    controller: pick(KNOWN.controllers),
+    positioner: pick([null, 'arm', 'planar_stage'] as const),
+    seed: Math.floor(chance() * 2 ** 32),
+    start_m: chance() < 0.5 ? place() : null,
+    goal_m: chance() < 0.5 ? place() : null,
+    parameters: parameters as Partial<Parameters>,
+    disturbances: Math.floor(chance() * 3),
+    script,
+  };
+}
+
+function why(hash: string): string {
+  const reading = experimentFrom(hash, KNOWN);
+  if (reading.kind !== 'broken') throw new Error(`${hash} was read as ${reading.kind}`);
+  return reading.why;
+}
+
+describe('a link', () => {
+  it('gives back what was put in, and the same text again', () => {
+    const chance = chances(7);
+    for (let round = 0; round < 500; round += 1) {
+      const experiment = anyExperiment(chance);
+      const text = linkText(experiment, defaults);
+      expect(experimentFrom(text, KNOWN)).toEqual({ kind: 'experiment', experiment });
+      // A browser may write what stands after # in its own way, but never these letters.
+      expect(text).toMatch(/^#[\w=&.,:;@%-]+$/);
+    }
+  });
+
+  it('reads what the server writes beside a failure', () => {
+    // `server/scenario/link.rs` has the same line.
+    const text =
+      '#v=1&map=colon&controller=errt&seed=9007199254740991&start=-0.1234567890123,-0.3' +
+      '&goal=0.1,0.0000001&attractor_law=literal&threshold_m=0.08&disturbances=3';
+    const read = experimentFrom(text, KNOWN);
+    expect(read).toMatchObject({
+      kind: 'experiment',
+      experiment: {
+        seed: Number.MAX_SAFE_INTEGER,
+        start_m: [-0.1234567890123, -0.3],
+        goal_m: [0.1, 1e-7],
+        parameters: { attractor_law: 'literal', threshold_m: 0.08 },
+        disturbances: 3,
+      },
+    });
+  });
+
+  it('reads well', () => {
+    const scene = sceneOf('colon');
+    scene.seed = 7;
+    scene.parameters = { ...scene.parameters, threshold_m: 0.08 };
+    const state = stateAt(10, { controller: 'errt', goal_m: [-0.24, -0.27, 0] });
+    expect(linkOf(scene, state)).toBe(
+      '#v=1&map=colon&controller=errt&seed=7&goal=-0.24,-0.27&threshold_m=0.08',
+    );
+  });
+
+  it('takes seed, parameters, controller and goal as they are, start and script as set up', () => {
+    const scene = sceneOf('posts');
+    scene.scenario.start_m = [0.1, -0.3];
+    scene.scenario.disturbances = 2;
+    scene.scenario.script = [{ at: { step: 3 }, disturbance: { dropout: { for_s: 2 } } }];
+    scene.scenario.positioner = 'planar_stage';
+    // Placed with the mouse.
+    const goal_m: [number, number, number] = [0.123456789, -0.3000001, 0];
+    expect(experimentOf(scene, stateAt(5, { goal_m, controller: 'rl' }))).toEqual({
+      map: 'posts',
+      controller: 'rl',
+      positioner: 'planar_stage',
+      seed: 1,
+      start_m: [0.1, -0.3],
+      goal_m: [0.1235, -0.3],
+      parameters: {},
+      disturbances: 2,
+      script: scene.scenario.script,
+    });
+    // One that came with the scenario is left as it is.
+    scene.scenario.goal_m = [0.123456789, -0.3000001];
+    expect(experimentOf(scene, stateAt(5, { goal_m })).goal_m).toEqual([0.123456789, -0.3000001]);
+    expect(linkAsSetUp(scene)).toContain('&goal=0.123456789,-0.3000001&');
+  });
+
+  it('is told as it was set up, whatever was tuned since', () => {
+    const scene = sceneOf('posts');
+    const before = linkAsSetUp(scene);
+    scene.parameters = { ...scene.parameters, friction: 0.3 };
+    expect(linkAsSetUp(scene)).toBe(before);
+    expect(linkOf(scene, stateAt(1))).toBe(`${before}&friction=0.3`);
+  });
+
+  it('becomes the command that sets it up', () => {
+    const read = experimentFrom('#v=1&map=open&controller=rl&seed=3&friction=0.5', KNOWN);
+    if (read.kind !== 'experiment') throw new Error('not read');
+    expect(loadMessage(read.experiment, defaults)).toEqual({
+      type: 'load_scenario',
+      map: 'open',
+      controller: 'rl',
+      seed: 3,
+      disturbances: 0,
+      script: [],
+      parameters: { ...defaults, friction: 0.5 },
+    });
+  });
+
+  it('may be percent-encoded by whoever passed it on', () => {
+    const read = experimentFrom('#v=1&map=colon&controller=errt&seed=7&goal=-0.24%2C-0.27', KNOWN);
+    expect(read).toMatchObject({ experiment: { goal_m: [-0.24, -0.27] } });
+  });
+});
+
+describe('what is no experiment', () => {
+  const GOOD = '#v=1&map=colon&controller=errt&seed=7';
+
+  it('is nothing when there is nothing', () => {
+    expect(experimentFrom('', KNOWN)).toEqual({ kind: 'none' });
+    expect(experimentFrom('#', KNOWN)).toEqual({ kind: 'none' });
+  });
+
+  it.each([
+    ['#top', '“#top” does not begin with #v=1'],
+    ['#v=2&map=colon', 'v is “2”, this page reads 1'],
+    ['#v=1&controller=errt&seed=7', 'map is missing'],
+    [
+      '#v=1&map=liver&controller=errt&seed=7',
+      'map is “liver”, it must be one of attractor-example',
+    ],
+    ['#v=1&map=colon&controller=magic&seed=7', 'controller is “magic”, it must be one of rl, errt'],
+    ['#v=1&map=colon&controller=errt&seed=-7', 'seed is “-7”, it must be a whole number from 0'],
+    ['#v=1&map=colon&controller=errt&seed=1e99', 'seed is “1e99”'],
+    [`${GOOD}&seed=8`, 'seed stands there twice'],
+    [`${GOOD}&goal=0.1`, 'goal is “0.1”, it must be 2 numbers'],
+    [`${GOOD}&goal=0.1,here`, 'goal is “here”, it must be a number'],
+    [`${GOOD}&positioner=crane`, 'positioner is “crane”, it must be one of arm, planar_stage'],
+    [`${GOOD}&friction=much`, 'friction is “much”, it must be a number'],
+    [`${GOOD}&friction=`, 'friction is “”, it must be a number'],
+    [`${GOOD}&friction=Infinity`, 'friction is “Infinity”'],
+    [`${GOOD}&friction`, '“friction” has no value'],
+    [`${GOOD}&rl_shield=1`, 'rl_shield is “1”, it must be one of true, false'],
+    [`${GOOD}&switching_law=strict`, 'switching_law is “strict”, it must be one of hysteresis'],
+    [`${GOOD}&gravity=9.81`, 'nothing named “gravity” (its value is “9.81”)'],
+    [`${GOOD}&toString=1`, 'nothing named “toString”'],
+    [`${GOOD}&script=`, 'script is “”, it must be a disturbance, @, and when'],
+    [`${GOOD}&script=hit:1,2@tick:3`, 'script is “hit:1,2”, it must be displace, impulse'],
+    [`${GOOD}&script=dropout:1@noon:12`, 'script is “noon:12”, it must be tick, step'],
+    [`${GOOD}&script=dropout:1@tick:1.5`, 'script is “1.5”, it must be a whole number'],
+    [`${GOOD}&goal=%E0%A4%A`, '“goal=%E0%A4%A” is damaged'],
+  ])('%s is refused with field and value', (hash, words) => {
+    expect(why(hash)).toContain(words);
+  });
+});
+
+describe('links that come with the page', () => {
+  const links = [
+    ...PRESETS.map(({ name, link }) => [name, link] as const),
+    ...LESSONS.flatMap(({ title, runs }) => runs.map(({ link }) => [title, link] as const)),
+  ];
+  it.each(links)('%s is read, and is what the page would write', (_, link) => {
+    const read = experimentFrom(link, KNOWN);
+    if (read.kind !== 'experiment') throw new Error(read.kind === 'broken' ? read.why : 'nothing');
+    // Else the preset would not be recognised, nor a lesson's experiment.
+    expect(linkText(read.experiment, defaults)).toBe(link);
+  });
+
+  it('have names of their own', () => {
+    expect(new Set(PRESETS.map(({ name }) => name)).size).toBe(PRESETS.length);
+    expect(new Set(PRESETS.map(({ link }) => link)).size).toBe(PRESETS.length);
+  });
+});

@@ -1,0 +1,247 @@
+// A whole experiment as the part of an address after `#`, and back. Pure.
+//
+// `#v=1&map=colon&controller=errt&seed=7&goal=-0.24,-0.27&threshold_m=0.08`: what is not named is at its default.
+
+import { CONTROLLER_LABELS } from './parameters';
+import { GROUPS } from './parameterGroups';
+import {
+  TextError,
+  halves,
+  readNumber,
+  readPlace,
+  readScript,
+  readWhole,
+  refuse,
+  scriptText,
+} from './scriptText';
+import type {
+  ClientMessage,
+  ControllerName,
+  Parameters,
+  PositionerKind,
+  SceneMessage,
+  Scripted,
+} from '../net/protocol.gen';
+
+export const LINK_VERSION = 1;
+
+export type Place = readonly [number, number];
+
+/** What a link tells; presets and lessons are such links. */
+export interface Experiment {
+  readonly map: string;
+  readonly controller: ControllerName;
+  /** What carries the magnet; null for what the map is made for. */
+  readonly positioner: PositionerKind | null;
+  readonly seed: number;
+  /** Null for what the seed gives. */
+  readonly start_m: Place | null;
+  readonly goal_m: Place | null;
+  /** Those that are not at their defaults. */
+  readonly parameters: Partial<Parameters>;
+  /** Random ones. */
+  readonly disturbances: number;
+  readonly script: readonly Scripted[];
+}
+
+/** What this server knows, to hold a link against. */
+export type Known = Pick<SceneMessage, 'maps' | 'controllers' | 'defaults'>;
+
+/** What of an experiment may be chosen anew while it runs; a `StateMessage` tells it. */
+export interface Chosen {
+  readonly controller: ControllerName;
+  readonly goal_m: readonly [number, number, ...number[]] | null;
+}
+
+export type Reading =
+  | { readonly kind: 'none' }
+  | { readonly kind: 'experiment'; readonly experiment: Experiment }
+  | { readonly kind: 'broken'; readonly why: string };
+
+const POSITIONERS: readonly PositionerKind[] = ['arm', 'planar_stage'];
+/** What a link tells besides parameters. */
+const FIELDS = ['v', 'map', 'controller', 'positioner', 'seed', 'start', 'goal'];
+const LAST_FIELDS = ['disturbances', 'script'];
+
+function isParameter(name: string, defaults: Parameters): name is keyof Parameters {
+  return Object.hasOwn(defaults, name);
+}
+
+/** Parameters that differ from their defaults, in the defaults' order. */
+function tuned(parameters: Parameters, defaults: Parameters): Partial<Parameters> {
+  const names = Object.keys(defaults) as (keyof Parameters)[];
+  const differing = names.filter((name) => parameters[name] !== defaults[name]);
+  return Object.fromEntries(differing.map((name) => [name, parameters[name]]));
+}
+
+/** A goal placed by hand to a tenth of a millimetre, which is finer than any hand. */
+function rounded(goal_m: Place): Place {
+  return [Number(goal_m[0].toFixed(4)), Number(goal_m[1].toFixed(4))];
+}
+
+/** As the trial was set up, with controller, goal and parameters as they are now. */
+export function experimentOf(scene: SceneMessage, state: Chosen): Experiment {
+  const { scenario } = scene;
+  const now = state.goal_m && ([state.goal_m[0], state.goal_m[1]] as const);
+  const placed = scenario.goal_m;
+  const isAsPlaced = now && placed?.[0] === now[0] && placed[1] === now[1];
+  return {
+    map: scene.map,
+    controller: state.controller,
+    positioner: scenario.positioner,
+    seed: scene.seed,
+    start_m: scenario.start_m,
+    goal_m: now && (isAsPlaced ? now : rounded(now)),
+    parameters: tuned(scene.parameters, scene.defaults),
+    disturbances: scenario.disturbances,
+    script: scenario.script,
+  };
+}
+
+/** The link of an experiment, `#` included; the same experiment has the same link. */
+export function linkText(experiment: Experiment, defaults: Parameters): string {
+  const { positioner, start_m, goal_m, parameters, disturbances, script } = experiment;
+  const pairs: (readonly [string, string])[] = [
+    ['v', String(LINK_VERSION)],
+    ['map', experiment.map],
+    ['controller', experiment.controller],
+  ];
+  if (positioner !== null) pairs.push(['positioner', positioner]);
+  pairs.push(['seed', String(experiment.seed)]);
+  if (start_m) pairs.push(['start', start_m.join(',')]);
+  if (goal_m) pairs.push(['goal', goal_m.join(',')]);
+  for (const name of Object.keys(defaults) as (keyof Parameters)[]) {
+    const value = parameters[name];
+    if (value !== undefined && value !== defaults[name]) pairs.push([name, String(value)]);
+  }
+  if (disturbances > 0) pairs.push(['disturbances', String(disturbances)]);
+  if (script.length > 0) pairs.push(['script', scriptText(script)]);
+  // What has a meaning in the text stays readable; in names of maps it may not stand bare.
+  const safe = (name: string, value: string): string =>
+    name === 'map' ? encodeURIComponent(value) : value;
+  return `#${pairs.map(([name, value]) => `${name}=${safe(name, value)}`).join('&')}`;
+}
+
+/** The link of what is on the page now. */
+export function linkOf(scene: SceneMessage, state: Chosen): string {
+  return linkText(experimentOf(scene, state), scene.defaults);
+}
+
+/** The link of the trial as it was set up, before anything was tuned. */
+export function linkAsSetUp(scene: SceneMessage): string {
+  const { controller, parameters, goal_m } = scene.scenario;
+  return linkOf({ ...scene, parameters }, { controller, goal_m });
+}
+
+function oneOf<T extends string>(field: string, value: string, known: readonly T[]): T {
+  const found = known.find((name) => name === value);
+  return found ?? refuse(field, value, `one of ${known.join(', ')}`);
+}
+
+/** Of the kind that the parameter's default has; whether it is within its range is the server's business. */
+function readParameter(
+  name: keyof Parameters,
+  text: string,
+  defaults: Parameters,
+): Partial<Parameters> {
+  if (typeof defaults[name] === 'number') return { [name]: readNumber(name, text) };
+  if (typeof defaults[name] === 'boolean') {
+    return { [name]: oneOf(name, text, ['true', 'false']) === 'true' };
+  }
+  const field = GROUPS.flatMap(({ fields }) => fields).find((one) => one.name === name);
+  if (field?.kind !== 'choice') return { [name]: text };
+  const choices = field.options.map(([option]) => option);
+  return { [name]: oneOf(name, text, choices) };
+}
+
+function decoded(text: string): string {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    throw new TextError(`“${text}” is damaged`);
+  }
+}
+
+/** Names and values, each name once and known. */
+function readPairs(text: string, known: Known): ReadonlyMap<string, string> {
+  const pairs = new Map<string, string>();
+  for (const piece of text.split('&')) {
+    const [name, value] = halves(decoded(piece), '=');
+    if (value === undefined) throw new TextError(`“${name}” has no value`);
+    if (pairs.has(name)) throw new TextError(`${name} stands there twice`);
+    const isKnown =
+      FIELDS.includes(name) || LAST_FIELDS.includes(name) || isParameter(name, known.defaults);
+    if (!isKnown) throw new TextError(`there is nothing named “${name}” (its value is “${value}”)`);
+    pairs.set(name, value);
+  }
+  return pairs;
+}
+
+function readExperiment(pairs: ReadonlyMap<string, string>, known: Known): Experiment {
+  const must = (name: string): string => {
+    const value = pairs.get(name);
+    if (value === undefined) throw new TextError(`${name} is missing`);
+    return value;
+  };
+  const may = <T>(name: string, read: (field: string, text: string) => T): T | null => {
+    const value = pairs.get(name);
+    return value === undefined ? null : read(name, value);
+  };
+  let parameters: Partial<Parameters> = {};
+  for (const [name, value] of pairs) {
+    if (!isParameter(name, known.defaults)) continue;
+    parameters = { ...parameters, ...readParameter(name, value, known.defaults) };
+  }
+  return {
+    map: oneOf('map', must('map'), known.maps),
+    controller: oneOf('controller', must('controller'), known.controllers),
+    positioner: may('positioner', (field, text) => oneOf(field, text, POSITIONERS)),
+    seed: readWhole('seed', must('seed')),
+    start_m: may('start', readPlace),
+    goal_m: may('goal', readPlace),
+    parameters: tuned({ ...known.defaults, ...parameters }, known.defaults),
+    disturbances: may('disturbances', readWhole) ?? 0,
+    script: may('script', readScript) ?? [],
+  };
+}
+
+/** What the part of an address after `#` asks for. */
+export function experimentFrom(hash: string, known: Known): Reading {
+  const text = hash.replace(/^#/, '');
+  if (text === '') return { kind: 'none' };
+  const version = /^v=([^&]*)/.exec(text)?.[1];
+  try {
+    if (version === undefined) {
+      throw new TextError(`“#${text}” does not begin with #v=${LINK_VERSION}`);
+    }
+    if (version !== String(LINK_VERSION)) {
+      throw new TextError(`v is “${version}”, this page reads ${LINK_VERSION}`);
+    }
+    return { kind: 'experiment', experiment: readExperiment(readPairs(text, known), known) };
+  } catch (error) {
+    if (!(error instanceof TextError)) throw error;
+    return { kind: 'broken', why: `This link is no experiment: ${error.message}.` };
+  }
+}
+
+/** The command that sets an experiment up. */
+export function loadMessage(experiment: Experiment, defaults: Parameters): ClientMessage {
+  const { map, controller, positioner, seed, start_m, goal_m, disturbances, script } = experiment;
+  return {
+    type: 'load_scenario',
+    map,
+    controller,
+    seed,
+    disturbances,
+    script: [...script],
+    parameters: { ...defaults, ...experiment.parameters },
+    ...(positioner && { positioner }),
+    ...(start_m && { start_m: [start_m[0], start_m[1]] }),
+    ...(goal_m && { goal_m: [goal_m[0], goal_m[1]] }),
+  };
+}
+
+/** An experiment in a few words. */
+export function experimentWords({ map, controller, seed }: Experiment): string {
+  return `map ${map}, ${CONTROLLER_LABELS[controller]}, seed ${seed}`;
+}

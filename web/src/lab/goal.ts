@@ -1,0 +1,17 @@
+// The goal, for what follows from it.
+
+import { createMemo, type Accessor } from 'solid-js';
+import type { Lab } from './lab';
+import type { Vec2 } from '../plan/transform';
+
+/** A state comes every frame, another goal seldom. */
+export function createGoal(lab: Lab): Accessor<Vec2 | undefined> {
+  return createMemo<Vec2 | undefined>(
+    () => {
+      const goal_m = lab.state()?.goal_m;
+      return goal_m ? [goal_m[0], goal_m[1]] : undefined;
+    },
+    undefined,
+    { equals: (a, b) => a?.[0] === b?.[0] && a?.[1] === b?.[1] },
+  );
+}

@@ -1,0 +1,148 @@
+import { describe, expect, it } from 'vitest';
+import { EMPTY, LOG_LINES, placeOfError, reduce, type Input, type Model } from './model';
+import { PROTOCOL_VERSION, type EventMessage, type ServerMessage } from '../net/protocol.gen';
+import { comparisonOf, sceneOf, stateAt } from './testing';
+
+const message = (one: ServerMessage): Input => ({ type: 'message', message: one });
+const scene = (map = 'posts', trial = 0): Input =>
+  message({ type: 'scene', ...sceneOf(map, trial) });
+const state = (tick: number): Input => message({ type: 'state', ...stateAt(tick) });
+const event = (tick: number, kind: EventMessage['kind'] = 'switch'): Input =>
+  message({ type: 'event', tick, sim_time_s: tick * 0.008, kind, text: `at ${tick}` });
+const play = (...inputs: Input[]): Model => inputs.reduce(reduce, EMPTY);
+
+describe('messages', () => {
+  it('keep the newest scene and state', () => {
+    const model = play(scene(), state(1), state(2));
+    expect(model.scene?.map).toBe('posts');
+    expect(model.state?.tick).toBe(2);
+  });
+
+  it('of another protocol stop the page', () => {
+    const hello = {
+      protocol: 99,
+      session: 'main',
+      version: '9',
+      role: 'operator',
+      epoch: 1,
+      operator_present: true,
+      asked: false,
+      adapter: '',
+    } as const;
+    expect(play(message({ type: 'hello', ...hello })).link.kind).toBe('outdated');
+    expect(play(message({ type: 'hello', ...hello, protocol: PROTOCOL_VERSION })).link.kind).toBe(
+      'connecting',
+    );
+  });
+});
+
+describe('the timeline', () => {
+  it('forgets marks after a tick to which time was turned back, and no others', () => {
+    const model = play(state(100), event(40), event(90), event(100), state(50));
+    expect(model.marks.map(({ tick }) => tick)).toEqual([40]);
+    expect(model.log).toHaveLength(3);
+  });
+
+  it('keeps a mark that arrives before its state', () => {
+    expect(play(state(99), event(100), state(100)).marks).toHaveLength(1);
+  });
+
+  it('starts anew with a new trial', () => {
+    expect(play(event(0, 'goal'), event(0, 'session')).marks.map(({ kind }) => kind)).toEqual([
+      'session',
+    ]);
+    expect(play(event(5, 'goal'), event(9, 'session')).marks).toHaveLength(2);
+  });
+
+  it('is empty in another trial, not in the same one', () => {
+    expect(play(scene(), event(5), scene()).marks).toHaveLength(1);
+    expect(play(scene(), event(5), scene('posts', 1)).marks).toHaveLength(0);
+  });
+});
+
+describe('a comparison', () => {
+  const link = (one: Model['link']): Input => ({ type: 'link', link: one });
+  it('of before the connection was lost is told anew, or is no more', () => {
+    const before = play(
+      link({ kind: 'live' }),
+      scene(),
+      message({ type: 'comparison', ...comparisonOf(0, []) }),
+    );
+    expect(before.comparison).toBeDefined();
+    const lost = reduce(before, link({ kind: 'lost', attempt: 1 }));
+    expect(lost.comparison).toBeDefined();
+    expect(reduce(lost, link({ kind: 'live' })).comparison).toBeUndefined();
+  });
+});
+
+describe('the log', () => {
+  it('counts what repeats', () => {
+    const refusal = message({ type: 'error', code: 'in_wall', message: 'In a wall.' });
+    const { log, refusals } = play(refusal, refusal, refusal);
+    expect(log.map(({ text, count }) => [text, count])).toEqual([['In a wall.', 3]]);
+    expect(refusals).toBe(3);
+  });
+
+  it('is bounded and gives each line its own id', () => {
+    const model = play(...Array.from({ length: LOG_LINES + 50 }, (_, tick) => event(tick)));
+    expect(model.log).toHaveLength(LOG_LINES);
+    expect(new Set(model.log.map(({ id }) => id)).size).toBe(LOG_LINES);
+    expect(model.log.at(-1)?.text).toBe(`at ${LOG_LINES + 49}`);
+  });
+
+  it('says once that the connection was lost, and that it is back', () => {
+    const link = (one: Model['link']): Input => ({ type: 'link', link: one });
+    const model = play(
+      link({ kind: 'live' }),
+      link({ kind: 'lost', attempt: 1 }),
+      link({ kind: 'lost', attempt: 2 }),
+      link({ kind: 'live' }),
+    );
+    expect(model.log.map(({ kind }) => kind)).toEqual(['link', 'link']);
+  });
+});
+
+describe('a refusal', () => {
+  const error = (field?: string): Parameters<typeof placeOfError>[0] => ({
+    code: 'bad',
+    message: 'no',
+    ...(field === undefined ? {} : { field }),
+  });
+
+  it('appears where its field is', () => {
+    const model = play(scene(), { type: 'sent', command: 'run' });
+    expect(placeOfError(error('x_m'), model)).toBe('workspace');
+    expect(placeOfError(error('parameters.threshold_m'), model)).toBe('controller');
+    expect(placeOfError(error('seed'), model)).toBe('transport');
+  });
+
+  it('appears at the last command where no field says', () => {
+    expect(placeOfError(error(), play({ type: 'sent', command: 'drag' }))).toBe('workspace');
+    expect(placeOfError(error(), EMPTY)).toBe('session');
+  });
+
+  it('is found by its code where that says more', () => {
+    const stale = { ...error('epoch'), code: 'stale_epoch' };
+    expect(placeOfError(stale, play({ type: 'sent', command: 'run' }))).toBe('session');
+  });
+
+  it('of a silent hand is counted, and stays when the hold ends', () => {
+    const silent = message({ type: 'error', code: 'hand_silent', message: 'let go' });
+    const model = play(silent, { type: 'sent', command: 'release' });
+    expect(model.silences).toBe(1);
+    expect(model.notices.workspace?.text).toBe('let go');
+  });
+
+  it('goes with the next attempt or when it is dismissed, but a newer one stays', () => {
+    const refused = play(
+      { type: 'sent', command: 'set_goal' },
+      message({ type: 'error', code: 'in_wall', message: 'In a wall.', field: 'x_m' }),
+    );
+    const id = refused.notices.workspace?.id ?? 0;
+    expect(refused.notices.workspace?.text).toBe('In a wall.');
+    expect(reduce(refused, { type: 'sent', command: 'set_goal' }).notices).toEqual({});
+    expect(reduce(refused, { type: 'sent', command: 'run' }).notices.workspace).toBeDefined();
+    expect(reduce(refused, { type: 'dismiss', place: 'workspace', id }).notices).toEqual({});
+    expect(reduce(refused, { type: 'dismiss', place: 'workspace', id: id - 1 })).toBe(refused);
+  });
+});

@@ -1,0 +1,289 @@
+// What the page knows, and how a message changes it. Pure.
+
+import {
+  PROTOCOL_VERSION,
+  type ClientMessage,
+  type ComparisonMessage,
+  type ErrorMessage,
+  type EventKind,
+  type EventMessage,
+  type Hello,
+  type OverlayMessage,
+  type SceneMessage,
+  type SeenMessage,
+  type ServerMessage,
+  type StateMessage,
+} from '../net/protocol.gen';
+
+/** Lines of the log that are kept. */
+export const LOG_LINES = 300;
+/** Marks of the timeline that are kept. */
+export const MARKS = 500;
+
+export type Link =
+  | { readonly kind: 'connecting' }
+  | { readonly kind: 'live' }
+  | { readonly kind: 'lost'; readonly attempt: number }
+  /** This page and the server speak different versions. */
+  | { readonly kind: 'outdated' };
+
+/** Panels at which a message can appear. */
+export type Place = 'workspace' | 'controller' | 'transport' | 'session' | 'compare';
+
+export interface LogLine {
+  readonly id: number;
+  /** Simulated time; none for what happened outside of it. */
+  readonly sim_time_s: number | undefined;
+  readonly kind: EventKind | 'error' | 'link';
+  readonly text: string;
+  /** What happened, when it belongs to the trial. */
+  readonly event: EventMessage | undefined;
+  /** How often in a row. */
+  readonly count: number;
+}
+
+export interface Notice {
+  readonly id: number;
+  /** A refusal of the server, or something that this page says. */
+  readonly tone: 'error' | 'hint';
+  readonly text: string;
+}
+
+export interface Model {
+  readonly link: Link;
+  readonly hello: Hello | undefined;
+  readonly scene: SceneMessage | undefined;
+  readonly state: StateMessage | undefined;
+  readonly overlay: OverlayMessage | undefined;
+  readonly seen: SeenMessage | undefined;
+  readonly log: readonly LogLine[];
+  readonly marks: readonly EventMessage[];
+  /** The last fork of this trial, as far as it has come. */
+  readonly comparison: ComparisonMessage | undefined;
+  readonly notices: Readonly<Partial<Record<Place, Notice>>>;
+  /** Grows with each refusal and each new connection, so that forms know when to show the server's truth again. */
+  readonly refusals: number;
+  /** Grows when the server has let go of a bead, since it heard nothing of the hand. */
+  readonly silences: number;
+  readonly lastCommand: ClientMessage['type'] | undefined;
+  readonly nextId: number;
+}
+
+export type Input =
+  | { readonly type: 'link'; readonly link: Link }
+  | { readonly type: 'message'; readonly message: ServerMessage }
+  | { readonly type: 'sent'; readonly command: ClientMessage['type'] }
+  | { readonly type: 'notice'; readonly place: Place; readonly text: string }
+  | { readonly type: 'dismiss'; readonly place: Place; readonly id: number };
+
+export const EMPTY: Model = {
+  link: { kind: 'connecting' },
+  hello: undefined,
+  scene: undefined,
+  state: undefined,
+  overlay: undefined,
+  seen: undefined,
+  log: [],
+  marks: [],
+  comparison: undefined,
+  notices: {},
+  refusals: 0,
+  silences: 0,
+  lastCommand: undefined,
+  nextId: 1,
+};
+
+const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
+  set_goal: 'workspace',
+  clear_goal: 'workspace',
+  drag: 'workspace',
+  release: 'workspace',
+  disturb: 'workspace',
+  select_controller: 'controller',
+  configure: 'controller',
+  run: 'transport',
+  pause: 'transport',
+  step: 'transport',
+  set_speed: 'transport',
+  reset: 'transport',
+  load_scenario: 'transport',
+  rewind: 'transport',
+  fork: 'compare',
+  take_control: 'session',
+  release_control: 'session',
+};
+
+const PLACE_OF_FIELD: Partial<Record<string, Place>> = {
+  goal: 'workspace',
+  goal_m: 'workspace',
+  drag: 'workspace',
+  x_m: 'workspace',
+  y_m: 'workspace',
+  controller: 'controller',
+  map: 'transport',
+  seed: 'transport',
+  factor: 'transport',
+  tick: 'transport',
+  ticks: 'transport',
+};
+
+/** The server let go of the bead, since it heard nothing of the hand. */
+const HAND_SILENT = 'hand_silent';
+
+const PLACE_OF_CODE: Partial<Record<string, Place>> = {
+  stale_epoch: 'session',
+  [HAND_SILENT]: 'workspace',
+};
+
+/** Where the cause of a refusal is on the page: its code or its field says, else the last command. */
+export function placeOfError(error: ErrorMessage, model: Model): Place {
+  const place = PLACE_OF_CODE[error.code];
+  if (place) return place;
+  if (model.lastCommand === 'fork') return PLACE_OF_COMMAND.fork;
+  const field = error.field?.split('.').at(-1);
+  if (field !== undefined) {
+    if (model.scene && Object.hasOwn(model.scene.parameters, field)) return 'controller';
+    const place = PLACE_OF_FIELD[field];
+    if (place) return place;
+  }
+  return model.lastCommand ? PLACE_OF_COMMAND[model.lastCommand] : 'session';
+}
+
+function withLine(
+  model: Model,
+  kind: LogLine['kind'],
+  text: string,
+  sim_time_s: number | undefined,
+  event?: EventMessage,
+): Model {
+  const last = model.log.at(-1);
+  if (last?.kind === kind && last.text === text) {
+    return { ...model, log: [...model.log.slice(0, -1), { ...last, count: last.count + 1 }] };
+  }
+  const line: LogLine = { id: model.nextId, sim_time_s, kind, text, event, count: 1 };
+  return {
+    ...model,
+    log: [...model.log, line].slice(-LOG_LINES),
+    nextId: model.nextId + 1,
+  };
+}
+
+function withNotice(model: Model, place: Place, tone: Notice['tone'], text: string): Model {
+  return {
+    ...model,
+    notices: { ...model.notices, [place]: { id: model.nextId, tone, text } },
+    nextId: model.nextId + 1,
+  };
+}
+
+function withoutNotice(model: Model, place: Place): Model {
+  if (!model.notices[place]) return model;
+  const notices = Object.entries(model.notices).filter(([name]) => name !== place);
+  return { ...model, notices: Object.fromEntries(notices) };
+}
+
+function withLink(model: Model, link: Link): Model {
+  const next = { ...model, link };
+  if (link.kind === 'lost' && model.link.kind === 'live') {
+    // Who has ended closes the socket, and nothing is tried again.
+    if (typeof model.state?.ended === 'string') return next;
+    return withLine(next, 'link', 'Connection lost; trying again.', undefined);
+  }
+  if (link.kind === 'live' && model.link.kind === 'lost') {
+    // The session tells anew what happened in it.
+    const own = model.log.filter((line) => line.kind === 'link' || line.kind === 'error');
+    // What was chosen while the line died may have come to nothing.
+    const refusals = next.refusals + 1;
+    const fresh = { ...next, log: own, marks: [], comparison: undefined, refusals };
+    return withLine(fresh, 'link', 'Connected again.', undefined);
+  }
+  return next;
+}
+
+function withState(model: Model, state: StateMessage): Model {
+  const turnedBack = model.state !== undefined && state.newest_tick < model.state.newest_tick;
+  // What happened since time runs on again may have been told before this state.
+  const kept = Math.max(state.newest_tick, state.tick);
+  const marks = turnedBack ? model.marks.filter((mark) => mark.tick <= kept) : model.marks;
+  return { ...model, state, marks };
+}
+
+function withMessage(model: Model, message: ServerMessage): Model {
+  switch (message.type) {
+    case 'hello': {
+      const next: Model = {
+        ...model,
+        hello: message,
+        link: message.protocol === PROTOCOL_VERSION ? model.link : { kind: 'outdated' },
+      };
+      return message.asked && !model.hello?.asked
+        ? withLine(next, 'link', 'Another browser asks for control.', undefined)
+        : next;
+    }
+    case 'scene': {
+      // Another trial: what was seen, marked and complained about is over.
+      const otherTrial = model.scene !== undefined && model.scene.trial !== message.trial;
+      return otherTrial
+        ? {
+            ...model,
+            scene: message,
+            overlay: undefined,
+            seen: undefined,
+            comparison: undefined,
+            marks: [],
+            notices: {},
+          }
+        : { ...model, scene: message };
+    }
+    case 'state':
+      return withState(model, message);
+    case 'overlay':
+      return { ...model, overlay: message };
+    case 'seen':
+      return { ...model, seen: message };
+    case 'event': {
+      // A session says something at tick 0 when it is set up anew: what came before is over.
+      const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;
+      const marked = { ...model, marks: [...before, message].slice(-MARKS) };
+      return withLine(marked, message.kind, message.text, message.sim_time_s, message);
+    }
+    case 'comparison':
+      return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
+    case 'error': {
+      const place = placeOfError(message, model);
+      const logged = withLine(model, 'error', message.message, model.state?.sim_time_s);
+      return withNotice(
+        {
+          ...logged,
+          refusals: logged.refusals + 1,
+          silences: logged.silences + (message.code === HAND_SILENT ? 1 : 0),
+        },
+        place,
+        'error',
+        message.message,
+      );
+    }
+  }
+}
+
+export function reduce(model: Model, input: Input): Model {
+  switch (input.type) {
+    case 'link':
+      return withLink(model, input.link);
+    case 'message':
+      return withMessage(model, input.message);
+    case 'sent': {
+      // A new attempt: what the last one met is no longer news.
+      const place = PLACE_OF_COMMAND[input.command];
+      // The end of a hold is none: why it ended stays.
+      if (input.command === 'release') return { ...model, lastCommand: input.command };
+      return { ...withoutNotice(model, place), lastCommand: input.command };
+    }
+    case 'notice':
+      return withNotice(model, input.place, 'hint', input.text);
+    case 'dismiss':
+      return model.notices[input.place]?.id === input.id
+        ? withoutNotice(model, input.place)
+        : model;
+  }
+}

@@ -1,0 +1,76 @@
+// The page to log in with: the token goes to the server once, in a body, and nowhere else.
+
+import { problemText } from '../../net/problem';
+import { createTheme } from '../../ui/theme';
+import { takeToken } from './token';
+
+function byTag<T extends Element>(selector: string, kind: new () => T): T {
+  const found = document.querySelector(selector);
+  if (!(found instanceof kind)) throw new Error(`login/index.html has no ${selector}`);
+  return found;
+}
+
+const form = byTag('form', HTMLFormElement);
+const field = byTag('#token', HTMLInputElement);
+const button = byTag('button', HTMLButtonElement);
+const status = byTag('[role=status]', HTMLElement);
+
+createTheme();
+
+function say(text: string, isRefusal = false): void {
+  status.textContent = text;
+  field.setAttribute('aria-invalid', String(isRefusal));
+}
+
+async function logIn(token: string): Promise<void> {
+  button.disabled = true;
+  say('Logging in…');
+  try {
+    const response = await fetch('/login', {
+      method: 'POST',
+      headers: { 'content-type': 'application/json' },
+      body: JSON.stringify({ token }),
+    });
+    if (response.ok) {
+      enter();
+      return;
+    }
+    const problem: unknown = await response.json().catch(() => undefined);
+    say(problemText(problem) ?? `The server answered ${response.status}.`, true);
+  } catch {
+    say('The server does not answer.', true);
+  }
+  button.disabled = false;
+  field.focus();
+  field.select();
+}
+
+form.addEventListener('submit', (event) => {
+  event.preventDefault();
+  void logIn(field.value.trim());
+});
+
+/** Where the page that was asked for stands, now that it may be seen. */
+function enter(): void {
+  if (window.location.pathname === '/login') window.location.replace('/');
+  else window.location.reload();
+}
+
+/** Who follows a link from another site comes without the cookie, though the browser may have it. */
+async function isKnown(): Promise<boolean> {
+  const response = await fetch('/api/maps', { method: 'HEAD' }).catch(() => undefined);
+  return response?.ok === true;
+}
+
+async function begin(carried: string | undefined): Promise<void> {
+  if (await isKnown()) enter();
+  else if (carried !== undefined) await logIn(carried);
+}
+
+field.focus();
+void begin(takeToken(window));
+// A link that is pasted over this page's address, and differs in nothing but the token, loads nothing.
+window.addEventListener('hashchange', () => {
+  const token = takeToken(window);
+  if (token !== undefined) void logIn(token);
+});

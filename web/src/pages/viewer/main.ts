@@ -1,0 +1,93 @@
+// A page for Rerun's viewer alone, framed by the view of recordings: `/viewer/?recording=ID&theme=dark`.
+
+import { problemText } from '../../net/problem';
+import { keptAtHome } from './home';
+import { themeOf } from '../../features/recordings/viewerMessages';
+import { loadViewer, type WebHandle } from './rerun';
+import { Scheme } from './scheme';
+
+const PANIC_CHECK_MS = 1000;
+
+function part(selector: 'canvas'): HTMLCanvasElement;
+function part(selector: 'p'): HTMLParagraphElement;
+function part(selector: 'canvas' | 'p'): HTMLElement {
+  const found = document.querySelector(selector);
+  if (!found) throw new Error(`viewer/index.html has no ${selector}`);
+  return found;
+}
+
+const canvas = part('canvas');
+const status = part('p');
+
+function show(state: 'loading' | 'open' | 'failed', text: string): void {
+  document.body.dataset.state = state;
+  status.textContent = text;
+}
+
+async function check(address: string): Promise<void> {
+  const response = await fetch(address, { method: 'HEAD' });
+  if (!response.ok) {
+    const problem: unknown = await fetch(address)
+      .then((again) => again.json())
+      .catch(() => undefined);
+    throw new Error(problemText(problem) ?? `The server answered ${response.status}.`);
+  }
+}
+
+function watchForPanic(handle: WebHandle): void {
+  if (handle.has_panicked()) {
+    show(
+      'failed',
+      `Rerun's viewer has crashed: ${handle.panic_message() ?? 'it does not say why'}`,
+    );
+    return;
+  }
+  setTimeout(() => {
+    watchForPanic(handle);
+  }, PANIC_CHECK_MS);
+}
+
+async function open(recording: string): Promise<void> {
+  const address = new URL(`/api/recordings/${encodeURIComponent(recording)}.rrd`, location.origin);
+  await check(address.href);
+  show('loading', 'Loading Rerun’s viewer, 13 MB the first time…');
+  const Handle = await loadViewer();
+  show('loading', 'Opening the recording…');
+  const handle = new Handle({
+    url: address.href,
+    render_backend: 'webgl',
+    hide_welcome_screen: true,
+    enable_history: false,
+    persist: false,
+    on_viewer_event: (event) => {
+      if ((JSON.parse(event) as { type?: string }).type === 'recording_open') show('open', '');
+    },
+  });
+  await handle.start(canvas);
+  watchForPanic(handle);
+}
+
+function start(): void {
+  const asked = new URLSearchParams(location.search);
+  const theme = asked.get('theme') === 'light' ? 'light' : 'dark';
+  const scheme = new Scheme(theme);
+  globalThis.fetch = keptAtHome(fetch.bind(globalThis), location.origin);
+  globalThis.matchMedia = scheme.answering(matchMedia.bind(globalThis));
+  // The viewer tells its shaders' life stories: tens of thousands of lines.
+  // eslint-disable-next-line no-console
+  console.debug = () => undefined;
+
+  document.documentElement.dataset.theme = theme;
+  addEventListener('message', ({ origin, data }) => {
+    const changed = origin === location.origin ? themeOf(data) : undefined;
+    if (!changed) return;
+    document.documentElement.dataset.theme = changed;
+    scheme.set(changed);
+  });
+  open(asked.get('recording') ?? '').catch((reason: unknown) => {
+    const why = reason instanceof Error ? reason.message : String(reason);
+    show('failed', `The recording could not be opened: ${why}`);
+  });
+}
+
+start();

@@ -1,0 +1,78 @@
+// The workspace from above.
+
+import { createEffect, createMemo, createSignal, type Accessor, type JSX } from 'solid-js';
+import type { Lab } from '../lab/lab';
+import type { Palette } from '../ui/palette';
+import { fitView, planView, type View } from './transform';
+import type { Fields } from '../app/fields';
+import { createGround } from './baseMap';
+import type { Layer } from '../lab/layers';
+import { paint } from './paint';
+import type { Stage } from './interaction';
+import { StageCanvas, type Size } from './ViewCanvas';
+
+/** Room for the numbers of the axes. */
+const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
+
+export interface StageProps {
+  readonly lab: Lab;
+  readonly stage: Stage;
+  readonly fields: Fields;
+  readonly layers: Accessor<ReadonlySet<Layer>>;
+  readonly palette: Accessor<Palette>;
+  readonly helpId: string;
+}
+
+export function PlanStage(props: StageProps): JSX.Element {
+  const { lab, stage, layers, palette } = props;
+  const { hand, reachPx, focused, cursor } = stage;
+  const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
+  const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
+
+  const view = createMemo<View | undefined>(() => {
+    const scene = lab.scene();
+    const { width, height } = size();
+    return scene && width > 0 ? fitView(scene.workspace, width, height, INSETS) : undefined;
+  });
+  createEffect(() => {
+    const now = view();
+    stage.setView(now && planView(now));
+  });
+  const ground = createGround(lab, layers, palette, props.fields, view);
+
+  createEffect(() => {
+    const groundNow = ground();
+    const onto = canvas();
+    if (!groundNow || !onto) return;
+    paint(onto, size(), {
+      ground: groundNow,
+      state: lab.state(),
+      history: lab.history,
+      drag: hand.drag(),
+      grabRadiusPx: reachPx(),
+      cursor: focused() ? cursor() : undefined,
+    });
+  });
+
+  // The geometry on the screen, for tests and for other tools that read the page.
+  createEffect(() => {
+    const now = view();
+    const onto = canvas();
+    if (!now || !onto) return;
+    onto.dataset.pxPerM = String(now.pxPerM);
+    onto.dataset.originX = String(now.originX);
+    onto.dataset.originY = String(now.originY);
+  });
+
+  return (
+    <StageCanvas
+      lab={lab}
+      stage={stage}
+      label="Workspace"
+      class="plan-canvas"
+      helpId={props.helpId}
+      onCanvas={setCanvas}
+      onSize={setSize}
+    />
+  );
+}

@@ -1,0 +1,82 @@
+// The canvas of a view, with mouse, touch and keyboard on it.
+
+import { createEffect, onCleanup, onMount, type JSX } from 'solid-js';
+import type { Lab } from '../lab/lab';
+import type { Vec2 } from './transform';
+import { attachKeyboard } from './keyboard';
+import { attachPointer } from './pointer';
+import type { Stage } from './interaction';
+
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+export function StageCanvas(props: {
+  lab: Lab;
+  stage: Stage;
+  label: string;
+  class: string;
+  helpId: string;
+  /** Called once, when the canvas is on the page; what it listens to comes after the hand. */
+  onCanvas: (canvas: HTMLCanvasElement) => void;
+  onSize: (size: Size) => void;
+  /** Where on the table an arrow key leads; as it points when left out. */
+  turned?: (arrow: Vec2) => Vec2;
+}): JSX.Element {
+  const { lab, stage } = props;
+  let canvas!: HTMLCanvasElement;
+
+  onMount(() => {
+    const observer = new ResizeObserver(() => {
+      props.onSize({ width: canvas.clientWidth, height: canvas.clientHeight });
+    });
+    observer.observe(canvas);
+    const detach = attachPointer(canvas, lab, stage.hand, stage.view, stage.setPointing);
+    const cursor = {
+      at: stage.cursor,
+      put: stage.setCursor,
+      turned: (arrow: Vec2) => props.turned?.(arrow) ?? arrow,
+    };
+    attachKeyboard(canvas, lab, stage.hand, stage.view, cursor, stage.place, stage.picker.cancel);
+    onCleanup(() => {
+      observer.disconnect();
+      detach();
+      stage.leave();
+    });
+    props.onCanvas(canvas);
+  });
+
+  // For tests and for other tools that read the page.
+  createEffect(() => {
+    const state = lab.state();
+    if (!state) return;
+    canvas.dataset.tick = String(state.tick);
+    canvas.dataset.bead = state.bead_m.slice(0, 2).join(',');
+    canvas.dataset.tool = state.tool_m.slice(0, 2).join(',');
+    canvas.dataset.goal = state.goal_m?.slice(0, 2).join(',') ?? '';
+  });
+
+  const cursorName = (): string => {
+    if (stage.hand.drag().kind === 'held') return 'holding';
+    return stage.reachPx() === undefined ? 'free' : 'near-bead';
+  };
+
+  return (
+    <canvas
+      ref={canvas}
+      class={`stage-canvas ${props.class}`}
+      tabindex="0"
+      role="application"
+      aria-label={props.label}
+      aria-describedby={props.helpId}
+      data-cursor={cursorName()}
+      onFocus={() => {
+        stage.setFocused(true);
+      }}
+      onBlur={() => {
+        stage.setFocused(false);
+      }}
+    />
+  );
+}

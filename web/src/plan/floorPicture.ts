@@ -1,0 +1,74 @@
+// The pictures that lie on the floor of the scene: the plan, and around it the numbers of the axes, as large as
+// they need to be read from afar.
+
+import type { Palette } from '../ui/palette';
+import type { Rect } from '../net/protocol.gen';
+import { fitView, type Insets, type View } from './transform';
+import { drawGrid } from './drawMap';
+import type { Ground } from './baseMap';
+import { paintGround } from './paint';
+
+/** The longer side of the workspace, in pixels of the plan. */
+const LONGER_PX = 460;
+/** Pixels of the picture a pixel of the plan. */
+const RATIO = 2;
+/** Room for the numbers of the axes. */
+const INSETS = { left: 40, right: 12, top: 12, bottom: 26 };
+
+/** A picture of the ground in pixels of `view`, each `ratio` of the canvas. */
+export interface GroundPicture {
+  readonly canvas: HTMLCanvasElement;
+  readonly view: View;
+  readonly ratio: number;
+  readonly workspace: Rect;
+}
+
+const widthOf = ({ x_min_m, x_max_m }: Rect): number => x_max_m - x_min_m;
+const heightOf = ({ y_min_m, y_max_m }: Rect): number => y_max_m - y_min_m;
+const pxPerM = (workspace: Rect): number =>
+  LONGER_PX / Math.max(widthOf(workspace), heightOf(workspace));
+
+/** How far the numbers reach beyond the workspace, m. */
+export function groundMargins(workspace: Rect): Insets {
+  const perM = pxPerM(workspace);
+  const { left, right, top, bottom } = INSETS;
+  return { left: left / perM, right: right / perM, top: top / perM, bottom: bottom / perM };
+}
+
+function createPicture(workspace: Rect, insets: Insets): GroundPicture {
+  const perM = pxPerM(workspace);
+  const width_px = Math.ceil(widthOf(workspace) * perM) + insets.left + insets.right;
+  const height_px = Math.ceil(heightOf(workspace) * perM) + insets.top + insets.bottom;
+  const canvas = document.createElement('canvas');
+  canvas.width = RATIO * width_px;
+  canvas.height = RATIO * height_px;
+  return { canvas, view: fitView(workspace, width_px, height_px, insets), ratio: RATIO, workspace };
+}
+
+/** Of the workspace alone, because it is drawn often. */
+export function createGroundPicture(workspace: Rect): GroundPicture {
+  return createPicture(workspace, { left: 0, right: 0, top: 0, bottom: 0 });
+}
+
+/** For the numbers around the workspace, which stand still. */
+export function createNumbersPicture(workspace: Rect): GroundPicture {
+  return createPicture(workspace, INSETS);
+}
+
+/** Draws the ground on it anew. */
+export function repaintGround({ canvas, ratio }: GroundPicture, ground: Ground): void {
+  // Without transparency nothing has to be converted on its way to the graphics card.
+  const ctx = canvas.getContext('2d', { alpha: false });
+  if (!ctx) return;
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  paintGround(ctx, ground);
+}
+
+export function repaintNumbers(picture: GroundPicture, palette: Palette): void {
+  const { canvas, view, ratio, workspace } = picture;
+  const ctx = canvas.getContext('2d');
+  if (!ctx) return;
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.clearRect(0, 0, canvas.width, canvas.height);
+  drawGrid(ctx, workspace, view, palette);
+}

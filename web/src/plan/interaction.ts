@@ -1,0 +1,95 @@
+// What is done on the workspace, whichever view shows it: the hand, the pointer, the keyboard's cursor.
+
+import { createEffect, createMemo, createSignal, on, type Accessor, type Setter } from 'solid-js';
+import type { Lab } from '../lab/lab';
+import type { TableView, Vec2 } from './transform';
+import { createHand, type Hand } from './hand';
+import { createPicker, type Picker } from './picker';
+import { reachesBead, type Pointing } from './pointer';
+
+export interface Stage {
+  /** Of the view that is open; none before it knows its size. */
+  readonly view: Accessor<TableView | undefined>;
+  readonly setView: Setter<TableView | undefined>;
+  readonly hand: Hand;
+  readonly picker: Picker;
+  readonly setPointing: Setter<Pointing | undefined>;
+  /** Radius of the ring around a bead that can be taken from where the pointer is. */
+  readonly reachPx: Accessor<number | undefined>;
+  readonly cursor: Accessor<Vec2 | undefined>;
+  readonly setCursor: Setter<Vec2 | undefined>;
+  readonly focused: Accessor<boolean>;
+  readonly setFocused: Setter<boolean>;
+  /** The point of the table that a person points at, by pointer or else by keyboard. */
+  readonly at: Accessor<Vec2 | undefined>;
+  /** Somebody asked for this place, or it is a goal. */
+  readonly place: (at: Vec2) => void;
+  /** A view goes: what was being done in it ends. */
+  leave(): void;
+}
+
+export function createStage(lab: Lab): Stage {
+  const [view, setView] = createSignal<TableView>();
+  const [pointing, setPointing] = createSignal<Pointing>();
+  const [cursor, setCursor] = createSignal<Vec2>();
+  const [focused, setFocused] = createSignal(false);
+  const picker = createPicker();
+  const place = (at: Vec2): void => {
+    if (picker.offer(at) || !hand.mayAct()) return;
+    lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+  };
+  const hand = createHand(lab, view, place);
+  const reachPx = createMemo(() => {
+    const here = pointing();
+    const canTake = lab.canOperate() && hand.drag().kind !== 'held';
+    return here && canTake && reachesBead(view(), lab.state()?.bead_m, here)
+      ? here.reachPx
+      : undefined;
+  });
+
+  const letGo = (): void => {
+    hand.dispatch({ type: 'cancel' });
+  };
+  createEffect(
+    on(lab.canOperate, (can) => {
+      // A lost socket has let go of the bead on the server; a lost role may not hold it.
+      if (!can) letGo();
+    }),
+  );
+  // A hold that the server has ended, or that was in another trial or a later moment, would take the bead again.
+  createEffect(on([lab.silences, () => lab.scene()?.trial], letGo, { defer: true }));
+  createEffect(
+    on(
+      () => lab.state()?.tick ?? 0,
+      (tick, before = 0) => {
+        if (tick < before) letGo();
+      },
+    ),
+  );
+
+  return {
+    view,
+    setView,
+    hand,
+    picker,
+    setPointing,
+    reachPx,
+    place,
+    cursor,
+    setCursor,
+    focused,
+    setFocused,
+    at: () => {
+      const px = pointing()?.at;
+      if (px) return view()?.toWorld(px);
+      return focused() ? cursor() : undefined;
+    },
+    leave: () => {
+      letGo();
+      picker.cancel();
+      setPointing(undefined);
+      setFocused(false);
+      setView(undefined);
+    },
+  };
+}

@@ -1,0 +1,97 @@
+// The workspace by keyboard: arrows move a cursor, Enter places the goal, D takes the bead and lets
+// it go, Escape lets it go or ends picking.
+
+import type { Lab } from '../lab/lab';
+import { clampToRect, distance, type TableView, type Vec2 } from './transform';
+import type { Hand } from './hand';
+
+const STEP_M = 0.005;
+const ARROWS: Partial<Record<string, Vec2>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+/** Within this of the bead the hand takes it where the cursor is. */
+const REACH_M = 0.02;
+
+export interface Cursor {
+  readonly at: () => Vec2 | undefined;
+  readonly put: (at: Vec2) => void;
+  /** Where on the table an arrow leads that points so on the screen. */
+  readonly turned: (arrow: Vec2) => Vec2;
+}
+
+/** Listens as long as the canvas is there. */
+export function attachKeyboard(
+  canvas: HTMLCanvasElement,
+  lab: Lab,
+  hand: Hand,
+  view: () => TableView | undefined,
+  cursor: Cursor,
+  place: (at: Vec2) => void,
+  escape: () => void,
+): void {
+  const bead = (): Vec2 | undefined => {
+    const state = lab.state();
+    return state && [state.bead_m[0], state.bead_m[1]];
+  };
+  const holds = (): boolean => {
+    const drag = hand.drag();
+    return drag.kind === 'held' && drag.by === 'keyboard';
+  };
+  const px = (at: Vec2): Vec2 | undefined => view()?.toPx(at);
+
+  const move = (direction: Vec2, lift: boolean): void => {
+    const scene = lab.scene();
+    const from = cursor.at() ?? bead();
+    if (!scene || !from) return;
+    const to = clampToRect(scene.workspace, [
+      from[0] + direction[0] * STEP_M,
+      from[1] + direction[1] * STEP_M,
+    ]);
+    cursor.put(to);
+    const at = px(to);
+    if (holds() && at) hand.dispatch({ type: 'move', by: 'keyboard', at, lift });
+  };
+
+  const takeOrRelease = (): void => {
+    if (holds()) {
+      hand.dispatch({ type: 'cancel' });
+      return;
+    }
+    const beadAt = bead();
+    if (!beadAt || !hand.mayAct()) return;
+    // From afar the cursor goes to the bead first: taking it must not fling it across the map.
+    const here = cursor.at();
+    const from = here && distance(here, beadAt) <= REACH_M ? here : beadAt;
+    cursor.put(from);
+    const at = px(from);
+    if (at) hand.dispatch({ type: 'take', at });
+  };
+
+  canvas.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const direction = ARROWS[event.key];
+    if (direction) {
+      move(cursor.turned(direction), event.shiftKey);
+    } else if (event.key === 'Enter') {
+      const at = cursor.at();
+      // A held key is no second goal.
+      if (!at || event.repeat) return;
+      place(at);
+    } else if (event.key === 'd' || event.key === 'D') {
+      // A held key takes once.
+      if (!event.repeat) takeOrRelease();
+    } else if (event.key === 'Escape') {
+      hand.dispatch({ type: 'cancel' });
+      escape();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  });
+  canvas.addEventListener('blur', () => {
+    if (holds()) hand.dispatch({ type: 'cancel' });
+  });
+}

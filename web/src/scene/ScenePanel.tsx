@@ -1,0 +1,216 @@
+// The workspace in space. What draws it is loaded when it is opened for the first time.
+
+import {
+  For,
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  on,
+  onCleanup,
+  untrack,
+  type JSX,
+} from 'solid-js';
+import { centimetres, newtons } from '../ui/format';
+import type { LookName } from './viewpoints';
+import type { SceneView } from './SceneView';
+import { distance } from '../plan/transform';
+import { createGround } from '../plan/baseMap';
+import { createGroundPicture, repaintGround, type GroundPicture } from '../plan/floorPicture';
+import { handOf, remarkOf } from '../plan/paint';
+import type { StageProps } from '../plan/PlanView';
+import { StageCanvas, type Size } from '../plan/ViewCanvas';
+
+const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
+
+export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Element {
+  const { lab, stage, layers, palette } = props;
+  const { hand, reachPx, focused, cursor } = stage;
+  const [drawing, setDrawing] = createSignal<SceneView>();
+  const [problem, setProblem] = createSignal<string>();
+  const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
+  let isGone = false;
+
+  const open = async (canvas: HTMLCanvasElement): Promise<void> => {
+    const { SceneView, NoWebGl } = await import('./SceneView').catch(() => {
+      throw new Error('The 3-D view could not be loaded from the server.');
+    });
+    if (isGone) return;
+    try {
+      setDrawing(new SceneView(canvas, untrack(palette), stage.setView));
+    } catch (reason) {
+      if (!(reason instanceof NoWebGl)) throw reason;
+      throw new Error('This browser shows no 3-D: it has no WebGL 2, or it is switched off.', {
+        cause: reason,
+      });
+    }
+  };
+  const start = (canvas: HTMLCanvasElement): void => {
+    // After the hand, which has heard of the press by now.
+    canvas.addEventListener('pointermove', (event) => {
+      // A click that trembles turns nothing: the goal would not be where it was meant.
+      if (hand.drag().kind === 'pressed') event.stopPropagation();
+    });
+    canvas.addEventListener('pointerdown', ({ isPrimary }) => {
+      // Two fingers turn and zoom; the first one was no click then.
+      if (!isPrimary && hand.drag().kind === 'pressed') hand.dispatch({ type: 'cancel' });
+    });
+    canvas.addEventListener('keydown', (event) => {
+      if (event.ctrlKey || event.altKey || event.metaKey) return;
+      if (drawing()?.key(event.key)) event.preventDefault();
+    });
+    open(canvas).catch((reason: unknown) => {
+      setProblem(reason instanceof Error ? reason.message : String(reason));
+    });
+  };
+  onCleanup(() => {
+    isGone = true;
+    drawing()?.dispose();
+  });
+
+  createEffect(() => {
+    const { width, height } = size();
+    drawing()?.resize(width, height);
+  });
+  createEffect(() => {
+    drawing()?.recolor(palette());
+  });
+  createEffect(() => {
+    const scene = lab.scene();
+    if (scene) drawing()?.show(scene);
+  });
+
+  const picture = createMemo<GroundPicture | undefined>(
+    () => {
+      const workspace = lab.scene()?.workspace;
+      return workspace && createGroundPicture(workspace);
+    },
+    undefined,
+    // The same table keeps its picture.
+    { equals: (a, b) => JSON.stringify(a?.workspace) === JSON.stringify(b?.workspace) },
+  );
+  const ground = createGround(lab, layers, palette, props.fields, () => picture()?.view);
+  createEffect(() => {
+    const [onto, now] = [picture(), ground()];
+    const view = drawing();
+    if (!onto || !now || !view) return;
+    repaintGround(onto, now);
+    view.lay(onto);
+  });
+
+  createEffect(() => {
+    drawing()?.hang(props.fields.field());
+  });
+
+  createEffect(() => {
+    const drag = hand.drag();
+    const holds =
+      drag.kind === 'held' ? drag.by !== 'keyboard' : drag.kind === 'pressed' && drag.onBead;
+    drawing()?.setFree(!holds);
+  });
+  createEffect(
+    on(stage.view, (view) => {
+      // Another view of the table under a hand that holds still: its pixel is another place.
+      const drag = hand.drag();
+      const own = cursor();
+      if (!view || drag.kind !== 'held') return;
+      const at = drag.by === 'keyboard' && own ? view.toPx(own) : drag.at;
+      if (at) hand.dispatch({ type: 'move', by: drag.by, at, lift: drag.lift });
+    }),
+  );
+
+  const pull = createMemo(() => {
+    const [scene, state, view] = [lab.scene(), lab.state(), stage.view()];
+    const drag = hand.drag();
+    if (!scene || !state || !view) return undefined;
+    const hand_m = handOf(drag, state, scene, view.toWorld);
+    return hand_m && { hand_m, lifted: drag.kind === 'held' && drag.lift };
+  });
+  createEffect(() => {
+    const state = lab.state();
+    if (!state) return;
+    drawing()?.update({
+      state,
+      history: lab.history,
+      layers: layers(),
+      pull: pull(),
+      nearBead: reachPx() !== undefined,
+      cursor: focused() ? cursor() : undefined,
+    });
+  });
+
+  const label = createMemo(() => {
+    const [now, state, view] = [pull(), lab.state(), stage.view()];
+    const at = now && view?.toPx(now.hand_m);
+    if (!now || !state || !at) return undefined;
+    const stretched_m = distance([state.bead_m[0], state.bead_m[1]], now.hand_m);
+    const parts = [newtons(state.hand_force_n), centimetres(stretched_m)];
+    const remark = remarkOf(hand.drag(), state);
+    if (remark) parts.push(remark);
+    // To the left of the pointer where the right has no room.
+    const side = at[0] > 0.7 * size().width ? 'left' : 'right';
+    return { text: parts.join(' · '), at, side };
+  });
+
+  return (
+    <>
+      <StageCanvas
+        lab={lab}
+        stage={stage}
+        label="Scene"
+        class="scene-canvas"
+        helpId={props.helpId}
+        onCanvas={start}
+        onSize={setSize}
+        turned={(arrow) => drawing()?.turned(arrow) ?? arrow}
+      />
+      <Show when={label()}>
+        {(now) => (
+          <span
+            class="spring-label number"
+            data-side={now().side}
+            style={{ transform: `translate(${now().at[0]}px, ${now().at[1]}px)` }}
+          >
+            <span>{now().text}</span>
+          </span>
+        )}
+      </Show>
+      <Show
+        when={drawing()}
+        fallback={
+          <div class="scene-message" role="status">
+            <Show when={problem()} fallback={<p>Loading the 3-D view …</p>}>
+              {(text) => (
+                <>
+                  <p>{text()}</p>
+                  <p>The plan shows the same, and everything can be done there.</p>
+                  <button type="button" onClick={() => props.onPlan()}>
+                    Back to the plan
+                  </button>
+                </>
+              )}
+            </Show>
+          </div>
+        }
+      >
+        {(view) => (
+          <div class="looks" role="group" aria-label="Look from">
+            <For each={LOOKS}>
+              {(name) => (
+                <button
+                  type="button"
+                  class="small"
+                  onClick={() => {
+                    view().look(name);
+                  }}
+                >
+                  {name}
+                </button>
+              )}
+            </For>
+          </div>
+        )}
+      </Show>
+    </>
+  );
+}

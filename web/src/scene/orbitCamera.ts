@@ -1,0 +1,134 @@
+// The camera of the scene: mouse and touch turn it (three's OrbitControls), keys and buttons do as well.
+
+import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Rect } from '../net/protocol.gen';
+import type { TableView, Vec2 } from '../plan/transform';
+import { distanceFor, hidingAt, lookOf, turnedArrow, type LookName } from './viewpoints';
+import { perspectiveView, pxFromTable } from './perspective';
+
+const FIELD_OF_VIEW_DEG = 36;
+const NEAR_M = 0.02;
+const FAR_M = 12;
+const LEAST_DISTANCE_M = 0.06;
+const MOST_DISTANCE_M = 5;
+/** The table is not seen from below. */
+const MOST_POLAR_RAD = (88 * Math.PI) / 180;
+const KEY_TURN_RAD = Math.PI / 24;
+const KEY_ZOOM = 0.88;
+
+export class Eye {
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, NEAR_M, FAR_M);
+  private readonly controls: OrbitControls;
+  private readonly clipFromBase = new Matrix4();
+  private width_px = 1;
+  private height_px = 1;
+  private workspace: Rect | undefined;
+  /** The look that nobody has changed since; another size of the picture is another distance then. */
+  private look: LookName | undefined = 'Home';
+
+  constructor(canvas: HTMLCanvasElement, onChange: () => void) {
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.maxPolarAngle = MOST_POLAR_RAD;
+    this.controls.minDistance = LEAST_DISTANCE_M;
+    this.controls.maxDistance = MOST_DISTANCE_M;
+    this.controls.zoomToCursor = true;
+    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
+    this.controls.addEventListener('start', () => {
+      this.look = undefined;
+    });
+    this.controls.addEventListener('change', onChange);
+  }
+
+  /** Whether a press turns the view; not while it holds the bead. */
+  setFree(free: boolean): void {
+    this.controls.enabled = free;
+  }
+
+  resize(width_px: number, height_px: number): void {
+    this.width_px = width_px;
+    this.height_px = height_px;
+    this.camera.aspect = width_px / height_px;
+    this.camera.updateProjectionMatrix();
+    if (this.look) this.take(this.look);
+  }
+
+  /** Another workspace is looked at anew, the same one as before. */
+  lookAt(workspace: Rect): void {
+    const isSame =
+      this.workspace !== undefined && JSON.stringify(workspace) === JSON.stringify(this.workspace);
+    this.workspace = workspace;
+    if (!isSame) this.take('Home');
+  }
+
+  take(name: LookName): void {
+    if (!this.workspace) return;
+    this.look = name;
+    const look = lookOf(name, this.workspace);
+    const away_m = distanceFor(look, (FIELD_OF_VIEW_DEG * Math.PI) / 180, this.camera.aspect);
+    this.controls.target.set(...look.target_m);
+    this.camera.position
+      .set(...look.toEye)
+      .setLength(away_m)
+      .add(this.controls.target);
+    this.controls.update();
+  }
+
+  /** What a key does; false when it means nothing here. */
+  key(key: string): boolean {
+    switch (key) {
+      case '[':
+        this.controls.rotateLeft(KEY_TURN_RAD);
+        break;
+      case ']':
+        this.controls.rotateLeft(-KEY_TURN_RAD);
+        break;
+      case 'PageUp':
+        this.controls.rotateUp(KEY_TURN_RAD);
+        break;
+      case 'PageDown':
+        this.controls.rotateUp(-KEY_TURN_RAD);
+        break;
+      case '+':
+      case '=':
+        this.controls.dollyIn(KEY_ZOOM);
+        break;
+      case '-':
+        this.controls.dollyOut(KEY_ZOOM);
+        break;
+      case 'Home':
+        this.take('Home');
+        return true;
+      default:
+        return false;
+    }
+    this.look = undefined;
+    return true;
+  }
+
+  /** An arrow of the screen, along the table. */
+  turned(arrow: Vec2): Vec2 {
+    return turnedArrow(arrow, this.controls.getAzimuthalAngle());
+  }
+
+  /** How much what stands over the table may hide of it, from 0 to 1: little when seen from above. */
+  hiding(): number {
+    return hidingAt(this.controls.getPolarAngle());
+  }
+
+  /** The table as it is seen now, and the matrix of the mapping for whoever reads the page. */
+  view(): { view: TableView; pxFromTable: readonly number[] } {
+    const { camera, clipFromBase, width_px, height_px } = this;
+    camera.updateMatrixWorld();
+    clipFromBase.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    return {
+      view: perspectiveView(clipFromBase, width_px, height_px),
+      pxFromTable: pxFromTable(clipFromBase, width_px, height_px).transpose().elements,
+    };
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+  }
+}

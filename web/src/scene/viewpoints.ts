@@ -1,0 +1,104 @@
+// Where the scene is looked at from. Pure, but for three's vectors.
+
+import { Vector3 } from 'three';
+import type { Rect } from '../net/protocol.gen';
+import { groundMargins } from '../plan/floorPicture';
+import type { Point } from './solids';
+
+export const LOOKS = ['Home', 'Top', 'Front', 'Side'] as const;
+export type LookName = (typeof LOOKS)[number];
+
+export interface Look {
+  /** What is in the middle of the picture. */
+  readonly target_m: Point;
+  /** From there to the eye. */
+  readonly toEye: Point;
+  /** What must be in the picture. */
+  readonly bounds_m: readonly Point[];
+}
+
+/** Straight from above the picture would have no upper side. */
+const ALMOST = 1e-3;
+/** The picture is this much wider than its bounds. */
+const ROOM = 1.06;
+/** How high over the table the picture reaches when it is not from above: the magnet and its holder. */
+const SHOWN_UP_M = 0.26;
+
+function corners(rect: Rect, z: number): Point[] {
+  return [
+    [rect.x_min_m, rect.y_min_m, z],
+    [rect.x_max_m, rect.y_min_m, z],
+    [rect.x_max_m, rect.y_max_m, z],
+    [rect.x_min_m, rect.y_max_m, z],
+  ];
+}
+
+export function lookOf(name: LookName, workspace: Rect): Look {
+  const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
+  const [x, y] = [(x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2];
+  const { left, right, bottom } = groundMargins(workspace);
+  const low = corners(
+    {
+      x_min_m: x_min_m - left,
+      x_max_m: x_max_m + right,
+      y_min_m: y_min_m - bottom,
+      y_max_m,
+    },
+    0,
+  );
+  const inset = (x_max_m - x_min_m) / 5;
+  const narrow = { ...workspace, x_min_m: x_min_m + inset, x_max_m: x_max_m - inset };
+  const both = [...low, ...corners(narrow, SHOWN_UP_M)];
+  switch (name) {
+    case 'Home':
+      return { target_m: [x, y + 0.02, 0.06], toEye: [0.36, -1, 0.85], bounds_m: both };
+    case 'Top':
+      return { target_m: [x, y, 0], toEye: [0, -ALMOST, 1], bounds_m: low };
+    case 'Front':
+      return { target_m: [x, y, SHOWN_UP_M / 2], toEye: [0, -1, 0.22], bounds_m: both };
+    case 'Side':
+      return { target_m: [x, y, SHOWN_UP_M / 2], toEye: [1, 0, 0.22], bounds_m: both };
+  }
+}
+
+/** How far from the target the eye must be for all of `bounds_m` to be in the picture, with a little room. */
+export function distanceFor(look: Look, fieldOfView_rad: number, aspect: number): number {
+  const back = new Vector3(...look.toEye).normalize();
+  const right = new Vector3(0, 0, 1).cross(back).normalize();
+  const up = new Vector3().crossVectors(back, right);
+  const target = new Vector3(...look.target_m);
+  const tangent = Math.tan(fieldOfView_rad / 2) / ROOM;
+  const point = new Vector3();
+  return look.bounds_m.reduce((most, bound) => {
+    point.set(...bound).sub(target);
+    const aside = Math.max(Math.abs(point.dot(up)), Math.abs(point.dot(right)) / aspect);
+    return Math.max(most, point.dot(back) + aside / tangent);
+  }, 0);
+}
+
+/** The axis of the table that an arrow key means, seen from an eye at `azimuth_rad` about the vertical. */
+export function turnedArrow(
+  arrow: readonly [number, number],
+  azimuth_rad: number,
+): [number, number] {
+  const quarters = Math.round(azimuth_rad / (Math.PI / 2));
+  const [cos, sin] = (
+    [
+      [1, 0],
+      [0, 1],
+      [-1, 0],
+      [0, -1],
+    ] as const
+  )[((quarters % 4) + 4) % 4] ?? [1, 0];
+  return [cos * arrow[0] - sin * arrow[1], sin * arrow[0] + cos * arrow[1]];
+}
+
+/** Between these angles from the vertical the arm fades: from above it would hide what one looks for. */
+const FADED_RAD = 0.3;
+const SOLID_RAD = 0.62;
+const LEAST_HIDING = 0.16;
+
+export function hidingAt(polar_rad: number): number {
+  const share = Math.min(1, Math.max(0, (polar_rad - FADED_RAD) / (SOLID_RAD - FADED_RAD)));
+  return LEAST_HIDING + (1 - LEAST_HIDING) * share;
+}

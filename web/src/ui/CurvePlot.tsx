@@ -1,0 +1,52 @@
+// A computed curve with its title and the keys of its lines.
+
+import { For, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
+import type uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import type { Theme } from './theme';
+import { createCurve, type CurveContext, type CurveLine } from './curve';
+
+export function CurvePlot(props: {
+  title: string;
+  unit: string;
+  name: string;
+  keys: readonly CurveLine[];
+  theme: () => Theme;
+  context: CurveContext;
+  data: uPlot.AlignedData;
+}): JSX.Element {
+  let root!: HTMLDivElement;
+  onMount(() => {
+    const plot = createCurve(root, props.context);
+    const observer = new ResizeObserver(() => {
+      plot.setSize({ width: root.clientWidth, height: root.clientHeight });
+    });
+    observer.observe(root);
+    onCleanup(() => {
+      observer.disconnect();
+      plot.destroy();
+    });
+    createEffect(() => {
+      plot.setData(props.data);
+    });
+    createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
+    // The curve itself stays.
+    createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
+  });
+  return (
+    <figure class="plot">
+      <figcaption>
+        <strong>{props.title}</strong>
+        <span class="unit">{props.unit}</span>
+        <For each={props.keys}>
+          {(key) => (
+            <span class="key" data-color={key.color}>
+              {key.label}
+            </span>
+          )}
+        </For>
+      </figcaption>
+      <div ref={root} class="plot-area" role="img" aria-label={props.name} />
+    </figure>
+  );
+}

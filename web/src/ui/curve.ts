@@ -1,0 +1,154 @@
+// One plot of a curve that the server computed: a uPlot with the page's colours, and marks over it.
+
+import uPlot from 'uplot';
+import type { Palette } from './palette';
+import { inside } from './plotArea';
+
+export interface CurveLine {
+  readonly label: string;
+  readonly color: keyof Palette;
+}
+
+/** An interval of x, filled. */
+export interface Shade {
+  readonly from: number;
+  readonly to: number;
+  readonly color: keyof Palette;
+}
+
+/** A straight line across the plot. */
+export interface Rule {
+  readonly axis: 'x' | 'y';
+  readonly at: number;
+  readonly label: string;
+  readonly color: keyof Palette;
+  readonly dashed: boolean;
+}
+
+export interface CurveContext {
+  readonly palette: () => Palette;
+  readonly lines: readonly CurveLine[];
+  /** Whether the area between the first two lines is filled. */
+  readonly fillsBetween: boolean;
+  readonly xRange: () => [number, number];
+  readonly yRange: (max: number) => [number, number];
+  readonly xText: (value: number) => string;
+  readonly yText: (value: number) => string;
+  readonly shades: () => readonly Shade[];
+  readonly rules: () => readonly Rule[];
+  readonly onCursor: (index: number | undefined) => void;
+}
+
+const FONT = '10px system-ui, sans-serif';
+const SHADE_ALPHA = 0.14;
+/** Two hexadecimal digits of opacity. */
+const FILL_ALPHA = '24';
+
+/** `#rrggbb` with an opacity; other notations as they are. */
+function translucent(color: string): string {
+  return /^#[0-9a-f]{6}$/i.test(color) ? color + FILL_ALPHA : color;
+}
+
+function drawShades(u: uPlot, context: CurveContext): void {
+  inside(u, (ctx) => {
+    ctx.globalAlpha = SHADE_ALPHA;
+    for (const shade of context.shades()) {
+      const from = u.valToPos(shade.from, 'x', true);
+      const to = u.valToPos(shade.to, 'x', true);
+      ctx.fillStyle = context.palette()[shade.color];
+      ctx.fillRect(from, u.bbox.top, to - from, u.bbox.height);
+    }
+  });
+}
+
+function drawRule(u: uPlot, rule: Rule, ctx: CanvasRenderingContext2D, ratio: number): void {
+  const { bbox } = u;
+  const at = Math.round(u.valToPos(rule.at, rule.axis, true)) + 0.5;
+  ctx.setLineDash(rule.dashed ? [6 * ratio, 4 * ratio] : []);
+  ctx.beginPath();
+  if (rule.axis === 'x') {
+    ctx.moveTo(at, bbox.top);
+    ctx.lineTo(at, bbox.top + bbox.height);
+  } else {
+    ctx.moveTo(bbox.left, at);
+    ctx.lineTo(bbox.left + bbox.width, at);
+  }
+  ctx.stroke();
+  ctx.textBaseline = rule.axis === 'x' ? 'top' : 'bottom';
+  ctx.textAlign = rule.axis === 'x' ? 'left' : 'right';
+  if (rule.axis === 'x') ctx.fillText(rule.label, at + 4 * ratio, bbox.top + 2 * ratio);
+  else ctx.fillText(rule.label, bbox.left + bbox.width - 4 * ratio, at - ratio);
+}
+
+function drawRules(u: uPlot, context: CurveContext): void {
+  inside(u, (ctx, ratio) => {
+    ctx.lineWidth = ratio;
+    ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+    for (const rule of context.rules()) {
+      ctx.strokeStyle = context.palette()[rule.color];
+      ctx.fillStyle = context.palette()[rule.color];
+      drawRule(u, rule, ctx, ratio);
+    }
+  });
+}
+
+export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
+  const axis = {
+    stroke: () => context.palette().muted,
+    font: FONT,
+    grid: { stroke: () => context.palette().grid, width: 1 },
+    ticks: { show: false },
+    gap: 3,
+  };
+  const [first] = context.lines;
+  return new uPlot(
+    {
+      width: Math.max(50, root.clientWidth),
+      height: Math.max(40, root.clientHeight),
+      legend: { show: false },
+      cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
+      scales: {
+        x: { time: false, range: () => context.xRange() },
+        y: { range: (_u, _min, max) => context.yRange(max) },
+      },
+      axes: [
+        { ...axis, size: 18, space: 44, values: (_u, ticks) => ticks.map(context.xText) },
+        { ...axis, size: 34, space: 18, values: (_u, ticks) => ticks.map(context.yText) },
+      ],
+      series: [
+        {},
+        ...context.lines.map((line) => ({
+          label: line.label,
+          stroke: () => context.palette()[line.color],
+          width: 1.5,
+          pxAlign: 0,
+          points: { show: false },
+        })),
+      ],
+      bands:
+        context.fillsBetween && first
+          ? [{ series: [1, 2], fill: () => translucent(context.palette()[first.color]) }]
+          : [],
+      hooks: {
+        drawAxes: [
+          (u) => {
+            drawShades(u, context);
+          },
+        ],
+        draw: [
+          (u) => {
+            drawRules(u, context);
+          },
+        ],
+        setCursor: [
+          (u) => {
+            context.onCursor(u.cursor.idx ?? undefined);
+          },
+        ],
+      },
+      padding: [6, 20, 0, 0],
+    },
+    [[], ...context.lines.map(() => [])],
+    root,
+  );
+}
