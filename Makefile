@@ -1,20 +1,20 @@
-# `make run` serves the laboratory, `make test` runs every check, `make soak` leaves a page open for half an hour,
-# `make fuzz` feeds damaged files to what reads files, `make audit` asks what is known about what Ferry depends on.
-# All first install what is missing.
+# `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
+# `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses.
+# Each target first installs what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
 .PHONY: run test soak fuzz audit system-run system-test rust web browser
 
-# Rerun's own tools, at the version of the crate, to check recordings with; schemathesis asks the server whether it keeps
-# to its description.
+# Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
+# description.
 RERUN_VERSION := 0.36.3
 SCHEMATHESIS_VERSION := 4.32.5
 VENV := target/venv
 TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
-# Graphics drivers complain of its absence, at length.
+# Graphics drivers print long warnings when it is not set.
 export XDG_RUNTIME_DIR ?= /tmp
 
 run: system-run
@@ -30,16 +30,16 @@ test: system-test $(TOOLS)
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
 
-# Its budgets are strict: let nothing else run meanwhile. SOAK_MINUTES=4 has a shorter look.
+# Its budgets are strict: run nothing else meanwhile. SOAK_MINUTES=4 is a shorter run.
 soak: system-test
 	cargo build --release
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent soak
 	cargo bench --quiet --bench load
 
-# Coverage-guided, `FUZZ_SECONDS` each of `FUZZ_TARGETS`; stops at the first input that panics, takes five seconds or two
-# gigabytes, and keeps it below target/fuzz. Only Ferry's own code is built anew, by the same compiler. The stack is
-# that of a thread of the server.
+# Coverage-guided fuzzing: `FUZZ_SECONDS` for each of `FUZZ_TARGETS`. It stops at the first input that panics, takes five
+# seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with the same compiler.
+# The stack has the size of a server thread's.
 FUZZ_SECONDS := 300
 FUZZ_TARGETS := message map case log entries policy
 fuzz: system-run
@@ -53,8 +53,8 @@ fuzz: system-run
 		grep -E '^#.*DONE|stat::(number|average|slowest|peak)' $$folder/log; \
 	done
 
-# `deny.toml` says what is allowed, and cargo-audit is told of the same exceptions. `OFFLINE=1` asks the copies of the
-# advisories that the last run left.
+# `deny.toml` lists what is allowed; cargo-audit gets the same exceptions. `OFFLINE=1` uses the advisories that the last
+# run downloaded.
 audit:
 	command -v cargo-deny >/dev/null || cargo install --locked cargo-deny
 	command -v cargo-audit >/dev/null || cargo install --locked cargo-audit
@@ -62,7 +62,7 @@ audit:
 	cargo audit --deny warnings $(if $(OFFLINE),--no-fetch --stale) \
 		$(addprefix --ignore ,$(shell grep -o 'RUSTSEC-[0-9]*-[0-9]*' deny.toml))
 
-# A graphics driver that needs no graphics card, and Node.js for the page.
+# A software graphics driver, which needs no graphics card, and Node.js for the page.
 system-run:
 	@packages=; \
 	ls /usr/share/vulkan/icd.d/*.json >/dev/null 2>&1 || packages+=" mesa-vulkan-drivers"; \

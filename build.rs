@@ -1,5 +1,5 @@
-//! Builds the page below `web/` into `OUT_DIR/web`, where `http::assets` embeds it, and compresses Rerun's viewer into
-//! `OUT_DIR/rerun`, where `http::viewer` does.
+//! Builds the page in `web/` into `OUT_DIR/web`, from where `http::assets` embeds it. Compresses Rerun's viewer into
+//! `OUT_DIR/rerun`, from where `http::viewer` embeds it.
 
 use std::io::Write;
 use std::path::Path;
@@ -33,10 +33,10 @@ fn main() {
     }
 }
 
-/// The files of Rerun's viewer for browsers, from the crate that ships them, as gzip.
+/// Writes Rerun's browser viewer, from the crate that ships it, as gzip.
 fn compress_viewer(folder: &Path) -> std::io::Result<()> {
     let viewer = re_web_viewer_server::WebViewerData::load(None).map_err(std::io::Error::other)?;
-    // This program carries the viewer: what is younger was made from it, and need not be made at every change of the page.
+    // This build script contains the viewer. A file that is newer than the script is up to date.
     let shipped = std::env::current_exe()?.metadata()?.modified()?;
     std::fs::create_dir_all(folder)?;
     for (name, bytes) in [("re_viewer.js", viewer.viewer_js()), ("re_viewer_bg.wasm", viewer.viewer_wasm())] {
@@ -46,7 +46,7 @@ fn compress_viewer(folder: &Path) -> std::io::Result<()> {
         }
         let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
         packed.write_all(bytes)?;
-        // Renamed when whole: a build that is stopped leaves no half of it.
+        // Renamed when complete: a build that is interrupted leaves no partial file.
         let unfinished = folder.join(name);
         std::fs::write(&unfinished, packed.finish()?)?;
         std::fs::rename(unfinished, path)?;
@@ -54,7 +54,7 @@ fn compress_viewer(folder: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether `web/node_modules` is absent or older than the lockfile.
+/// Whether `web/node_modules` is missing or older than the lockfile.
 fn packages_are_stale() -> bool {
     let changed = |path: &str| std::fs::metadata(path).and_then(|found| found.modified()).ok();
     match (changed("web/node_modules/.package-lock.json"), changed("web/package-lock.json")) {

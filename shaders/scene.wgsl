@@ -1,16 +1,16 @@
-// The scene for people: one light with shadows, light from sky and table, a little shine, before a backdrop.
+// The scene for people: one light with shadows, ambient light from sky and table, weak highlights, a backdrop.
 
 struct Scene {
     clip_from_base: mat4x4<f32>,
     light_from_base: mat4x4<f32>,
-    // A direction: the fourth is 0.
+    // A direction: the fourth component is 0.
     toward_light: vec4<f32>,
-    // Homogeneous: a direction where the view is parallel.
+    // Homogeneous: a direction when the projection is parallel.
     eye_m: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;
-// Depth of what throws shadows, as the light sees it.
+// Depth of the shadow casters, seen from the light.
 @group(0) @binding(1) var shadow_map: texture_depth_2d;
 @group(0) @binding(2) var shadow_sampler: sampler_comparison;
 
@@ -29,7 +29,7 @@ struct Pixel {
     @builtin(position) clip: vec4<f32>,
     @location(0) base_m: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    // Linear red, green, blue; 1 lit, 0 shining by itself.
+    // Linear red, green, blue; then 1 for lit, 0 for emissive.
     @location(2) color: vec4<f32>,
 }
 
@@ -37,9 +37,9 @@ const SUN: vec3<f32> = vec3(0.80, 0.77, 0.71);
 const SKY: vec3<f32> = vec3(0.39, 0.40, 0.42);
 const GROUND: vec3<f32> = vec3(0.20, 0.18, 0.17);
 const SHINE: f32 = 0.20;
-// What glancing light from the sky adds: it makes tissue look moist, and round things round.
+// Strength of grazing light from the sky. It makes tissue look moist and curved surfaces look curved.
 const SHEEN: f32 = 0.30;
-// Of the backdrop, from the middle of the picture outward.
+// Colours of the backdrop, from the middle of the picture outward.
 const NEAR_COLOR: vec3<f32> = vec3(0.93, 0.945, 0.96);
 const FAR_COLOR: vec3<f32> = vec3(0.70, 0.75, 0.81);
 
@@ -48,7 +48,7 @@ fn in_base(corner: Corner) -> vec3<f32> {
     return vec3(dot(corner.row_x, at), dot(corner.row_y, at), dot(corner.row_z, at));
 }
 
-// Depth as the light sees it.
+// Depth seen from the light.
 @vertex
 fn shadow(corner: Corner) -> @builtin(position) vec4<f32> {
     return scene.light_from_base * vec4(in_base(corner), 1.0);
@@ -59,7 +59,7 @@ fn vertex(corner: Corner) -> Pixel {
     var pixel: Pixel;
     pixel.base_m = in_base(corner);
     pixel.clip = scene.clip_from_base * vec4(pixel.base_m, 1.0);
-    // Right for rotations and for stretches along the solid's own axes, which is all there is.
+    // Correct for rotations and for scaling along the solid's axes; no other transforms occur.
     let stretch = corner.row_x.xyz * corner.row_x.xyz + corner.row_y.xyz * corner.row_y.xyz
         + corner.row_z.xyz * corner.row_z.xyz;
     let n = corner.normal / max(stretch, vec3(1e-12));
@@ -69,20 +69,20 @@ fn vertex(corner: Corner) -> Pixel {
         dot(corner.row_z.xyz, n),
     );
     let color = corner.color * corner.tint;
-    // A gamma of 2, which costs software renderers less than 2.2.
+    // A gamma of 2 costs software renderers less than 2.2.
     pixel.color = vec4(color.rgb * color.rgb, color.a);
     return pixel;
 }
 
-// Where the shadow map keeps what is at `base_m`: column, row and depth.
+// Position of `base_m` in the shadow map: column, row and depth.
 fn in_light(base_m: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    // Off the surface, so that it does not shade itself.
+    // Moved off the surface, so that the surface does not shadow itself.
     let at = scene.light_from_base * vec4(base_m + normal * 0.0015, 1.0);
-    // Nothing beyond the map is in shadow.
+    // Nothing outside the shadow map is in shadow.
     return vec3(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y, min(at.z, 1.0));
 }
 
-// Colour of a surface that `arriving` of the light reaches.
+// Colour of a surface that receives the share `arriving` of the light.
 fn lit(pixel: Pixel, normal: vec3<f32>, arriving: f32) -> vec4<f32> {
     let toward_light = scene.toward_light.xyz;
     let sun = arriving * max(dot(normal, toward_light), 0.0);
@@ -102,7 +102,7 @@ fn raised_4(x: f32) -> f32 {
     return x * x * x * x;
 }
 
-// Separate entry points, as a software renderer pays for both sides of a branch.
+// Separate entry points: a software renderer executes both sides of a branch.
 @fragment
 fn hard(pixel: Pixel) -> @location(0) vec4<f32> {
     let normal = normalize(pixel.normal);
@@ -125,11 +125,11 @@ fn soft(pixel: Pixel) -> @location(0) vec4<f32> {
 
 struct BackdropPixel {
     @builtin(position) clip: vec4<f32>,
-    // −1 to 1 across the picture, +y up.
+    // −1 to 1 across the picture; +y points up.
     @location(0) at: vec2<f32>,
 }
 
-// A disc of radius 1 stretched over the whole picture, behind everything.
+// A disc of radius 1, scaled to the whole picture, behind everything else.
 @vertex
 fn backdrop(corner: Corner) -> BackdropPixel {
     var pixel: BackdropPixel;

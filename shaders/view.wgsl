@@ -1,5 +1,5 @@
-// The controllers' view: flat colours through a pinhole. Light is painted on beforehand, so that the
-// brightness contract is a matter of a palette and not of a formula here.
+// The controllers' view: flat colours through a pinhole. Light is already in the colours, so that the palette alone
+// guarantees the brightness of walls and floor.
 
 struct View {
     clip_from_base: mat4x4<f32>,
