@@ -1,12 +1,12 @@
 // Who, what, and how it stands: connection, role, mode, counters.
 
 import { For, Show, type JSX } from 'solid-js';
-import { takeControl, type Lab } from '../lab/lab';
+import { type Lab, takeControl } from '../lab/lab';
 import type { Theme } from '../ui/theme';
-import { VIEWS, type View } from './views';
+import { type View, VIEWS } from './views';
 import { Connection } from './ConnectionStatus';
 import { KeyboardHelp } from './KeyboardHelp';
-import { NoticeBar } from '../ui/NoticeBar';
+import { PlaceNotice } from '../lab/PlaceNotice';
 
 function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
   return (
@@ -94,7 +94,7 @@ export function Header(props: HeaderProps): JSX.Element {
             </span>
           )}
         </Show>
-        <NoticeBar lab={lab} place="session" />
+        <PlaceNotice lab={lab} place="session" />
       </div>
       <div class="mode" data-mode={lab.state()?.mode ?? 0}>
         <span class="mode-label">mode</span>

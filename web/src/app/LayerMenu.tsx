@@ -2,7 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import { createPopover } from '../ui/popover';
-import { LAYER_GROUPS, type Layer } from '../lab/layers';
+import { type Layer, LAYER_GROUPS } from '../lab/layers';
 
 export function LayerMenu(props: {
   layers: ReadonlySet<Layer>;

@@ -5,9 +5,8 @@ import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
 import type { Lab } from '../lab/lab';
 import { createPalette } from '../ui/palette';
-import { NoticeBar } from '../ui/NoticeBar';
+import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
-import { insidePolygon } from '../plan/transform';
 import { DisturbBar } from '../features/disturb/DisturbBar';
 import { createFields } from './fields';
 import { FieldLegend } from '../features/field/FieldLegend';
@@ -17,8 +16,9 @@ import { PlanStage } from '../plan/PlanView';
 import { SceneStage } from '../scene/ScenePanel';
 import { createStage } from '../plan/interaction';
 import { ValueLegend } from '../features/values/ValueLegend';
-import { storeViewMode, storedViewMode, type ViewMode } from './viewMode';
+import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
+import { insidePolygon } from '../lab/geometry';
 
 const HELP_ID = 'workspace-help';
 
@@ -88,7 +88,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
             Pick a place: click it, or arrows and Enter. Esc ends.
           </p>
         </Show>
-        <NoticeBar lab={lab} place="workspace" />
+        <PlaceNotice lab={lab} place="workspace" />
       </div>
       <Show when={fields.showsHeat()}>
         <HeatLegend answer={fields.heatAnswer()} />

@@ -1,6 +1,6 @@
 // What the page says aloud to those who do not see it. Pure.
 
-import { Limiter, type Clock } from '../net/limiter';
+import { type Clock, Limiter } from '../net/limiter';
 import type { LogLine, Model } from '../lab/model';
 
 /** At most so often: speech takes time. */

@@ -1,11 +1,10 @@
 // What the server is asked for so that a layer can be drawn, whichever view draws it.
 
 import { createMemo, type Accessor } from 'solid-js';
-import { createAnswer, type Answer } from '../net/requests';
+import { type Answer, createAnswer } from '../net/requests';
 import type { Lab } from '../lab/lab';
 import type { Palette } from '../ui/palette';
 import type { Plane, PlaneQuery, WorkspaceMap, WorkspaceQuery } from '../net/protocol.gen';
-import type { Vec2 } from '../plan/transform';
 import { createHeat, type Heat } from '../features/singularity/drawHeat';
 import { createFieldPicture, type FieldPicture } from '../features/field/drawPlane';
 import { createSeen, type Seen } from '../features/observed/drawObserved';
@@ -15,6 +14,7 @@ import { workspaceQuery } from '../features/singularity/heat';
 import type { Layer } from '../lab/layers';
 import { planeQuery } from '../features/field/plane';
 import { createValueLayer, type ValueLayer } from '../features/values/valueLayer';
+import type { Vec2 } from '../lab/geometry';
 
 export interface Fields {
   readonly goal: Accessor<Vec2 | undefined>;

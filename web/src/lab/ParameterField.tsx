@@ -2,14 +2,14 @@
 
 import { For, batch, createMemo, createUniqueId, type JSX } from 'solid-js';
 import {
-  digits,
-  shownMost,
-  shownValue,
-  storedValue,
   type ChoiceField,
+  digits,
   type Field,
   type FlagField,
   type NumberField,
+  shownMost,
+  shownValue,
+  storedValue,
 } from './parameters';
 import type { Lab } from './lab';
 import type { Parameters, SceneMessage } from '../net/protocol.gen';

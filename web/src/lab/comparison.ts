@@ -2,7 +2,7 @@
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import type { Branch, ComparisonMessage } from '../net/protocol.gen';
-import { distance, type Vec2 } from '../plan/transform';
+import { distance, type Vec2 } from './geometry';
 
 /** Simulated seconds a second while ghosts play. */
 const PLAY_SPEED = 2;

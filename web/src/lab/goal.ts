@@ -2,7 +2,7 @@
 
 import { createMemo, type Accessor } from 'solid-js';
 import type { Lab } from './lab';
-import type { Vec2 } from '../plan/transform';
+import type { Vec2 } from './geometry';
 
 /** A state comes every frame, another goal seldom. */
 export function createGoal(lab: Lab): Accessor<Vec2 | undefined> {

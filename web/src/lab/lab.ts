@@ -6,7 +6,7 @@ import { connect, liveAddress, type Picture } from '../net/connection';
 import { createEdits, type Edits } from './edits';
 import { createGhosts, type Ghosts } from './comparison';
 import { History } from './history';
-import { EMPTY, reduce, type Input, type Model, type Place } from './model';
+import { EMPTY, type Input, type Model, type Place, reduce } from './model';
 import {
   BINARY_CAMERA_JPEG,
   BINARY_OBSERVATION,
@@ -15,7 +15,7 @@ import {
   type Parameters,
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
-import { storeLayers, storedLayers, type Layer } from './layers';
+import { type Layer, storedLayers, storeLayers } from './layers';
 
 export interface Lab {
   /** Whose page this is. */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { EMPTY, LOG_LINES, placeOfError, reduce, type Input, type Model } from './model';
-import { PROTOCOL_VERSION, type EventMessage, type ServerMessage } from '../net/protocol.gen';
+import { EMPTY, type Input, LOG_LINES, type Model, placeOfError, reduce } from './model';
+import { type EventMessage, PROTOCOL_VERSION, type ServerMessage } from '../net/protocol.gen';
 import { comparisonOf, sceneOf, stateAt } from './testing';
 
 const message = (one: ServerMessage): Input => ({ type: 'message', message: one });

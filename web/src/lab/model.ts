@@ -1,7 +1,6 @@
 // What the page knows, and how a message changes it. Pure.
 
 import {
-  PROTOCOL_VERSION,
   type ClientMessage,
   type ComparisonMessage,
   type ErrorMessage,
@@ -9,11 +8,13 @@ import {
   type EventMessage,
   type Hello,
   type OverlayMessage,
+  PROTOCOL_VERSION,
   type SceneMessage,
   type SeenMessage,
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
+import type { Notice } from '../ui/NoticeBar';
 
 /** Lines of the log that are kept. */
 export const LOG_LINES = 300;
@@ -40,13 +41,6 @@ export interface LogLine {
   readonly event: EventMessage | undefined;
   /** How often in a row. */
   readonly count: number;
-}
-
-export interface Notice {
-  readonly id: number;
-  /** A refusal of the server, or something that this page says. */
-  readonly tone: 'error' | 'hint';
-  readonly text: string;
 }
 
 export interface Model {

@@ -8,12 +8,12 @@ import {
   untrack,
   type Accessor,
 } from 'solid-js';
-import { takeControl, type Lab } from './lab';
+import { type Lab, takeControl } from './lab';
 import {
+  type Experiment,
   experimentFrom,
   linkOf,
   loadMessage,
-  type Experiment,
   type Reading,
 } from './experimentLink';
 

@@ -9,7 +9,7 @@ import { createGround } from './baseMap';
 import type { Layer } from '../lab/layers';
 import { paint } from './paint';
 import type { Stage } from './interaction';
-import { StageCanvas, type Size } from './ViewCanvas';
+import { type Size, StageCanvas } from './ViewCanvas';
 
 /** Room for the numbers of the axes. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };

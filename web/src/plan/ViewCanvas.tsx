@@ -2,10 +2,10 @@
 
 import { createEffect, onCleanup, onMount, type JSX } from 'solid-js';
 import type { Lab } from '../lab/lab';
-import type { Vec2 } from './transform';
 import { attachKeyboard } from './keyboard';
 import { attachPointer } from './pointer';
 import type { Stage } from './interaction';
+import type { Vec2 } from '../lab/geometry';
 
 export interface Size {
   readonly width: number;

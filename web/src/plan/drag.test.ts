@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { IDLE, dragStep, type DragEffect, type DragEvent, type DragState } from './drag';
+import { type DragEffect, type DragEvent, type DragState, dragStep, IDLE } from './drag';
 
 function play(events: DragEvent[]): { state: DragState; effects: DragEffect[] } {
   let state = IDLE;

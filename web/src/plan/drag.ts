@@ -1,7 +1,7 @@
 // What a press on the workspace means: a click places the goal, a drag that starts on the bead is
 // the disturbance. Pure: events in, new state and effects out; the canvas does the rest.
 
-import { distance, type Vec2 } from './transform';
+import { distance, type Vec2 } from '../lab/geometry';
 
 /** Who holds the bead: a pointer by its id, or the keyboard. */
 export type Holder = number | 'keyboard';

@@ -6,8 +6,9 @@ import {
   type SceneMessage,
   type StateMessage,
 } from '../net/protocol.gen';
-import { pxFromWorld, type Vec2, type View } from './transform';
+import { pxFromWorld, type View } from './transform';
 import type { Palette } from '../ui/palette';
+import type { Vec2 } from '../lab/geometry';
 
 /** The bead is 5 mm: on a small canvas it is drawn larger than life, or nobody finds it. */
 const MIN_BEAD_PX = 4.5;

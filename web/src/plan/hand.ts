@@ -1,11 +1,11 @@
 // The hand on the workspace: runs the drag machine and turns its effects into messages.
 
 import { createSignal, type Accessor } from 'solid-js';
-import { IDLE, dragStep, type DragEvent, type DragState } from './drag';
+import { type DragEvent, type DragState, dragStep, IDLE } from './drag';
 import type { Lab } from '../lab/lab';
 import { Limiter } from '../net/limiter';
 import { Repeater } from '../net/repeater';
-import { clampToRect, type TableView, type Vec2 } from './transform';
+import { clampToRect, type TableView, type Vec2 } from '../lab/geometry';
 
 const MAX_DRAGS_PER_S = 60;
 /** A hand that holds still says so; of one that is silent for five seconds the server takes the bead. */

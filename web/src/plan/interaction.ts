@@ -2,10 +2,10 @@
 
 import { createEffect, createMemo, createSignal, on, type Accessor, type Setter } from 'solid-js';
 import type { Lab } from '../lab/lab';
-import type { TableView, Vec2 } from './transform';
 import { createHand, type Hand } from './hand';
 import { createPicker, type Picker } from './picker';
-import { reachesBead, type Pointing } from './pointer';
+import { type Pointing, reachesBead } from './pointer';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 export interface Stage {
   /** Of the view that is open; none before it knows its size. */

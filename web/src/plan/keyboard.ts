@@ -2,8 +2,8 @@
 // it go, Escape lets it go or ends picking.
 
 import type { Lab } from '../lab/lab';
-import { clampToRect, distance, type TableView, type Vec2 } from './transform';
 import type { Hand } from './hand';
+import { clampToRect, distance, type TableView, type Vec2 } from '../lab/geometry';
 
 const STEP_M = 0.005;
 const ARROWS: Partial<Record<string, Vec2>> = {

@@ -3,7 +3,7 @@
 import type { DragState } from './drag';
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import { clampToRect, planView, pxFromWorld, type TableView, type Vec2 } from './transform';
+import { planView, pxFromWorld } from './transform';
 import { drawFlow } from '../features/flow/drawFlow';
 import { drawGhosts } from '../features/compare/drawGhosts';
 import { drawCursor, drawSpring } from './drawHand';
@@ -23,6 +23,7 @@ import { drawField } from '../features/field/drawPlane';
 import { drawBlocks, drawRectangles, drawSeen } from '../features/observed/drawObserved';
 import { drawValues } from '../features/values/drawValue';
 import type { Ground } from './baseMap';
+import { clampToRect, type TableView, type Vec2 } from '../lab/geometry';
 
 /** As long as the plots show. */
 export const TRAIL_S = 60;

@@ -1,8 +1,8 @@
 // Mouse, pen and finger on the workspace.
 
 import type { Lab } from '../lab/lab';
-import { distance, type TableView, type Vec2 } from './transform';
 import type { Hand } from './hand';
+import { distance, type TableView, type Vec2 } from '../lab/geometry';
 
 /** How near the bead a press takes it. */
 export const GRAB_MOUSE_PX = 16;

@@ -14,12 +14,12 @@ import {
 import { centimetres, newtons } from '../ui/format';
 import type { LookName } from './viewpoints';
 import type { SceneView } from './SceneView';
-import { distance } from '../plan/transform';
 import { createGround } from '../plan/baseMap';
-import { createGroundPicture, repaintGround, type GroundPicture } from '../plan/floorPicture';
+import { createGroundPicture, type GroundPicture, repaintGround } from '../plan/floorPicture';
 import { handOf, remarkOf } from '../plan/paint';
 import type { StageProps } from '../plan/PlanView';
-import { StageCanvas, type Size } from '../plan/ViewCanvas';
+import { type Size, StageCanvas } from '../plan/ViewCanvas';
+import { distance } from '../lab/geometry';
 
 const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
 

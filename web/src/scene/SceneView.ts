@@ -12,7 +12,6 @@ import {
 import type { History } from '../lab/history';
 import type { Palette } from '../ui/palette';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import type { TableView, Vec2 } from '../plan/transform';
 import type { FieldPicture } from '../features/field/drawPlane';
 import type { GroundPicture } from '../plan/floorPicture';
 import type { Layer } from '../lab/layers';
@@ -27,6 +26,7 @@ import { Paints } from './paints';
 import { disposeGeometries } from './solids';
 import { Table } from './table';
 import { Tool } from './tool';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 const MOST_PIXEL_RATIO = 2;
 const SKY = '#ffffff';

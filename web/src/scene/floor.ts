@@ -12,7 +12,7 @@ import {
 } from 'three';
 import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
-import { createNumbersPicture, repaintNumbers, type GroundPicture } from '../plan/floorPicture';
+import { createNumbersPicture, type GroundPicture, repaintNumbers } from '../plan/floorPicture';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 

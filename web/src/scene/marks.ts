@@ -8,12 +8,12 @@ import {
   type SceneMessage,
   type StateMessage,
 } from '../net/protocol.gen';
-import type { Vec2 } from '../plan/transform';
 import type { Layer } from '../lab/layers';
 import { TRAIL_S } from '../plan/paint';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries, type Point } from './solids';
 import { Strokes } from './strokes';
+import type { Vec2 } from '../lab/geometry';
 
 /** Heights over the floor, so that nothing flickers. */
 const CAPTURE_UP_M = 8e-4;

@@ -3,9 +3,9 @@
 import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Rect } from '../net/protocol.gen';
-import type { TableView, Vec2 } from '../plan/transform';
-import { distanceFor, hidingAt, lookOf, turnedArrow, type LookName } from './viewpoints';
+import { distanceFor, hidingAt, type LookName, lookOf, turnedArrow } from './viewpoints';
 import { perspectiveView, pxFromTable } from './perspective';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 const FIELD_OF_VIEW_DEG = 36;
 const NEAR_M = 0.02;

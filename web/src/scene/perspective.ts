@@ -1,8 +1,7 @@
 // Between the table and a picture of it in perspective. Pure, but for three's matrices.
 
 import { Matrix3, Vector3, type Matrix4 } from 'three';
-import type { Vec2 } from '../plan/transform';
-import type { TableView } from '../plan/transform';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 /** Pixels from places of the table, homogeneous, row by row. */
 export function pxFromTable(clipFromBase: Matrix4, widthPx: number, heightPx: number): Matrix3 {

@@ -4,7 +4,7 @@ import { Group } from 'three';
 import type { Orientation, Rect } from '../net/protocol.gen';
 import { groundMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
-import { Solids, disposeGeometries, type Point } from './solids';
+import { disposeGeometries, type Point, Solids } from './solids';
 import { EDGE_M } from './table';
 
 /** Of the tool point, the middle of the block's lower face. */

@@ -1,6 +1,6 @@
 import { PerspectiveCamera, Vector3 } from 'three';
 import { expect, test } from 'vitest';
-import { LOOKS, distanceFor, hidingAt, lookOf, turnedArrow } from './viewpoints';
+import { distanceFor, hidingAt, lookOf, LOOKS, turnedArrow } from './viewpoints';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 

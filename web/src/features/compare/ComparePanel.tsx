@@ -10,8 +10,8 @@ import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
-import { NoticeBar } from '../../ui/NoticeBar';
-import type { PanelProps, TabProps } from '../../ui/Tabs';
+import { PlaceNotice } from '../../lab/PlaceNotice';
+import type { PanelProps, TabPanel } from '../../lab/panel';
 
 const CONTROLLERS: readonly ControllerName[] = ['rl', 'errt', 'attractor'];
 const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
@@ -194,7 +194,7 @@ function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedDa
 }
 
 function Errors(
-  props: PanelProps & { comparison: ComparisonMessage; tick_s: number },
+  props: Omit<PanelProps, 'tools'> & { comparison: ComparisonMessage; tick_s: number },
 ): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
@@ -232,14 +232,14 @@ function Errors(
   );
 }
 
-export function ComparePanel(props: TabProps): JSX.Element {
+function ComparePanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   const tick_s = (): number => lab.scene()?.tick_s ?? 0;
   return (
     <div class="compare">
       <div class="compare-main">
         <Start lab={lab} />
-        <NoticeBar lab={lab} place="compare" />
+        <PlaceNotice lab={lab} place="compare" />
         <Show
           when={lab.ghosts.comparison()}
           fallback={
@@ -268,3 +268,5 @@ export function ComparePanel(props: TabProps): JSX.Element {
     </div>
   );
 }
+
+export const COMPARE_TAB: TabPanel = { id: 'compare', title: 'Compare', panel: ComparePanel };

@@ -5,7 +5,7 @@ import type { Lab } from '../../lab/lab';
 import { GROUPS } from '../../lab/parameterGroups';
 import type { Group } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
-import { FieldRow, createForm, type Form } from '../../lab/ParameterField';
+import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
 
 function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   const { form, group } = props;

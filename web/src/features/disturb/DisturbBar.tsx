@@ -2,31 +2,31 @@
 
 import { Match, Show, Switch, createSignal, onCleanup, type JSX } from 'solid-js';
 import {
-  DIRECTIONS,
-  KINDS,
-  TIMES,
   blind,
+  type Direction,
+  DIRECTIONS,
   kick,
+  type Kind,
+  KINDS,
   move,
   push,
   restart,
-  unitVector,
-  type Direction,
-  type Kind,
   type Time,
+  TIMES,
+  unitVector,
 } from '../../lab/disturbance';
 import type { Lab } from '../../lab/lab';
 import {
+  type Disturbance,
   MOST_DRIFT_N,
   MOST_IMPULSE_N_S,
   MOST_SECONDS,
   MOST_STEPS,
   SCRIPT_LIMIT,
-  type Disturbance,
   type When,
 } from '../../net/protocol.gen';
 import { ScriptList } from './ScriptList';
-import { Amount, Choice, PlaceFields, type Place } from './disturbFields';
+import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
 import type { Picker } from '../../plan/picker';
 
 /** An hour of a trial. */

@@ -1,7 +1,7 @@
 // The disturbances that belong to the scenario: those of its script, and how many at random.
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
-import { MOST_RANDOM, describe, describeWhen, restart } from '../../lab/disturbance';
+import { describe, describeWhen, MOST_RANDOM, restart } from '../../lab/disturbance';
 import type { Lab } from '../../lab/lab';
 import type { Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';

@@ -4,7 +4,7 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
 import { createEvaluationList } from './evaluations';
-import { isActive, numberOf, stageWords, subject, episodesDone, episodesInAll } from './progress';
+import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } from './progress';
 import type { Lab } from '../../lab/lab';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 

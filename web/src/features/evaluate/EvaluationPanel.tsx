@@ -8,6 +8,8 @@ import { createReport, type EvaluationList } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
 import {
+  episodesDone,
+  episodesInAll,
   isActive,
   milestone,
   numberOf,
@@ -15,10 +17,8 @@ import {
   roughly,
   stageWords,
   subject,
-  episodesDone,
-  episodesInAll,
 } from './progress';
-import { REPORTS, reportAddress } from './table';
+import { reportAddress, REPORTS } from './table';
 
 function Progress(props: {
   summary: EvaluationSummary;

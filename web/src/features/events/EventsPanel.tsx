@@ -2,7 +2,7 @@
 
 import { For, Show, createEffect, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
+import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { LogLine } from '../../lab/model';
 import type { EventMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
@@ -14,7 +14,7 @@ const FOLLOW_PX = 24;
 const when = (line: LogLine): string =>
   line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
 
-export function LogPanel(props: { lab: Lab }): JSX.Element {
+function EventsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
@@ -90,3 +90,5 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
     </div>
   );
 }
+
+export const EVENTS_TAB: TabPanel = { id: 'events', title: 'Events', panel: EventsPanel };

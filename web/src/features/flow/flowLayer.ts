@@ -1,13 +1,13 @@
 // The layer of the attractor's flow: asked for while it is shown.
 
 import { createMemo, untrack, type Accessor } from 'solid-js';
-import { createAnswer, type Answer } from '../../net/requests';
+import { type Answer, createAnswer } from '../../net/requests';
 import type { Lab } from '../../lab/lab';
 import type { FlowField, FlowQuery } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
-import type { Vec2 } from '../../plan/transform';
 import { createFlow, type Flow } from './drawFlow';
 import { flowKey, flowQuery } from './flow';
+import type { Vec2 } from '../../lab/geometry';
 
 /** While the camera shows new things, the field is another ten times a second: costly, and too fast to read. */
 const ASKED_PER_S = 4;

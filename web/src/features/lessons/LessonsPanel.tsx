@@ -4,7 +4,7 @@ import { For, Show, onMount, untrack, type JSX } from 'solid-js';
 import type { Lab } from '../../lab/lab';
 import { LessonView } from './LessonView';
 import { LESSONS } from './lessons';
-import { lessonsOf, type Lessons } from './store';
+import { type Lessons, lessonsOf } from './store';
 
 function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;

@@ -14,7 +14,7 @@ import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLi
 import type { Layer } from '../../lab/layers';
 import { allDone, type Lesson, type Run } from './lesson';
 import { LESSONS } from './lessons';
-import { NO_PROGRESS, storeProgress, storedProgress, type Progress } from './progress';
+import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
 import { beginTrack, observe, type Track } from './track';
 
 type Tracks = readonly (Track | undefined)[];

@@ -5,7 +5,7 @@ import type { Lab } from '../../lab/lab';
 import { GROUPS } from '../../lab/parameterGroups';
 import type { Field } from '../../lab/parameters';
 import type { Parameters, SceneMessage } from '../../net/protocol.gen';
-import { FieldRow, createForm } from '../../lab/ParameterField';
+import { createForm, FieldRow } from '../../lab/ParameterField';
 
 /** Short names, which are also others than in the form. */
 const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [

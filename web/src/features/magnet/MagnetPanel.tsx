@@ -6,17 +6,17 @@ import { createAnswer } from '../../net/requests';
 import { fixed } from '../../ui/format';
 import type { Lab } from '../../lab/lab';
 import {
-  HEIGHTS_M,
   breakaway,
+  directionOf,
+  HEIGHTS_M,
   heldRatio,
   pullQuery,
   pullWords,
   reachQuery,
   reachWords,
-  SIDES,
-  directionOf,
   shownOffset,
   type Side,
+  SIDES,
 } from './magnet';
 import { createPalette } from '../../ui/palette';
 import type {
@@ -31,7 +31,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
-import type { PanelProps } from '../../ui/Tabs';
+import type { PanelProps, TabPanel } from '../../lab/panel';
 
 function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters }): JSX.Element {
   const { lab } = props;
@@ -219,10 +219,12 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
   );
 }
 
-export function MagnetPanel(props: PanelProps): JSX.Element {
+function MagnetPanel(props: PanelProps): JSX.Element {
   return (
     <Show when={props.lab.tuning()} fallback={<p class="placeholder">No parameters yet.</p>}>
       {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}
     </Show>
   );
 }
+
+export const MAGNET_TAB: TabPanel = { id: 'magnet', title: 'Magnet', panel: MagnetPanel };

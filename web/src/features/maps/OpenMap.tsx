@@ -2,16 +2,17 @@
 
 import { createSignal, type JSX } from 'solid-js';
 import type { Lab } from '../../lab/lab';
+import { loadMap } from '../../lab/loadMap';
 import { addMap } from './maps';
 
-export function OpenMap(props: { lab: Lab; onMap: (name: string) => void }): JSX.Element {
+export function OpenMap(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const [busy, setBusy] = createSignal(false);
   const send = async (file: File): Promise<void> => {
     setBusy(true);
     try {
-      props.onMap(await addMap(file));
+      loadMap(lab, await addMap(file));
     } catch (reason) {
       lab.notify('transport', reason instanceof Error ? reason.message : String(reason));
     }

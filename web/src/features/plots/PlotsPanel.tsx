@@ -9,12 +9,12 @@ import { createFigure, type Figure } from './figure';
 import { FIGURE_PX, figureSvg } from './figureSvg';
 import { PARTS } from './parts';
 import { Rotation } from './rotation';
-import { WINDOWS, csvOf, type WindowChoice } from './sample';
+import { csvOf, type WindowChoice, WINDOWS } from './sample';
 import type { PlotContext } from './timePlot';
 import { clock } from '../../ui/format';
 import type { Lab } from '../../lab/lab';
 import { createPalette, type Palette } from '../../ui/palette';
-import type { TabProps } from '../../ui/Tabs';
+import type { PanelProps, TabPanel } from '../../lab/panel';
 
 /** Window and files, in the strip of the tabs. */
 function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX.Element {
@@ -97,7 +97,7 @@ function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX
   );
 }
 
-export function PlotsPanel(props: TabProps): JSX.Element {
+function PlotsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const figure = createFigure(lab);
@@ -154,3 +154,5 @@ export function PlotsPanel(props: TabProps): JSX.Element {
     </>
   );
 }
+
+export const PLOTS_TAB: TabPanel = { id: 'plots', title: 'Plots', panel: PlotsPanel };

@@ -2,7 +2,7 @@
 
 import { createSignal, type Accessor } from 'solid-js';
 import type { Lab } from '../../lab/lab';
-import { takeSample, type Sample, type WindowChoice } from './sample';
+import { type Sample, takeSample, type WindowChoice } from './sample';
 
 export interface Figure {
   readonly sample: () => Sample | undefined;

@@ -5,8 +5,8 @@ import { createAnswer } from '../../net/requests';
 import type { Lab } from '../../lab/lab';
 import type { ValueMap, ValueQuery } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
-import type { Vec2 } from '../../plan/transform';
 import { valueKey } from './value';
+import type { Vec2 } from '../../lab/geometry';
 
 export interface ValueLayer {
   /** Of this goal, map and policy: values of others would mislead, and a first look takes seconds. */
