@@ -8,6 +8,7 @@ import { CameraPanel } from '../features/camera/CameraPanel';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
 import { EvaluateView } from '../features/evaluate/EvaluateView';
 import { Header } from './Header';
+import { MAP_LAYERS } from './layers';
 import { LiveRegion } from './LiveRegion';
 import { LowerPanel } from './LowerPanel';
 import { RecordingsView } from '../features/recordings/RecordingsView';
@@ -24,7 +25,7 @@ import { WorkspacePanel } from './WorkspacePanel';
 
 export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
-  const lab = createLab(window.location);
+  const lab = createLab(window.location, MAP_LAYERS);
   const links = createLinks(lab, window);
   const [view, setView] = createSignal<View>('laboratory');
   return (

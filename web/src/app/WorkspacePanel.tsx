@@ -1,6 +1,6 @@
 // The workspace, from above or in space: click places the goal, dragging the bead is the disturbance.
 
-import { Show, createMemo, createSignal } from 'solid-js';
+import { For, Show, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
 import type { Lab } from '../lab/lab';
@@ -8,14 +8,11 @@ import { createPalette } from '../ui/palette';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
 import { DisturbBar } from '../features/disturb/DisturbBar';
-import { createFields } from './fields';
-import { FieldLegend } from '../features/field/FieldLegend';
-import { FlowLegend } from '../features/flow/FlowLegend';
-import { HeatLegend } from '../features/singularity/HeatLegend';
 import { PlanStage } from '../plan/PlanView';
 import { SceneStage } from '../scene/ScenePanel';
+import { createLayers } from '../plan/layer';
+import { MAP_LAYERS } from './layers';
 import { createStage } from '../plan/interaction';
-import { ValueLegend } from '../features/values/ValueLegend';
 import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
 import { insidePolygon } from '../lab/geometry';
@@ -26,10 +23,11 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const { lab } = props;
   const [mode, setMode] = createSignal(storedViewMode());
   const [disturbing, setDisturbing] = createSignal(false);
-  const { layers } = lab;
   const palette = createPalette(() => props.theme());
   const stage = createStage(lab);
-  const fields = createFields(lab, layers, palette);
+  const layers = createLayers(MAP_LAYERS, lab, palette);
+  /** The topmost first. */
+  const menu = layers.toReversed();
 
   const readout = createMemo(() => {
     const scene = lab.scene();
@@ -54,7 +52,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       ? undefined
       : 'No connection: this is the last state received.';
   };
-  const stageProps = { lab, stage, fields, layers, palette, helpId: HELP_ID };
+  const stageProps = { lab, stage, layers, palette, helpId: HELP_ID };
 
   return (
     <section class="panel workspace">
@@ -62,10 +60,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         lab={lab}
         mode={mode()}
         onMode={choose}
-        layers={layers()}
-        onLayer={(layer, on) => {
-          lab.showLayer(layer, on);
-        }}
+        layers={menu}
         disturbId="disturb"
         disturbing={disturbing()}
         onDisturbing={setDisturbing}
@@ -90,29 +85,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         </Show>
         <PlaceNotice lab={lab} place="workspace" />
       </div>
-      <Show when={fields.showsHeat()}>
-        <HeatLegend answer={fields.heatAnswer()} />
-      </Show>
-      <Show when={fields.showsField()}>
-        <FieldLegend answer={fields.fieldAnswer()} />
-      </Show>
-      <Show when={fields.showsFlow() && lab.scene()}>
-        {(scene) => (
-          <FlowLegend
-            answer={fields.flow.answer()}
-            flow={fields.flow.flow()}
-            hasGoal={fields.goal() !== undefined}
-            law={scene().parameters.attractor_law}
-          />
-        )}
-      </Show>
-      <Show when={fields.showsValue()}>
-        <ValueLegend
-          map={fields.value.map()}
-          error={fields.value.error()}
-          hasGoal={fields.goal() !== undefined}
-        />
-      </Show>
+      <For each={menu}>{(layer) => <Show when={layer.isShown()}>{layer.legend?.()}</Show>}</For>
       <footer class="panel-foot">
         <p id={HELP_ID} class="hint">
           <Show

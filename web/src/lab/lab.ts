@@ -15,9 +15,11 @@ import {
   type Parameters,
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
-import { type Layer, storedLayers, storeLayers } from './layers';
+import { createGoal } from './goal';
+import type { Vec2 } from './geometry';
+import { createLayerChoice, type KnownLayer, type Layers } from './layers';
 
-export interface Lab {
+export interface Lab extends Layers {
   /** Whose page this is. */
   readonly session: string;
   readonly link: Accessor<Model['link']>;
@@ -26,6 +28,7 @@ export interface Lab {
   /** The parameters in force, with what some panel is about to change on top. */
   readonly tuning: Accessor<Parameters | undefined>;
   readonly state: Accessor<Model['state']>;
+  readonly goal: Accessor<Vec2 | undefined>;
   readonly overlay: Accessor<Model['overlay']>;
   readonly seen: Accessor<Model['seen']>;
   readonly log: Accessor<Model['log']>;
@@ -47,9 +50,6 @@ export interface Lab {
   readonly history: History;
   /** Changes of the parameters, from whichever panel. */
   readonly edits: Edits;
-  /** What is drawn over the workspace. */
-  readonly layers: Accessor<ReadonlySet<Layer>>;
-  showLayer(layer: Layer, on: boolean): void;
   send(message: ClientMessage): void;
   inspect(event: EventMessage | undefined): void;
   openTab(tab: string | undefined): void;
@@ -107,13 +107,12 @@ export function enqueue(queue: Input[], input: Input): void {
   queue.push(input);
 }
 
-export function createLab(page: Location): Lab {
+export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
   const [inspected, inspect] = createSignal<EventMessage>();
   const [opened, setOpened] = createSignal<{ readonly tab: string }>();
-  const [layers, setLayers] = createSignal(storedLayers());
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -181,6 +180,7 @@ export function createLab(page: Location): Lab {
   const link = createMemo(() => model().link);
   const hello = createMemo(() => model().hello);
   const scene = createMemo(() => model().scene);
+  const state = createMemo(() => model().state);
   const ended = createMemo(() => model().state?.ended ?? undefined);
   const refusals = createMemo(() => model().refusals);
   const canOperate = createMemo(
@@ -202,7 +202,8 @@ export function createLab(page: Location): Lab {
     hello,
     scene,
     tuning: edits.shown,
-    state: createMemo(() => model().state),
+    state,
+    goal: createGoal(state),
     overlay: createMemo(() => model().overlay),
     seen: createMemo(() => model().seen),
     log: createMemo(() => model().log),
@@ -220,14 +221,7 @@ export function createLab(page: Location): Lab {
     history,
     edits,
     send,
-    layers,
-    showLayer: (layer, on) => {
-      const next = new Set(layers());
-      if (on) next.add(layer);
-      else next.delete(layer);
-      setLayers(next);
-      storeLayers(next);
-    },
+    ...createLayerChoice(knownLayers),
     inspect: (event) => {
       inspect(event);
     },

@@ -4,9 +4,8 @@ import { createEffect, createMemo, createSignal, type Accessor, type JSX } from 
 import type { Lab } from '../lab/lab';
 import type { Palette } from '../ui/palette';
 import { fitView, planView, type View } from './transform';
-import type { Fields } from '../app/fields';
-import { createGround } from './baseMap';
-import type { Layer } from '../lab/layers';
+import { createBaseMap } from './baseMap';
+import type { LiveLayer } from './layer';
 import { paint } from './paint';
 import type { Stage } from './interaction';
 import { type Size, StageCanvas } from './ViewCanvas';
@@ -17,8 +16,7 @@ const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 export interface StageProps {
   readonly lab: Lab;
   readonly stage: Stage;
-  readonly fields: Fields;
-  readonly layers: Accessor<ReadonlySet<Layer>>;
+  readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
   readonly helpId: string;
 }
@@ -38,14 +36,21 @@ export function PlanStage(props: StageProps): JSX.Element {
     const now = view();
     stage.setView(now && planView(now));
   });
-  const ground = createGround(lab, layers, palette, props.fields, view);
+  const baseMap = createBaseMap(lab, layers, palette, view);
 
+  const moving = createMemo(() =>
+    layers.flatMap((layer) => {
+      const draw = layer.isShown() ? layer.moving?.() : undefined;
+      return draw ? [draw] : [];
+    }),
+  );
   createEffect(() => {
-    const groundNow = ground();
+    const mapNow = baseMap();
     const onto = canvas();
-    if (!groundNow || !onto) return;
+    if (!mapNow || !onto) return;
     paint(onto, size(), {
-      ground: groundNow,
+      map: mapNow,
+      moving: moving(),
       state: lab.state(),
       history: lab.history,
       drag: hand.drag(),

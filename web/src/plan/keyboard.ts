@@ -2,8 +2,21 @@
 // it go, Escape lets it go or ends picking.
 
 import type { Lab } from '../lab/lab';
+import type { Shortcut } from '../ui/shortcuts';
 import type { Hand } from './hand';
 import { clampToRect, distance, type TableView, type Vec2 } from '../lab/geometry';
+
+/** For the help; the canvas handles them itself. */
+export const WORKSPACE_SHORTCUTS: readonly Shortcut[] = [
+  {
+    group: 'Workspace',
+    keys: ['ArrowLeft', 'ArrowUp', 'ArrowRight', 'ArrowDown'],
+    does: 'move the cursor, or the bead in the hand; with Shift over walls',
+  },
+  { group: 'Workspace', keys: ['Enter'], does: 'place the goal, or what is picked, at the cursor' },
+  { group: 'Workspace', keys: ['d'], does: 'take the bead, let it go' },
+  { group: 'Workspace', keys: ['Escape'], does: 'let the bead go, end picking' },
+];
 
 const STEP_M = 0.005;
 const ARROWS: Partial<Record<string, Vec2>> = {

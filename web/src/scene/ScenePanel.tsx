@@ -14,8 +14,10 @@ import {
 import { centimetres, newtons } from '../ui/format';
 import type { LookName } from './viewpoints';
 import type { SceneView } from './SceneView';
-import { createGround } from '../plan/baseMap';
-import { createGroundPicture, type GroundPicture, repaintGround } from '../plan/floorPicture';
+import type { InScene, LoadedLayer } from './sceneLayer';
+import { createBaseMap } from '../plan/baseMap';
+import type { LiveLayer, MapLayer } from '../plan/layer';
+import { createFloorPicture, type FloorPicture, repaintFloor } from '../plan/floorPicture';
 import { handOf, remarkOf } from '../plan/paint';
 import type { StageProps } from '../plan/PlanView';
 import { type Size, StageCanvas } from '../plan/ViewCanvas';
@@ -23,7 +25,20 @@ import { distance } from '../lab/geometry';
 
 const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
 
-export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Element {
+async function loadObjects(layers: readonly (MapLayer & InScene)[]): Promise<LoadedLayer[]> {
+  const all = await Promise.all(
+    layers.map(async ({ id, sceneObject }) => {
+      const create = await sceneObject?.();
+      return create && { id, create };
+    }),
+  );
+  // The last one is the lowest on the floor.
+  return all.filter((one) => one !== undefined).reverse();
+}
+
+export function SceneStage(
+  props: StageProps & { layers: readonly LiveLayer<MapLayer & InScene>[]; onPlan: () => void },
+): JSX.Element {
   const { lab, stage, layers, palette } = props;
   const { hand, reachPx, focused, cursor } = stage;
   const [drawing, setDrawing] = createSignal<SceneView>();
@@ -32,12 +47,15 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
   let isGone = false;
 
   const open = async (canvas: HTMLCanvasElement): Promise<void> => {
-    const { SceneView, NoWebGl } = await import('./SceneView').catch(() => {
+    const [{ SceneView, NoWebGl }, inScene] = await Promise.all([
+      import('./SceneView'),
+      loadObjects(layers),
+    ]).catch(() => {
       throw new Error('The 3-D view could not be loaded from the server.');
     });
     if (isGone) return;
     try {
-      setDrawing(new SceneView(canvas, untrack(palette), stage.setView));
+      setDrawing(new SceneView(canvas, untrack(palette), inScene, stage.setView));
     } catch (reason) {
       if (!(reason instanceof NoWebGl)) throw reason;
       throw new Error('This browser shows no 3-D: it has no WebGL 2, or it is switched off.', {
@@ -80,26 +98,30 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
     if (scene) drawing()?.show(scene);
   });
 
-  const picture = createMemo<GroundPicture | undefined>(
+  const picture = createMemo<FloorPicture | undefined>(
     () => {
       const workspace = lab.scene()?.workspace;
-      return workspace && createGroundPicture(workspace);
+      return workspace && createFloorPicture(workspace);
     },
     undefined,
     // The same table keeps its picture.
     { equals: (a, b) => JSON.stringify(a?.workspace) === JSON.stringify(b?.workspace) },
   );
-  const ground = createGround(lab, layers, palette, props.fields, () => picture()?.view);
+  const baseMap = createBaseMap(lab, layers, palette, () => picture()?.view);
   createEffect(() => {
-    const [onto, now] = [picture(), ground()];
+    const [onto, now] = [picture(), baseMap()];
     const view = drawing();
     if (!onto || !now || !view) return;
-    repaintGround(onto, now);
+    repaintFloor(onto, now);
     view.lay(onto);
   });
 
   createEffect(() => {
-    drawing()?.hang(props.fields.field());
+    const pictures = layers.flatMap((layer) => {
+      const picture = layer.isShown() ? layer.underTool?.() : undefined;
+      return picture ? [picture] : [];
+    });
+    drawing()?.hang(pictures);
   });
 
   createEffect(() => {
@@ -132,7 +154,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
     drawing()?.update({
       state,
       history: lab.history,
-      layers: layers(),
+      layers: lab.layers(),
       pull: pull(),
       nearBead: reachPx() !== undefined,
       cursor: focused() ? cursor() : undefined,

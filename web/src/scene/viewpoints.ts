@@ -2,7 +2,7 @@
 
 import { Vector3 } from 'three';
 import type { Rect } from '../net/protocol.gen';
-import { groundMargins } from '../plan/floorPicture';
+import { floorMargins } from '../plan/floorPicture';
 import type { Point } from './solids';
 
 export const LOOKS = ['Home', 'Top', 'Front', 'Side'] as const;
@@ -36,7 +36,7 @@ function corners(rect: Rect, z: number): Point[] {
 export function lookOf(name: LookName, workspace: Rect): Look {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
   const [x, y] = [(x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2];
-  const { left, right, bottom } = groundMargins(workspace);
+  const { left, right, bottom } = floorMargins(workspace);
   const low = corners(
     {
       x_min_m: x_min_m - left,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { type Focus, keyName, type Press, type Shortcut, shortcutFor } from './shortcuts';
+import { type Focus, type Press, type Shortcut, shortcutFor } from './shortcuts';
 
 const run = (): void => undefined;
 const LIST: readonly Shortcut[] = [

@@ -11,7 +11,6 @@ import {
 } from 'solid-js';
 import type { Lab } from '../../lab/lab';
 import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
-import type { Layer } from '../../lab/layers';
 import { allDone, type Lesson, type Run } from './lesson';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
@@ -52,7 +51,7 @@ function createLessons(lab: Lab): Lessons {
   const [step, setStep] = createSignal(0);
   const [tracks, setTracks] = createSignal<Tracks>([]);
   /** Layers that a lesson has switched on and is to switch off again. */
-  let lent: readonly Layer[] = [];
+  let lent: readonly string[] = [];
 
   const keep = (next: Progress): void => {
     setProgress(next);
@@ -83,7 +82,7 @@ function createLessons(lab: Lab): Lessons {
   });
 
   /** Those that `still` needs stay. */
-  const giveBackLayers = (still: readonly Layer[] = []): void => {
+  const giveBackLayers = (still: readonly string[] = []): void => {
     for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
     lent = lent.filter((layer) => still.includes(layer));
   };
