@@ -1,10 +1,10 @@
 // Beside the workspace: what happened, or a lesson.
 
 import type { JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import type { Theme } from '../ui/theme';
 import { TabArea } from './TabArea';
 import { ASIDE_TABS } from './tabs';
+import type { Lab } from '../lab/slices';
 
 export function AsidePanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
   return (

@@ -3,9 +3,9 @@
 import { Show, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ValueFans } from '../features/values/ValueFans';
-import type { Lab } from '../lab/lab';
+import type { Pictures, Trial } from '../lab/slices';
 
-export function ControllerFacts(props: { lab: Lab }): JSX.Element {
+export function ControllerFacts(props: { lab: Trial & Pictures }): JSX.Element {
   const { lab } = props;
   return (
     <>

@@ -2,8 +2,8 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import { createPopover } from '../ui/popover';
-import type { Lab } from '../lab/lab';
 import { LAYER_GROUPS, type MapLayer } from '../plan/layer';
+import type { Lab } from '../lab/slices';
 
 export function LayerMenu(props: {
   lab: Lab;

@@ -1,10 +1,10 @@
 // Below the workspace: the plots against time, what the magnet can do, or how controllers compare.
 
 import { createSignal, type JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import type { Theme } from '../ui/theme';
 import { TabArea } from './TabArea';
 import { LOWER_TABS } from './tabs';
+import type { Lab } from '../lab/slices';
 
 export function LowerPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
   const [large, setLarge] = createSignal(false);

@@ -2,7 +2,7 @@
 
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { createLab } from '../lab/lab';
-import { createLinks } from '../lab/pageExperiment';
+import { createPageExperiment } from '../lab/pageExperiment';
 import { AsidePanel } from './AsidePanel';
 import { CameraPanel } from '../features/camera/CameraPanel';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
@@ -14,7 +14,7 @@ import { LowerPanel } from './LowerPanel';
 import { RecordingsView } from '../features/recordings/RecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
-import { LinkBar } from '../features/share/ExperimentNotice';
+import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { PresetSelect } from '../features/share/PresetSelect';
 import { ShareButton } from '../features/share/ShareButton';
 import { WhyCard } from '../features/why/WhyCard';
@@ -26,7 +26,7 @@ import { WorkspacePanel } from './WorkspacePanel';
 export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window.location, MAP_LAYERS);
-  const links = createLinks(lab, window);
+  const links = createPageExperiment(lab, window);
   const [view, setView] = createSignal<View>('laboratory');
   return (
     <>
@@ -45,7 +45,7 @@ export function Page(): JSX.Element {
           </main>
           <PlaybackBar
             lab={lab}
-            above={<LinkBar lab={lab} links={links} />}
+            above={<ExperimentNotice lab={lab} links={links} />}
             choices={
               <>
                 <OpenMap lab={lab} />

@@ -2,10 +2,10 @@
 
 import type { JSX } from 'solid-js';
 import { Dynamic } from 'solid-js/web';
-import type { Lab } from '../lab/lab';
 import type { TabPanel } from '../lab/panel';
 import { Tabs } from '../ui/Tabs';
 import type { Theme } from '../ui/theme';
+import type { Lab } from '../lab/slices';
 
 export function TabArea(props: {
   lab: Lab;

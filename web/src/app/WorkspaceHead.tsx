@@ -1,10 +1,10 @@
 // Head of the plan view: what carries the magnet, which layers are shown, what can be done.
 
 import { For, Show, type JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import { LayerMenu } from './LayerMenu';
 import type { MapLayer } from '../plan/layer';
 import { VIEW_MODES, type ViewMode } from './viewMode';
+import type { Lab } from '../lab/slices';
 
 /** Radio buttons, so that arrow keys go between them as everywhere. */
 function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {

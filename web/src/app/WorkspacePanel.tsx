@@ -3,19 +3,19 @@
 import { For, Show, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
-import type { Lab } from '../lab/lab';
 import { createPalette } from '../ui/palette';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
 import { DisturbBar } from '../features/disturb/DisturbBar';
-import { PlanStage } from '../plan/PlanView';
-import { SceneStage } from '../scene/ScenePanel';
+import { PlanView } from '../plan/PlanView';
+import { ScenePanel } from '../scene/ScenePanel';
 import { createLayers } from '../plan/layer';
 import { MAP_LAYERS } from './layers';
-import { createStage } from '../plan/interaction';
+import { createInteraction } from '../plan/interaction';
 import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
 import { insidePolygon } from '../lab/geometry';
+import type { Lab } from '../lab/slices';
 
 const HELP_ID = 'workspace-help';
 
@@ -24,20 +24,20 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const [mode, setMode] = createSignal(storedViewMode());
   const [disturbing, setDisturbing] = createSignal(false);
   const palette = createPalette(() => props.theme());
-  const stage = createStage(lab);
+  const interaction = createInteraction(lab);
   const layers = createLayers(MAP_LAYERS, lab, palette);
   /** The topmost first. */
   const menu = layers.toReversed();
 
   const readout = createMemo(() => {
     const scene = lab.scene();
-    const at = stage.at();
+    const at = interaction.at();
     if (!at || !scene) return undefined;
     return { at, wall: scene.walls.some((wall) => insidePolygon(wall, at)) };
   });
   const spoken = createMemo(() => {
-    const at = stage.cursor();
-    return stage.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
+    const at = interaction.cursor();
+    return interaction.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
   });
 
   const choose = (next: ViewMode): void => {
@@ -48,11 +48,11 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     const ended = lab.ended();
     if (ended !== undefined)
       return `The session has ended: ${ended}; reloading the page begins it anew.`;
-    return lab.link().kind === 'live'
+    return lab.connection().kind === 'live'
       ? undefined
       : 'No connection: this is the last state received.';
   };
-  const stageProps = { lab, stage, layers, palette, helpId: HELP_ID };
+  const surfaceProps = { lab, interaction, layers, palette, helpId: HELP_ID };
 
   return (
     <section class="panel workspace">
@@ -66,19 +66,19 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         onDisturbing={setDisturbing}
       />
       <Show when={disturbing()}>
-        <DisturbBar lab={lab} id="disturb" picker={stage.picker} />
+        <DisturbBar lab={lab} id="disturb" picker={interaction.picker} />
       </Show>
       <div class="stage">
-        <Show when={mode() === 'scene'} fallback={<PlanStage {...stageProps} />}>
-          <SceneStage
-            {...stageProps}
+        <Show when={mode() === 'scene'} fallback={<PlanView {...surfaceProps} />}>
+          <ScenePanel
+            {...surfaceProps}
             onPlan={() => {
               choose('plan');
             }}
           />
         </Show>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
-        <Show when={stage.picker.isPicking()}>
+        <Show when={interaction.picker.isPicking()}>
           <p class="picking" role="status">
             Pick a place: click it, or arrows and Enter. Esc ends.
           </p>

@@ -12,7 +12,7 @@ const SPOKEN: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
   'delivered',
   'lift_off',
   'stopped',
-  'link',
+  'connection',
 ]);
 
 /** What was heard already: a line's id and how often it happened. */

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import type { Lab } from '../lab/lab';
 import { keyName } from '../ui/shortcuts';
 import { pageShortcuts } from './pageShortcuts';
+import type { Lab } from '../lab/slices';
 
 const run = (): void => undefined;
 

@@ -2,10 +2,10 @@
 
 import { CONTROLLER_SHORTCUTS } from '../features/controller/shortcuts';
 import { TIME_SHORTCUTS } from '../features/playback/shortcuts';
-import type { Lab } from '../lab/lab';
 import type { FeatureShortcuts } from '../lab/shortcuts';
 import { WORKSPACE_SHORTCUTS } from '../plan/keyboard';
 import type { Shortcut } from '../ui/shortcuts';
+import type { Lab } from '../lab/slices';
 
 const OF_FEATURES: readonly FeatureShortcuts[] = [TIME_SHORTCUTS, CONTROLLER_SHORTCUTS];
 

@@ -2,14 +2,15 @@
 
 import type { JSX } from 'solid-js';
 import { NoticeBar } from '../ui/NoticeBar';
-import type { Lab } from './lab';
 import type { Place } from './model';
+import type { Notices } from './slices';
 
-export function PlaceNotice(props: { lab: Lab; place: Place }): JSX.Element {
+export function PlaceNotice(props: { lab: Notices; place: Place }): JSX.Element {
   return (
     <NoticeBar
       notice={props.lab.notices()[props.place]}
-      place={props.place}
+      // Browser tests know it by this name.
+      place={props.place === 'playback' ? 'transport' : props.place}
       onDismiss={(id) => {
         props.lab.dismiss(props.place, id);
       }}

@@ -1,7 +1,7 @@
-import type { Lab } from './lab';
+import type { Session, Trial } from './slices';
 
 /** Starts a trial on another map; what was tuned stays. */
-export function loadMap(lab: Lab, map: string): void {
+export function loadMap(lab: Session & Trial, map: string): void {
   const scene = lab.scene();
   const state = lab.state();
   if (!scene || !state) return;

@@ -3,10 +3,10 @@
 import type { Component } from 'solid-js';
 import type { TabHead } from '../ui/Tabs';
 import type { Theme } from '../ui/theme';
-import type { Lab } from './lab';
+import type { Lab } from './slices';
 
-export interface PanelProps {
-  readonly lab: Lab;
+export interface PanelProps<L = Lab> {
+  readonly lab: L;
   readonly theme: () => Theme;
   /** Room for the panel's own controls, beside the tabs. */
   readonly tools: HTMLElement;

@@ -2,11 +2,11 @@
 // on its floor.
 
 import { createMemo, type Accessor } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import type { Palette } from '../ui/palette';
 import { drawFloor, drawMap, wallPath } from './drawMap';
 import type { BasePicture, Draw, LiveLayer } from './layer';
 import { pxFromWorld, type View } from './transform';
+import type { Trial } from '../lab/slices';
 
 export interface BaseMap extends BasePicture {
   readonly walls: Path2D;
@@ -37,7 +37,7 @@ const clipped =
   };
 
 export function createBaseMap(
-  lab: Lab,
+  lab: Trial,
   layers: readonly LiveLayer[],
   palette: Accessor<Palette>,
   view: Accessor<View | undefined>,

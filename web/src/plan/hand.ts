@@ -2,10 +2,10 @@
 
 import { createSignal, type Accessor } from 'solid-js';
 import { type DragEvent, type DragState, dragStep, IDLE } from './drag';
-import type { Lab } from '../lab/lab';
 import { Limiter } from '../net/limiter';
 import { Repeater } from '../net/repeater';
 import { clampToRect, type TableView, type Vec2 } from '../lab/geometry';
+import type { Notices, Session, Trial } from '../lab/slices';
 
 const MAX_DRAGS_PER_S = 60;
 /** A hand that holds still says so; of one that is silent for five seconds the server takes the bead. */
@@ -20,7 +20,7 @@ export interface Hand {
 
 /** `place` hears of clicks, in metres. */
 export function createHand(
-  lab: Lab,
+  lab: Session & Trial & Notices,
   view: () => TableView | undefined,
   place: (at: Vec2) => void,
 ): Hand {
@@ -34,7 +34,7 @@ export function createHand(
 
   const mayAct = (): boolean => {
     if (lab.canOperate()) return true;
-    if (lab.link().kind === 'live') {
+    if (lab.connection().kind === 'live') {
       lab.notify('workspace', 'You are watching. Take control to place goals or move the bead.');
     }
     return false;

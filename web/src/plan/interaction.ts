@@ -1,13 +1,13 @@
 // What is done on the workspace, whichever view shows it: the hand, the pointer, the keyboard's cursor.
 
 import { createEffect, createMemo, createSignal, on, type Accessor, type Setter } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import { createHand, type Hand } from './hand';
 import { createPicker, type Picker } from './picker';
 import { type Pointing, reachesBead } from './pointer';
 import type { TableView, Vec2 } from '../lab/geometry';
+import type { Notices, Session, Trial } from '../lab/slices';
 
-export interface Stage {
+export interface Interaction {
   /** Of the view that is open; none before it knows its size. */
   readonly view: Accessor<TableView | undefined>;
   readonly setView: Setter<TableView | undefined>;
@@ -28,7 +28,7 @@ export interface Stage {
   leave(): void;
 }
 
-export function createStage(lab: Lab): Stage {
+export function createInteraction(lab: Session & Trial & Notices): Interaction {
   const [view, setView] = createSignal<TableView>();
   const [pointing, setPointing] = createSignal<Pointing>();
   const [cursor, setCursor] = createSignal<Vec2>();

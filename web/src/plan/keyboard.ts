@@ -1,10 +1,10 @@
 // The workspace by keyboard: arrows move a cursor, Enter places the goal, D takes the bead and lets
 // it go, Escape lets it go or ends picking.
 
-import type { Lab } from '../lab/lab';
 import type { Shortcut } from '../ui/shortcuts';
 import type { Hand } from './hand';
 import { clampToRect, distance, type TableView, type Vec2 } from '../lab/geometry';
+import type { Trial } from '../lab/slices';
 
 /** For the help; the canvas handles them itself. */
 export const WORKSPACE_SHORTCUTS: readonly Shortcut[] = [
@@ -38,7 +38,7 @@ export interface Cursor {
 /** Listens as long as the canvas is there. */
 export function attachKeyboard(
   canvas: HTMLCanvasElement,
-  lab: Lab,
+  lab: Trial,
   hand: Hand,
   view: () => TableView | undefined,
   cursor: Cursor,

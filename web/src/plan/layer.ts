@@ -2,10 +2,10 @@
 
 import { createMemo, type Accessor, type JSX } from 'solid-js';
 import type { History } from '../lab/history';
-import type { Lab } from '../lab/lab';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { Palette } from '../ui/palette';
 import type { View } from './transform';
+import type { Lab } from '../lab/slices';
 
 /** Headings of the menu, in its order. */
 export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
@@ -47,8 +47,8 @@ export interface LayerParts {
   readonly legend?: () => JSX.Element;
 }
 
-export interface LayerContext {
-  readonly lab: Lab;
+export interface LayerContext<L = Lab> {
+  readonly lab: L;
   readonly palette: Accessor<Palette>;
   readonly isShown: Accessor<boolean>;
 }

@@ -3,7 +3,7 @@
 import type { DragState } from './drag';
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import { planView } from './transform';
+import { tableViewOf } from './transform';
 import { type BaseMap, drawClipped, paintBaseMap } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
 import { drawBead, drawGoal, drawTool } from './drawMoving';
@@ -46,7 +46,7 @@ export function handOf(
 function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
   const { drag } = picture;
   const { view, palette, scene } = picture.map;
-  const hand_m = handOf(drag, state, scene, planView(view).toWorld);
+  const hand_m = handOf(drag, state, scene, tableViewOf(view).toWorld);
   if (!hand_m) return;
   drawSpring(ctx, view, palette, widthPx, {
     bead_m: [state.bead_m[0], state.bead_m[1]],

@@ -1,8 +1,8 @@
 // Mouse, pen and finger on the workspace.
 
-import type { Lab } from '../lab/lab';
 import type { Hand } from './hand';
 import { distance, type TableView, type Vec2 } from '../lab/geometry';
+import type { Trial } from '../lab/slices';
 
 /** How near the bead a press takes it. */
 export const GRAB_MOUSE_PX = 16;
@@ -42,7 +42,7 @@ export function reachesBead(
 /** Listens until the function that it returns is called. */
 export function attachPointer(
   canvas: HTMLCanvasElement,
-  lab: Lab,
+  lab: Trial,
   hand: Hand,
   view: () => TableView | undefined,
   onPointing: (pointing: Pointing | undefined) => void,

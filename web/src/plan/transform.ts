@@ -42,7 +42,7 @@ export function worldFromPx(view: View, point: Vec2): [number, number] {
   return [(point[0] - view.originX) / view.pxPerM, (view.originY - point[1]) / view.pxPerM];
 }
 
-export function planView(view: View): TableView {
+export function tableViewOf(view: View): TableView {
   return {
     toWorld: (px) => worldFromPx(view, px),
     toPx: (point) => pxFromWorld(view, point),

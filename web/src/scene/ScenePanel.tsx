@@ -12,18 +12,18 @@ import {
   type JSX,
 } from 'solid-js';
 import { centimetres, newtons } from '../ui/format';
-import type { LookName } from './viewpoints';
+import type { ViewpointName } from './viewpoints';
 import type { SceneView } from './SceneView';
 import type { InScene, LoadedLayer } from './sceneLayer';
 import { createBaseMap } from '../plan/baseMap';
 import type { LiveLayer, MapLayer } from '../plan/layer';
 import { createFloorPicture, type FloorPicture, repaintFloor } from '../plan/floorPicture';
 import { handOf, remarkOf } from '../plan/paint';
-import type { StageProps } from '../plan/PlanView';
-import { type Size, StageCanvas } from '../plan/ViewCanvas';
+import type { SurfaceProps } from '../plan/PlanView';
+import { type Size, ViewCanvas } from '../plan/ViewCanvas';
 import { distance } from '../lab/geometry';
 
-const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
+const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
 
 async function loadObjects(layers: readonly (MapLayer & InScene)[]): Promise<LoadedLayer[]> {
   const all = await Promise.all(
@@ -36,11 +36,11 @@ async function loadObjects(layers: readonly (MapLayer & InScene)[]): Promise<Loa
   return all.filter((one) => one !== undefined).reverse();
 }
 
-export function SceneStage(
-  props: StageProps & { layers: readonly LiveLayer<MapLayer & InScene>[]; onPlan: () => void },
+export function ScenePanel(
+  props: SurfaceProps & { layers: readonly LiveLayer<MapLayer & InScene>[]; onPlan: () => void },
 ): JSX.Element {
-  const { lab, stage, layers, palette } = props;
-  const { hand, reachPx, focused, cursor } = stage;
+  const { lab, interaction, layers, palette } = props;
+  const { hand, reachPx, focused, cursor } = interaction;
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
@@ -55,7 +55,7 @@ export function SceneStage(
     });
     if (isGone) return;
     try {
-      setDrawing(new SceneView(canvas, untrack(palette), inScene, stage.setView));
+      setDrawing(new SceneView(canvas, untrack(palette), inScene, interaction.setView));
     } catch (reason) {
       if (!(reason instanceof NoWebGl)) throw reason;
       throw new Error('This browser shows no 3-D: it has no WebGL 2, or it is switched off.', {
@@ -131,7 +131,7 @@ export function SceneStage(
     drawing()?.setFree(!holds);
   });
   createEffect(
-    on(stage.view, (view) => {
+    on(interaction.view, (view) => {
       // Another view of the table under a hand that holds still: its pixel is another place.
       const drag = hand.drag();
       const own = cursor();
@@ -142,7 +142,7 @@ export function SceneStage(
   );
 
   const pull = createMemo(() => {
-    const [scene, state, view] = [lab.scene(), lab.state(), stage.view()];
+    const [scene, state, view] = [lab.scene(), lab.state(), interaction.view()];
     const drag = hand.drag();
     if (!scene || !state || !view) return undefined;
     const hand_m = handOf(drag, state, scene, view.toWorld);
@@ -162,7 +162,7 @@ export function SceneStage(
   });
 
   const label = createMemo(() => {
-    const [now, state, view] = [pull(), lab.state(), stage.view()];
+    const [now, state, view] = [pull(), lab.state(), interaction.view()];
     const at = now && view?.toPx(now.hand_m);
     if (!now || !state || !at) return undefined;
     const stretched_m = distance([state.bead_m[0], state.bead_m[1]], now.hand_m);
@@ -176,9 +176,9 @@ export function SceneStage(
 
   return (
     <>
-      <StageCanvas
+      <ViewCanvas
         lab={lab}
-        stage={stage}
+        interaction={interaction}
         label="Scene"
         class="scene-canvas"
         helpId={props.helpId}
@@ -217,13 +217,13 @@ export function SceneStage(
       >
         {(view) => (
           <div class="looks" role="group" aria-label="Look from">
-            <For each={LOOKS}>
+            <For each={VIEWPOINTS}>
               {(name) => (
                 <button
                   type="button"
                   class="small"
                   onClick={() => {
-                    view().look(name);
+                    view().goTo(name);
                   }}
                 >
                   {name}

@@ -16,9 +16,9 @@ import type { UnderTool } from '../plan/layer';
 import type { FloorPicture } from '../plan/floorPicture';
 import { Arm, HIDING } from './arm';
 import { Bead, type Pull } from './bead';
-import { Eye } from './orbitCamera';
+import { OrbitCamera } from './orbitCamera';
 import { Floor } from './floor';
-import type { LookName } from './viewpoints';
+import type { ViewpointName } from './viewpoints';
 import { Marks } from './marks';
 import type { LoadedLayer } from './sceneLayer';
 import { Paints } from './paints';
@@ -69,7 +69,7 @@ export class SceneView {
   private readonly light = new DirectionalLight(SKY, LIGHT_STRENGTH);
   private readonly paints: Paints;
   private readonly arm: Arm;
-  private readonly eye: Eye;
+  private readonly orbit: OrbitCamera;
   private setting: Setting | undefined;
   private floor: Floor | undefined;
   private sheets: readonly ToolSheet[] = [];
@@ -105,7 +105,7 @@ export class SceneView {
     shadow.camera.far = 4;
     shadow.normalBias = 2e-3;
     shadow.intensity = SHADOW_STRENGTH;
-    this.eye = new Eye(canvas, () => {
+    this.orbit = new OrbitCamera(canvas, () => {
       this.seeAnew();
     });
     canvas.addEventListener('webglcontextrestored', this.request);
@@ -116,7 +116,7 @@ export class SceneView {
     this.height_px = height_px;
     this.renderer.setPixelRatio(Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio));
     this.renderer.setSize(width_px, height_px, false);
-    this.eye.resize(width_px, height_px);
+    this.orbit.resize(width_px, height_px);
     this.seeAnew();
   }
 
@@ -156,7 +156,7 @@ export class SceneView {
       top: half_m,
       bottom: -half_m,
     }).updateProjectionMatrix();
-    this.eye.lookAt(scene.workspace);
+    this.orbit.lookAt(scene.workspace);
     this.place();
   }
 
@@ -189,19 +189,19 @@ export class SceneView {
   }
 
   setFree(free: boolean): void {
-    this.eye.setFree(free);
+    this.orbit.setFree(free);
   }
 
-  look(name: LookName): void {
-    this.eye.take(name);
+  goTo(name: ViewpointName): void {
+    this.orbit.take(name);
   }
 
   key(key: string): boolean {
-    return this.eye.key(key);
+    return this.orbit.key(key);
   }
 
   turned(arrow: Vec2): Vec2 {
-    return this.eye.turned(arrow);
+    return this.orbit.turned(arrow);
   }
 
   dispose(): void {
@@ -213,7 +213,7 @@ export class SceneView {
     disposeGeometries(this.arm.group);
     this.light.dispose();
     this.paints.dispose();
-    this.eye.dispose();
+    this.orbit.dispose();
     this.renderer.dispose();
     // A browser has few contexts, and frees one that is no longer reachable late.
     this.renderer.forceContextLoss();
@@ -263,7 +263,7 @@ export class SceneView {
   }
 
   private seeAnew(): void {
-    const { view, pxFromTable } = this.eye.view();
+    const { view, pxFromTable } = this.orbit.view();
     this.view = view;
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
     this.onView(view);
@@ -278,11 +278,11 @@ export class SceneView {
   };
 
   private draw(): void {
-    const { setting, now, eye } = this;
+    const { setting, now, orbit } = this;
     if (!setting || !now) return;
-    this.paints.fade(HIDING, eye.hiding());
-    setting.bead.fit(eye.camera, this.height_px);
-    this.renderer.render(this.world, eye.camera);
+    this.paints.fade(HIDING, orbit.hiding());
+    setting.bead.fit(orbit.camera, this.height_px);
+    this.renderer.render(this.world, orbit.camera);
     this.tell(now.state);
   }
 

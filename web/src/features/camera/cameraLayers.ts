@@ -1,8 +1,9 @@
 // The layers of the camera: the area that it sees, and the obstacles that it senses there.
 
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import type { InScene } from '../../scene/sceneLayer';
 import { drawFootprint, drawSensed } from './drawCamera';
+import type { Pictures } from '../../lab/slices';
 
 export const CAMERA_LAYER: MapLayer & InScene = {
   id: 'camera',
@@ -18,7 +19,7 @@ export const SENSED_LAYER: MapLayer = {
   label: 'Sensed',
   group: 'Camera',
   shownAtFirst: true,
-  create: ({ lab }) => ({
+  create: ({ lab }: LayerContext<Pictures>) => ({
     aboveWalls: () => () => {
       const overlay = lab.overlay();
       return (

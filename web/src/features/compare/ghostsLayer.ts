@@ -1,5 +1,6 @@
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import { drawGhosts } from './drawGhosts';
+import type { Compared } from '../../lab/slices';
 
 export const GHOSTS_LAYER: MapLayer = {
   id: 'ghosts',
@@ -7,11 +8,11 @@ export const GHOSTS_LAYER: MapLayer = {
   group: 'Motion',
   shownAtFirst: true,
   isUnclipped: true,
-  create: ({ lab }) => ({
+  create: ({ lab }: LayerContext<Compared>) => ({
     aboveWalls: () => () => {
-      const comparison = lab.ghosts.comparison();
+      const comparison = lab.comparison.shown();
       if (!comparison) return undefined;
-      const tick = lab.ghosts.tick();
+      const tick = lab.comparison.tick();
       return (ctx, { view, palette }) => {
         drawGhosts(ctx, view, palette, comparison, tick);
       };

@@ -1,14 +1,14 @@
 // Which controller runs, why, and with which parameters.
 
 import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { ControllerName } from '../../net/protocol.gen';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
+import type { Notices, Session, Trial } from '../../lab/slices';
 
-function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element {
+function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const active = createMemo(() => lab.state()?.controller === props.name);
@@ -35,7 +35,10 @@ function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element
   );
 }
 
-function ControllerChoice(props: { lab: Lab; names: readonly ControllerName[] }): JSX.Element {
+function ControllerChoice(props: {
+  lab: Session & Trial;
+  names: readonly ControllerName[];
+}): JSX.Element {
   const { lab } = props;
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">
@@ -45,7 +48,10 @@ function ControllerChoice(props: { lab: Lab; names: readonly ControllerName[] })
 }
 
 /** Its children say what the active controller thinks. */
-export function ControllerPanel(props: { lab: Lab; children: JSX.Element }): JSX.Element {
+export function ControllerPanel(props: {
+  lab: Session & Trial & Notices;
+  children: JSX.Element;
+}): JSX.Element {
   const { lab } = props;
   return (
     <section class="panel controller">

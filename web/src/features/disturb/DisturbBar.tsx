@@ -15,7 +15,6 @@ import {
   TIMES,
   unitVector,
 } from '../../lab/disturbance';
-import type { Lab } from '../../lab/lab';
 import {
   type Disturbance,
   MOST_DRIFT_N,
@@ -28,12 +27,17 @@ import {
 import { ScriptList } from './ScriptList';
 import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
 import type { Picker } from '../../plan/picker';
+import type { Session, Trial } from '../../lab/slices';
 
 /** An hour of a trial. */
 const LATEST_S = 3600;
 const FARTHEST_CM = 100;
 
-export function DisturbBar(props: { lab: Lab; id: string; picker: Picker }): JSX.Element {
+export function DisturbBar(props: {
+  lab: Session & Trial;
+  id: string;
+  picker: Picker;
+}): JSX.Element {
   const { lab } = props;
   const { bead_m } = lab.state() ?? { bead_m: [0, 0] };
   const here: Place = { x_m: Number(bead_m[0].toFixed(3)), y_m: Number(bead_m[1].toFixed(3)) };

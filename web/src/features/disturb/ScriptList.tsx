@@ -2,11 +2,11 @@
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
 import { describe, describeWhen, MOST_RANDOM, restart } from '../../lab/disturbance';
-import type { Lab } from '../../lab/lab';
 import type { Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';
+import type { Session, Trial } from '../../lab/slices';
 
-export function ScriptList(props: { lab: Lab }): JSX.Element {
+export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
   const script = (): readonly Scripted[] => lab.scene()?.scenario.script ?? [];
   const inForce = (): number => lab.scene()?.scenario.disturbances ?? 0;

@@ -1,7 +1,6 @@
 // What to evaluate.
 
 import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { type EvaluationList, Refusal } from './evaluations';
@@ -17,6 +16,7 @@ import {
   sizeWords,
   toggled,
 } from './request';
+import type { Session, Trial } from '../../lab/slices';
 
 const DISTURBANCES = [0, 3] as const;
 
@@ -96,7 +96,7 @@ function Whole(props: {
 }
 
 export function EvaluationForm(props: {
-  lab: Lab;
+  lab: Session & Trial;
   list: EvaluationList;
   measured: readonly EvaluationSummary[];
   onBegun: (id: string) => void;

@@ -7,6 +7,7 @@ import type { LogLine } from '../../lab/model';
 import type { EventMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle } from '../../lab/eventStory';
+import type { Events, Session, Trial } from '../../lab/slices';
 
 /** Nearer than this to the end counts as reading along. */
 const FOLLOW_PX = 24;
@@ -14,7 +15,7 @@ const FOLLOW_PX = 24;
 const when = (line: LogLine): string =>
   line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
 
-function EventsPanel(props: PanelProps): JSX.Element {
+function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;

@@ -3,19 +3,20 @@
 import { createMemo } from 'solid-js';
 import type { Plane, PlaneQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import { FieldLegend } from './FieldLegend';
 import { createFieldPicture, drawField } from './drawPlane';
 import { HALF_SIDE_M, planeQuery } from './plane';
+import type { Session, Trial } from '../../lab/slices';
 
 export const FIELD_LAYER: MapLayer = {
   id: 'field',
   label: 'Field and pull',
   group: 'Motion',
-  create: ({ lab, palette, isShown }) => {
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const answer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {
       const parameters = lab.tuning();
-      const asks = isShown() && lab.link().kind === 'live';
+      const asks = isShown() && lab.connection().kind === 'live';
       return asks && parameters ? planeQuery(parameters) : undefined;
     });
     const field = createMemo(() => {

@@ -4,10 +4,11 @@ import { Show, createMemo, untrack } from 'solid-js';
 import type { FlowField, FlowQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
 import { sessionPath } from '../../net/session';
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import { FlowLegend } from './FlowLegend';
 import { createFlow, drawFlow } from './drawFlow';
 import { flowKey, flowQuery } from './flow';
+import type { Pictures, Session, Trial } from '../../lab/slices';
 
 /** While the camera shows new things, the field is another ten times a second: costly, and too fast to read. */
 const ASKED_PER_S = 4;
@@ -16,14 +17,14 @@ export const FLOW_LAYER: MapLayer = {
   id: 'flow',
   label: 'Attractor flow',
   group: 'Attractor',
-  create: ({ lab, isShown }) => {
+  create: ({ lab, isShown }: LayerContext<Session & Trial & Pictures>) => {
     const asks = createMemo(
-      () => isShown() && lab.goal() !== undefined && lab.link().kind === 'live',
+      () => isShown() && lab.goal() !== undefined && lab.connection().kind === 'live',
     );
     const answer = createAnswer<FlowQuery, FlowField>(
       sessionPath(lab.session, 'flow'),
       () => {
-        const [scene, seen] = [lab.scene(), lab.seen()];
+        const [scene, seen] = [lab.scene(), lab.obstacleMap()];
         return asks() && scene && seen ? flowQuery(scene, seen) : undefined;
       },
       {
@@ -37,12 +38,12 @@ export const FLOW_LAYER: MapLayer = {
     const answered = createMemo(() => {
       const field = answer().data;
       // For which it was answered: a later goal, or a larger observed area, brings its own field.
-      const [goal_m, seen] = untrack(() => [lab.goal(), lab.seen()] as const);
+      const [goal_m, seen] = untrack(() => [lab.goal(), lab.obstacleMap()] as const);
       return field && goal_m && seen && field.velocity_m_s.length > 0
         ? createFlow(field, goal_m, seen)
         : undefined;
     });
-    const flow = () => (asks() && lab.seen() ? answered() : undefined);
+    const flow = () => (asks() && lab.obstacleMap() ? answered() : undefined);
     return {
       aboveWalls: () => () => {
         const now = flow();

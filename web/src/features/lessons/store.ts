@@ -9,12 +9,12 @@ import {
   untrack,
   type Accessor,
 } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
 import { allDone, type Lesson, type Run } from './lesson';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
 import { beginTrack, observe, type Track } from './track';
+import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 
 type Tracks = readonly (Track | undefined)[];
 
@@ -44,7 +44,9 @@ export interface Lessons {
   startOver(): void;
 }
 
-function createLessons(lab: Lab): Lessons {
+export type LessonsLab = Session & Trial & Events & Pictures & Layers;
+
+function createLessons(lab: LessonsLab): Lessons {
   const [progress, setProgress] = createSignal(storedProgress(LESSONS));
   const [lesson, setLesson] = createSignal<Lesson>();
   const [left, setLeft] = createSignal<Lesson>();
@@ -150,10 +152,10 @@ function createLessons(lab: Lab): Lessons {
   };
 }
 
-const stores = new WeakMap<Lab, Lessons>();
+const stores = new WeakMap<LessonsLab, Lessons>();
 
 /** The lessons of a laboratory: made once, whichever panel shows them. */
-export function lessonsOf(lab: Lab): Lessons {
+export function lessonsOf(lab: LessonsLab): Lessons {
   let store = stores.get(lab);
   if (!store) {
     store = createRoot(() => createLessons(lab));

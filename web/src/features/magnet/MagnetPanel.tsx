@@ -4,7 +4,6 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { createAnswer } from '../../net/requests';
 import { fixed } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import {
   breakaway,
   directionOf,
@@ -32,8 +31,13 @@ import type { CurveContext } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
 import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { Session, Trial } from '../../lab/slices';
 
-function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters }): JSX.Element {
+function Magnet(props: {
+  lab: Session & Trial;
+  theme: () => Theme;
+  parameters: Parameters;
+}): JSX.Element {
   const { lab } = props;
   const [side, setSide] = createSignal<Side>('x');
   const [pointed, setPointed] = createSignal<string>();
@@ -51,7 +55,7 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
   const asked =
     <Q,>(question: (parameters: Parameters) => Q) =>
     (): Q | undefined =>
-      lab.link().kind === 'live' ? question(props.parameters) : undefined;
+      lab.connection().kind === 'live' ? question(props.parameters) : undefined;
   const pull = createAnswer<PullQuery, PullCurve>(
     '/api/magnetics/pull',
     asked((parameters) => pullQuery(parameters, direction_rad())),
@@ -219,7 +223,7 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
   );
 }
 
-function MagnetPanel(props: PanelProps): JSX.Element {
+function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show when={props.lab.tuning()} fallback={<p class="placeholder">No parameters yet.</p>}>
       {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}

@@ -1,11 +1,11 @@
 // A map from a file of this computer.
 
 import { createSignal, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { loadMap } from '../../lab/loadMap';
 import { addMap } from './maps';
+import type { Notices, Session, Trial } from '../../lab/slices';
 
-export function OpenMap(props: { lab: Lab }): JSX.Element {
+export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const [busy, setBusy] = createSignal(false);
@@ -14,7 +14,7 @@ export function OpenMap(props: { lab: Lab }): JSX.Element {
     try {
       loadMap(lab, await addMap(file));
     } catch (reason) {
-      lab.notify('transport', reason instanceof Error ? reason.message : String(reason));
+      lab.notify('playback', reason instanceof Error ? reason.message : String(reason));
     }
     setBusy(false);
   };

@@ -2,19 +2,20 @@
 
 import { createMemo } from 'solid-js';
 import type { BlocksLayer } from '../../net/protocol.gen';
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import type { View } from '../../plan/transform';
 import type { Palette } from '../../ui/palette';
 import { createSeen, drawBlocks, drawRectangles, drawSeen } from './drawObserved';
+import type { Pictures } from '../../lab/slices';
 
 export const SEEN_LAYER: MapLayer = {
   id: 'seen',
   label: 'Seen so far',
   group: 'Camera',
   isUnclipped: true,
-  create: ({ lab, palette, isShown }) => {
+  create: ({ lab, palette, isShown }: LayerContext<Pictures>) => {
     const seen = createMemo(() => {
-      const message = isShown() ? lab.seen() : undefined;
+      const message = isShown() ? lab.obstacleMap() : undefined;
       return message && createSeen(message, palette());
     });
     return {
@@ -40,7 +41,7 @@ function ofBlocks(
     id,
     label,
     group: 'Camera',
-    create: ({ lab }) => ({
+    create: ({ lab }: LayerContext<Pictures>) => ({
       aboveWalls: () => () => {
         const overlay = lab.overlay();
         return (

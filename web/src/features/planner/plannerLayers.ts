@@ -2,10 +2,11 @@
 
 import { createMemo } from 'solid-js';
 import type { PlanLayer } from '../../net/protocol.gen';
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import type { View } from '../../plan/transform';
 import type { Palette } from '../../ui/palette';
 import { createObstacles, createPlan, drawObstacles, drawPlan } from './drawPlan';
+import type { Pictures } from '../../lab/slices';
 
 /** Paths are made again only for another plan or view. */
 function ofPlan<T>(
@@ -16,7 +17,7 @@ function ofPlan<T>(
   return {
     ...layer,
     group: 'ERRT',
-    create: ({ lab, isShown }) => ({
+    create: ({ lab, isShown }: LayerContext<Pictures>) => ({
       aboveWalls: (view) => {
         const traced = createMemo(() => {
           const [plan, now] = [isShown() ? lab.overlay()?.plan : undefined, view()];

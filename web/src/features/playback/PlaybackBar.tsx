@@ -2,19 +2,19 @@
 
 import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import { loadMap } from '../../lab/loadMap';
 import { speedName, SPEEDS, ticksToControlStep } from './steps';
 import { Achieved } from './Achieved';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { Timeline } from './Timeline';
 import { TruthSelect } from '../../ui/ServerSelect';
+import type { Events, Notices, Session, Trial } from '../../lab/slices';
 
 /** One second of ticks. */
 const MANY_TICKS = 125;
 const SEED_LIMIT = 2 ** 32;
 
-function RunButtons(props: { lab: Lab }): JSX.Element {
+function RunButtons(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
   const running = (): boolean => lab.state()?.running ?? false;
   const toggle = (): void => {
@@ -67,7 +67,7 @@ function RunButtons(props: { lab: Lab }): JSX.Element {
   );
 }
 
-function Seed(props: { lab: Lab; seed: number }): JSX.Element {
+function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const show = (): void => {
@@ -81,7 +81,7 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
         event.preventDefault();
         const seed = input.valueAsNumber;
         if (Number.isSafeInteger(seed) && seed >= 0) lab.send({ type: 'reset', seed });
-        else lab.notify('transport', 'A seed is a whole number from 0.');
+        else lab.notify('playback', 'A seed is a whole number from 0.');
       }}
     >
       <label for="seed">Seed</label>
@@ -112,7 +112,7 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
 }
 
 export function PlaybackBar(props: {
-  lab: Lab;
+  lab: Session & Trial & Events & Notices;
   /** Above the row of controls. */
   above: JSX.Element;
   /** Beside the map: other ways to choose an experiment. */
@@ -179,7 +179,7 @@ export function PlaybackBar(props: {
       </div>
       <Timeline lab={lab} />
       {props.below}
-      <PlaceNotice lab={lab} place="transport" />
+      <PlaceNotice lab={lab} place="playback" />
     </footer>
   );
 }

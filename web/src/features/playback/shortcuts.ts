@@ -1,7 +1,8 @@
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import { nextSpeed, ticksToControlStep } from './steps';
+import type { Session, Trial } from '../../lab/slices';
 
-export const TIME_SHORTCUTS: FeatureShortcuts = (lab, operate) => {
+export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) => {
   const shiftSpeed = (direction: 1 | -1) =>
     operate(() => {
       const target = lab.state()?.speed_target ?? 1;

@@ -3,26 +3,27 @@
 import { Show, createMemo } from 'solid-js';
 import type { WorkspaceMap, WorkspaceQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import { HeatLegend } from './HeatLegend';
 import { createHeat, drawHeat } from './drawHeat';
 import { workspaceQuery } from './heat';
+import type { Session, Trial } from '../../lab/slices';
 
 export const SINGULARITY_LAYER: MapLayer = {
   id: 'singularity',
   label: 'Singularity',
   group: 'Arm',
-  unavailable: (lab) =>
+  unavailable: (lab: Trial) =>
     lab.scene()?.positioner === 'planar_stage'
       ? 'The planar stage has no arm, and so no singularities.'
       : undefined,
-  create: ({ lab, palette, isShown }) => {
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const question = createMemo<WorkspaceQuery | undefined>(() => {
       const [scene, parameters] = [lab.scene(), lab.tuning()];
       return isShown() && scene && parameters ? workspaceQuery(scene, parameters) : undefined;
     });
     const answer = createAnswer<WorkspaceQuery, WorkspaceMap>('/api/kinematics/workspace', () =>
-      lab.link().kind === 'live' ? question() : undefined,
+      lab.connection().kind === 'live' ? question() : undefined,
     );
     const heat = createMemo(() => {
       const map = answer().data;

@@ -3,7 +3,7 @@
 import type { Palette } from '../../ui/palette';
 import type { ValueMap } from '../../net/protocol.gen';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { valueArrows, type ValuePicture, valuePicture } from './value';
+import { valueArrows, valuePicture, type ValuePicture } from './value';
 import { arrowPath } from '../../plan/arrows';
 import { heatRamp } from '../../plan/colourRamp';
 

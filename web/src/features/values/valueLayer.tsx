@@ -4,16 +4,17 @@ import { createMemo } from 'solid-js';
 import type { ValueMap, ValueQuery } from '../../net/protocol.gen';
 import { createAnswer } from '../../net/requests';
 import { sessionPath } from '../../net/session';
-import type { MapLayer } from '../../plan/layer';
+import type { LayerContext, MapLayer } from '../../plan/layer';
 import { ValueLegend } from './ValueLegend';
 import { createValues, drawValues } from './drawValue';
 import { valueKey } from './value';
+import type { Session, Trial } from '../../lab/slices';
 
 export const VALUE_LAYER: MapLayer = {
   id: 'value',
   label: 'Value',
   group: 'RL',
-  create: ({ lab, palette, isShown }) => {
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const key = createMemo(() => {
       const [scene, goal_m] = [lab.scene(), lab.goal()];
       return scene && goal_m && isShown() ? valueKey(scene, goal_m) : undefined;
@@ -22,7 +23,7 @@ export const VALUE_LAYER: MapLayer = {
       sessionPath(lab.session, 'values'),
       () => {
         const goal_m = lab.goal();
-        const asks = key() !== undefined && lab.link().kind === 'live';
+        const asks = key() !== undefined && lab.connection().kind === 'live';
         return asks && goal_m ? { goal_m: [goal_m[0], goal_m[1]] } : undefined;
       },
       { key: () => key() ?? '' },
