@@ -48,7 +48,6 @@ export function ViewCanvas(props: {
       canvas,
       lab,
       interaction.hand,
-      interaction.view,
       cursor,
       interaction.place,
       interaction.picker.cancel,

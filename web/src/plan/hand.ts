@@ -4,7 +4,8 @@ import { createSignal, type Accessor } from 'solid-js';
 import { type DragEvent, type DragState, dragStep, IDLE } from './drag';
 import { Limiter } from '../net/limiter';
 import { Repeater } from '../net/repeater';
-import { clampToRect, type TableView, type Vec2 } from '../lab/geometry';
+import { clampToRect, type Vec2 } from '../lab/geometry';
+import { ends, type Release } from './release';
 import type { Notices, Session, Trial } from '../lab/slices';
 
 const MAX_DRAGS_PER_S = 60;
@@ -13,17 +14,15 @@ const STILL_THERE_MS = 500;
 
 export interface Hand {
   readonly drag: Accessor<DragState>;
-  dispatch(event: DragEvent): void;
+  dispatch(event: Exclude<DragEvent, { type: 'cancel' }>): void;
+  /** Ends what the hand does, if the cause is one for it. */
+  readonly release: Release;
   /** Whether this browser may act; tells the person when it may not. */
   mayAct(): boolean;
 }
 
-/** `place` hears of clicks, in metres. */
-export function createHand(
-  lab: Session & Trial & Notices,
-  view: () => TableView | undefined,
-  place: (at: Vec2) => void,
-): Hand {
+/** `place` gets the clicks. */
+export function createHand(lab: Session & Trial & Notices, place: (at: Vec2) => void): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
   const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
     lab.send({ type: 'drag', x_m: at[0], y_m: at[1], lift });
@@ -40,7 +39,7 @@ export function createHand(
     return false;
   };
 
-  const dispatch = (event: DragEvent): void => {
+  const step = (event: DragEvent): void => {
     const [next, effects] = dragStep(drag(), event);
     setDrag(next);
     for (const effect of effects) {
@@ -48,17 +47,16 @@ export function createHand(
         drags.flush();
         holds.stop();
         lab.send({ type: 'release' });
-        continue;
-      }
-      const at = view()?.toWorld(effect.at);
-      const scene = lab.scene();
-      if (!at || !scene) continue;
-      if (effect.type === 'goal') {
-        place(at);
+      } else if (effect.type === 'goal') {
+        place(effect.at);
       } else {
-        drags.offer({ at: clampToRect(scene.workspace, at), lift: effect.lift });
+        const scene = lab.scene();
+        if (scene) drags.offer({ at: clampToRect(scene.workspace, effect.at), lift: effect.lift });
       }
     }
   };
-  return { drag, mayAct, dispatch };
+  const release: Release = (cause, pointer) => {
+    if (ends(cause, drag(), pointer)) step({ type: 'cancel' });
+  };
+  return { drag, mayAct, dispatch: step, release };
 }

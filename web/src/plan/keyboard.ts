@@ -3,7 +3,7 @@
 
 import type { Shortcut } from '../ui/shortcuts';
 import type { Hand } from './hand';
-import { clampToRect, distance, type TableView, type Vec2 } from '../lab/geometry';
+import { clampToRect, distance, type Vec2 } from '../lab/geometry';
 import type { Trial } from '../lab/slices';
 
 /** For the help; the canvas handles them itself. */
@@ -40,7 +40,6 @@ export function attachKeyboard(
   canvas: HTMLCanvasElement,
   lab: Trial,
   hand: Hand,
-  view: () => TableView | undefined,
   cursor: Cursor,
   place: (at: Vec2) => void,
   escape: () => void,
@@ -53,7 +52,6 @@ export function attachKeyboard(
     const drag = hand.drag();
     return drag.kind === 'held' && drag.by === 'keyboard';
   };
-  const px = (at: Vec2): Vec2 | undefined => view()?.toPx(at);
 
   const move = (direction: Vec2, lift: boolean): void => {
     const scene = lab.scene();
@@ -64,13 +62,12 @@ export function attachKeyboard(
       from[1] + direction[1] * STEP_M,
     ]);
     cursor.put(to);
-    const at = px(to);
-    if (holds() && at) hand.dispatch({ type: 'move', by: 'keyboard', at, lift });
+    if (holds()) hand.dispatch({ type: 'move', by: 'keyboard', at: to, isBeyondSlop: true, lift });
   };
 
   const takeOrRelease = (): void => {
     if (holds()) {
-      hand.dispatch({ type: 'cancel' });
+      hand.dispatch({ type: 'put' });
       return;
     }
     const beadAt = bead();
@@ -79,8 +76,7 @@ export function attachKeyboard(
     const here = cursor.at();
     const from = here && distance(here, beadAt) <= REACH_M ? here : beadAt;
     cursor.put(from);
-    const at = px(from);
-    if (at) hand.dispatch({ type: 'take', at });
+    hand.dispatch({ type: 'take', at: from });
   };
 
   canvas.addEventListener('keydown', (event) => {
@@ -97,14 +93,11 @@ export function attachKeyboard(
       // A held key takes once.
       if (!event.repeat) takeOrRelease();
     } else if (event.key === 'Escape') {
-      hand.dispatch({ type: 'cancel' });
+      hand.release('escape');
       escape();
     } else {
       return;
     }
     event.preventDefault();
-  });
-  canvas.addEventListener('blur', () => {
-    if (holds()) hand.dispatch({ type: 'cancel' });
   });
 }

@@ -3,12 +3,11 @@
 import type { DragState } from './drag';
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import { tableViewOf } from './transform';
 import { type BaseMap, drawClipped, paintBaseMap } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
 import { drawBead, drawGoal, drawTool } from './drawMoving';
 import type { Draw, MovingPicture } from './layer';
-import { clampToRect, type TableView, type Vec2 } from '../lab/geometry';
+import { clampToRect, type Vec2 } from '../lab/geometry';
 
 export interface Picture {
   readonly map: BaseMap;
@@ -37,16 +36,14 @@ export function handOf(
   drag: DragState,
   state: StateMessage,
   scene: SceneMessage,
-  toWorld: TableView['toWorld'],
 ): Vec2 | undefined {
-  const own = drag.kind === 'held' ? toWorld(drag.at) : undefined;
-  return own ? clampToRect(scene.workspace, own) : (state.hand_m ?? undefined);
+  return drag.kind === 'held' ? clampToRect(scene.workspace, drag.at) : (state.hand_m ?? undefined);
 }
 
 function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
   const { drag } = picture;
   const { view, palette, scene } = picture.map;
-  const hand_m = handOf(drag, state, scene, tableViewOf(view).toWorld);
+  const hand_m = handOf(drag, state, scene);
   if (!hand_m) return;
   drawSpring(ctx, view, palette, widthPx, {
     bead_m: [state.bead_m[0], state.bead_m[1]],

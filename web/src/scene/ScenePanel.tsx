@@ -6,7 +6,6 @@ import {
   createEffect,
   createMemo,
   createSignal,
-  on,
   onCleanup,
   untrack,
   type JSX,
@@ -71,7 +70,7 @@ export function ScenePanel(
     });
     canvas.addEventListener('pointerdown', ({ isPrimary }) => {
       // Two fingers turn and zoom; the first one was no click then.
-      if (!isPrimary && hand.drag().kind === 'pressed') hand.dispatch({ type: 'cancel' });
+      if (!isPrimary) hand.release('second finger');
     });
     canvas.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -130,22 +129,11 @@ export function ScenePanel(
       drag.kind === 'held' ? drag.by !== 'keyboard' : drag.kind === 'pressed' && drag.onBead;
     drawing()?.setFree(!holds);
   });
-  createEffect(
-    on(interaction.view, (view) => {
-      // Another view of the table under a hand that holds still: its pixel is another place.
-      const drag = hand.drag();
-      const own = cursor();
-      if (!view || drag.kind !== 'held') return;
-      const at = drag.by === 'keyboard' && own ? view.toPx(own) : drag.at;
-      if (at) hand.dispatch({ type: 'move', by: drag.by, at, lift: drag.lift });
-    }),
-  );
-
   const pull = createMemo(() => {
-    const [scene, state, view] = [lab.scene(), lab.state(), interaction.view()];
+    const [scene, state] = [lab.scene(), lab.state()];
     const drag = hand.drag();
-    if (!scene || !state || !view) return undefined;
-    const hand_m = handOf(drag, state, scene, view.toWorld);
+    if (!scene || !state) return undefined;
+    const hand_m = handOf(drag, state, scene);
     return hand_m && { hand_m, lifted: drag.kind === 'held' && drag.lift };
   });
   createEffect(() => {
