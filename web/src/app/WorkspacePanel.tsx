@@ -27,7 +27,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const interaction = createInteraction(lab);
   const layers = createLayers(MAP_LAYERS, lab, palette);
   /** The topmost first. */
-  const menu = layers.toReversed();
+  const menu = [...layers].reverse();
 
   const readout = createMemo(() => {
     const scene = lab.scene();
