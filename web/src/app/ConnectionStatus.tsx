@@ -2,18 +2,18 @@
 
 import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import { loggedOut } from '../net/access';
-import type { Lab } from '../lab/lab';
-import type { Link } from '../lab/model';
+import type { ConnectionState } from '../lab/model';
 import { MAIN } from '../net/session';
+import type { Session } from '../lab/slices';
 
-function linkText(link: Link): string {
-  switch (link.kind) {
+function connectionText(connection: ConnectionState): string {
+  switch (connection.kind) {
     case 'connecting':
       return 'connecting';
     case 'live':
       return 'live';
     case 'lost':
-      return `reconnecting, attempt ${link.attempt}`;
+      return `reconnecting, attempt ${connection.attempt}`;
     case 'outdated':
       return 'server has another version: reload the page';
   }
@@ -45,7 +45,7 @@ function nameTab(session: string): void {
   });
 }
 
-export function Connection(props: { lab: Lab }): JSX.Element {
+export function ConnectionStatus(props: { lab: Session }): JSX.Element {
   const { lab } = props;
   const isNamed = lab.session !== MAIN;
   if (isNamed) nameTab(lab.session);
@@ -61,11 +61,11 @@ export function Connection(props: { lab: Lab }): JSX.Element {
         </Show>
         <span
           class="link"
-          data-link={hasEnded() ? 'ended' : lab.link().kind}
+          data-link={hasEnded() ? 'ended' : lab.connection().kind}
           data-testid="connection"
           title={lab.ended()}
         >
-          {hasEnded() ? 'session ended' : linkText(lab.link())}
+          {hasEnded() ? 'session ended' : connectionText(lab.connection())}
         </span>
       </div>
       <Show when={hasEnded()}>

@@ -1,12 +1,13 @@
 // Who, what, and how it stands: connection, role, mode, counters.
 
 import { For, Show, type JSX } from 'solid-js';
-import { takeControl, type Lab } from '../lab/lab';
 import type { Theme } from '../ui/theme';
-import { VIEWS, type View } from './views';
-import { Connection } from './ConnectionStatus';
+import { type View, VIEWS } from './views';
+import { ConnectionStatus } from './ConnectionStatus';
 import { KeyboardHelp } from './KeyboardHelp';
-import { NoticeBar } from '../ui/NoticeBar';
+import { PlaceNotice } from '../lab/PlaceNotice';
+import type { Lab, Notices, Session } from '../lab/slices';
+import { takeControl } from '../lab/takeControl';
 
 function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
   return (
@@ -19,11 +20,11 @@ function Counter(props: { label: string; testid: string; value: number | undefin
   );
 }
 
-function RoleBox(props: { lab: Lab }): JSX.Element {
+function RoleBox(props: { lab: Session & Notices }): JSX.Element {
   const { lab } = props;
   const operator = (): boolean => lab.hello()?.role === 'operator';
   return (
-    <Show when={lab.link().kind === 'live' && lab.hello()}>
+    <Show when={lab.connection().kind === 'live' && lab.hello()}>
       <span class="role" data-testid="role">
         {operator() ? 'operator' : 'viewer'}
       </span>
@@ -80,7 +81,7 @@ export function Header(props: HeaderProps): JSX.Element {
         </For>
       </nav>
       <div class="session">
-        <Connection lab={lab} />
+        <ConnectionStatus lab={lab} />
         <RoleBox lab={lab} />
         <Show when={lab.state()}>
           {(state) => (
@@ -94,7 +95,7 @@ export function Header(props: HeaderProps): JSX.Element {
             </span>
           )}
         </Show>
-        <NoticeBar lab={lab} place="session" />
+        <PlaceNotice lab={lab} place="session" />
       </div>
       <div class="mode" data-mode={lab.state()?.mode ?? 0}>
         <span class="mode-label">mode</span>

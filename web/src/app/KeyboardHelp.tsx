@@ -3,9 +3,9 @@
 import { For, createSignal, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
-import type { Lab } from '../lab/lab';
 import { recall, remember } from '../ui/storage';
 import type { View } from './views';
+import type { Lab } from '../lab/slices';
 
 const KEY = 'shortcuts';
 

@@ -2,13 +2,13 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import { createPopover } from '../ui/popover';
-import { LAYER_GROUPS, type Layer } from '../lab/layers';
+import { LAYER_GROUPS, type MapLayer } from '../plan/layer';
+import type { Lab } from '../lab/slices';
 
 export function LayerMenu(props: {
-  layers: ReadonlySet<Layer>;
-  onLayer: (layer: Layer, on: boolean) => void;
-  /** Why a layer cannot be shown, if it cannot. */
-  reason: (layer: Layer) => string | undefined;
+  lab: Lab;
+  /** In the order of the menu within their group. */
+  layers: readonly MapLayer[];
 }): JSX.Element {
   let menu!: HTMLDivElement;
   let button!: HTMLButtonElement;
@@ -36,21 +36,24 @@ export function LayerMenu(props: {
           <For each={LAYER_GROUPS}>
             {(group) => (
               <fieldset>
-                <legend>{group.title}</legend>
-                <For each={group.layers}>
-                  {([id, label]) => (
-                    <label title={props.reason(id)}>
-                      <input
-                        type="checkbox"
-                        checked={props.layers.has(id) && !props.reason(id)}
-                        disabled={props.reason(id) !== undefined}
-                        onChange={(event) => {
-                          props.onLayer(id, event.currentTarget.checked);
-                        }}
-                      />
-                      {label}
-                    </label>
-                  )}
+                <legend>{group}</legend>
+                <For each={props.layers.filter((layer) => layer.group === group)}>
+                  {({ id, label, unavailable }) => {
+                    const reason = (): string | undefined => unavailable?.(props.lab);
+                    return (
+                      <label title={reason()}>
+                        <input
+                          type="checkbox"
+                          checked={props.lab.layers().has(id) && !reason()}
+                          disabled={reason() !== undefined}
+                          onChange={(event) => {
+                            props.lab.showLayer(id, event.currentTarget.checked);
+                          }}
+                        />
+                        {label}
+                      </label>
+                    );
+                  }}
                 </For>
               </fieldset>
             )}

@@ -2,9 +2,9 @@
 
 import { createEffect, createSignal, on, type JSX } from 'solid-js';
 import { createSpeaker, heardOf, newsOf, roleWords } from './announce';
-import type { Lab } from '../lab/lab';
+import type { Events, Session } from '../lab/slices';
 
-export function LiveRegion(props: { lab: Lab }): JSX.Element {
+export function LiveRegion(props: { lab: Session & Events }): JSX.Element {
   const { lab } = props;
   const [said, setSaid] = createSignal('');
   const say = createSpeaker(setSaid);

@@ -1,26 +1,20 @@
 // Below the workspace: the plots against time, what the magnet can do, or how controllers compare.
 
 import { createSignal, type JSX } from 'solid-js';
-import { ComparePanel } from '../features/compare/ComparePanel';
-import { MagnetPanel } from '../features/magnet/MagnetPanel';
-import { PlotsPanel } from '../features/plots/PlotsPanel';
-import { Tabs, type Tab, type PanelProps } from '../ui/Tabs';
+import type { Theme } from '../ui/theme';
+import { TabArea } from './TabArea';
+import { LOWER_TABS } from './tabs';
+import type { Lab } from '../lab/slices';
 
-const TABS: readonly [Tab, ...Tab[]] = [
-  { id: 'plots', title: 'Plots', panel: PlotsPanel },
-  { id: 'magnet', title: 'Magnet', panel: MagnetPanel },
-  { id: 'compare', title: 'Compare', panel: ComparePanel },
-];
-
-export function LowerPanel(props: PanelProps): JSX.Element {
+export function LowerPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
   const [large, setLarge] = createSignal(false);
   return (
-    <Tabs
+    <TabArea
       lab={props.lab}
       theme={props.theme}
       area="lower"
       label="Below the workspace"
-      tabs={TABS}
+      tabs={LOWER_TABS}
       aside={
         <button
           type="button"

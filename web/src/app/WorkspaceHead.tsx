@@ -1,10 +1,10 @@
 // Head of the plan view: what carries the magnet, which layers are shown, what can be done.
 
 import { For, Show, type JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import { LayerMenu } from './LayerMenu';
-import type { Layer } from '../lab/layers';
+import type { MapLayer } from '../plan/layer';
 import { VIEW_MODES, type ViewMode } from './viewMode';
+import type { Lab } from '../lab/slices';
 
 /** Radio buttons, so that arrow keys go between them as everywhere. */
 function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {
@@ -33,18 +33,13 @@ export function WorkspaceHead(props: {
   lab: Lab;
   mode: ViewMode;
   onMode: (mode: ViewMode) => void;
-  layers: ReadonlySet<Layer>;
-  onLayer: (layer: Layer, on: boolean) => void;
+  layers: readonly MapLayer[];
   disturbId: string;
   disturbing: boolean;
   onDisturbing: (on: boolean) => void;
 }): JSX.Element {
   const { lab } = props;
   const hasArm = (): boolean => lab.scene()?.positioner !== 'planar_stage';
-  const reason = (layer: Layer): string | undefined =>
-    layer === 'singularity' && !hasArm()
-      ? 'The planar stage has no arm, and so no singularities.'
-      : undefined;
   return (
     <header class="panel-head">
       <h2>
@@ -57,7 +52,7 @@ export function WorkspaceHead(props: {
       </h2>
       <div class="buttons">
         <ViewSwitch mode={props.mode} onMode={props.onMode} />
-        <LayerMenu layers={props.layers} onLayer={props.onLayer} reason={reason} />
+        <LayerMenu lab={lab} layers={props.layers} />
         <button
           type="button"
           class="small"

@@ -1,24 +1,21 @@
 // The workspace, from above or in space: click places the goal, dragging the bead is the disturbance.
 
-import { Show, createMemo, createSignal } from 'solid-js';
+import { For, Show, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
-import type { Lab } from '../lab/lab';
 import { createPalette } from '../ui/palette';
-import { NoticeBar } from '../ui/NoticeBar';
+import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
-import { insidePolygon } from '../plan/transform';
 import { DisturbBar } from '../features/disturb/DisturbBar';
-import { createFields } from './fields';
-import { FieldLegend } from '../features/field/FieldLegend';
-import { FlowLegend } from '../features/flow/FlowLegend';
-import { HeatLegend } from '../features/singularity/HeatLegend';
-import { PlanStage } from '../plan/PlanView';
-import { SceneStage } from '../scene/ScenePanel';
-import { createStage } from '../plan/interaction';
-import { ValueLegend } from '../features/values/ValueLegend';
-import { storeViewMode, storedViewMode, type ViewMode } from './viewMode';
+import { PlanView } from '../plan/PlanView';
+import { ScenePanel } from '../scene/ScenePanel';
+import { createLayers } from '../plan/layer';
+import { MAP_LAYERS } from './layers';
+import { createInteraction } from '../plan/interaction';
+import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
+import { insidePolygon } from '../lab/geometry';
+import type { Lab } from '../lab/slices';
 
 const HELP_ID = 'workspace-help';
 
@@ -26,20 +23,21 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const { lab } = props;
   const [mode, setMode] = createSignal(storedViewMode());
   const [disturbing, setDisturbing] = createSignal(false);
-  const { layers } = lab;
   const palette = createPalette(() => props.theme());
-  const stage = createStage(lab);
-  const fields = createFields(lab, layers, palette);
+  const interaction = createInteraction(lab);
+  const layers = createLayers(MAP_LAYERS, lab, palette);
+  /** The topmost first. */
+  const menu = [...layers].reverse();
 
   const readout = createMemo(() => {
     const scene = lab.scene();
-    const at = stage.at();
+    const at = interaction.at();
     if (!at || !scene) return undefined;
     return { at, wall: scene.walls.some((wall) => insidePolygon(wall, at)) };
   });
   const spoken = createMemo(() => {
-    const at = stage.cursor();
-    return stage.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
+    const at = interaction.cursor();
+    return interaction.focused() && at ? `x ${fixed(at[0], 3)}, y ${fixed(at[1], 3)} metres` : '';
   });
 
   const choose = (next: ViewMode): void => {
@@ -50,11 +48,11 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
     const ended = lab.ended();
     if (ended !== undefined)
       return `The session has ended: ${ended}; reloading the page begins it anew.`;
-    return lab.link().kind === 'live'
+    return lab.connection().kind === 'live'
       ? undefined
       : 'No connection: this is the last state received.';
   };
-  const stageProps = { lab, stage, fields, layers, palette, helpId: HELP_ID };
+  const surfaceProps = { lab, interaction, layers, palette, helpId: HELP_ID };
 
   return (
     <section class="panel workspace">
@@ -62,57 +60,32 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         lab={lab}
         mode={mode()}
         onMode={choose}
-        layers={layers()}
-        onLayer={(layer, on) => {
-          lab.showLayer(layer, on);
-        }}
+        layers={menu}
         disturbId="disturb"
         disturbing={disturbing()}
         onDisturbing={setDisturbing}
       />
       <Show when={disturbing()}>
-        <DisturbBar lab={lab} id="disturb" picker={stage.picker} />
+        <DisturbBar lab={lab} id="disturb" picker={interaction.picker} />
       </Show>
       <div class="stage">
-        <Show when={mode() === 'scene'} fallback={<PlanStage {...stageProps} />}>
-          <SceneStage
-            {...stageProps}
+        <Show when={mode() === 'scene'} fallback={<PlanView {...surfaceProps} />}>
+          <ScenePanel
+            {...surfaceProps}
             onPlan={() => {
               choose('plan');
             }}
           />
         </Show>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
-        <Show when={stage.picker.isPicking()}>
+        <Show when={interaction.picker.isPicking()}>
           <p class="picking" role="status">
             Pick a place: click it, or arrows and Enter. Esc ends.
           </p>
         </Show>
-        <NoticeBar lab={lab} place="workspace" />
+        <PlaceNotice lab={lab} place="workspace" />
       </div>
-      <Show when={fields.showsHeat()}>
-        <HeatLegend answer={fields.heatAnswer()} />
-      </Show>
-      <Show when={fields.showsField()}>
-        <FieldLegend answer={fields.fieldAnswer()} />
-      </Show>
-      <Show when={fields.showsFlow() && lab.scene()}>
-        {(scene) => (
-          <FlowLegend
-            answer={fields.flow.answer()}
-            flow={fields.flow.flow()}
-            hasGoal={fields.goal() !== undefined}
-            law={scene().parameters.attractor_law}
-          />
-        )}
-      </Show>
-      <Show when={fields.showsValue()}>
-        <ValueLegend
-          map={fields.value.map()}
-          error={fields.value.error()}
-          hasGoal={fields.goal() !== undefined}
-        />
-      </Show>
+      <For each={menu}>{(layer) => <Show when={layer.isShown()}>{layer.legend?.()}</Show>}</For>
       <footer class="panel-foot">
         <p id={HELP_ID} class="hint">
           <Show

@@ -1,6 +1,6 @@
 // What the page says aloud to those who do not see it. Pure.
 
-import { Limiter, type Clock } from '../net/limiter';
+import { type Clock, Limiter } from '../net/limiter';
 import type { LogLine, Model } from '../lab/model';
 
 /** At most so often: speech takes time. */
@@ -12,7 +12,7 @@ const SPOKEN: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
   'delivered',
   'lift_off',
   'stopped',
-  'link',
+  'connection',
 ]);
 
 /** What was heard already: a line's id and how often it happened. */

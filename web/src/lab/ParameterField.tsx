@@ -2,17 +2,17 @@
 
 import { For, batch, createMemo, createUniqueId, type JSX } from 'solid-js';
 import {
-  digits,
-  shownMost,
-  shownValue,
-  storedValue,
   type ChoiceField,
+  digits,
   type Field,
   type FlagField,
   type NumberField,
+  shownMost,
+  shownValue,
+  storedValue,
 } from './parameters';
-import type { Lab } from './lab';
 import type { Parameters, SceneMessage } from '../net/protocol.gen';
+import type { Session, Trial } from './slices';
 
 export interface Form {
   /** In force, with edits that are on their way on top. */
@@ -160,7 +160,7 @@ export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
 }
 
 /** A form for the parameters of a scene; all forms of the page share the edits. */
-export function createForm(lab: Lab, scene: () => SceneMessage): Form {
+export function createForm(lab: Session & Trial, scene: () => SceneMessage): Form {
   return {
     values: () => lab.edits.values() ?? scene().parameters,
     defaults: () => scene().defaults,

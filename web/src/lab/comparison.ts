@@ -1,8 +1,8 @@
-// A moment run on under several controllers: each branch is a ghost, shown at one time of all.
+// A moment run on under several controllers: all branches are shown at one time.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import type { Branch, ComparisonMessage } from '../net/protocol.gen';
-import { distance, type Vec2 } from '../plan/transform';
+import { distance, type Vec2 } from './geometry';
 
 /** Simulated seconds a second while ghosts play. */
 const PLAY_SPEED = 2;
@@ -40,8 +40,8 @@ function continues(now: ComparisonMessage, before: ComparisonMessage): boolean {
   return now.trial === before.trial && now.tick === before.tick && before.running;
 }
 
-export interface Ghosts {
-  readonly comparison: Accessor<ComparisonMessage | undefined>;
+export interface Comparison {
+  readonly shown: Accessor<ComparisonMessage | undefined>;
   /** The time at which they are shown. */
   readonly tick: Accessor<number>;
   readonly playing: Accessor<boolean>;
@@ -53,10 +53,10 @@ export interface Ghosts {
   show(): void;
 }
 
-export function createGhosts(
+export function createComparison(
   newest: Accessor<ComparisonMessage | undefined>,
   tick_s: Accessor<number>,
-): Ghosts {
+): Comparison {
   const [hidden, setHidden] = createSignal<Pick<ComparisonMessage, 'trial' | 'tick'>>();
   const [tick, setTick] = createSignal(0);
   const [playing, setPlaying] = createSignal(false);
@@ -102,7 +102,7 @@ export function createGhosts(
   onCleanup(pause);
 
   return {
-    comparison,
+    shown: comparison,
     tick,
     playing,
     look: (to) => {

@@ -1,6 +1,6 @@
 // The parameters of ERRT.
 
-import { number, type Field } from './parameters';
+import { type Field, number } from './parameters';
 
 export const ERRT_FIELDS: readonly Field[] = [
   number(

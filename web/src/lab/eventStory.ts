@@ -4,7 +4,7 @@ import { ACTIONS } from './actions';
 import { centimetres, clock, counted, fixed, millimetres } from '../ui/format';
 import { CONTROLLER_LABELS } from './parameters';
 import type { EventKind, EventMessage, MomentMessage } from '../net/protocol.gen';
-import { distance } from '../plan/transform';
+import { distance } from './geometry';
 
 const TITLES: Readonly<Record<EventKind, string>> = {
   switch: 'Switch',

@@ -1,17 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import {
+  type Experiment,
   experimentFrom,
   experimentOf,
+  type Known,
   linkAsSetUp,
   linkOf,
   linkText,
   loadMessage,
-  type Experiment,
-  type Known,
 } from './experimentLink';
 import { GROUPS } from './parameterGroups';
-import { LESSONS } from '../features/lessons/lessons';
-import { PRESETS } from '../features/share/presets';
 import type { Disturbance, Parameters, Scripted, When } from '../net/protocol.gen';
 import { sceneOf, stateAt } from './testing';
 
@@ -231,23 +229,5 @@ describe('what is no experiment', () => {
     [`${GOOD}&goal=%E0%A4%A`, '“goal=%E0%A4%A” is damaged'],
   ])('%s is refused with field and value', (hash, words) => {
     expect(why(hash)).toContain(words);
-  });
-});
-
-describe('links that come with the page', () => {
-  const links = [
-    ...PRESETS.map(({ name, link }) => [name, link] as const),
-    ...LESSONS.flatMap(({ title, runs }) => runs.map(({ link }) => [title, link] as const)),
-  ];
-  it.each(links)('%s is read, and is what the page would write', (_, link) => {
-    const read = experimentFrom(link, KNOWN);
-    if (read.kind !== 'experiment') throw new Error(read.kind === 'broken' ? read.why : 'nothing');
-    // Else the preset would not be recognised, nor a lesson's experiment.
-    expect(linkText(read.experiment, defaults)).toBe(link);
-  });
-
-  it('have names of their own', () => {
-    expect(new Set(PRESETS.map(({ name }) => name)).size).toBe(PRESETS.length);
-    expect(new Set(PRESETS.map(({ link }) => link)).size).toBe(PRESETS.length);
   });
 });

@@ -5,7 +5,6 @@
 import { CONTROLLER_LABELS } from './parameters';
 import { GROUPS } from './parameterGroups';
 import {
-  TextError,
   halves,
   readNumber,
   readPlace,
@@ -13,6 +12,7 @@ import {
   readWhole,
   refuse,
   scriptText,
+  TextError,
 } from './scriptText';
 import type {
   ClientMessage,

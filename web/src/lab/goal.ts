@@ -1,14 +1,14 @@
 // The goal, for what follows from it.
 
 import { createMemo, type Accessor } from 'solid-js';
-import type { Lab } from './lab';
-import type { Vec2 } from '../plan/transform';
+import type { StateMessage } from '../net/protocol.gen';
+import type { Vec2 } from './geometry';
 
 /** A state comes every frame, another goal seldom. */
-export function createGoal(lab: Lab): Accessor<Vec2 | undefined> {
+export function createGoal(state: Accessor<StateMessage | undefined>): Accessor<Vec2 | undefined> {
   return createMemo<Vec2 | undefined>(
     () => {
-      const goal_m = lab.state()?.goal_m;
+      const goal_m = state()?.goal_m;
       return goal_m ? [goal_m[0], goal_m[1]] : undefined;
     },
     undefined,

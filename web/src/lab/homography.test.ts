@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { blocksPath, pictureFromTable, type Homography } from './homography';
+import { blocksPath, type Homography, pictureFromTable } from './homography';
 
 /** 480 px over 20 cm around (0.1, −0.3), seen from straight above. */
 const ABOVE: Homography = [

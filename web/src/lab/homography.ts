@@ -1,7 +1,7 @@
 // Places of the table in the camera's picture, which may lean. Pure.
 
 import type { BlocksLayer, OverlayMessage, Rect } from '../net/protocol.gen';
-import type { Vec2 } from '../plan/transform';
+import type { Vec2 } from './geometry';
 
 /** Column, row, width and height in pixels. */
 export type PixelBlock = BlocksLayer['dark'][number];

@@ -1,119 +1,30 @@
-// Connection → model → one animation frame → panels. Everything a panel may see or do is in `Lab`.
+// Assembles the slices: connection → model → one animation frame → panels.
 
-import { batch, createMemo, createSignal, type Accessor } from 'solid-js';
+import { batch, createMemo, createSignal } from 'solid-js';
 import { openPage } from '../net/access';
 import { connect, liveAddress, type Picture } from '../net/connection';
-import { createEdits, type Edits } from './edits';
-import { createGhosts, type Ghosts } from './comparison';
-import { History } from './history';
-import { EMPTY, reduce, type Input, type Model, type Place } from './model';
 import {
   BINARY_CAMERA_JPEG,
   BINARY_OBSERVATION,
   type ClientMessage,
   type EventMessage,
-  type Parameters,
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
-import { storeLayers, storedLayers, type Layer } from './layers';
+import { createComparison } from './comparison';
+import { createEdits } from './edits';
+import { createGoal } from './goal';
+import { History } from './history';
+import { enqueue, frameScheduler } from './inbox';
+import { createLayerChoice, type KnownLayer } from './layers';
+import { EMPTY, type Input, type Model, reduce } from './model';
+import type { Lab } from './slices';
 
-export interface Lab {
-  /** Whose page this is. */
-  readonly session: string;
-  readonly link: Accessor<Model['link']>;
-  readonly hello: Accessor<Model['hello']>;
-  readonly scene: Accessor<Model['scene']>;
-  /** The parameters in force, with what some panel is about to change on top. */
-  readonly tuning: Accessor<Parameters | undefined>;
-  readonly state: Accessor<Model['state']>;
-  readonly overlay: Accessor<Model['overlay']>;
-  readonly seen: Accessor<Model['seen']>;
-  readonly log: Accessor<Model['log']>;
-  readonly marks: Accessor<Model['marks']>;
-  readonly ghosts: Ghosts;
-  /** The event whose story is open. */
-  readonly inspected: Accessor<EventMessage | undefined>;
-  /** The tab that was asked to open last, wherever it is. */
-  readonly opened: Accessor<{ readonly tab: string } | undefined>;
-  readonly notices: Accessor<Model['notices']>;
-  readonly refusals: Accessor<number>;
-  readonly silences: Accessor<number>;
-  readonly camera: Accessor<Picture | undefined>;
-  readonly observation: Accessor<Picture | undefined>;
-  /** Why the session ended, if it has. */
-  readonly ended: Accessor<string | undefined>;
-  /** Connected to a session that goes on, and its operator. */
-  readonly canOperate: Accessor<boolean>;
-  readonly history: History;
-  /** Changes of the parameters, from whichever panel. */
-  readonly edits: Edits;
-  /** What is drawn over the workspace. */
-  readonly layers: Accessor<ReadonlySet<Layer>>;
-  showLayer(layer: Layer, on: boolean): void;
-  send(message: ClientMessage): void;
-  inspect(event: EventMessage | undefined): void;
-  openTab(tab: string | undefined): void;
-  notify(place: Place, text: string): void;
-  dismiss(place: Place, id: number): void;
-}
-
-/** Where another operates, that one is asked. */
-export function takeControl(lab: Lab): void {
-  lab.send({ type: 'take_control' });
-  if (lab.hello()?.operator_present) {
-    lab.notify('session', 'Asked: the operator has to release control.');
-  }
-}
-
-const HIDDEN_FLUSH_MS = 250;
-
-/** Calls `work` before the next frame, or soon when the page is hidden and draws none. */
-function frameScheduler(work: () => void): () => void {
-  let cancel: (() => void) | undefined;
-  const run = (): void => {
-    cancel = undefined;
-    work();
-  };
-  document.addEventListener('visibilitychange', () => {
-    if (!cancel) return;
-    cancel();
-    run();
-  });
-  return () => {
-    if (cancel) return;
-    if (document.hidden) {
-      const id = setTimeout(run, HIDDEN_FLUSH_MS);
-      cancel = () => {
-        clearTimeout(id);
-      };
-    } else {
-      const id = requestAnimationFrame(run);
-      cancel = () => {
-        cancelAnimationFrame(id);
-      };
-    }
-  };
-}
-
-/** Drops what `input` supersedes: of states, overlays and what was seen only the newest is worth drawing. */
-export function enqueue(queue: Input[], input: Input): void {
-  if (input.type === 'message') {
-    const kind = input.message.type;
-    if (kind === 'state' || kind === 'overlay' || kind === 'seen') {
-      const old = queue.findIndex((item) => item.type === 'message' && item.message.type === kind);
-      if (old >= 0) queue.splice(old, 1);
-    }
-  }
-  queue.push(input);
-}
-
-export function createLab(page: Location): Lab {
+export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
   const [camera, setCamera] = createSignal<Picture>();
   const [observation, setObservation] = createSignal<Picture>();
-  const [inspected, inspect] = createSignal<EventMessage>();
+  const [inspected, setInspected] = createSignal<EventMessage>();
   const [opened, setOpened] = createSignal<{ readonly tab: string }>();
-  const [layers, setLayers] = createSignal(storedLayers());
   const history = new History();
   let queue: Input[] = [];
   const pictures = new Map<number, Picture>();
@@ -121,7 +32,7 @@ export function createLab(page: Location): Lab {
   const remember = (before: Model, after: Model): void => {
     if (before.scene && before.scene.trial !== after.scene?.trial) {
       history.clear();
-      inspect(undefined);
+      setInspected(undefined);
     }
     if (!after.state || after.state === before.state) return;
     if (before.state && after.state.newest_tick < before.state.newest_tick) {
@@ -152,93 +63,86 @@ export function createLab(page: Location): Lab {
     schedule();
   };
 
-  const session = sessionOf(page);
-  const line = {
-    address: liveAddress(page, session),
-    // Its page asked for would begin it anew: that is for a person to decide.
-    isOver: () => ended() !== undefined,
-    reopen: () => openPage(page.pathname),
-  };
-  const connection = connect(line, {
-    opened: () => {
-      take({ type: 'link', link: { kind: 'live' } });
+  const name = sessionOf(page);
+  const socket = connect(
+    {
+      address: liveAddress(page, name),
+      // Requesting its page again would restart it: the user decides that.
+      isOver: () => ended() !== undefined,
+      reopen: () => openPage(page.pathname),
     },
-    lost: (attempt) => {
-      take({ type: 'link', link: { kind: 'lost', attempt } });
+    {
+      opened: () => {
+        take({ type: 'connection', connection: { kind: 'live' } });
+      },
+      lost: (attempt) => {
+        take({ type: 'connection', connection: { kind: 'lost', attempt } });
+      },
+      refused: (why) => {
+        take({ type: 'notice', place: 'session', text: why });
+      },
+      message: (message) => {
+        take({ type: 'message', message });
+      },
+      picture: (picture) => {
+        pictures.set(picture.kind, picture);
+        schedule();
+      },
     },
-    refused: (why) => {
-      take({ type: 'notice', place: 'session', text: why });
-    },
-    message: (message) => {
-      take({ type: 'message', message });
-    },
-    picture: (picture) => {
-      pictures.set(picture.kind, picture);
-      schedule();
-    },
-  });
+  );
 
-  const link = createMemo(() => model().link);
-  const hello = createMemo(() => model().hello);
-  const scene = createMemo(() => model().scene);
-  const ended = createMemo(() => model().state?.ended ?? undefined);
-  const refusals = createMemo(() => model().refusals);
+  const part = <K extends keyof Model>(key: K) => createMemo(() => model()[key]);
+  const connection = part('connection');
+  const hello = part('hello');
+  const scene = part('scene');
+  const state = part('state');
+  const refusals = part('refusals');
+  const ended = createMemo(() => state()?.ended ?? undefined);
   const canOperate = createMemo(
-    () => link().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
+    () => connection().kind === 'live' && hello()?.role === 'operator' && ended() === undefined,
   );
   const send = (message: ClientMessage): void => {
-    // `release` is sent blindly when a hold ends; a lost socket has released it already.
-    if (connection.send(message)) take({ type: 'sent', command: message.type });
-    if (message.type === 'fork') ghosts.show();
+    // `release` is sent blindly when a hold ends; a lost connection has released the bead already.
+    if (socket.send(message)) take({ type: 'sent', command: message.type });
+    if (message.type === 'fork') comparison.show();
   };
-  const ghosts = createGhosts(
-    createMemo(() => model().comparison),
-    () => scene()?.tick_s ?? Infinity,
-  );
+  const comparison = createComparison(part('comparison'), () => scene()?.tick_s ?? Infinity);
   const edits = createEdits({ scene, refusals, canOperate, send });
   return {
-    session,
-    link,
+    session: name,
+    connection,
     hello,
-    scene,
-    tuning: edits.shown,
-    state: createMemo(() => model().state),
-    overlay: createMemo(() => model().overlay),
-    seen: createMemo(() => model().seen),
-    log: createMemo(() => model().log),
-    marks: createMemo(() => model().marks),
-    ghosts,
-    inspected,
-    opened,
-    notices: createMemo(() => model().notices),
-    refusals,
-    silences: createMemo(() => model().silences),
-    camera,
-    observation,
     ended,
     canOperate,
-    history,
-    edits,
+    refusals,
     send,
-    layers,
-    showLayer: (layer, on) => {
-      const next = new Set(layers());
-      if (on) next.add(layer);
-      else next.delete(layer);
-      setLayers(next);
-      storeLayers(next);
-    },
-    inspect: (event) => {
-      inspect(event);
-    },
-    openTab: (tab) => {
-      setOpened(tab === undefined ? undefined : { tab });
-    },
+    scene,
+    state,
+    goal: createGoal(state),
+    history,
+    tuning: edits.shown,
+    edits,
+    silences: part('silences'),
+    log: part('log'),
+    marks: part('marks'),
+    inspected,
+    inspect: setInspected,
+    notices: part('notices'),
     notify: (place, text) => {
       take({ type: 'notice', place, text });
     },
     dismiss: (place, id) => {
       take({ type: 'dismiss', place, id });
+    },
+    camera,
+    observation,
+    overlay: part('overlay'),
+    obstacleMap: part('obstacleMap'),
+    comparison,
+    ...createLayerChoice(knownLayers),
+    opened,
+    openTab: (tab) => {
+      setOpened(tab === undefined ? undefined : { tab });
     },
   };
 }

@@ -1,16 +1,17 @@
 import { describe, expect, it } from 'vitest';
-import { layersFrom } from './layers';
+import { type KnownLayer, layersFrom } from './layers';
+
+const KNOWN: readonly KnownLayer[] = [{ id: 'plan', shownAtFirst: true }, { id: 'flow' }];
 
 describe('the layers', () => {
-  it('are the first ones where nothing was chosen', () => {
-    expect(layersFrom(null).has('plan')).toBe(true);
-    expect(layersFrom(null).has('flow')).toBe(false);
-    expect(layersFrom('{')).toEqual(layersFrom(null));
-    expect(layersFrom('"plan"')).toEqual(layersFrom(null));
+  it('are the default without a stored choice', () => {
+    expect([...layersFrom(null, KNOWN)]).toEqual(['plan']);
+    expect(layersFrom('{', KNOWN)).toEqual(layersFrom(null, KNOWN));
+    expect(layersFrom('"plan"', KNOWN)).toEqual(layersFrom(null, KNOWN));
   });
 
-  it('are those chosen last, as far as there still are such', () => {
-    expect([...layersFrom('["flow","gone",7]')]).toEqual(['flow']);
-    expect([...layersFrom('[]')]).toEqual([]);
+  it('are the stored ones that still exist', () => {
+    expect([...layersFrom('["flow","gone",7]', KNOWN)]).toEqual(['flow']);
+    expect([...layersFrom('[]', KNOWN)]).toEqual([]);
   });
 });

@@ -1,62 +1,44 @@
-// What can be drawn over the workspace, as the person chooses it.
+// Which layers of the map are shown, as the user chose.
 
+import { createSignal, type Accessor } from 'solid-js';
 import { recall, remember } from '../ui/storage';
 
-export const LAYER_GROUPS = [
-  {
-    title: 'Motion',
-    layers: [
-      ['trail', 'Trails'],
-      ['capture', 'Capture'],
-      ['field', 'Field and pull'],
-      ['ghosts', 'Ghosts'],
-    ],
-  },
-  {
-    title: 'Camera',
-    layers: [
-      ['camera', 'Camera field'],
-      ['sensed', 'Sensed'],
-      ['seen', 'Seen so far'],
-      ['blocks', 'Quadtree'],
-      ['rectangles', 'Rectangles'],
-    ],
-  },
-  { title: 'RL', layers: [['value', 'Value']] },
-  {
-    title: 'ERRT',
-    layers: [
-      ['plan', 'Plan'],
-      ['obstacles', 'Obstacles'],
-    ],
-  },
-  { title: 'Attractor', layers: [['flow', 'Attractor flow']] },
-  { title: 'Arm', layers: [['singularity', 'Singularity']] },
-] as const;
-
-export type Layer = (typeof LAYER_GROUPS)[number]['layers'][number][0];
-
-const LAYERS: readonly Layer[] = LAYER_GROUPS.flatMap(({ layers }) => layers.map(([id]) => id));
-/** Those that cover nothing. */
-const FIRST_LAYERS: readonly Layer[] = ['sensed', 'trail', 'camera', 'capture', 'ghosts', 'plan'];
 const KEY = 'layers';
 
-/** What was stored, less the layers that are none any more; the first ones when there is no choice in it. */
-export function layersFrom(text: string | null): ReadonlySet<Layer> {
+export interface KnownLayer {
+  readonly id: string;
+  readonly shownAtFirst?: true;
+}
+
+/** The stored choice, without layers that no longer exist; the default when there is no stored choice. */
+export function layersFrom(text: string | null, known: readonly KnownLayer[]): ReadonlySet<string> {
   let chosen: unknown;
   try {
     chosen = JSON.parse(text ?? 'null');
   } catch {
-    // Not of this page; as good as nothing.
+    // Written by something else.
   }
-  if (!Array.isArray(chosen)) return new Set(FIRST_LAYERS);
-  return new Set(LAYERS.filter((layer) => chosen.includes(layer)));
+  const isChosen = Array.isArray(chosen)
+    ? ({ id }: KnownLayer) => (chosen as unknown[]).includes(id)
+    : ({ shownAtFirst }: KnownLayer) => shownAtFirst === true;
+  return new Set(known.filter(isChosen).map(({ id }) => id));
 }
 
-export function storedLayers(): ReadonlySet<Layer> {
-  return layersFrom(recall(KEY));
+export interface Layers {
+  readonly layers: Accessor<ReadonlySet<string>>;
+  showLayer(id: string, on: boolean): void;
 }
 
-export function storeLayers(layers: ReadonlySet<Layer>): void {
-  remember(KEY, JSON.stringify([...layers]));
+export function createLayerChoice(known: readonly KnownLayer[]): Layers {
+  const [layers, setLayers] = createSignal(layersFrom(recall(KEY), known));
+  return {
+    layers,
+    showLayer: (id, on) => {
+      const next = new Set(layers());
+      if (on) next.add(id);
+      else next.delete(id);
+      setLayers(next);
+      remember(KEY, JSON.stringify([...next]));
+    },
+  };
 }

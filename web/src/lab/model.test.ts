@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { EMPTY, LOG_LINES, placeOfError, reduce, type Input, type Model } from './model';
-import { PROTOCOL_VERSION, type EventMessage, type ServerMessage } from '../net/protocol.gen';
+import { EMPTY, type Input, LOG_LINES, type Model, placeOfError, reduce } from './model';
+import { type EventMessage, PROTOCOL_VERSION, type ServerMessage } from '../net/protocol.gen';
 import { comparisonOf, sceneOf, stateAt } from './testing';
 
 const message = (one: ServerMessage): Input => ({ type: 'message', message: one });
@@ -29,10 +29,10 @@ describe('messages', () => {
       asked: false,
       adapter: '',
     } as const;
-    expect(play(message({ type: 'hello', ...hello })).link.kind).toBe('outdated');
-    expect(play(message({ type: 'hello', ...hello, protocol: PROTOCOL_VERSION })).link.kind).toBe(
-      'connecting',
-    );
+    expect(play(message({ type: 'hello', ...hello })).connection.kind).toBe('outdated');
+    expect(
+      play(message({ type: 'hello', ...hello, protocol: PROTOCOL_VERSION })).connection.kind,
+    ).toBe('connecting');
   });
 });
 
@@ -61,7 +61,10 @@ describe('the timeline', () => {
 });
 
 describe('a comparison', () => {
-  const link = (one: Model['link']): Input => ({ type: 'link', link: one });
+  const link = (connection: Model['connection']): Input => ({
+    type: 'connection',
+    connection,
+  });
   it('of before the connection was lost is told anew, or is no more', () => {
     const before = play(
       link({ kind: 'live' }),
@@ -91,14 +94,17 @@ describe('the log', () => {
   });
 
   it('says once that the connection was lost, and that it is back', () => {
-    const link = (one: Model['link']): Input => ({ type: 'link', link: one });
+    const link = (connection: Model['connection']): Input => ({
+      type: 'connection',
+      connection,
+    });
     const model = play(
       link({ kind: 'live' }),
       link({ kind: 'lost', attempt: 1 }),
       link({ kind: 'lost', attempt: 2 }),
       link({ kind: 'live' }),
     );
-    expect(model.log.map(({ kind }) => kind)).toEqual(['link', 'link']);
+    expect(model.log.map(({ kind }) => kind)).toEqual(['connection', 'connection']);
   });
 });
 
@@ -113,7 +119,7 @@ describe('a refusal', () => {
     const model = play(scene(), { type: 'sent', command: 'run' });
     expect(placeOfError(error('x_m'), model)).toBe('workspace');
     expect(placeOfError(error('parameters.threshold_m'), model)).toBe('controller');
-    expect(placeOfError(error('seed'), model)).toBe('transport');
+    expect(placeOfError(error('seed'), model)).toBe('playback');
   });
 
   it('appears at the last command where no field says', () => {

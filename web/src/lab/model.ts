@@ -1,7 +1,6 @@
 // What the page knows, and how a message changes it. Pure.
 
 import {
-  PROTOCOL_VERSION,
   type ClientMessage,
   type ComparisonMessage,
   type ErrorMessage,
@@ -9,18 +8,20 @@ import {
   type EventMessage,
   type Hello,
   type OverlayMessage,
+  PROTOCOL_VERSION,
   type SceneMessage,
   type SeenMessage,
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
+import type { Notice } from '../ui/NoticeBar';
 
 /** Lines of the log that are kept. */
 export const LOG_LINES = 300;
 /** Marks of the timeline that are kept. */
 export const MARKS = 500;
 
-export type Link =
+export type ConnectionState =
   | { readonly kind: 'connecting' }
   | { readonly kind: 'live' }
   | { readonly kind: 'lost'; readonly attempt: number }
@@ -28,13 +29,13 @@ export type Link =
   | { readonly kind: 'outdated' };
 
 /** Panels at which a message can appear. */
-export type Place = 'workspace' | 'controller' | 'transport' | 'session' | 'compare';
+export type Place = 'workspace' | 'controller' | 'playback' | 'session' | 'compare';
 
 export interface LogLine {
   readonly id: number;
   /** Simulated time; none for what happened outside of it. */
   readonly sim_time_s: number | undefined;
-  readonly kind: EventKind | 'error' | 'link';
+  readonly kind: EventKind | 'error' | 'connection';
   readonly text: string;
   /** What happened, when it belongs to the trial. */
   readonly event: EventMessage | undefined;
@@ -42,20 +43,13 @@ export interface LogLine {
   readonly count: number;
 }
 
-export interface Notice {
-  readonly id: number;
-  /** A refusal of the server, or something that this page says. */
-  readonly tone: 'error' | 'hint';
-  readonly text: string;
-}
-
 export interface Model {
-  readonly link: Link;
+  readonly connection: ConnectionState;
   readonly hello: Hello | undefined;
   readonly scene: SceneMessage | undefined;
   readonly state: StateMessage | undefined;
   readonly overlay: OverlayMessage | undefined;
-  readonly seen: SeenMessage | undefined;
+  readonly obstacleMap: SeenMessage | undefined;
   readonly log: readonly LogLine[];
   readonly marks: readonly EventMessage[];
   /** The last fork of this trial, as far as it has come. */
@@ -70,19 +64,19 @@ export interface Model {
 }
 
 export type Input =
-  | { readonly type: 'link'; readonly link: Link }
+  | { readonly type: 'connection'; readonly connection: ConnectionState }
   | { readonly type: 'message'; readonly message: ServerMessage }
   | { readonly type: 'sent'; readonly command: ClientMessage['type'] }
   | { readonly type: 'notice'; readonly place: Place; readonly text: string }
   | { readonly type: 'dismiss'; readonly place: Place; readonly id: number };
 
 export const EMPTY: Model = {
-  link: { kind: 'connecting' },
+  connection: { kind: 'connecting' },
   hello: undefined,
   scene: undefined,
   state: undefined,
   overlay: undefined,
-  seen: undefined,
+  obstacleMap: undefined,
   log: [],
   marks: [],
   comparison: undefined,
@@ -101,13 +95,13 @@ const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   disturb: 'workspace',
   select_controller: 'controller',
   configure: 'controller',
-  run: 'transport',
-  pause: 'transport',
-  step: 'transport',
-  set_speed: 'transport',
-  reset: 'transport',
-  load_scenario: 'transport',
-  rewind: 'transport',
+  run: 'playback',
+  pause: 'playback',
+  step: 'playback',
+  set_speed: 'playback',
+  reset: 'playback',
+  load_scenario: 'playback',
+  rewind: 'playback',
   fork: 'compare',
   take_control: 'session',
   release_control: 'session',
@@ -120,11 +114,11 @@ const PLACE_OF_FIELD: Partial<Record<string, Place>> = {
   x_m: 'workspace',
   y_m: 'workspace',
   controller: 'controller',
-  map: 'transport',
-  seed: 'transport',
-  factor: 'transport',
-  tick: 'transport',
-  ticks: 'transport',
+  map: 'playback',
+  seed: 'playback',
+  factor: 'playback',
+  tick: 'playback',
+  ticks: 'playback',
 };
 
 /** The server let go of the bead, since it heard nothing of the hand. */
@@ -182,20 +176,20 @@ function withoutNotice(model: Model, place: Place): Model {
   return { ...model, notices: Object.fromEntries(notices) };
 }
 
-function withLink(model: Model, link: Link): Model {
-  const next = { ...model, link };
-  if (link.kind === 'lost' && model.link.kind === 'live') {
+function withConnection(model: Model, connection: ConnectionState): Model {
+  const next = { ...model, connection };
+  if (connection.kind === 'lost' && model.connection.kind === 'live') {
     // Who has ended closes the socket, and nothing is tried again.
     if (typeof model.state?.ended === 'string') return next;
-    return withLine(next, 'link', 'Connection lost; trying again.', undefined);
+    return withLine(next, 'connection', 'Connection lost; trying again.', undefined);
   }
-  if (link.kind === 'live' && model.link.kind === 'lost') {
+  if (connection.kind === 'live' && model.connection.kind === 'lost') {
     // The session tells anew what happened in it.
-    const own = model.log.filter((line) => line.kind === 'link' || line.kind === 'error');
+    const own = model.log.filter((line) => line.kind === 'connection' || line.kind === 'error');
     // What was chosen while the line died may have come to nothing.
     const refusals = next.refusals + 1;
     const fresh = { ...next, log: own, marks: [], comparison: undefined, refusals };
-    return withLine(fresh, 'link', 'Connected again.', undefined);
+    return withLine(fresh, 'connection', 'Connected again.', undefined);
   }
   return next;
 }
@@ -214,10 +208,10 @@ function withMessage(model: Model, message: ServerMessage): Model {
       const next: Model = {
         ...model,
         hello: message,
-        link: message.protocol === PROTOCOL_VERSION ? model.link : { kind: 'outdated' },
+        connection: message.protocol === PROTOCOL_VERSION ? model.connection : { kind: 'outdated' },
       };
       return message.asked && !model.hello?.asked
-        ? withLine(next, 'link', 'Another browser asks for control.', undefined)
+        ? withLine(next, 'connection', 'Another browser asks for control.', undefined)
         : next;
     }
     case 'scene': {
@@ -228,7 +222,7 @@ function withMessage(model: Model, message: ServerMessage): Model {
             ...model,
             scene: message,
             overlay: undefined,
-            seen: undefined,
+            obstacleMap: undefined,
             comparison: undefined,
             marks: [],
             notices: {},
@@ -240,7 +234,7 @@ function withMessage(model: Model, message: ServerMessage): Model {
     case 'overlay':
       return { ...model, overlay: message };
     case 'seen':
-      return { ...model, seen: message };
+      return { ...model, obstacleMap: message };
     case 'event': {
       // A session says something at tick 0 when it is set up anew: what came before is over.
       const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;
@@ -268,8 +262,8 @@ function withMessage(model: Model, message: ServerMessage): Model {
 
 export function reduce(model: Model, input: Input): Model {
   switch (input.type) {
-    case 'link':
-      return withLink(model, input.link);
+    case 'connection':
+      return withConnection(model, input.connection);
     case 'message':
       return withMessage(model, input.message);
     case 'sent': {

@@ -8,16 +8,17 @@ import {
   untrack,
   type Accessor,
 } from 'solid-js';
-import { takeControl, type Lab } from './lab';
 import {
+  type Experiment,
   experimentFrom,
   linkOf,
   loadMessage,
-  type Experiment,
   type Reading,
 } from './experimentLink';
+import type { Notices, Session, Trial } from './slices';
+import { takeControl } from './takeControl';
 
-export interface Links {
+export interface PageExperiment {
   /** What the address asks for and has not got: a viewer may not load it. */
   readonly asked: Accessor<Experiment | undefined>;
   /** Why what it asks for is no experiment. */
@@ -32,7 +33,7 @@ export interface Links {
   forget(): void;
 }
 
-export function createLinks(lab: Lab, page: Window): Links {
+export function createPageExperiment(lab: Session & Trial & Notices, page: Window): PageExperiment {
   const [hash, setHash] = createSignal(page.location.hash);
   /** Whether it is to be loaded as soon as this browser may. */
   const [wanted, setWanted] = createSignal(false);
@@ -70,7 +71,7 @@ export function createLinks(lab: Lab, page: Window): Links {
   let isFirst = true;
   createEffect(() => {
     const experiment = asked();
-    if (!lab.scene() || lab.link().kind !== 'live' || !lab.hello()) return;
+    if (!lab.scene() || lab.connection().kind !== 'live' || !lab.hello()) return;
     const may = lab.canOperate();
     if (experiment && may && (isFirst || wanted())) {
       send(experiment);
@@ -100,7 +101,7 @@ export function createLinks(lab: Lab, page: Window): Links {
       if (!scene) return;
       const read = experimentFrom(link, scene);
       if (read.kind === 'experiment') send(read.experiment);
-      else if (read.kind === 'broken') lab.notify('transport', read.why);
+      else if (read.kind === 'broken') lab.notify('playback', read.why);
     },
     forget,
   };

@@ -1,7 +1,7 @@
 // Every parameter of the form, in groups.
 
 import { ERRT_FIELDS } from './errtFields';
-import { number, type Group } from './parameters';
+import { type Group, number } from './parameters';
 
 const DEGREES = 180 / Math.PI;
 

@@ -2,11 +2,11 @@ import { describe, expect, it } from 'vitest';
 import { GROUPS } from './parameterGroups';
 import {
   digits,
+  type NumberField,
   shownMost,
   shownValue,
   storedValue,
   withFollowers,
-  type NumberField,
 } from './parameters';
 import { sceneOf } from './testing';
 

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { backoffMs, connect, liveAddress, readPicture, type Line } from './connection';
+import { backoffMs, connect, type Line, liveAddress, readPicture } from './connection';
 
 describe('the address of the socket', () => {
   it('is on the host that served the page', () => {

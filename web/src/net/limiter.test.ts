@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Limiter } from './limiter';
-import { manualClock } from '../lab/testing';
+import { manualClock } from './testing';
 
 describe('Limiter', () => {
   it('sends the first at once and then the newest of each interval', () => {

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import { Repeater } from './repeater';
-import { manualClock } from '../lab/testing';
+import { manualClock } from './testing';
 
 it('says the newest again at every interval, until it stops', () => {
   const clock = manualClock();

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { Asker, type Answer } from './requests';
+import { type Answer, Asker } from './requests';
 import { problemText } from './problem';
 
 /** A server whose answers come when the test says so, and a clock on which no time passes. */

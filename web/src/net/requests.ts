@@ -2,7 +2,7 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { askServer } from './access';
-import { Limiter, browserClock, type Clock } from './limiter';
+import { browserClock, type Clock, Limiter } from './limiter';
 import { problemText } from './problem';
 
 export interface Answer<A> {

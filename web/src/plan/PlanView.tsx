@@ -1,31 +1,29 @@
 // The workspace from above.
 
 import { createEffect, createMemo, createSignal, type Accessor, type JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import type { Palette } from '../ui/palette';
-import { fitView, planView, type View } from './transform';
-import type { Fields } from '../app/fields';
-import { createGround } from './baseMap';
-import type { Layer } from '../lab/layers';
+import { fitView, tableViewOf, type View } from './transform';
+import { createBaseMap } from './baseMap';
+import type { LiveLayer } from './layer';
 import { paint } from './paint';
-import type { Stage } from './interaction';
-import { StageCanvas, type Size } from './ViewCanvas';
+import type { Interaction } from './interaction';
+import { type Size, ViewCanvas } from './ViewCanvas';
+import type { Layers, Trial } from '../lab/slices';
 
 /** Room for the numbers of the axes. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
-export interface StageProps {
-  readonly lab: Lab;
-  readonly stage: Stage;
-  readonly fields: Fields;
-  readonly layers: Accessor<ReadonlySet<Layer>>;
+export interface SurfaceProps {
+  readonly lab: Trial & Layers;
+  readonly interaction: Interaction;
+  readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
   readonly helpId: string;
 }
 
-export function PlanStage(props: StageProps): JSX.Element {
-  const { lab, stage, layers, palette } = props;
-  const { hand, reachPx, focused, cursor } = stage;
+export function PlanView(props: SurfaceProps): JSX.Element {
+  const { lab, interaction, layers, palette } = props;
+  const { hand, reachPx, focused, cursor } = interaction;
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
 
@@ -36,16 +34,23 @@ export function PlanStage(props: StageProps): JSX.Element {
   });
   createEffect(() => {
     const now = view();
-    stage.setView(now && planView(now));
+    interaction.setView(now && tableViewOf(now));
   });
-  const ground = createGround(lab, layers, palette, props.fields, view);
+  const baseMap = createBaseMap(lab, layers, palette, view);
 
+  const moving = createMemo(() =>
+    layers.flatMap((layer) => {
+      const draw = layer.isShown() ? layer.moving?.() : undefined;
+      return draw ? [draw] : [];
+    }),
+  );
   createEffect(() => {
-    const groundNow = ground();
+    const mapNow = baseMap();
     const onto = canvas();
-    if (!groundNow || !onto) return;
+    if (!mapNow || !onto) return;
     paint(onto, size(), {
-      ground: groundNow,
+      map: mapNow,
+      moving: moving(),
       state: lab.state(),
       history: lab.history,
       drag: hand.drag(),
@@ -65,9 +70,9 @@ export function PlanStage(props: StageProps): JSX.Element {
   });
 
   return (
-    <StageCanvas
+    <ViewCanvas
       lab={lab}
-      stage={stage}
+      interaction={interaction}
       label="Workspace"
       class="plan-canvas"
       helpId={props.helpId}

@@ -1,20 +1,20 @@
 // The canvas of a view, with mouse, touch and keyboard on it.
 
 import { createEffect, onCleanup, onMount, type JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
-import type { Vec2 } from './transform';
 import { attachKeyboard } from './keyboard';
 import { attachPointer } from './pointer';
-import type { Stage } from './interaction';
+import type { Interaction } from './interaction';
+import type { Vec2 } from '../lab/geometry';
+import type { Trial } from '../lab/slices';
 
 export interface Size {
   readonly width: number;
   readonly height: number;
 }
 
-export function StageCanvas(props: {
-  lab: Lab;
-  stage: Stage;
+export function ViewCanvas(props: {
+  lab: Trial;
+  interaction: Interaction;
   label: string;
   class: string;
   helpId: string;
@@ -24,7 +24,7 @@ export function StageCanvas(props: {
   /** Where on the table an arrow key leads; as it points when left out. */
   turned?: (arrow: Vec2) => Vec2;
 }): JSX.Element {
-  const { lab, stage } = props;
+  const { lab, interaction } = props;
   let canvas!: HTMLCanvasElement;
 
   onMount(() => {
@@ -32,17 +32,30 @@ export function StageCanvas(props: {
       props.onSize({ width: canvas.clientWidth, height: canvas.clientHeight });
     });
     observer.observe(canvas);
-    const detach = attachPointer(canvas, lab, stage.hand, stage.view, stage.setPointing);
+    const detach = attachPointer(
+      canvas,
+      lab,
+      interaction.hand,
+      interaction.view,
+      interaction.setPointing,
+    );
     const cursor = {
-      at: stage.cursor,
-      put: stage.setCursor,
+      at: interaction.cursor,
+      put: interaction.setCursor,
       turned: (arrow: Vec2) => props.turned?.(arrow) ?? arrow,
     };
-    attachKeyboard(canvas, lab, stage.hand, stage.view, cursor, stage.place, stage.picker.cancel);
+    attachKeyboard(
+      canvas,
+      lab,
+      interaction.hand,
+      cursor,
+      interaction.place,
+      interaction.picker.cancel,
+    );
     onCleanup(() => {
       observer.disconnect();
       detach();
-      stage.leave();
+      interaction.leave();
     });
     props.onCanvas(canvas);
   });
@@ -58,8 +71,8 @@ export function StageCanvas(props: {
   });
 
   const cursorName = (): string => {
-    if (stage.hand.drag().kind === 'held') return 'holding';
-    return stage.reachPx() === undefined ? 'free' : 'near-bead';
+    if (interaction.hand.drag().kind === 'held') return 'holding';
+    return interaction.reachPx() === undefined ? 'free' : 'near-bead';
   };
 
   return (
@@ -72,10 +85,10 @@ export function StageCanvas(props: {
       aria-describedby={props.helpId}
       data-cursor={cursorName()}
       onFocus={() => {
-        stage.setFocused(true);
+        interaction.setFocused(true);
       }}
       onBlur={() => {
-        stage.setFocused(false);
+        interaction.setFocused(false);
       }}
     />
   );

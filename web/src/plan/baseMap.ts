@@ -1,95 +1,83 @@
-// What lies on the table and moves seldom: the map and the layers that the camera and the controllers tell.
-// The plan draws it below what moves, the scene on its floor.
+// The base map: what is on the table and changes seldom. The plan view draws it below the moving parts, the 3-D scene
+// on its floor.
 
 import { createMemo, type Accessor } from 'solid-js';
-import type { Lab } from '../lab/lab';
 import type { Palette } from '../ui/palette';
-import type { ComparisonMessage, OverlayMessage, SceneMessage } from '../net/protocol.gen';
-import type { View } from './transform';
-import type { Flow } from '../features/flow/drawFlow';
-import type { Heat } from '../features/singularity/drawHeat';
-import { wallPath } from './drawMap';
-import { createPlan, type Plan } from '../features/planner/drawPlan';
-import type { FieldPicture } from '../features/field/drawPlane';
-import type { Seen } from '../features/observed/drawObserved';
-import { createValues, type Values } from '../features/values/drawValue';
-import type { Fields } from '../app/fields';
-import type { Layer } from '../lab/layers';
+import { drawFloor, drawMap, wallPath } from './drawMap';
+import type { BasePicture, Draw, LiveLayer } from './layer';
+import { pxFromWorld, type View } from './transform';
+import type { Trial } from '../lab/slices';
 
-export interface Ground {
-  readonly view: View;
-  readonly palette: Palette;
-  readonly scene: SceneMessage;
+export interface BaseMap extends BasePicture {
   readonly walls: Path2D;
-  /** What the camera tells, when a layer shows it. */
-  readonly overlay: OverlayMessage | undefined;
-  /** The layer of singularities, when it is shown. */
-  readonly heat: Heat | undefined;
-  /** What the policy thinks of each place, when it is shown. */
-  readonly values: Values | undefined;
-  /** What the camera has shown, when it is shown. */
-  readonly seen: Seen | undefined;
-  /** What ERRT plans, when it does. */
-  readonly plan: Plan | undefined;
-  /** The magnet's field, when it is shown: it goes with the tool. */
-  readonly field: FieldPicture | undefined;
-  /** The attractor's flow, when it is shown. */
-  readonly flow: Flow | undefined;
-  /** A fork, and the tick at which its branches are shown. */
-  readonly ghosts: { readonly comparison: ComparisonMessage; readonly tick: number } | undefined;
-  readonly layers: ReadonlySet<Layer>;
+  readonly belowWalls: readonly Draw<BasePicture>[];
+  readonly aboveWalls: readonly Draw<BasePicture>[];
 }
 
-const OF_THE_CAMERA: readonly Layer[] = ['sensed', 'blocks', 'rectangles'];
+type Ctx = CanvasRenderingContext2D;
 
-export function createGround(
-  lab: Lab,
-  layers: Accessor<ReadonlySet<Layer>>,
+/** Draws within the workspace: pictures that are larger would cover the numbers of the axes. */
+export function drawClipped<P extends BasePicture>(ctx: Ctx, picture: P, draw: Draw<P>): void {
+  const { view, scene } = picture;
+  const rect = scene.workspace;
+  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(left, top, right - left, bottom - top);
+  ctx.clip();
+  draw(ctx, picture);
+  ctx.restore();
+}
+
+const clipped =
+  (draw: Draw<BasePicture>): Draw<BasePicture> =>
+  (ctx, picture) => {
+    drawClipped(ctx, picture, draw);
+  };
+
+export function createBaseMap(
+  lab: Trial,
+  layers: readonly LiveLayer[],
   palette: Accessor<Palette>,
-  fields: Fields,
   view: Accessor<View | undefined>,
-): Accessor<Ground | undefined> {
+): Accessor<BaseMap | undefined> {
   const walls = createMemo(() => {
     const now = view();
     const scene = lab.scene();
     return now && scene ? wallPath(scene.walls, now) : undefined;
   });
-  const plan = createMemo(() => {
-    const isShown = layers().has('plan') || layers().has('obstacles');
-    const layer = isShown ? lab.overlay()?.plan : undefined;
-    const now = view();
-    return layer && now ? createPlan(layer, now) : undefined;
-  });
-  const values = createMemo(() => {
-    const map = fields.value.map();
-    const now = view();
-    return map && now ? createValues(map, palette(), now) : undefined;
-  });
-  const ghosts = createMemo(() => {
-    const comparison = lab.ghosts.comparison();
-    return comparison && layers().has('ghosts')
-      ? { comparison, tick: lab.ghosts.tick() }
-      : undefined;
-  });
+  const part = (name: 'belowWalls' | 'aboveWalls') => {
+    const drawings = layers.flatMap((layer) => {
+      const drawing = layer[name]?.(view);
+      return drawing ? [{ layer, drawing }] : [];
+    });
+    return (): Draw<BasePicture>[] =>
+      drawings.flatMap(({ layer, drawing }) => {
+        const draw = layer.isShown() ? drawing() : undefined;
+        if (!draw) return [];
+        return [layer.isUnclipped ? draw : clipped(draw)];
+      });
+  };
+  const [belowWalls, aboveWalls] = [part('belowWalls'), part('aboveWalls')];
   return createMemo(() => {
-    const scene = lab.scene();
-    const now = view();
-    const wallsNow = walls();
+    const [scene, now, wallsNow] = [lab.scene(), view(), walls()];
     if (!scene || !now || !wallsNow) return undefined;
     return {
       view: now,
       palette: palette(),
       scene,
       walls: wallsNow,
-      overlay: OF_THE_CAMERA.some((layer) => layers().has(layer)) ? lab.overlay() : undefined,
-      heat: fields.heat(),
-      values: values(),
-      seen: fields.seen(),
-      plan: plan(),
-      field: fields.field(),
-      flow: fields.flow.flow(),
-      ghosts: ghosts(),
-      layers: layers(),
+      belowWalls: belowWalls(),
+      aboveWalls: aboveWalls(),
     };
   });
+}
+
+export function paintBaseMap(ctx: Ctx, map: BaseMap): void {
+  const { view, palette, scene } = map;
+  drawFloor(ctx, scene.workspace, view, palette);
+  for (const draw of map.belowWalls) draw(ctx, map);
+  drawMap(ctx, scene, map.walls, view, palette);
+  for (const draw of map.aboveWalls) draw(ctx, map);
 }

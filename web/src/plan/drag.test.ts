@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { IDLE, dragStep, type DragEffect, type DragEvent, type DragState } from './drag';
+import { type DragEffect, type DragEvent, type DragState, dragStep, IDLE } from './drag';
 
 function play(events: DragEvent[]): { state: DragState; effects: DragEffect[] } {
   let state = IDLE;
@@ -17,12 +17,12 @@ const down = (onBead: boolean, pointer = 1): DragEvent => ({
   pointer,
   at: [10, 10],
   onBead,
-  slopPx: 3,
 });
 const move = (x: number, pointer = 1, lift = false): DragEvent => ({
   type: 'move',
   by: pointer,
   at: [x, 10],
+  isBeyondSlop: Math.abs(x - 10) > 3,
   lift,
 });
 const up = (pointer = 1): DragEvent => ({ type: 'up', pointer });
@@ -60,6 +60,20 @@ describe('a drag of the bead', () => {
     expect(play([down(true), move(20), move(10)]).state.kind).toBe('held');
   });
 
+  it('stays where it was while the pointer is beside the table', () => {
+    const beside: DragEvent = {
+      type: 'move',
+      by: 1,
+      at: undefined,
+      isBeyondSlop: true,
+      lift: false,
+    };
+    expect(play([down(true), beside]).state.kind).toBe('pressed');
+    const { state, effects } = play([down(true), move(20), beside]);
+    expect(state).toMatchObject({ kind: 'held', at: [20, 10] });
+    expect(effects).toHaveLength(1);
+  });
+
   it('releases once when it is cancelled', () => {
     const { effects } = play([down(true), move(20), { type: 'cancel' }, { type: 'cancel' }, up()]);
     expect(effects.filter(({ type }) => type === 'release')).toHaveLength(1);
@@ -90,7 +104,7 @@ describe('the keyboard', () => {
   it('takes, moves and lets go', () => {
     const { state, effects } = play([
       { type: 'take', at: [5, 5] },
-      { type: 'move', by: 'keyboard', at: [6, 5], lift: false },
+      { type: 'move', by: 'keyboard', at: [6, 5], isBeyondSlop: true, lift: false },
       move(90),
       { type: 'cancel' },
     ]);

@@ -1,7 +1,7 @@
 // What a press on the workspace means: a click places the goal, a drag that starts on the bead is
-// the disturbance. Pure: events in, new state and effects out; the canvas does the rest.
+// the disturbance. Pure; places are in metres.
 
-import { distance, type Vec2 } from './transform';
+import type { Vec2 } from '../lab/geometry';
 
 /** Who holds the bead: a pointer by its id, or the keyboard. */
 export type Holder = number | 'keyboard';
@@ -13,7 +13,6 @@ export type DragState =
       readonly pointer: number;
       readonly from: Vec2;
       readonly onBead: boolean;
-      readonly slopPx: number;
     }
   | { readonly kind: 'held'; readonly by: Holder; readonly at: Vec2; readonly lift: boolean };
 
@@ -23,13 +22,21 @@ export type DragEvent =
       readonly pointer: number;
       readonly at: Vec2;
       readonly onBead: boolean;
-      /** Movement below this is a shaky click. */
-      readonly slopPx: number;
     }
-  | { readonly type: 'move'; readonly by: Holder; readonly at: Vec2; readonly lift: boolean }
+  | {
+      readonly type: 'move';
+      readonly by: Holder;
+      /** Not set while the pointer is beside the table's picture. */
+      readonly at: Vec2 | undefined;
+      /** Far enough from the press to be no shaky click. */
+      readonly isBeyondSlop: boolean;
+      readonly lift: boolean;
+    }
   | { readonly type: 'lift'; readonly lift: boolean }
   | { readonly type: 'up'; readonly pointer: number }
   | { readonly type: 'take'; readonly at: Vec2 }
+  /** The keyboard puts down what it has taken. */
+  | { readonly type: 'put' }
   | { readonly type: 'cancel' };
 
 export type DragEffect =
@@ -55,21 +62,17 @@ export function dragStep(state: DragState, event: DragEvent): [DragState, DragEf
         pointer: event.pointer,
         from: event.at,
         onBead: event.onBead,
-        slopPx: event.slopPx,
       });
     case 'take':
       return state.kind === 'idle' ? hold('keyboard', event.at, false) : nothing(state);
     case 'move':
       if (state.kind === 'held' && state.by === event.by) {
-        return hold(event.by, event.at, event.lift);
+        return event.at ? hold(event.by, event.at, event.lift) : nothing(state);
       }
-      if (
-        state.kind === 'pressed' &&
-        state.pointer === event.by &&
-        distance(state.from, event.at) > state.slopPx
-      ) {
+      if (state.kind === 'pressed' && state.pointer === event.by && event.isBeyondSlop) {
         // A long press-and-move off the bead was neither a click nor a drag: forget it.
-        return state.onBead ? hold(event.by, event.at, event.lift) : nothing(IDLE);
+        if (!state.onBead) return nothing(IDLE);
+        if (event.at) return hold(event.by, event.at, event.lift);
       }
       return nothing(state);
     case 'lift':
@@ -84,6 +87,10 @@ export function dragStep(state: DragState, event: DragEvent): [DragState, DragEf
         return [IDLE, [{ type: 'release' }]];
       }
       return nothing(state);
+    case 'put':
+      return state.kind === 'held' && state.by === 'keyboard'
+        ? [IDLE, [{ type: 'release' }]]
+        : nothing(state);
     case 'cancel':
       return [IDLE, state.kind === 'held' ? [{ type: 'release' }] : []];
   }

@@ -1,9 +1,10 @@
 // The hand: the spring from the bead to the pointer, and the keyboard's cursor.
 
 import { centimetres, newtons } from '../ui/format';
-import { distance, pxFromWorld, type Vec2, type View } from './transform';
+import { pxFromWorld, type View } from './transform';
 import { FONT } from './drawMap';
 import type { Palette } from '../ui/palette';
+import { distance, type Vec2 } from '../lab/geometry';
 
 const COIL_PX = 7;
 const COIL_HALF_WIDTH_PX = 5;

@@ -1,10 +1,10 @@
 import { expect, test } from 'vitest';
-import { groundMargins } from './floorPicture';
+import { floorMargins } from './floorPicture';
 
 test('the room for the numbers grows with the workspace, as the numbers do', () => {
   const small = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
   const large = { x_min_m: -1, x_max_m: 1, y_min_m: 0, y_max_m: 1 };
-  const margins = groundMargins(small);
+  const margins = floorMargins(small);
   expect(margins.left).toBeCloseTo((40 / 460) * 0.58);
-  expect(groundMargins(large).bottom / margins.bottom).toBeCloseTo(2 / 0.58);
+  expect(floorMargins(large).bottom / margins.bottom).toBeCloseTo(2 / 0.58);
 });

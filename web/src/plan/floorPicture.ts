@@ -5,8 +5,7 @@ import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
 import { fitView, type Insets, type View } from './transform';
 import { drawGrid } from './drawMap';
-import type { Ground } from './baseMap';
-import { paintGround } from './paint';
+import { type BaseMap, paintBaseMap } from './baseMap';
 
 /** The longer side of the workspace, in pixels of the plan. */
 const LONGER_PX = 460;
@@ -15,8 +14,8 @@ const RATIO = 2;
 /** Room for the numbers of the axes. */
 const INSETS = { left: 40, right: 12, top: 12, bottom: 26 };
 
-/** A picture of the ground in pixels of `view`, each `ratio` of the canvas. */
-export interface GroundPicture {
+/** A picture of the base map in pixels of `view`, each `ratio` of the canvas. */
+export interface FloorPicture {
   readonly canvas: HTMLCanvasElement;
   readonly view: View;
   readonly ratio: number;
@@ -29,13 +28,13 @@ const pxPerM = (workspace: Rect): number =>
   LONGER_PX / Math.max(widthOf(workspace), heightOf(workspace));
 
 /** How far the numbers reach beyond the workspace, m. */
-export function groundMargins(workspace: Rect): Insets {
+export function floorMargins(workspace: Rect): Insets {
   const perM = pxPerM(workspace);
   const { left, right, top, bottom } = INSETS;
   return { left: left / perM, right: right / perM, top: top / perM, bottom: bottom / perM };
 }
 
-function createPicture(workspace: Rect, insets: Insets): GroundPicture {
+function createPicture(workspace: Rect, insets: Insets): FloorPicture {
   const perM = pxPerM(workspace);
   const width_px = Math.ceil(widthOf(workspace) * perM) + insets.left + insets.right;
   const height_px = Math.ceil(heightOf(workspace) * perM) + insets.top + insets.bottom;
@@ -46,25 +45,25 @@ function createPicture(workspace: Rect, insets: Insets): GroundPicture {
 }
 
 /** Of the workspace alone, because it is drawn often. */
-export function createGroundPicture(workspace: Rect): GroundPicture {
+export function createFloorPicture(workspace: Rect): FloorPicture {
   return createPicture(workspace, { left: 0, right: 0, top: 0, bottom: 0 });
 }
 
 /** For the numbers around the workspace, which stand still. */
-export function createNumbersPicture(workspace: Rect): GroundPicture {
+export function createNumbersPicture(workspace: Rect): FloorPicture {
   return createPicture(workspace, INSETS);
 }
 
-/** Draws the ground on it anew. */
-export function repaintGround({ canvas, ratio }: GroundPicture, ground: Ground): void {
+/** Draws the base map on it again. */
+export function repaintFloor({ canvas, ratio }: FloorPicture, map: BaseMap): void {
   // Without transparency nothing has to be converted on its way to the graphics card.
   const ctx = canvas.getContext('2d', { alpha: false });
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  paintGround(ctx, ground);
+  paintBaseMap(ctx, map);
 }
 
-export function repaintNumbers(picture: GroundPicture, palette: Palette): void {
+export function repaintNumbers(picture: FloorPicture, palette: Palette): void {
   const { canvas, view, ratio, workspace } = picture;
   const ctx = canvas.getContext('2d');
   if (!ctx) return;

@@ -1,11 +1,12 @@
 // The hand on the workspace: runs the drag machine and turns its effects into messages.
 
 import { createSignal, type Accessor } from 'solid-js';
-import { IDLE, dragStep, type DragEvent, type DragState } from './drag';
-import type { Lab } from '../lab/lab';
+import { type DragEvent, type DragState, dragStep, IDLE } from './drag';
 import { Limiter } from '../net/limiter';
 import { Repeater } from '../net/repeater';
-import { clampToRect, type TableView, type Vec2 } from './transform';
+import { clampToRect, type Vec2 } from '../lab/geometry';
+import { ends, type Release } from './release';
+import type { Notices, Session, Trial } from '../lab/slices';
 
 const MAX_DRAGS_PER_S = 60;
 /** A hand that holds still says so; of one that is silent for five seconds the server takes the bead. */
@@ -13,17 +14,15 @@ const STILL_THERE_MS = 500;
 
 export interface Hand {
   readonly drag: Accessor<DragState>;
-  dispatch(event: DragEvent): void;
+  dispatch(event: Exclude<DragEvent, { type: 'cancel' }>): void;
+  /** Ends what the hand does, if the cause is one for it. */
+  readonly release: Release;
   /** Whether this browser may act; tells the person when it may not. */
   mayAct(): boolean;
 }
 
-/** `place` hears of clicks, in metres. */
-export function createHand(
-  lab: Lab,
-  view: () => TableView | undefined,
-  place: (at: Vec2) => void,
-): Hand {
+/** `place` gets the clicks. */
+export function createHand(lab: Session & Trial & Notices, place: (at: Vec2) => void): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
   const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
     lab.send({ type: 'drag', x_m: at[0], y_m: at[1], lift });
@@ -34,13 +33,13 @@ export function createHand(
 
   const mayAct = (): boolean => {
     if (lab.canOperate()) return true;
-    if (lab.link().kind === 'live') {
+    if (lab.connection().kind === 'live') {
       lab.notify('workspace', 'You are watching. Take control to place goals or move the bead.');
     }
     return false;
   };
 
-  const dispatch = (event: DragEvent): void => {
+  const step = (event: DragEvent): void => {
     const [next, effects] = dragStep(drag(), event);
     setDrag(next);
     for (const effect of effects) {
@@ -48,17 +47,16 @@ export function createHand(
         drags.flush();
         holds.stop();
         lab.send({ type: 'release' });
-        continue;
-      }
-      const at = view()?.toWorld(effect.at);
-      const scene = lab.scene();
-      if (!at || !scene) continue;
-      if (effect.type === 'goal') {
-        place(at);
+      } else if (effect.type === 'goal') {
+        place(effect.at);
       } else {
-        drags.offer({ at: clampToRect(scene.workspace, at), lift: effect.lift });
+        const scene = lab.scene();
+        if (scene) drags.offer({ at: clampToRect(scene.workspace, effect.at), lift: effect.lift });
       }
     }
   };
-  return { drag, mayAct, dispatch };
+  const release: Release = (cause, pointer) => {
+    if (ends(cause, drag(), pointer)) step({ type: 'cancel' });
+  };
+  return { drag, mayAct, dispatch: step, release };
 }

@@ -1,13 +1,14 @@
 // What is done on the workspace, whichever view shows it: the hand, the pointer, the keyboard's cursor.
 
-import { createEffect, createMemo, createSignal, on, type Accessor, type Setter } from 'solid-js';
-import type { Lab } from '../lab/lab';
-import type { TableView, Vec2 } from './transform';
+import { createMemo, createSignal, type Accessor, type Setter } from 'solid-js';
 import { createHand, type Hand } from './hand';
 import { createPicker, type Picker } from './picker';
-import { reachesBead, type Pointing } from './pointer';
+import { type Pointing, reachesBead } from './pointer';
+import { releaseWithLab } from './release';
+import type { TableView, Vec2 } from '../lab/geometry';
+import type { Notices, Session, Trial } from '../lab/slices';
 
-export interface Stage {
+export interface Interaction {
   /** Of the view that is open; none before it knows its size. */
   readonly view: Accessor<TableView | undefined>;
   readonly setView: Setter<TableView | undefined>;
@@ -28,7 +29,7 @@ export interface Stage {
   leave(): void;
 }
 
-export function createStage(lab: Lab): Stage {
+export function createInteraction(lab: Session & Trial & Notices): Interaction {
   const [view, setView] = createSignal<TableView>();
   const [pointing, setPointing] = createSignal<Pointing>();
   const [cursor, setCursor] = createSignal<Vec2>();
@@ -38,7 +39,7 @@ export function createStage(lab: Lab): Stage {
     if (picker.offer(at) || !hand.mayAct()) return;
     lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
   };
-  const hand = createHand(lab, view, place);
+  const hand = createHand(lab, place);
   const reachPx = createMemo(() => {
     const here = pointing();
     const canTake = lab.canOperate() && hand.drag().kind !== 'held';
@@ -47,25 +48,7 @@ export function createStage(lab: Lab): Stage {
       : undefined;
   });
 
-  const letGo = (): void => {
-    hand.dispatch({ type: 'cancel' });
-  };
-  createEffect(
-    on(lab.canOperate, (can) => {
-      // A lost socket has let go of the bead on the server; a lost role may not hold it.
-      if (!can) letGo();
-    }),
-  );
-  // A hold that the server has ended, or that was in another trial or a later moment, would take the bead again.
-  createEffect(on([lab.silences, () => lab.scene()?.trial], letGo, { defer: true }));
-  createEffect(
-    on(
-      () => lab.state()?.tick ?? 0,
-      (tick, before = 0) => {
-        if (tick < before) letGo();
-      },
-    ),
-  );
+  releaseWithLab(lab, hand.release);
 
   return {
     view,
@@ -80,12 +63,12 @@ export function createStage(lab: Lab): Stage {
     focused,
     setFocused,
     at: () => {
-      const px = pointing()?.at;
+      const px = pointing()?.px;
       if (px) return view()?.toWorld(px);
       return focused() ? cursor() : undefined;
     },
     leave: () => {
-      letGo();
+      hand.release('view closed');
       picker.cancel();
       setPointing(undefined);
       setFocused(false);

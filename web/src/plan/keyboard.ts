@@ -1,9 +1,22 @@
 // The workspace by keyboard: arrows move a cursor, Enter places the goal, D takes the bead and lets
 // it go, Escape lets it go or ends picking.
 
-import type { Lab } from '../lab/lab';
-import { clampToRect, distance, type TableView, type Vec2 } from './transform';
+import type { Shortcut } from '../ui/shortcuts';
 import type { Hand } from './hand';
+import { clampToRect, distance, type Vec2 } from '../lab/geometry';
+import type { Trial } from '../lab/slices';
+
+/** For the help; the canvas handles them itself. */
+export const WORKSPACE_SHORTCUTS: readonly Shortcut[] = [
+  {
+    group: 'Workspace',
+    keys: ['ArrowLeft', 'ArrowUp', 'ArrowRight', 'ArrowDown'],
+    does: 'move the cursor, or the bead in the hand; with Shift over walls',
+  },
+  { group: 'Workspace', keys: ['Enter'], does: 'place the goal, or what is picked, at the cursor' },
+  { group: 'Workspace', keys: ['d'], does: 'take the bead, let it go' },
+  { group: 'Workspace', keys: ['Escape'], does: 'let the bead go, end picking' },
+];
 
 const STEP_M = 0.005;
 const ARROWS: Partial<Record<string, Vec2>> = {
@@ -25,9 +38,8 @@ export interface Cursor {
 /** Listens as long as the canvas is there. */
 export function attachKeyboard(
   canvas: HTMLCanvasElement,
-  lab: Lab,
+  lab: Trial,
   hand: Hand,
-  view: () => TableView | undefined,
   cursor: Cursor,
   place: (at: Vec2) => void,
   escape: () => void,
@@ -40,7 +52,6 @@ export function attachKeyboard(
     const drag = hand.drag();
     return drag.kind === 'held' && drag.by === 'keyboard';
   };
-  const px = (at: Vec2): Vec2 | undefined => view()?.toPx(at);
 
   const move = (direction: Vec2, lift: boolean): void => {
     const scene = lab.scene();
@@ -51,13 +62,12 @@ export function attachKeyboard(
       from[1] + direction[1] * STEP_M,
     ]);
     cursor.put(to);
-    const at = px(to);
-    if (holds() && at) hand.dispatch({ type: 'move', by: 'keyboard', at, lift });
+    if (holds()) hand.dispatch({ type: 'move', by: 'keyboard', at: to, isBeyondSlop: true, lift });
   };
 
   const takeOrRelease = (): void => {
     if (holds()) {
-      hand.dispatch({ type: 'cancel' });
+      hand.dispatch({ type: 'put' });
       return;
     }
     const beadAt = bead();
@@ -66,8 +76,7 @@ export function attachKeyboard(
     const here = cursor.at();
     const from = here && distance(here, beadAt) <= REACH_M ? here : beadAt;
     cursor.put(from);
-    const at = px(from);
-    if (at) hand.dispatch({ type: 'take', at });
+    hand.dispatch({ type: 'take', at: from });
   };
 
   canvas.addEventListener('keydown', (event) => {
@@ -84,14 +93,11 @@ export function attachKeyboard(
       // A held key takes once.
       if (!event.repeat) takeOrRelease();
     } else if (event.key === 'Escape') {
-      hand.dispatch({ type: 'cancel' });
+      hand.release('escape');
       escape();
     } else {
       return;
     }
     event.preventDefault();
-  });
-  canvas.addEventListener('blur', () => {
-    if (holds()) hand.dispatch({ type: 'cancel' });
   });
 }

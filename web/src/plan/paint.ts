@@ -3,32 +3,16 @@
 import type { DragState } from './drag';
 import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import { clampToRect, planView, pxFromWorld, type TableView, type Vec2 } from './transform';
-import { drawFlow } from '../features/flow/drawFlow';
-import { drawGhosts } from '../features/compare/drawGhosts';
+import { type BaseMap, drawClipped, paintBaseMap } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
-import { drawHeat } from '../features/singularity/drawHeat';
-import { drawFloor, drawMap } from './drawMap';
-import {
-  drawBead,
-  drawCapture,
-  drawFootprint,
-  drawGoal,
-  drawSensed,
-  drawTool,
-  drawTrail,
-} from './drawMoving';
-import { drawObstacles, drawPlan } from '../features/planner/drawPlan';
-import { drawField } from '../features/field/drawPlane';
-import { drawBlocks, drawRectangles, drawSeen } from '../features/observed/drawObserved';
-import { drawValues } from '../features/values/drawValue';
-import type { Ground } from './baseMap';
-
-/** As long as the plots show. */
-export const TRAIL_S = 60;
+import { drawBead, drawGoal, drawTool } from './drawMoving';
+import type { Draw, MovingPicture } from './layer';
+import { clampToRect, type Vec2 } from '../lab/geometry';
 
 export interface Picture {
-  readonly ground: Ground;
+  readonly map: BaseMap;
+  /** What the layers draw with every state. */
+  readonly moving: readonly Draw<MovingPicture>[];
   readonly state: StateMessage | undefined;
   readonly history: History;
   readonly drag: DragState;
@@ -38,17 +22,6 @@ export interface Picture {
 }
 
 type Ctx = CanvasRenderingContext2D;
-
-function paintTrails(ctx: Ctx, { ground, history }: Picture, state: StateMessage): void {
-  const [toolX, toolY, beadX, beadY] = history.window(
-    state.sim_time_s - TRAIL_S,
-    state.sim_time_s,
-    ['tool_x_m', 'tool_y_m', 'bead_x_m', 'bead_y_m'],
-  );
-  if (!toolX || !toolY || !beadX || !beadY) return;
-  drawTrail(ctx, ground.view, ground.palette.tool, toolX, toolY);
-  drawTrail(ctx, ground.view, ground.palette.bead, beadX, beadY);
-}
 
 /** What is worth knowing about a hold: that the bead is lifted, or, while time stands, when it moves. */
 export function remarkOf(drag: DragState, state: StateMessage): string {
@@ -63,16 +36,14 @@ export function handOf(
   drag: DragState,
   state: StateMessage,
   scene: SceneMessage,
-  toWorld: TableView['toWorld'],
 ): Vec2 | undefined {
-  const own = drag.kind === 'held' ? toWorld(drag.at) : undefined;
-  return own ? clampToRect(scene.workspace, own) : (state.hand_m ?? undefined);
+  return drag.kind === 'held' ? clampToRect(scene.workspace, drag.at) : (state.hand_m ?? undefined);
 }
 
 function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
   const { drag } = picture;
-  const { view, palette, scene } = picture.ground;
-  const hand_m = handOf(drag, state, scene, planView(view).toWorld);
+  const { view, palette, scene } = picture.map;
+  const hand_m = handOf(drag, state, scene);
   if (!hand_m) return;
   drawSpring(ctx, view, palette, widthPx, {
     bead_m: [state.bead_m[0], state.bead_m[1]],
@@ -82,53 +53,11 @@ function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: n
   });
 }
 
-/** Fields reach beyond the table; their pictures would cover the numbers of the axes. */
-function clipped(ctx: Ctx, { view, scene }: Ground, draw: () => void): void {
-  const rect = scene.workspace;
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, right - left, bottom - top);
-  ctx.clip();
-  draw();
-  ctx.restore();
-}
-
-/** Everything that lies on the table, from the floor up. */
-export function paintGround(ctx: Ctx, ground: Ground): void {
-  const { view, palette, scene, layers, overlay, heat, values, seen, plan, flow, ghosts } = ground;
-  drawFloor(ctx, scene.workspace, view, palette);
-  clipped(ctx, ground, () => {
-    if (heat) drawHeat(ctx, view, palette, heat);
-    if (values) drawValues(ctx, view, palette, values);
-  });
-  drawMap(ctx, scene, ground.walls, view, palette);
-  if (seen) drawSeen(ctx, view, seen);
-  clipped(ctx, ground, () => {
-    if (flow) drawFlow(ctx, view, palette, flow);
-    if (overlay) {
-      if (layers.has('blocks')) drawBlocks(ctx, view, palette, overlay.blocks);
-      if (layers.has('rectangles')) drawRectangles(ctx, view, palette, overlay.blocks);
-      if (layers.has('sensed')) drawSensed(ctx, view, palette, overlay);
-    }
-    if (plan) {
-      if (layers.has('obstacles')) drawObstacles(ctx, palette, plan);
-      if (layers.has('plan')) drawPlan(ctx, palette, plan);
-    }
-  });
-  if (ghosts) drawGhosts(ctx, view, palette, ghosts.comparison, ghosts.tick);
-}
-
 function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
-  const { view, palette, scene, layers, field } = picture.ground;
+  const { view, palette, scene } = picture.map;
   const tool: Vec2 = [state.tool_m[0], state.tool_m[1]];
-  clipped(ctx, picture.ground, () => {
-    if (field) drawField(ctx, view, palette, tool, field);
-    if (layers.has('trail')) paintTrails(ctx, picture, state);
-    if (layers.has('camera')) drawFootprint(ctx, view, palette, tool, scene.camera_sees_m);
-    if (layers.has('capture')) drawCapture(ctx, view, palette, tool, scene.capture_m);
-  });
+  const moving = { view, palette, scene, state, history: picture.history };
+  for (const draw of picture.moving) drawClipped(ctx, moving, draw);
   if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
   drawTool(ctx, view, palette, tool);
   drawBead(ctx, view, palette, scene, state, picture.grabRadiusPx);
@@ -151,7 +80,7 @@ export function paint(
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, size.width, size.height);
-  paintGround(ctx, picture.ground);
+  paintBaseMap(ctx, picture.map);
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
-  if (picture.cursor) drawCursor(ctx, picture.ground.view, picture.ground.palette, picture.cursor);
+  if (picture.cursor) drawCursor(ctx, picture.map.view, picture.map.palette, picture.cursor);
 }

@@ -1,7 +1,7 @@
 // The next click on the plan, or Enter at its cursor, for somebody who asked for a place.
 
 import { createSignal, type Accessor } from 'solid-js';
-import type { Vec2 } from './transform';
+import type { Vec2 } from '../lab/geometry';
 
 type Take = (at: Vec2) => void;
 

@@ -1,31 +1,28 @@
-// Mouse, pen and finger on the workspace.
+// Mouse, pen and finger on the workspace. Pixels end here: the hand gets metres of the table.
 
-import type { Lab } from '../lab/lab';
-import { distance, type TableView, type Vec2 } from './transform';
+import { createEffect, on } from 'solid-js';
+import { distance, type TableView, type Vec2 } from '../lab/geometry';
+import type { Trial } from '../lab/slices';
 import type { Hand } from './hand';
+import { releaseWithPage } from './release';
 
 /** How near the bead a press takes it. */
 export const GRAB_MOUSE_PX = 16;
 export const GRAB_TOUCH_PX = 28;
+/** A movement below this is a shaky click. */
 const SLOP_MOUSE_PX = 3;
 /** A fingertip rolls farther than a mouse slips. */
 const SLOP_TOUCH_PX = 8;
 
 export interface Pointing {
   /** Pointer in CSS pixels of the canvas. */
-  readonly at: Vec2;
+  readonly px: Vec2;
   /** How near the bead it takes it. */
   readonly reachPx: number;
 }
 
 type PointerEventName =
-  | 'pointerdown'
-  | 'pointermove'
-  | 'pointerup'
-  | 'pointerleave'
-  | 'pointercancel'
-  | 'lostpointercapture'
-  | 'contextmenu';
+  'pointerdown' | 'pointermove' | 'pointerup' | 'pointerleave' | 'contextmenu';
 
 const isTouch = (event: PointerEvent): boolean => event.pointerType === 'touch';
 
@@ -33,60 +30,70 @@ const isTouch = (event: PointerEvent): boolean => event.pointerType === 'touch';
 export function reachesBead(
   view: TableView | undefined,
   bead_m: readonly [number, number, number] | undefined,
-  { at, reachPx }: Pointing,
+  { px, reachPx }: Pointing,
 ): boolean {
   const bead = bead_m && view?.toPx([bead_m[0], bead_m[1]], bead_m[2]);
-  return bead !== undefined && distance(at, bead) <= reachPx;
+  return bead !== undefined && distance(px, bead) <= reachPx;
 }
 
-/** Listens until the function that it returns is called. */
+/** Listens, and follows the view, until the function that it returns is called. */
 export function attachPointer(
   canvas: HTMLCanvasElement,
-  lab: Lab,
+  lab: Trial,
   hand: Hand,
   view: () => TableView | undefined,
   onPointing: (pointing: Pointing | undefined) => void,
 ): () => void {
   const attached = new AbortController();
   const { signal } = attached;
-  const position = (event: PointerEvent): Vec2 => {
+  /** The pointer that pressed, where it was then, and where it is. */
+  let press: { id: number; from: Vec2; slopPx: number; px: Vec2; lift: boolean } | undefined;
+  const pointing = (event: PointerEvent): Pointing => {
     const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
+    return {
+      px: [event.clientX - box.left, event.clientY - box.top],
+      reachPx: isTouch(event) ? GRAB_TOUCH_PX : GRAB_MOUSE_PX,
+    };
   };
-  const pointing = (event: PointerEvent): Pointing => ({
-    at: position(event),
-    reachPx: isTouch(event) ? GRAB_TOUCH_PX : GRAB_MOUSE_PX,
-  });
+  const move = (): void => {
+    if (!press) return;
+    const { id, from, slopPx, px, lift } = press;
+    const isBeyondSlop = distance(from, px) > slopPx;
+    hand.dispatch({ type: 'move', by: id, at: view()?.toWorld(px), isBeyondSlop, lift });
+  };
   const listen = (type: PointerEventName, listener: (event: PointerEvent) => void): void => {
     canvas.addEventListener(type, listener, { signal });
   };
-
   listen('pointerdown', (event) => {
     if (event.button !== 0) return;
     const here = pointing(event);
     const onBead = reachesBead(view(), lab.state()?.bead_m, here);
     if (onBead && !hand.mayAct()) return;
     canvas.setPointerCapture(event.pointerId);
-    hand.dispatch({
-      type: 'down',
-      pointer: event.pointerId,
-      at: here.at,
-      onBead,
-      slopPx: isTouch(event) ? SLOP_TOUCH_PX : SLOP_MOUSE_PX,
-    });
     onPointing(here);
+    const at = view()?.toWorld(here.px);
+    if (!at || hand.drag().kind !== 'idle') return;
+    press = {
+      id: event.pointerId,
+      from: here.px,
+      slopPx: isTouch(event) ? SLOP_TOUCH_PX : SLOP_MOUSE_PX,
+      px: here.px,
+      lift: event.shiftKey,
+    };
+    hand.dispatch({ type: 'down', pointer: event.pointerId, at, onBead });
   });
   listen('pointermove', (event) => {
-    hand.dispatch({
-      type: 'move',
-      by: event.pointerId,
-      at: position(event),
-      lift: event.shiftKey,
-    });
-    onPointing(pointing(event));
+    const here = pointing(event);
+    if (press?.id === event.pointerId) {
+      press.px = here.px;
+      press.lift = event.shiftKey;
+      move();
+    }
+    onPointing(here);
   });
   listen('pointerup', (event) => {
     hand.dispatch({ type: 'up', pointer: event.pointerId });
+    if (press?.id === event.pointerId) press = undefined;
   });
   listen('pointerleave', () => {
     onPointing(undefined);
@@ -95,27 +102,19 @@ export function attachPointer(
   listen('contextmenu', (event) => {
     if (hand.drag().kind !== 'idle') event.preventDefault();
   });
-
-  const cancel = (): void => {
-    hand.dispatch({ type: 'cancel' });
-  };
-  listen('pointercancel', cancel);
-  listen('lostpointercapture', ({ pointerId }) => {
-    // Neither a second finger's capture nor the keyboard's hold, which has none, is what holds the bead.
-    const drag = hand.drag();
-    if (drag.kind === 'pressed' && drag.pointer === pointerId) cancel();
-    if (drag.kind === 'held' && drag.by === pointerId) cancel();
-  });
-  window.addEventListener('blur', cancel, { signal });
-  document.addEventListener(
-    'visibilitychange',
-    () => {
-      if (document.hidden) cancel();
-    },
-    { signal },
+  releaseWithPage(canvas, hand.release, signal);
+  // Under a pointer that holds still, another view of the table is another place.
+  createEffect(
+    on(view, () => {
+      const drag = hand.drag();
+      if (drag.kind === 'held' && drag.by === press?.id) move();
+    }),
   );
   const shift = (event: KeyboardEvent): void => {
-    if (event.key === 'Shift') hand.dispatch({ type: 'lift', lift: event.type === 'keydown' });
+    if (event.key !== 'Shift') return;
+    const lift = event.type === 'keydown';
+    if (press) press.lift = lift;
+    hand.dispatch({ type: 'lift', lift });
   };
   window.addEventListener('keydown', shift, { signal });
   window.addEventListener('keyup', shift, { signal });

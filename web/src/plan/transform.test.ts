@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { clampToRect, fitView, insidePolygon, pxFromWorld, worldFromPx } from './transform';
+import { fitView, pxFromWorld, worldFromPx } from './transform';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 const INSETS = { left: 40, right: 10, top: 10, bottom: 20 };
@@ -31,46 +31,5 @@ describe('fitView', () => {
 
   it('survives a canvas without room', () => {
     expect(fitView(WORKSPACE, 0, 0, INSETS).pxPerM).toBeGreaterThan(0);
-  });
-});
-
-describe('rectangles', () => {
-  it('clamp what is outside and keep what is inside', () => {
-    expect(clampToRect(WORKSPACE, [1, -1])).toEqual([0.28, -0.54]);
-    expect(clampToRect(WORKSPACE, [0.1, -0.3])).toEqual([0.1, -0.3]);
-  });
-});
-
-describe('insidePolygon', () => {
-  const ring: [number, number][] = [
-    [0, 0],
-    [4, 0],
-    [4, 4],
-    [0, 4],
-  ];
-  const hole: [number, number][] = [
-    [1, 1],
-    [1, 3],
-    [3, 3],
-    [3, 1],
-  ];
-
-  it('knows inside, outside and hole', () => {
-    const polygon = { exterior: ring, holes: [hole] };
-    expect(insidePolygon(polygon, [0.5, 0.5])).toBe(true);
-    expect(insidePolygon(polygon, [2, 2])).toBe(false);
-    expect(insidePolygon(polygon, [5, 2])).toBe(false);
-  });
-
-  it('follows a concave outline', () => {
-    const bay: [number, number][] = [
-      [0, 0],
-      [4, 0],
-      [4, 4],
-      [2, 1],
-      [0, 4],
-    ];
-    expect(insidePolygon({ exterior: bay, holes: [] }, [2, 2])).toBe(false);
-    expect(insidePolygon({ exterior: bay, holes: [] }, [0.3, 2])).toBe(true);
   });
 });

@@ -6,38 +6,55 @@ import {
   createEffect,
   createMemo,
   createSignal,
-  on,
   onCleanup,
   untrack,
   type JSX,
 } from 'solid-js';
 import { centimetres, newtons } from '../ui/format';
-import type { LookName } from './viewpoints';
+import type { ViewpointName } from './viewpoints';
 import type { SceneView } from './SceneView';
-import { distance } from '../plan/transform';
-import { createGround } from '../plan/baseMap';
-import { createGroundPicture, repaintGround, type GroundPicture } from '../plan/floorPicture';
+import type { InScene, LoadedLayer } from './sceneLayer';
+import { createBaseMap } from '../plan/baseMap';
+import type { LiveLayer, MapLayer } from '../plan/layer';
+import { createFloorPicture, type FloorPicture, repaintFloor } from '../plan/floorPicture';
 import { handOf, remarkOf } from '../plan/paint';
-import type { StageProps } from '../plan/PlanView';
-import { StageCanvas, type Size } from '../plan/ViewCanvas';
+import type { SurfaceProps } from '../plan/PlanView';
+import { type Size, ViewCanvas } from '../plan/ViewCanvas';
+import { distance } from '../lab/geometry';
 
-const LOOKS: readonly LookName[] = ['Home', 'Top', 'Front', 'Side'];
+const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
 
-export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Element {
-  const { lab, stage, layers, palette } = props;
-  const { hand, reachPx, focused, cursor } = stage;
+async function loadObjects(layers: readonly (MapLayer & InScene)[]): Promise<LoadedLayer[]> {
+  const all = await Promise.all(
+    layers.map(async ({ id, sceneObject }) => {
+      const create = await sceneObject?.();
+      return create && { id, create };
+    }),
+  );
+  // The last one is the lowest on the floor.
+  return all.filter((one) => one !== undefined).reverse();
+}
+
+export function ScenePanel(
+  props: SurfaceProps & { layers: readonly LiveLayer<MapLayer & InScene>[]; onPlan: () => void },
+): JSX.Element {
+  const { lab, interaction, layers, palette } = props;
+  const { hand, reachPx, focused, cursor } = interaction;
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
   let isGone = false;
 
   const open = async (canvas: HTMLCanvasElement): Promise<void> => {
-    const { SceneView, NoWebGl } = await import('./SceneView').catch(() => {
+    const [{ SceneView, NoWebGl }, inScene] = await Promise.all([
+      import('./SceneView'),
+      loadObjects(layers),
+    ]).catch(() => {
       throw new Error('The 3-D view could not be loaded from the server.');
     });
     if (isGone) return;
     try {
-      setDrawing(new SceneView(canvas, untrack(palette), stage.setView));
+      setDrawing(new SceneView(canvas, untrack(palette), inScene, interaction.setView));
     } catch (reason) {
       if (!(reason instanceof NoWebGl)) throw reason;
       throw new Error('This browser shows no 3-D: it has no WebGL 2, or it is switched off.', {
@@ -53,7 +70,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
     });
     canvas.addEventListener('pointerdown', ({ isPrimary }) => {
       // Two fingers turn and zoom; the first one was no click then.
-      if (!isPrimary && hand.drag().kind === 'pressed') hand.dispatch({ type: 'cancel' });
+      if (!isPrimary) hand.release('second finger');
     });
     canvas.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -80,26 +97,30 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
     if (scene) drawing()?.show(scene);
   });
 
-  const picture = createMemo<GroundPicture | undefined>(
+  const picture = createMemo<FloorPicture | undefined>(
     () => {
       const workspace = lab.scene()?.workspace;
-      return workspace && createGroundPicture(workspace);
+      return workspace && createFloorPicture(workspace);
     },
     undefined,
     // The same table keeps its picture.
     { equals: (a, b) => JSON.stringify(a?.workspace) === JSON.stringify(b?.workspace) },
   );
-  const ground = createGround(lab, layers, palette, props.fields, () => picture()?.view);
+  const baseMap = createBaseMap(lab, layers, palette, () => picture()?.view);
   createEffect(() => {
-    const [onto, now] = [picture(), ground()];
+    const [onto, now] = [picture(), baseMap()];
     const view = drawing();
     if (!onto || !now || !view) return;
-    repaintGround(onto, now);
+    repaintFloor(onto, now);
     view.lay(onto);
   });
 
   createEffect(() => {
-    drawing()?.hang(props.fields.field());
+    const pictures = layers.flatMap((layer) => {
+      const picture = layer.isShown() ? layer.underTool?.() : undefined;
+      return picture ? [picture] : [];
+    });
+    drawing()?.hang(pictures);
   });
 
   createEffect(() => {
@@ -108,22 +129,11 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
       drag.kind === 'held' ? drag.by !== 'keyboard' : drag.kind === 'pressed' && drag.onBead;
     drawing()?.setFree(!holds);
   });
-  createEffect(
-    on(stage.view, (view) => {
-      // Another view of the table under a hand that holds still: its pixel is another place.
-      const drag = hand.drag();
-      const own = cursor();
-      if (!view || drag.kind !== 'held') return;
-      const at = drag.by === 'keyboard' && own ? view.toPx(own) : drag.at;
-      if (at) hand.dispatch({ type: 'move', by: drag.by, at, lift: drag.lift });
-    }),
-  );
-
   const pull = createMemo(() => {
-    const [scene, state, view] = [lab.scene(), lab.state(), stage.view()];
+    const [scene, state] = [lab.scene(), lab.state()];
     const drag = hand.drag();
-    if (!scene || !state || !view) return undefined;
-    const hand_m = handOf(drag, state, scene, view.toWorld);
+    if (!scene || !state) return undefined;
+    const hand_m = handOf(drag, state, scene);
     return hand_m && { hand_m, lifted: drag.kind === 'held' && drag.lift };
   });
   createEffect(() => {
@@ -132,7 +142,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
     drawing()?.update({
       state,
       history: lab.history,
-      layers: layers(),
+      layers: lab.layers(),
       pull: pull(),
       nearBead: reachPx() !== undefined,
       cursor: focused() ? cursor() : undefined,
@@ -140,7 +150,7 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
   });
 
   const label = createMemo(() => {
-    const [now, state, view] = [pull(), lab.state(), stage.view()];
+    const [now, state, view] = [pull(), lab.state(), interaction.view()];
     const at = now && view?.toPx(now.hand_m);
     if (!now || !state || !at) return undefined;
     const stretched_m = distance([state.bead_m[0], state.bead_m[1]], now.hand_m);
@@ -154,9 +164,9 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
 
   return (
     <>
-      <StageCanvas
+      <ViewCanvas
         lab={lab}
-        stage={stage}
+        interaction={interaction}
         label="Scene"
         class="scene-canvas"
         helpId={props.helpId}
@@ -195,13 +205,13 @@ export function SceneStage(props: StageProps & { onPlan: () => void }): JSX.Elem
       >
         {(view) => (
           <div class="looks" role="group" aria-label="Look from">
-            <For each={LOOKS}>
+            <For each={VIEWPOINTS}>
               {(name) => (
                 <button
                   type="button"
                   class="small"
                   onClick={() => {
-                    view().look(name);
+                    view().goTo(name);
                   }}
                 >
                   {name}

@@ -12,21 +12,21 @@ import {
 import type { History } from '../lab/history';
 import type { Palette } from '../ui/palette';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
-import type { TableView, Vec2 } from '../plan/transform';
-import type { FieldPicture } from '../features/field/drawPlane';
-import type { GroundPicture } from '../plan/floorPicture';
-import type { Layer } from '../lab/layers';
+import type { UnderTool } from '../plan/layer';
+import type { FloorPicture } from '../plan/floorPicture';
 import { Arm, HIDING } from './arm';
 import { Bead, type Pull } from './bead';
-import { Eye } from './orbitCamera';
-import { FieldSheet } from './fieldSheet';
+import { OrbitCamera } from './orbitCamera';
 import { Floor } from './floor';
-import type { LookName } from './viewpoints';
+import type { ViewpointName } from './viewpoints';
 import { Marks } from './marks';
+import type { LoadedLayer } from './sceneLayer';
 import { Paints } from './paints';
 import { disposeGeometries } from './solids';
 import { Table } from './table';
 import { Tool } from './tool';
+import { ToolSheet } from './toolSheet';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 const MOST_PIXEL_RATIO = 2;
 const SKY = '#ffffff';
@@ -47,7 +47,7 @@ export class NoWebGl extends Error {}
 export interface Now {
   readonly state: StateMessage;
   readonly history: History;
-  readonly layers: ReadonlySet<Layer>;
+  readonly layers: ReadonlySet<string>;
   readonly pull: Pull | undefined;
   readonly nearBead: boolean;
   readonly cursor: Vec2 | undefined;
@@ -69,10 +69,10 @@ export class SceneView {
   private readonly light = new DirectionalLight(SKY, LIGHT_STRENGTH);
   private readonly paints: Paints;
   private readonly arm: Arm;
-  private readonly eye: Eye;
+  private readonly orbit: OrbitCamera;
   private setting: Setting | undefined;
   private floor: Floor | undefined;
-  private field: FieldSheet | undefined;
+  private sheets: readonly ToolSheet[] = [];
   private now: Now | undefined;
   private view: TableView | undefined;
   private frame: number | undefined;
@@ -81,7 +81,8 @@ export class SceneView {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private palette: Palette,
-    /** Called when the table is seen otherwise than before. */
+    private readonly layers: readonly LoadedLayer[],
+    /** Called when the view of the table has changed. */
     private readonly onView: (view: TableView) => void,
   ) {
     // Asked for here, because the library complains aloud when there is none.
@@ -104,7 +105,7 @@ export class SceneView {
     shadow.camera.far = 4;
     shadow.normalBias = 2e-3;
     shadow.intensity = SHADOW_STRENGTH;
-    this.eye = new Eye(canvas, () => {
+    this.orbit = new OrbitCamera(canvas, () => {
       this.seeAnew();
     });
     canvas.addEventListener('webglcontextrestored', this.request);
@@ -115,7 +116,7 @@ export class SceneView {
     this.height_px = height_px;
     this.renderer.setPixelRatio(Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio));
     this.renderer.setSize(width_px, height_px, false);
-    this.eye.resize(width_px, height_px);
+    this.orbit.resize(width_px, height_px);
     this.seeAnew();
   }
 
@@ -140,7 +141,7 @@ export class SceneView {
       scene.parameters.block_orientation,
       hasArm ? undefined : scene.workspace,
     );
-    const marks = new Marks(paints, scene);
+    const marks = new Marks(paints, scene, this.layers);
     const bead = new Bead(paints, palette, scene.bead_radius_m);
     group.add(table.group, tool.group, marks.group, bead.group);
     this.world.add(group);
@@ -155,12 +156,12 @@ export class SceneView {
       top: half_m,
       bottom: -half_m,
     }).updateProjectionMatrix();
-    this.eye.lookAt(scene.workspace);
+    this.orbit.lookAt(scene.workspace);
     this.place();
   }
 
   /** Lays a picture on the floor, or says that it has been drawn anew. */
-  lay(picture: GroundPicture): void {
+  lay(picture: FloorPicture): void {
     if (this.floor?.of === picture) {
       this.floor.refresh();
     } else {
@@ -171,14 +172,13 @@ export class SceneView {
     this.request();
   }
 
-  /** Hangs the magnet's field under the tool, or takes it away. */
-  hang(picture: FieldPicture | undefined): void {
-    if (this.field?.of === picture) return;
-    this.removeField();
-    if (picture) {
-      this.field = new FieldSheet(picture, this.palette, this.paints);
-      this.world.add(this.field.mesh);
-    }
+  /** Hangs pictures under the tool, in place of those before. */
+  hang(pictures: readonly UnderTool[]): void {
+    const stay = this.sheets.filter((sheet) => pictures.includes(sheet.of));
+    for (const sheet of this.sheets) if (!stay.includes(sheet)) this.removeSheet(sheet);
+    this.sheets = pictures.map(
+      (picture) => stay.find(({ of }) => of === picture) ?? this.addSheet(picture),
+    );
     this.place();
     this.request();
   }
@@ -189,19 +189,19 @@ export class SceneView {
   }
 
   setFree(free: boolean): void {
-    this.eye.setFree(free);
+    this.orbit.setFree(free);
   }
 
-  look(name: LookName): void {
-    this.eye.take(name);
+  goTo(name: ViewpointName): void {
+    this.orbit.take(name);
   }
 
   key(key: string): boolean {
-    return this.eye.key(key);
+    return this.orbit.key(key);
   }
 
   turned(arrow: Vec2): Vec2 {
-    return this.eye.turned(arrow);
+    return this.orbit.turned(arrow);
   }
 
   dispose(): void {
@@ -209,11 +209,11 @@ export class SceneView {
     this.canvas.removeEventListener('webglcontextrestored', this.request);
     this.clear();
     this.removeFloor();
-    this.removeField();
+    for (const sheet of this.sheets) this.removeSheet(sheet);
     disposeGeometries(this.arm.group);
     this.light.dispose();
     this.paints.dispose();
-    this.eye.dispose();
+    this.orbit.dispose();
     this.renderer.dispose();
     // A browser has few contexts, and frees one that is no longer reachable late.
     this.renderer.forceContextLoss();
@@ -234,11 +234,15 @@ export class SceneView {
     this.floor = undefined;
   }
 
-  private removeField(): void {
-    if (!this.field) return;
-    this.world.remove(this.field.mesh);
-    this.field.dispose();
-    this.field = undefined;
+  private addSheet(picture: UnderTool): ToolSheet {
+    const sheet = new ToolSheet(picture, this.palette, this.paints);
+    this.world.add(sheet.mesh);
+    return sheet;
+  }
+
+  private removeSheet(sheet: ToolSheet): void {
+    this.world.remove(sheet.mesh);
+    sheet.dispose();
   }
 
   private place(): void {
@@ -249,7 +253,7 @@ export class SceneView {
     this.arm.group.visible = state.joints_rad !== null;
     if (state.joints_rad) this.arm.pose(state.joints_rad);
     tool.place(state.tool_m);
-    this.field?.place(state.tool_m);
+    for (const sheet of this.sheets) sheet.place(state.tool_m);
     marks.place(state, now.history, now.layers);
     marks.placeCursor(now.cursor);
     bead.place(state);
@@ -259,7 +263,7 @@ export class SceneView {
   }
 
   private seeAnew(): void {
-    const { view, pxFromTable } = this.eye.view();
+    const { view, pxFromTable } = this.orbit.view();
     this.view = view;
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
     this.onView(view);
@@ -274,11 +278,11 @@ export class SceneView {
   };
 
   private draw(): void {
-    const { setting, now, eye } = this;
+    const { setting, now, orbit } = this;
     if (!setting || !now) return;
-    this.paints.fade(HIDING, eye.hiding());
-    setting.bead.fit(eye.camera, this.height_px);
-    this.renderer.render(this.world, eye.camera);
+    this.paints.fade(HIDING, orbit.hiding());
+    setting.bead.fit(orbit.camera, this.height_px);
+    this.renderer.render(this.world, orbit.camera);
     this.tell(now.state);
   }
 

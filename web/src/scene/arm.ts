@@ -3,9 +3,9 @@
 // Every solid is rigid in the frame of one link, so a pose is six matrices.
 
 import { Group, Matrix4 } from 'three';
-import { FOREARM_M, UPPER_ARM_M, WRIST_LENGTHS_M, linkFrames } from './kinematics';
+import { FOREARM_M, linkFrames, UPPER_ARM_M, WRIST_LENGTHS_M } from './kinematics';
 import type { Paints } from './paints';
-import { Solids, type Line, type Point } from './solids';
+import { type Line, type Point, Solids } from './solids';
 
 /** Along the shoulder's axis, from the joint frames' plane to the middle of the upper arm. */
 const UPPER_ARM_ASIDE_M = 0.1358;

@@ -4,10 +4,10 @@ import { Group, Mesh, SphereGeometry, Sprite, SpriteMaterial, CanvasTexture, Vec
 import type { PerspectiveCamera } from 'three';
 import type { Palette } from '../ui/palette';
 import type { StateMessage } from '../net/protocol.gen';
-import type { Vec2 } from '../plan/transform';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';
+import type { Vec2 } from '../lab/geometry';
 
 /** The bead is 5 mm: from afar it is drawn larger than life, or nobody finds it. */
 const LEAST_RADIUS_PX = 5;

@@ -12,7 +12,7 @@ import {
 } from 'three';
 import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
-import { createNumbersPicture, repaintNumbers, type GroundPicture } from '../plan/floorPicture';
+import { createNumbersPicture, type FloorPicture, repaintNumbers } from '../plan/floorPicture';
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 
@@ -27,7 +27,7 @@ const HAZE_OPACITY = 0.09;
 const ANISOTROPY = 8;
 
 /** A sheet on the table as large as what its picture shows. */
-function sheet({ canvas, view, ratio }: GroundPicture, material: MeshBasicMaterial): Mesh {
+function sheet({ canvas, view, ratio }: FloorPicture, material: MeshBasicMaterial): Mesh {
   const width_m = canvas.width / ratio / view.pxPerM;
   const height_m = canvas.height / ratio / view.pxPerM;
   const mesh = new Mesh(new PlaneGeometry(width_m, height_m), material);
@@ -37,7 +37,7 @@ function sheet({ canvas, view, ratio }: GroundPicture, material: MeshBasicMateri
   return mesh;
 }
 
-function textureOf({ canvas }: GroundPicture): CanvasTexture {
+function textureOf({ canvas }: FloorPicture): CanvasTexture {
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
   return texture;
@@ -50,7 +50,7 @@ export class Floor {
   private readonly shadow = new ShadowMaterial({ opacity: SHADOW_OPACITY, depthWrite: false });
 
   constructor(
-    readonly of: GroundPicture,
+    readonly of: FloorPicture,
     paints: Paints,
   ) {
     this.texture = textureOf(of);
@@ -84,7 +84,7 @@ export class Floor {
 
 export class Numbers {
   readonly group = new Group();
-  private readonly picture: GroundPicture;
+  private readonly picture: FloorPicture;
   private readonly texture: CanvasTexture;
   private readonly material: MeshBasicMaterial;
 

@@ -3,9 +3,9 @@
 import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Rect } from '../net/protocol.gen';
-import type { TableView, Vec2 } from '../plan/transform';
-import { distanceFor, hidingAt, lookOf, turnedArrow, type LookName } from './viewpoints';
+import { distanceFor, hidingAt, turnedArrow, type ViewpointName, viewpointOf } from './viewpoints';
 import { perspectiveView, pxFromTable } from './perspective';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 const FIELD_OF_VIEW_DEG = 36;
 const NEAR_M = 0.02;
@@ -17,15 +17,15 @@ const MOST_POLAR_RAD = (88 * Math.PI) / 180;
 const KEY_TURN_RAD = Math.PI / 24;
 const KEY_ZOOM = 0.88;
 
-export class Eye {
+export class OrbitCamera {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, NEAR_M, FAR_M);
   private readonly controls: OrbitControls;
   private readonly clipFromBase = new Matrix4();
   private width_px = 1;
   private height_px = 1;
   private workspace: Rect | undefined;
-  /** The look that nobody has changed since; another size of the picture is another distance then. */
-  private look: LookName | undefined = 'Home';
+  /** The viewpoint that nobody has changed since; another size of the picture is another distance then. */
+  private viewpoint: ViewpointName | undefined = 'Home';
 
   constructor(canvas: HTMLCanvasElement, onChange: () => void) {
     this.camera.up.set(0, 0, 1);
@@ -36,7 +36,7 @@ export class Eye {
     this.controls.zoomToCursor = true;
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.addEventListener('start', () => {
-      this.look = undefined;
+      this.viewpoint = undefined;
     });
     this.controls.addEventListener('change', onChange);
   }
@@ -51,7 +51,7 @@ export class Eye {
     this.height_px = height_px;
     this.camera.aspect = width_px / height_px;
     this.camera.updateProjectionMatrix();
-    if (this.look) this.take(this.look);
+    if (this.viewpoint) this.take(this.viewpoint);
   }
 
   /** Another workspace is looked at anew, the same one as before. */
@@ -62,14 +62,14 @@ export class Eye {
     if (!isSame) this.take('Home');
   }
 
-  take(name: LookName): void {
+  take(name: ViewpointName): void {
     if (!this.workspace) return;
-    this.look = name;
-    const look = lookOf(name, this.workspace);
-    const away_m = distanceFor(look, (FIELD_OF_VIEW_DEG * Math.PI) / 180, this.camera.aspect);
-    this.controls.target.set(...look.target_m);
+    this.viewpoint = name;
+    const viewpoint = viewpointOf(name, this.workspace);
+    const away_m = distanceFor(viewpoint, (FIELD_OF_VIEW_DEG * Math.PI) / 180, this.camera.aspect);
+    this.controls.target.set(...viewpoint.target_m);
     this.camera.position
-      .set(...look.toEye)
+      .set(...viewpoint.toCamera)
       .setLength(away_m)
       .add(this.controls.target);
     this.controls.update();
@@ -103,7 +103,7 @@ export class Eye {
       default:
         return false;
     }
-    this.look = undefined;
+    this.viewpoint = undefined;
     return true;
   }
 

@@ -45,7 +45,7 @@ test('a pixel leads back to its point of the table', () => {
   expect(y).toBeCloseTo(-0.47, 9);
 });
 
-test('over the horizon there is no table, and behind the eye no pixel', () => {
+test('over the horizon there is no table, and behind the camera no pixel', () => {
   const low = cameraAt(new Vector3(0, -1, 0.1), new Vector3(0, 0, 0.1));
   const horizontal = perspectiveView(clipFromBase(low), WIDTH, HEIGHT);
   expect(horizontal.toWorld([WIDTH / 2, HEIGHT / 2 - 20])).toBeUndefined();

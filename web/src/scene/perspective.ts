@@ -1,8 +1,7 @@
 // Between the table and a picture of it in perspective. Pure, but for three's matrices.
 
 import { Matrix3, Vector3, type Matrix4 } from 'three';
-import type { Vec2 } from '../plan/transform';
-import type { TableView } from '../plan/transform';
+import type { TableView, Vec2 } from '../lab/geometry';
 
 /** Pixels from places of the table, homogeneous, row by row. */
 export function pxFromTable(clipFromBase: Matrix4, widthPx: number, heightPx: number): Matrix3 {
@@ -49,7 +48,7 @@ export function perspectiveView(
       const found = new Vector3(x_px, y_px, 1).applyMatrix3(toTable);
       if (found.z === 0) return undefined;
       const [x_m, y_m] = [found.x / found.z, found.y / found.z];
-      // A ray over the horizon meets the table behind the eye.
+      // A ray over the horizon meets the table behind the camera.
       const isAhead = place.set(x_m, y_m, 1).applyMatrix3(fromTable).z > 0;
       return isAhead ? [x_m, y_m] : undefined;
     },

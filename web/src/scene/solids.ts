@@ -2,13 +2,14 @@
 
 import {
   BoxGeometry,
+  BufferGeometry,
   CylinderGeometry,
+  Float32BufferAttribute,
   Group,
   Matrix4,
   Mesh,
   Quaternion,
   Vector3,
-  type BufferGeometry,
   type Object3D,
 } from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
@@ -78,4 +79,12 @@ export function disposeGeometries(object: Object3D): void {
   object.traverse((one) => {
     if ('geometry' in one) (one as Mesh).geometry.dispose();
   });
+}
+
+/** Three corners a triangle. */
+export function triangles(corners: readonly Point[]): BufferGeometry {
+  return new BufferGeometry().setAttribute(
+    'position',
+    new Float32BufferAttribute(corners.flat(), 3),
+  );
 }

@@ -15,7 +15,7 @@ import {
 } from 'three';
 import type { Palette } from '../ui/palette';
 import type { Polygon, Rect, SceneMessage } from '../net/protocol.gen';
-import { groundMargins } from '../plan/floorPicture';
+import { floorMargins } from '../plan/floorPicture';
 import { Numbers } from './floor';
 import type { Paints } from './paints';
 import { disposeGeometries } from './solids';
@@ -75,7 +75,7 @@ function rimGeometry(rect: Rect, width_m: number): ExtrudeGeometry {
 
 /** Of the table: under floor and numbers, and under the robot's foot where there is one. */
 export function tableOf(workspace: Rect, hasArm: boolean): Rect {
-  const { left, right, bottom, top } = groundMargins(workspace);
+  const { left, right, bottom, top } = floorMargins(workspace);
   const side_m = Math.max(left, right) + EDGE_M;
   const rect = {
     x_min_m: workspace.x_min_m - side_m,

@@ -2,9 +2,9 @@
 
 import { Group } from 'three';
 import type { Orientation, Rect } from '../net/protocol.gen';
-import { groundMargins } from '../plan/floorPicture';
+import { floorMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
-import { Solids, disposeGeometries, type Point } from './solids';
+import { disposeGeometries, type Point, Solids } from './solids';
 import { EDGE_M } from './table';
 
 /** Of the tool point, the middle of the block's lower face. */
@@ -86,7 +86,7 @@ class Portal {
 
   constructor(paints: Paints, workspace: Rect, block_m: number) {
     const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
-    const margins = groundMargins(workspace);
+    const margins = floorMargins(workspace);
     const rails_m = [
       y_min_m - margins.bottom - EDGE_M / 2,
       y_max_m + margins.top + EDGE_M / 2,

@@ -1,24 +1,24 @@
 import { PerspectiveCamera, Vector3 } from 'three';
 import { expect, test } from 'vitest';
-import { LOOKS, distanceFor, hidingAt, lookOf, turnedArrow } from './viewpoints';
+import { distanceFor, hidingAt, turnedArrow, viewpointOf, VIEWPOINTS } from './viewpoints';
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
-test('every look shows its bounds, and none of them small', () => {
-  for (const name of LOOKS) {
+test('every viewpoint shows its bounds, and none of them small', () => {
+  for (const name of VIEWPOINTS) {
     for (const aspect of [0.6, 1, 1.8, 3]) {
-      const look = lookOf(name, WORKSPACE);
+      const viewpoint = viewpointOf(name, WORKSPACE);
       const camera = new PerspectiveCamera(38, aspect, 0.01, 10);
       camera.up.set(0, 0, 1);
-      const target = new Vector3(...look.target_m);
-      const away = distanceFor(look, (38 * Math.PI) / 180, aspect);
+      const target = new Vector3(...viewpoint.target_m);
+      const away = distanceFor(viewpoint, (38 * Math.PI) / 180, aspect);
       camera.position
-        .set(...look.toEye)
+        .set(...viewpoint.toCamera)
         .setLength(away)
         .add(target);
       camera.lookAt(target);
       camera.updateMatrixWorld();
-      const reaches = look.bounds_m.map((bound) => {
+      const reaches = viewpoint.bounds_m.map((bound) => {
         const at = new Vector3(...bound).project(camera);
         return Math.max(Math.abs(at.x), Math.abs(at.y));
       });

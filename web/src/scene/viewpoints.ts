@@ -2,17 +2,17 @@
 
 import { Vector3 } from 'three';
 import type { Rect } from '../net/protocol.gen';
-import { groundMargins } from '../plan/floorPicture';
+import { floorMargins } from '../plan/floorPicture';
 import type { Point } from './solids';
 
-export const LOOKS = ['Home', 'Top', 'Front', 'Side'] as const;
-export type LookName = (typeof LOOKS)[number];
+export const VIEWPOINTS = ['Home', 'Top', 'Front', 'Side'] as const;
+export type ViewpointName = (typeof VIEWPOINTS)[number];
 
-export interface Look {
+export interface Viewpoint {
   /** What is in the middle of the picture. */
   readonly target_m: Point;
-  /** From there to the eye. */
-  readonly toEye: Point;
+  /** From there to the camera. */
+  readonly toCamera: Point;
   /** What must be in the picture. */
   readonly bounds_m: readonly Point[];
 }
@@ -33,10 +33,10 @@ function corners(rect: Rect, z: number): Point[] {
   ];
 }
 
-export function lookOf(name: LookName, workspace: Rect): Look {
+export function viewpointOf(name: ViewpointName, workspace: Rect): Viewpoint {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
   const [x, y] = [(x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2];
-  const { left, right, bottom } = groundMargins(workspace);
+  const { left, right, bottom } = floorMargins(workspace);
   const low = corners(
     {
       x_min_m: x_min_m - left,
@@ -51,32 +51,32 @@ export function lookOf(name: LookName, workspace: Rect): Look {
   const both = [...low, ...corners(narrow, SHOWN_UP_M)];
   switch (name) {
     case 'Home':
-      return { target_m: [x, y + 0.02, 0.06], toEye: [0.36, -1, 0.85], bounds_m: both };
+      return { target_m: [x, y + 0.02, 0.06], toCamera: [0.36, -1, 0.85], bounds_m: both };
     case 'Top':
-      return { target_m: [x, y, 0], toEye: [0, -ALMOST, 1], bounds_m: low };
+      return { target_m: [x, y, 0], toCamera: [0, -ALMOST, 1], bounds_m: low };
     case 'Front':
-      return { target_m: [x, y, SHOWN_UP_M / 2], toEye: [0, -1, 0.22], bounds_m: both };
+      return { target_m: [x, y, SHOWN_UP_M / 2], toCamera: [0, -1, 0.22], bounds_m: both };
     case 'Side':
-      return { target_m: [x, y, SHOWN_UP_M / 2], toEye: [1, 0, 0.22], bounds_m: both };
+      return { target_m: [x, y, SHOWN_UP_M / 2], toCamera: [1, 0, 0.22], bounds_m: both };
   }
 }
 
-/** How far from the target the eye must be for all of `bounds_m` to be in the picture, with a little room. */
-export function distanceFor(look: Look, fieldOfView_rad: number, aspect: number): number {
-  const back = new Vector3(...look.toEye).normalize();
+/** How far from the target the camera must be for all of `bounds_m` to be in the picture, with a little room. */
+export function distanceFor(viewpoint: Viewpoint, fieldOfView_rad: number, aspect: number): number {
+  const back = new Vector3(...viewpoint.toCamera).normalize();
   const right = new Vector3(0, 0, 1).cross(back).normalize();
   const up = new Vector3().crossVectors(back, right);
-  const target = new Vector3(...look.target_m);
+  const target = new Vector3(...viewpoint.target_m);
   const tangent = Math.tan(fieldOfView_rad / 2) / ROOM;
   const point = new Vector3();
-  return look.bounds_m.reduce((most, bound) => {
+  return viewpoint.bounds_m.reduce((most, bound) => {
     point.set(...bound).sub(target);
     const aside = Math.max(Math.abs(point.dot(up)), Math.abs(point.dot(right)) / aspect);
     return Math.max(most, point.dot(back) + aside / tangent);
   }, 0);
 }
 
-/** The axis of the table that an arrow key means, seen from an eye at `azimuth_rad` about the vertical. */
+/** The axis of the table that an arrow key means, seen from a camera at `azimuth_rad` about the vertical. */
 export function turnedArrow(
   arrow: readonly [number, number],
   azimuth_rad: number,

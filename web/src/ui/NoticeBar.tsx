@@ -1,31 +1,41 @@
-// What was refused, at the panel whose control caused it.
+// A notice at the panel whose control caused it; it goes away by itself.
 
 import { Show, createEffect, on, onCleanup, type JSX } from 'solid-js';
-import type { Lab } from '../lab/lab';
-import type { Place } from '../lab/model';
 
 const SHOWN_MS = 7000;
 
-export function NoticeBar(props: { lab: Lab; place: Place }): JSX.Element {
-  const { lab } = props;
-  const notice = () => lab.notices()[props.place];
+export interface Notice {
+  readonly id: number;
+  /** A refusal, or a hint of this page. */
+  readonly tone: 'error' | 'hint';
+  readonly text: string;
+}
+
+export function NoticeBar(props: {
+  notice: Notice | undefined;
+  /** Which panel it is at, for tests. */
+  place: string;
+  onDismiss: (id: number) => void;
+}): JSX.Element {
   const dismiss = (): void => {
-    const now = notice();
-    if (now) lab.dismiss(props.place, now.id);
+    if (props.notice) props.onDismiss(props.notice.id);
   };
   createEffect(
-    on(notice, (now) => {
-      if (!now) return;
-      const timer = setTimeout(dismiss, SHOWN_MS);
-      onCleanup(() => {
-        clearTimeout(timer);
-      });
-    }),
+    on(
+      () => props.notice,
+      (now) => {
+        if (!now) return;
+        const timer = setTimeout(dismiss, SHOWN_MS);
+        onCleanup(() => {
+          clearTimeout(timer);
+        });
+      },
+    ),
   );
   // The region is always there: screen readers announce what appears inside of it.
   return (
     <div class="notices" role="alert" data-place={props.place}>
-      <Show when={notice()}>
+      <Show when={props.notice}>
         {(now) => (
           <p class="notice" data-tone={now().tone}>
             <span>{now().text}</span>

@@ -1,56 +1,48 @@
 // Panels that share a place: tabs to choose one, arrow keys to go along them.
 
-import { For, createEffect, createSignal, type Component, type JSX } from 'solid-js';
-import { Dynamic } from 'solid-js/web';
-import type { Lab } from '../lab/lab';
+import { For, createEffect, createMemo, createSignal, untrack, type JSX } from 'solid-js';
 import { recall, remember } from './storage';
-import type { Theme } from './theme';
-
-export interface PanelProps {
-  readonly lab: Lab;
-  readonly theme: () => Theme;
-}
-
-export interface TabProps extends PanelProps {
-  /** Room for a panel's own controls, beside the tabs. */
-  readonly tools: HTMLElement;
-}
-
-export interface Tab {
-  readonly id: string;
-  readonly title: string;
-  readonly panel: Component<TabProps>;
-}
 
 /** How far a key moves along the tabs. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
-export function Tabs(
-  props: PanelProps & {
-    area: string;
-    label: string;
-    tabs: readonly [Tab, ...Tab[]];
-    /** What stands beside the tabs whichever is chosen. */
-    aside?: JSX.Element;
-  },
-): JSX.Element {
+export interface TabHead {
+  readonly id: string;
+  readonly title: string;
+}
+
+export function Tabs<T extends TabHead>(props: {
+  /** Class of the section, and the key under which its tab is stored. */
+  area: string;
+  label: string;
+  tabs: readonly [T, ...T[]];
+  /** A tab to open, wherever it is. */
+  opened: string | undefined;
+  onOpened: () => void;
+  /** Beside the tabs, whichever is chosen. */
+  aside?: JSX.Element;
+  /** The panel of a tab; `tools` is the room for its own controls, beside the tabs. */
+  children: (tab: T, tools: HTMLElement) => JSX.Element;
+}): JSX.Element {
   const tools = document.createElement('div');
   tools.className = 'tab-tools';
-  // A look at another view, or a reload, is no reason to lose one's place.
   const key = `tab.${props.area}`;
   const kept = props.tabs.findIndex(({ id }) => id === recall(key));
   const [index, setIndex] = createSignal(Math.max(0, kept));
+  const tab = createMemo(() => props.tabs[index()] ?? props.tabs[0]);
   createEffect(() => {
     remember(key, tab().id);
   });
-  const tab = () => props.tabs[index()] ?? props.tabs[0];
+  const panel = createMemo(() => {
+    const now = tab();
+    return untrack(() => props.children(now, tools));
+  });
   const buttons: HTMLButtonElement[] = [];
   createEffect(() => {
-    const asked = props.lab.opened()?.tab;
-    const found = props.tabs.findIndex(({ id }) => id === asked);
+    const found = props.tabs.findIndex(({ id }) => id === props.opened);
     if (found < 0) return;
     setIndex(found);
-    props.lab.openTab(undefined);
+    props.onOpened();
   });
   const onKey = (event: KeyboardEvent): void => {
     const move = MOVES[event.key];
@@ -92,7 +84,7 @@ export function Tabs(
         role="tabpanel"
         aria-labelledby={`tab-${tab().id}`}
       >
-        <Dynamic component={tab().panel} lab={props.lab} theme={props.theme} tools={tools} />
+        {panel()}
       </div>
     </section>
   );

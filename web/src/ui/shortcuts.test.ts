@@ -1,7 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { Lab } from '../lab/lab';
-import { pageShortcuts } from '../app/pageShortcuts';
-import { keyName, shortcutFor, type Focus, type Press, type Shortcut } from './shortcuts';
+import { type Focus, type Press, type Shortcut, shortcutFor } from './shortcuts';
 
 const run = (): void => undefined;
 const LIST: readonly Shortcut[] = [
@@ -43,15 +41,5 @@ describe('a shortcut', () => {
 
   it('leaves to a panel what the panel hears itself', () => {
     expect(heard({ key: 'd' })).toBeUndefined();
-  });
-});
-
-describe('the list of the page', () => {
-  it('has each key once where it is heard, and a name for each', () => {
-    const all = pageShortcuts({} as Lab, () => true, run);
-    const keys = all.filter((shortcut) => shortcut.run).flatMap((shortcut) => shortcut.keys);
-    expect(new Set(keys).size).toBe(keys.length);
-    expect(keys.map(keyName)).toContain('Space');
-    expect(keyName('r')).toBe('R');
   });
 });

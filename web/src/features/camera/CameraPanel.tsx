@@ -3,8 +3,8 @@
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../../ui/format';
 import { blocksPath, patchPath } from '../../lab/homography';
-import type { Lab } from '../../lab/lab';
 import { OBSTACLE_MEAN } from '../../net/protocol.gen';
+import type { Notices, Pictures } from '../../lab/slices';
 
 /** Side of the camera's image. */
 const CAMERA_PX = 480;
@@ -24,7 +24,7 @@ function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
   ctx.putImageData(image, 0, 0);
 }
 
-export function CameraPanel(props: { lab: Lab }): JSX.Element {
+export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
   const { lab } = props;
   let cameraCanvas!: HTMLCanvasElement;
   let channel0!: HTMLCanvasElement;

@@ -4,20 +4,20 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
-import type { Lab } from '../../lab/lab';
 import { createPalette } from '../../ui/palette';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
-import { NoticeBar } from '../../ui/NoticeBar';
-import type { PanelProps, TabProps } from '../../ui/Tabs';
+import { PlaceNotice } from '../../lab/PlaceNotice';
+import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { Compared, Notices, Session, Trial } from '../../lab/slices';
 
 const CONTROLLERS: readonly ControllerName[] = ['rl', 'errt', 'attractor'];
 const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
 const CM = 100;
 
-function Start(props: { lab: Lab }): JSX.Element {
+function Start(props: { lab: Session & Trial & Compared }): JSX.Element {
   const { lab } = props;
   const [chosen, setChosen] = createSignal<ReadonlySet<ControllerName>>(new Set(CONTROLLERS));
   const toggle = (name: ControllerName, on: boolean): void => {
@@ -61,7 +61,7 @@ function Start(props: { lab: Lab }): JSX.Element {
         Compare from here
       </button>
       <span class="compare-of" role="status">
-        <Show when={lab.ghosts.comparison()}>
+        <Show when={lab.comparison.shown()}>
           {(comparison) => (
             <>
               from {clock(comparison().sim_time_s)}
@@ -132,8 +132,12 @@ function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.
   );
 }
 
-function Player(props: { lab: Lab; comparison: ComparisonMessage; tick_s: number }): JSX.Element {
-  const { ghosts } = props.lab;
+function Player(props: {
+  lab: Compared;
+  comparison: ComparisonMessage;
+  tick_s: number;
+}): JSX.Element {
+  const ghosts = props.lab.comparison;
   const since_s = (): number => (ghosts.tick() - props.comparison.tick) * props.tick_s;
   return (
     <div class="compare-player">
@@ -194,12 +198,15 @@ function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedDa
 }
 
 function Errors(
-  props: PanelProps & { comparison: ComparisonMessage; tick_s: number },
+  props: Omit<PanelProps<Trial & Compared>, 'tools'> & {
+    comparison: ComparisonMessage;
+    tick_s: number;
+  },
 ): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const threshold_cm = (): number => (lab.scene()?.parameters.threshold_m ?? 0) * CM;
-  const shown_s = (): number => (lab.ghosts.tick() - props.comparison.tick) * props.tick_s;
+  const shown_s = (): number => (lab.comparison.tick() - props.comparison.tick) * props.tick_s;
   const rules = createMemo(() => [
     { axis: 'y', at: threshold_cm(), label: 'T', color: 'danger', dashed: true } as const,
     { axis: 'x', at: shown_s(), label: '', color: 'muted', dashed: false } as const,
@@ -232,16 +239,16 @@ function Errors(
   );
 }
 
-export function ComparePanel(props: TabProps): JSX.Element {
+function ComparePanel(props: PanelProps<Session & Trial & Notices & Compared>): JSX.Element {
   const { lab } = props;
   const tick_s = (): number => lab.scene()?.tick_s ?? 0;
   return (
     <div class="compare">
       <div class="compare-main">
         <Start lab={lab} />
-        <NoticeBar lab={lab} place="compare" />
+        <PlaceNotice lab={lab} place="compare" />
         <Show
-          when={lab.ghosts.comparison()}
+          when={lab.comparison.shown()}
           fallback={
             <p class="hint">
               Runs the moment shown now on under each controller, for 60 s at most, with the same
@@ -260,7 +267,7 @@ export function ComparePanel(props: TabProps): JSX.Element {
           )}
         </Show>
       </div>
-      <Show when={lab.ghosts.comparison()}>
+      <Show when={lab.comparison.shown()}>
         {(comparison) => (
           <Errors lab={lab} theme={props.theme} comparison={comparison()} tick_s={tick_s()} />
         )}
@@ -268,3 +275,5 @@ export function ComparePanel(props: TabProps): JSX.Element {
     </div>
   );
 }
+
+export const COMPARE_TAB: TabPanel = { id: 'compare', title: 'Compare', panel: ComparePanel };

@@ -4,7 +4,8 @@ import { ghostAt } from '../../lab/comparison';
 import type { Palette } from '../../ui/palette';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { ComparisonMessage } from '../../net/protocol.gen';
-import { pxFromWorld, type Vec2, type View } from '../../plan/transform';
+import { pxFromWorld, type View } from '../../plan/transform';
+import type { Vec2 } from '../../lab/geometry';
 
 const TOOL_PX = 7;
 const BEAD_PX = 3.5;

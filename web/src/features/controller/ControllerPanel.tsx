@@ -1,16 +1,14 @@
 // Which controller runs, why, and with which parameters.
 
 import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { ControllerName } from '../../net/protocol.gen';
-import { NoticeBar } from '../../ui/NoticeBar';
+import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
-import { PlanFacts } from '../planner/PlannerFacts';
 import { SwitchingLaw } from './SwitchingLaw';
-import { ValueFans } from '../values/ValueFans';
+import type { Notices, Session, Trial } from '../../lab/slices';
 
-function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element {
+function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const active = createMemo(() => lab.state()?.controller === props.name);
@@ -37,7 +35,10 @@ function ControllerRadio(props: { lab: Lab; name: ControllerName }): JSX.Element
   );
 }
 
-function ControllerChoice(props: { lab: Lab; names: readonly ControllerName[] }): JSX.Element {
+function ControllerChoice(props: {
+  lab: Session & Trial;
+  names: readonly ControllerName[];
+}): JSX.Element {
   const { lab } = props;
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">
@@ -46,7 +47,11 @@ function ControllerChoice(props: { lab: Lab; names: readonly ControllerName[] })
   );
 }
 
-export function ControllerPanel(props: { lab: Lab }): JSX.Element {
+/** Its children say what the active controller thinks. */
+export function ControllerPanel(props: {
+  lab: Session & Trial & Notices;
+  children: JSX.Element;
+}): JSX.Element {
   const { lab } = props;
   return (
     <section class="panel controller">
@@ -63,12 +68,7 @@ export function ControllerPanel(props: { lab: Lab }): JSX.Element {
               {(state) => (
                 <>
                   <SwitchingLaw state={state()} scene={scene()} />
-                  <Show when={lab.overlay()?.plan}>
-                    {(plan) => <PlanFacts plan={plan()} state={state()} />}
-                  </Show>
-                  <Show when={lab.overlay()?.judgement}>
-                    {(judgement) => <ValueFans judgement={judgement()} map={scene().map} />}
-                  </Show>
+                  {props.children}
                 </>
               )}
             </Show>
@@ -76,7 +76,7 @@ export function ControllerPanel(props: { lab: Lab }): JSX.Element {
           </>
         )}
       </Show>
-      <NoticeBar lab={lab} place="controller" />
+      <PlaceNotice lab={lab} place="controller" />
     </section>
   );
 }

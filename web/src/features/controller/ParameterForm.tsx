@@ -1,11 +1,11 @@
 // The parameters, bound both ways: edits go out whole, and what the server says is shown.
 
 import { For, Index, Show, createMemo, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { GROUPS } from '../../lab/parameterGroups';
 import type { Group } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
-import { FieldRow, createForm, type Form } from '../../lab/ParameterField';
+import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
+import type { Session, Trial } from '../../lab/slices';
 
 function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   const { form, group } = props;
@@ -24,7 +24,7 @@ function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   );
 }
 
-export function ParameterForm(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
+export function ParameterForm(props: { lab: Session & Trial; scene: SceneMessage }): JSX.Element {
   const { lab } = props;
   const form = createForm(lab, () => props.scene);
   const controller = createMemo(() => lab.state()?.controller);

@@ -2,38 +2,42 @@
 
 import { Match, Show, Switch, createSignal, onCleanup, type JSX } from 'solid-js';
 import {
-  DIRECTIONS,
-  KINDS,
-  TIMES,
   blind,
+  type Direction,
+  DIRECTIONS,
   kick,
+  type Kind,
+  KINDS,
   move,
   push,
   restart,
-  unitVector,
-  type Direction,
-  type Kind,
   type Time,
+  TIMES,
+  unitVector,
 } from '../../lab/disturbance';
-import type { Lab } from '../../lab/lab';
 import {
+  type Disturbance,
   MOST_DRIFT_N,
   MOST_IMPULSE_N_S,
   MOST_SECONDS,
   MOST_STEPS,
   SCRIPT_LIMIT,
-  type Disturbance,
   type When,
 } from '../../net/protocol.gen';
 import { ScriptList } from './ScriptList';
-import { Amount, Choice, PlaceFields, type Place } from './disturbFields';
+import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
 import type { Picker } from '../../plan/picker';
+import type { Session, Trial } from '../../lab/slices';
 
 /** An hour of a trial. */
 const LATEST_S = 3600;
 const FARTHEST_CM = 100;
 
-export function DisturbBar(props: { lab: Lab; id: string; picker: Picker }): JSX.Element {
+export function DisturbBar(props: {
+  lab: Session & Trial;
+  id: string;
+  picker: Picker;
+}): JSX.Element {
   const { lab } = props;
   const { bead_m } = lab.state() ?? { bead_m: [0, 0] };
   const here: Place = { x_m: Number(bead_m[0].toFixed(3)), y_m: Number(bead_m[1].toFixed(3)) };

@@ -1,12 +1,12 @@
 // The disturbances that belong to the scenario: those of its script, and how many at random.
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
-import { MOST_RANDOM, describe, describeWhen, restart } from '../../lab/disturbance';
-import type { Lab } from '../../lab/lab';
+import { describe, describeWhen, MOST_RANDOM, restart } from '../../lab/disturbance';
 import type { Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';
+import type { Session, Trial } from '../../lab/slices';
 
-export function ScriptList(props: { lab: Lab }): JSX.Element {
+export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
   const script = (): readonly Scripted[] => lab.scene()?.scenario.script ?? [];
   const inForce = (): number => lab.scene()?.scenario.disturbances ?? 0;

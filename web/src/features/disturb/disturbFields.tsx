@@ -1,8 +1,8 @@
 // The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
 
 import { For, Show, createEffect, onCleanup, type JSX } from 'solid-js';
-import type { Vec2 } from '../../plan/transform';
 import type { Picker } from '../../plan/picker';
+import type { Vec2 } from '../../lab/geometry';
 
 export function Amount(props: {
   name: string;

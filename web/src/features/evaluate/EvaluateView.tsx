@@ -4,9 +4,9 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
 import { createEvaluationList } from './evaluations';
-import { isActive, numberOf, stageWords, subject, episodesDone, episodesInAll } from './progress';
-import type { Lab } from '../../lab/lab';
+import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } from './progress';
 import type { EvaluationSummary } from '../../net/protocol.gen';
+import type { Session, Trial } from '../../lab/slices';
 
 /** Outside of the view, so that a look at the laboratory does not lose it. */
 const [chosen, setChosen] = createSignal<string>();
@@ -37,7 +37,10 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
   );
 }
 
-export function EvaluateView(props: { lab: Lab; onLaboratory: () => void }): JSX.Element {
+export function EvaluateView(props: {
+  lab: Session & Trial;
+  onLaboratory: () => void;
+}): JSX.Element {
   const list = createEvaluationList();
   const all = (): readonly EvaluationSummary[] => list.all() ?? [];
   const ids = createMemo(() => all().map(({ id }) => id), [], {

@@ -1,22 +1,22 @@
 // What to evaluate.
 
 import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { EvaluationSummary } from '../../net/protocol.gen';
-import { Refusal, type EvaluationList } from './evaluations';
+import { type EvaluationList, Refusal } from './evaluations';
 import { roughly } from './progress';
 import {
-  PAPERS,
+  type Draft,
   estimate_s,
+  type Faults,
   faultsOf,
+  type Field,
+  PAPERS,
   queryOf,
   sizeWords,
   toggled,
-  type Draft,
-  type Faults,
-  type Field,
 } from './request';
+import type { Session, Trial } from '../../lab/slices';
 
 const DISTURBANCES = [0, 3] as const;
 
@@ -96,7 +96,7 @@ function Whole(props: {
 }
 
 export function EvaluationForm(props: {
-  lab: Lab;
+  lab: Session & Trial;
   list: EvaluationList;
   measured: readonly EvaluationSummary[];
   onBegun: (id: string) => void;

@@ -1,13 +1,14 @@
 // One evaluation: how far it is, its rows, its failures.
 
 import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
 import { createReport, type EvaluationList } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
 import {
+  episodesDone,
+  episodesInAll,
   isActive,
   milestone,
   numberOf,
@@ -15,10 +16,9 @@ import {
   roughly,
   stageWords,
   subject,
-  episodesDone,
-  episodesInAll,
 } from './progress';
-import { REPORTS, reportAddress } from './table';
+import { reportAddress, REPORTS } from './table';
+import type { Session, Trial } from '../../lab/slices';
 
 function Progress(props: {
   summary: EvaluationSummary;
@@ -50,7 +50,7 @@ function Progress(props: {
 }
 
 export function EvaluationPanel(props: {
-  lab: Lab;
+  lab: Session & Trial;
   list: EvaluationList;
   summary: EvaluationSummary;
   onLaboratory: () => void;

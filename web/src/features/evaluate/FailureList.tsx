@@ -1,17 +1,17 @@
 // Trials whose bead did not arrive, each to be set up again.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { EvaluationFailure, EvaluationReport } from '../../net/protocol.gen';
 import { setUpAgain } from './setUp';
 import { reason } from './table';
+import type { Session, Trial } from '../../lab/slices';
 
 /** Shown at first, and more at a time: a controller may fail a thousand times. */
 const PAGE = 50;
 
 function FailureRow(props: {
-  lab: Lab;
+  lab: Session & Trial;
   report: EvaluationReport;
   failure: EvaluationFailure;
   onLaboratory: () => void;
@@ -52,7 +52,7 @@ function FailureRow(props: {
 }
 
 export function FailureList(props: {
-  lab: Lab;
+  lab: Session & Trial;
   report: EvaluationReport;
   onLaboratory: () => void;
 }): JSX.Element {

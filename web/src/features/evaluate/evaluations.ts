@@ -6,8 +6,8 @@ import { problemText } from '../../net/problem';
 import type {
   EvaluationQuery,
   EvaluationReport,
-  EvaluationSummary,
   Evaluations,
+  EvaluationSummary,
 } from '../../net/protocol.gen';
 import { isActive } from './progress';
 

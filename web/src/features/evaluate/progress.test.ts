@@ -1,5 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import {
+  episodesDone,
+  episodesInAll,
   isActive,
   milestone,
   numberOf,
@@ -8,8 +10,6 @@ import {
   secondsAnEpisode,
   stageWords,
   subject,
-  episodesDone,
-  episodesInAll,
 } from './progress';
 import { cellOf, summaryOf } from './testing';
 

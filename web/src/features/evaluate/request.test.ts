@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { PAPERS, estimate_s, faultsOf, queryOf, sizeWords, toggled } from './request';
+import { estimate_s, faultsOf, PAPERS, queryOf, sizeWords, toggled } from './request';
 import { cellOf, summaryOf } from './testing';
 
 const PAPERS_QUERY = {

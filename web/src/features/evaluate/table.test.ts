@@ -2,7 +2,6 @@ import { describe, expect, it } from 'vitest';
 import { sceneOf } from '../../lab/testing';
 import { setUpAgain } from './setUp';
 import {
-  REPORTS,
   cm,
   decisionWords,
   difference,
@@ -10,9 +9,10 @@ import {
   ratio,
   reason,
   reportAddress,
+  REPORTS,
   signed,
 } from './table';
-import { ROW, cellOf } from './testing';
+import { cellOf, ROW } from './testing';
 import type { EvaluationFailure } from '../../net/protocol.gen';
 
 const FAILURE: EvaluationFailure = {

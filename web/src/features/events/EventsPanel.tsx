@@ -2,11 +2,12 @@
 
 import { For, Show, createEffect, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
+import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { LogLine } from '../../lab/model';
 import type { EventMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle } from '../../lab/eventStory';
+import type { Events, Session, Trial } from '../../lab/slices';
 
 /** Nearer than this to the end counts as reading along. */
 const FOLLOW_PX = 24;
@@ -14,7 +15,7 @@ const FOLLOW_PX = 24;
 const when = (line: LogLine): string =>
   line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
 
-export function LogPanel(props: { lab: Lab }): JSX.Element {
+function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
@@ -90,3 +91,5 @@ export function LogPanel(props: { lab: Lab }): JSX.Element {
     </div>
   );
 }
+
+export const EVENTS_TAB: TabPanel = { id: 'events', title: 'Events', panel: EventsPanel };

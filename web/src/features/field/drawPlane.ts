@@ -2,11 +2,11 @@
 
 import type { Palette } from '../../ui/palette';
 import type { Plane } from '../../net/protocol.gen';
-import { pxFromWorld, type Vec2, type View } from '../../plan/transform';
-import { arrowPath } from '../flow/drawFlow';
-import type { Arrow } from '../flow/flow';
-import type { Ramp } from '../singularity/heat';
-import { HALF_SIDE_M, SIDE_PX, planeArrows, planePixels } from './plane';
+import { pxFromWorld, type View } from '../../plan/transform';
+import { HALF_SIDE_M, planeArrows, planePixels, SIDE_PX } from './plane';
+import type { Vec2 } from '../../lab/geometry';
+import { type Arrow, arrowPath } from '../../plan/arrows';
+import type { Ramp } from '../../plan/colourRamp';
 
 const ARROW_ALPHA = 0.6;
 

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import type { Plane } from '../../net/protocol.gen';
 import { sceneOf } from '../../lab/testing';
-import { SIDE_PX, fieldWords, planeArrows, planePixels, planeQuery, strongestWords } from './plane';
+import { fieldWords, planeArrows, planePixels, planeQuery, SIDE_PX, strongestWords } from './plane';
 
 /** Strongest in the middle, pulling there. */
 const { reach_m, count } = planeQuery(sceneOf('open').parameters);

@@ -2,9 +2,9 @@
 
 import { fixed } from '../../ui/format';
 import type { Parameters, Plane, PlaneQuery } from '../../net/protocol.gen';
-import type { Vec2 } from '../../plan/transform';
-import type { Arrow } from '../flow/flow';
-import { heatColor, type Ramp } from '../singularity/heat';
+import type { Vec2 } from '../../lab/geometry';
+import type { Arrow } from '../../plan/arrows';
+import { type Ramp, rampColour } from '../../plan/colourRamp';
 
 /** As far as the magnet catches a bead, and somewhat farther. */
 const REACH_M = 0.15;
@@ -48,7 +48,7 @@ export function planePixels(plane: Plane, ramp: Ramp): Uint8ClampedArray<ArrayBu
     // Round: the corners of the square are farther off than its sides.
     const left = 1 - Math.hypot(...offsetOf(place)) / REACH_M;
     const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MOST_ALPHA;
-    pixels.set([...heatColor(ramp, share), alpha], 4 * (row * COUNT + (place % COUNT)));
+    pixels.set([...rampColour(ramp, share), alpha], 4 * (row * COUNT + (place % COUNT)));
   });
   return pixels;
 }

@@ -2,13 +2,12 @@
 
 import type { Palette } from '../../ui/palette';
 import type { FlowField, SeenMessage } from '../../net/protocol.gen';
-import { pxFromWorld, type Vec2, type View } from '../../plan/transform';
-import { seenAt } from '../observed/observed';
-import { flowArrows, flowTraps, type Arrow } from './flow';
+import { pxFromWorld, type View } from '../../plan/transform';
+import { type Arrow, arrowPath } from '../../plan/arrows';
+import { flowArrows, flowTraps } from './flow';
+import type { Vec2 } from '../../lab/geometry';
+import { seenAt } from '../../lab/obstacleMap';
 
-/** Head of an arrow: of its length, and not more. */
-const HEAD = 0.4;
-const MOST_HEAD_PX = 4.5;
 const TRAP_PX = 4.5;
 const UNSEEN_ALPHA = 0.5;
 
@@ -20,22 +19,6 @@ export interface Flow {
 export function createFlow(field: FlowField, goal_m: Vec2, seen: SeenMessage): Flow {
   const isSeen = seenAt(seen);
   return { arrows: flowArrows(field, isSeen), traps: flowTraps(field, goal_m, isSeen) };
-}
-
-export function arrowPath(view: View, arrows: readonly Arrow[]): Path2D {
-  const path = new Path2D();
-  for (const { from_m, to_m } of arrows) {
-    const [from, [x, y]] = [pxFromWorld(view, from_m), pxFromWorld(view, to_m)];
-    const [dx, dy] = [x - from[0], y - from[1]];
-    const length = Math.hypot(dx, dy);
-    const head = Math.min(MOST_HEAD_PX, HEAD * length) / length;
-    path.moveTo(...from);
-    path.lineTo(x, y);
-    path.moveTo(x - head * (dx - 0.6 * dy), y - head * (dy + 0.6 * dx));
-    path.lineTo(x, y);
-    path.lineTo(x - head * (dx + 0.6 * dy), y - head * (dy - 0.6 * dx));
-  }
-  return path;
 }
 
 export function drawFlow(

@@ -1,14 +1,15 @@
 // The attractor's flow field: what to ask for, how long its arrows are, where they end. Pure.
 
 import {
-  GOAL_RADIUS_M,
   type FlowField,
   type FlowQuery,
+  GOAL_RADIUS_M,
   type Rect,
   type SceneMessage,
   type SeenMessage,
 } from '../../net/protocol.gen';
-import { distance, type Vec2 } from '../../plan/transform';
+import { distance, type Vec2 } from '../../lab/geometry';
+import type { Arrow } from '../../plan/arrows';
 
 const PLACES_ACROSS = 40;
 /** The server's limits. */
@@ -46,13 +47,6 @@ function placeM(field: FlowField, column: number, row: number): Vec2 {
 
 /** Whether the camera has shown a point: elsewhere the flow knows of no walls, and means little. */
 export type IsSeen = (point_m: Vec2) => boolean;
-
-/** Around the middle of a place, in metres. */
-export interface Arrow {
-  readonly from_m: Vec2;
-  readonly to_m: Vec2;
-  readonly isSeen: boolean;
-}
 
 function fastest(field: FlowField): number {
   return field.velocity_m_s.reduce((most, v) => (v ? Math.max(most, Math.hypot(...v)) : most), 0);

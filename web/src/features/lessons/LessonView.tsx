@@ -1,13 +1,13 @@
 // One lesson, one step at a time: predict, run, explain.
 
 import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import type { Lesson, Run } from './lesson';
 import type { Lessons } from './store';
 import type { Track } from './track';
+import type { Session, Trial } from '../../lab/slices';
 
 interface Props {
-  readonly lab: Lab;
+  readonly lab: Session & Trial;
   readonly store: Lessons;
   readonly lesson: Lesson;
 }
@@ -83,7 +83,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
       </div>
       <Show when={!lab.canOperate()}>
         <p class="lesson-note">
-          {lab.link().kind === 'live'
+          {lab.connection().kind === 'live'
             ? 'You are watching: take control, at the top, to set it up.'
             : 'No connection to the server: nothing can be set up now.'}
         </p>

@@ -1,10 +1,9 @@
 // The lessons: a list, or the open one.
 
 import { For, Show, onMount, untrack, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { LessonView } from './LessonView';
 import { LESSONS } from './lessons';
-import { lessonsOf, type Lessons } from './store';
+import { lessonsOf, type Lessons, type LessonsLab } from './store';
 
 function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;
@@ -72,7 +71,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   );
 }
 
-export function LessonsPanel(props: { lab: Lab }): JSX.Element {
+export function LessonsPanel(props: { lab: LessonsLab }): JSX.Element {
   const { lab } = props;
   const store = lessonsOf(lab);
   return (

@@ -1,7 +1,7 @@
 // Three sub-controllers 2: what each knows of the walls.
 
 import { centimetres } from '../../ui/format';
-import { DELIVERED, TIME_RUNS, deliveryWords, type Lesson } from './lesson';
+import { DELIVERED, deliveryWords, type Lesson, TIME_RUNS } from './lesson';
 
 const FACE = '#v=1&map=posts&controller=attractor&seed=1&start=-0.05,-0.3&goal=0.13,-0.3';
 const THERE = 'seed=1&start=0.19,-0.28&goal=-0.19,-0.48';

@@ -1,7 +1,6 @@
 // What a lesson is made of. Pure.
 
 import type { ClientMessage, SceneMessage, StateMessage } from '../../net/protocol.gen';
-import type { Layer } from '../../lab/layers';
 import type { Track } from './track';
 
 export interface Choice {
@@ -30,7 +29,7 @@ export interface Run {
   /** How fast time is to run. */
   readonly speed: number;
   /** Layers that it needs; they are switched on with it. */
-  readonly layers: readonly Layer[];
+  readonly layers: readonly string[];
   /** What to do and what to look at. */
   readonly words: readonly string[];
   readonly tasks: readonly Task[];

@@ -1,7 +1,7 @@
 // The magnet and the bead: how it follows, and when it jumps.
 
 import { centimetres, fixed, millimetres } from '../../ui/format';
-import { DELIVERED, TIME_RUNS, deliveryWords, type Lesson } from './lesson';
+import { DELIVERED, deliveryWords, type Lesson, TIME_RUNS } from './lesson';
 
 /** How much the lesson lowers the magnet at once, and the server's limit. */
 const LOWER_BY_M = 0.002;

@@ -9,13 +9,12 @@ import {
   untrack,
   type Accessor,
 } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
-import type { Layer } from '../../lab/layers';
 import { allDone, type Lesson, type Run } from './lesson';
 import { LESSONS } from './lessons';
-import { NO_PROGRESS, storeProgress, storedProgress, type Progress } from './progress';
+import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
 import { beginTrack, observe, type Track } from './track';
+import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 
 type Tracks = readonly (Track | undefined)[];
 
@@ -45,14 +44,16 @@ export interface Lessons {
   startOver(): void;
 }
 
-function createLessons(lab: Lab): Lessons {
+export type LessonsLab = Session & Trial & Events & Pictures & Layers;
+
+function createLessons(lab: LessonsLab): Lessons {
   const [progress, setProgress] = createSignal(storedProgress(LESSONS));
   const [lesson, setLesson] = createSignal<Lesson>();
   const [left, setLeft] = createSignal<Lesson>();
   const [step, setStep] = createSignal(0);
   const [tracks, setTracks] = createSignal<Tracks>([]);
   /** Layers that a lesson has switched on and is to switch off again. */
-  let lent: readonly Layer[] = [];
+  let lent: readonly string[] = [];
 
   const keep = (next: Progress): void => {
     setProgress(next);
@@ -83,7 +84,7 @@ function createLessons(lab: Lab): Lessons {
   });
 
   /** Those that `still` needs stay. */
-  const giveBackLayers = (still: readonly Layer[] = []): void => {
+  const giveBackLayers = (still: readonly string[] = []): void => {
     for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
     lent = lent.filter((layer) => still.includes(layer));
   };
@@ -151,10 +152,10 @@ function createLessons(lab: Lab): Lessons {
   };
 }
 
-const stores = new WeakMap<Lab, Lessons>();
+const stores = new WeakMap<LessonsLab, Lessons>();
 
 /** The lessons of a laboratory: made once, whichever panel shows them. */
-export function lessonsOf(lab: Lab): Lessons {
+export function lessonsOf(lab: LessonsLab): Lessons {
   let store = stores.get(lab);
   if (!store) {
     store = createRoot(() => createLessons(lab));

@@ -1,7 +1,7 @@
 // Who has the arm: what happens to a lost bead, and how the threshold and the law decide.
 
 import { centimetres } from '../../ui/format';
-import { DELIVERED, TIME_RUNS, deliveryWords, type Lesson, type Run } from './lesson';
+import { DELIVERED, deliveryWords, type Lesson, type Run, TIME_RUNS } from './lesson';
 
 const KICKED = '#v=1&map=open&controller=attractor&seed=1&start=-0.2,-0.36&goal=0.2,-0.36';
 const KICKS =

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { EventKind, EventMessage, StateMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
-import { beginTrack, observe, type Heard, type Track } from './track';
+import { beginTrack, type Heard, observe, type Track } from './track';
 
 const scene = sceneOf('posts', 3);
 

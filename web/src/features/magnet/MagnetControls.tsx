@@ -1,11 +1,11 @@
 // Block, height and friction beside the curves that they bend: the same parameters as in the form.
 
 import { For, Show, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { GROUPS } from '../../lab/parameterGroups';
 import type { Field } from '../../lab/parameters';
 import type { Parameters, SceneMessage } from '../../net/protocol.gen';
-import { FieldRow, createForm } from '../../lab/ParameterField';
+import { createForm, FieldRow } from '../../lab/ParameterField';
+import type { Session, Trial } from '../../lab/slices';
 
 /** Short names, which are also others than in the form. */
 const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [
@@ -20,7 +20,7 @@ const FIELDS: readonly Field[] = LABELS.flatMap(([name, label]) =>
     .map((field) => ({ ...field, label })),
 );
 
-function Controls(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
+function Controls(props: { lab: Session & Trial; scene: SceneMessage }): JSX.Element {
   const form = createForm(props.lab, () => props.scene);
   return (
     <div class="magnet-controls" role="group" aria-label="Magnet and friction">
@@ -29,7 +29,7 @@ function Controls(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
   );
 }
 
-export function MagnetControls(props: { lab: Lab }): JSX.Element {
+export function MagnetControls(props: { lab: Session & Trial }): JSX.Element {
   return (
     <Show when={props.lab.scene()}>{(scene) => <Controls lab={props.lab} scene={scene()} />}</Show>
   );

@@ -2,7 +2,7 @@
 
 import type { JSX } from 'solid-js';
 import { fixed, millimetres } from '../../ui/format';
-import { breakaway, captureWords, rolls, speedWords, weightWords, type Side } from './magnet';
+import { breakaway, captureWords, rolls, type Side, speedWords, weightWords } from './magnet';
 import type { Parameters, PullCurve, ReachCurve } from '../../net/protocol.gen';
 import { Fact } from '../../ui/Fact';
 

@@ -4,19 +4,18 @@ import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { createAnswer } from '../../net/requests';
 import { fixed } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import {
-  HEIGHTS_M,
   breakaway,
+  directionOf,
+  HEIGHTS_M,
   heldRatio,
   pullQuery,
   pullWords,
   reachQuery,
   reachWords,
-  SIDES,
-  directionOf,
   shownOffset,
   type Side,
+  SIDES,
 } from './magnet';
 import { createPalette } from '../../ui/palette';
 import type {
@@ -31,9 +30,14 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
-import type { PanelProps } from '../../ui/Tabs';
+import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { Session, Trial } from '../../lab/slices';
 
-function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters }): JSX.Element {
+function Magnet(props: {
+  lab: Session & Trial;
+  theme: () => Theme;
+  parameters: Parameters;
+}): JSX.Element {
   const { lab } = props;
   const [side, setSide] = createSignal<Side>('x');
   const [pointed, setPointed] = createSignal<string>();
@@ -51,7 +55,7 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
   const asked =
     <Q,>(question: (parameters: Parameters) => Q) =>
     (): Q | undefined =>
-      lab.link().kind === 'live' ? question(props.parameters) : undefined;
+      lab.connection().kind === 'live' ? question(props.parameters) : undefined;
   const pull = createAnswer<PullQuery, PullCurve>(
     '/api/magnetics/pull',
     asked((parameters) => pullQuery(parameters, direction_rad())),
@@ -219,10 +223,12 @@ function Magnet(props: { lab: Lab; theme: () => Theme; parameters: Parameters })
   );
 }
 
-export function MagnetPanel(props: PanelProps): JSX.Element {
+function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show when={props.lab.tuning()} fallback={<p class="placeholder">No parameters yet.</p>}>
       {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}
     </Show>
   );
 }
+
+export const MAGNET_TAB: TabPanel = { id: 'magnet', title: 'Magnet', panel: MagnetPanel };

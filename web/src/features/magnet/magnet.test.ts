@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import {
-  directionOf,
   breakaway,
   captureWords,
+  directionOf,
   heldRatio,
   pullQuery,
   pullWords,

@@ -1,19 +1,20 @@
 // A map from a file of this computer.
 
 import { createSignal, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
+import { loadMap } from '../../lab/loadMap';
 import { addMap } from './maps';
+import type { Notices, Session, Trial } from '../../lab/slices';
 
-export function OpenMap(props: { lab: Lab; onMap: (name: string) => void }): JSX.Element {
+export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const [busy, setBusy] = createSignal(false);
   const send = async (file: File): Promise<void> => {
     setBusy(true);
     try {
-      props.onMap(await addMap(file));
+      loadMap(lab, await addMap(file));
     } catch (reason) {
-      lab.notify('transport', reason instanceof Error ? reason.message : String(reason));
+      lab.notify('playback', reason instanceof Error ? reason.message : String(reason));
     }
     setBusy(false);
   };

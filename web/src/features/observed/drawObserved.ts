@@ -4,8 +4,8 @@ import type { PixelBlock } from '../../lab/homography';
 import type { Palette } from '../../ui/palette';
 import type { BlocksLayer, SeenMessage } from '../../net/protocol.gen';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { rgb } from '../singularity/heat';
 import { seenPixels } from './observed';
+import { rgb } from '../../plan/colourRamp';
 
 type Ctx = CanvasRenderingContext2D;
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { SeenMessage } from '../../net/protocol.gen';
-import { seenAt, seenPixels, type Rgba } from './observed';
+import { type Rgba, seenPixels } from './observed';
 
 const SEEN: SeenMessage = {
   number: 1,
@@ -29,12 +29,5 @@ describe('what was seen', () => {
   it('never leaves its picture', () => {
     const long = { ...SEEN, runs: [[1, 99]] as [number, number][] };
     expect(seenPixels(long, COLORS)).toHaveLength(24);
-  });
-
-  it('is asked of a point', () => {
-    const isSeen = seenAt(SEEN);
-    expect(isSeen([0.5, 0.5])).toBe(true);
-    expect(isSeen([0.5, 2])).toBe(true);
-    expect(isSeen([1.5, 1.5])).toBe(false);
   });
 });

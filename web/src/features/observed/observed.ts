@@ -1,23 +1,9 @@
 // What the camera has shown of the workspace, as a picture. Pure.
 
 import type { SeenMessage } from '../../net/protocol.gen';
-import type { Vec2 } from '../../plan/transform';
-
-/** A cell's state; free is 1, an obstacle 2. */
-export const UNKNOWN = 0;
+import { seenCells } from '../../lab/obstacleMap';
 
 export type Rgba = readonly [number, number, number, number];
-
-/** What is known of a cell each, from the least x and y row by row. */
-export function seenCells(seen: SeenMessage): Uint8Array {
-  const cells = new Uint8Array(seen.columns * seen.rows);
-  let cell = 0;
-  for (const [state, count] of seen.runs) {
-    cells.fill(state, cell, cell + count);
-    cell += count;
-  }
-  return cells;
-}
 
 /** A pixel a cell, RGBA, the upper row first as in a picture. */
 export function seenPixels(
@@ -31,18 +17,4 @@ export function seenPixels(
     pixels.set(colors[state as 0 | 1 | 2], 4 * (row * columns + (cell % columns)));
   });
   return pixels;
-}
-
-/** Whether the camera has shown a point, in metres. */
-export function seenAt(seen: SeenMessage): (point: Vec2) => boolean {
-  const { workspace, columns, rows } = seen;
-  const cells = seenCells(seen);
-  const perX_m = columns / (workspace.x_max_m - workspace.x_min_m);
-  const perY_m = rows / (workspace.y_max_m - workspace.y_min_m);
-  return ([x_m, y_m]) => {
-    // The far borders belong to the last cells.
-    const column = Math.min(columns - 1, Math.floor((x_m - workspace.x_min_m) * perX_m));
-    const row = Math.min(rows - 1, Math.floor((y_m - workspace.y_min_m) * perY_m));
-    return (cells[row * columns + column] ?? UNKNOWN) !== UNKNOWN;
-  };
 }

@@ -6,7 +6,7 @@ import { MOST_EDGES, type PlanLayer, type StateMessage } from '../../net/protoco
 import { wayWords } from './plannerFacts';
 import { Fact } from '../../ui/Fact';
 
-export function PlanFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.Element {
+export function PlannerFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.Element {
   const edges = (): string => {
     const count = props.plan.tree.length;
     return count < MOST_EDGES ? String(count) : `${MOST_EDGES}+`;

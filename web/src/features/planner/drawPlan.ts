@@ -14,11 +14,10 @@ export interface Plan {
   readonly way: Path2D;
   readonly corners: Path2D;
   readonly bandPx: number;
-  readonly obstacles: Path2D;
 }
 
 export function createPlan(layer: PlanLayer, view: View): Plan {
-  const [tree, way, corners, obstacles] = [new Path2D(), new Path2D(), new Path2D(), new Path2D()];
+  const [tree, way, corners] = [new Path2D(), new Path2D(), new Path2D()];
   for (const [fromX, fromY, toX, toY] of layer.tree) {
     tree.moveTo(...pxFromWorld(view, [fromX, fromY]));
     tree.lineTo(...pxFromWorld(view, [toX, toY]));
@@ -29,13 +28,8 @@ export function createPlan(layer: PlanLayer, view: View): Plan {
     corners.moveTo(x + CORNER_PX, y);
     corners.arc(x, y, CORNER_PX, 0, 2 * Math.PI);
   }
-  for (const rect of layer.obstacles) {
-    const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-    const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
-    obstacles.rect(left, top, right - left, bottom - top);
-  }
   const bandPx = 2 * (layer.clearance_m ?? 0) * view.pxPerM;
-  return { tree, way, corners, bandPx, obstacles };
+  return { tree, way, corners, bandPx };
 }
 
 export function drawPlan(ctx: Ctx, palette: Palette, plan: Plan): void {
@@ -58,10 +52,20 @@ export function drawPlan(ctx: Ctx, palette: Palette, plan: Plan): void {
   ctx.fill(plan.corners);
 }
 
-export function drawObstacles(ctx: Ctx, palette: Palette, plan: Plan): void {
+export function createObstacles(layer: PlanLayer, view: View): Path2D {
+  const obstacles = new Path2D();
+  for (const rect of layer.obstacles) {
+    const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+    const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+    obstacles.rect(left, top, right - left, bottom - top);
+  }
+  return obstacles;
+}
+
+export function drawObstacles(ctx: Ctx, palette: Palette, obstacles: Path2D): void {
   ctx.strokeStyle = palette.plan;
   ctx.lineWidth = 0.75;
   ctx.globalAlpha = 0.7;
-  ctx.stroke(plan.obstacles);
+  ctx.stroke(obstacles);
   ctx.globalAlpha = 1;
 }

@@ -2,7 +2,7 @@
 
 import { centimetres } from '../../ui/format';
 import type { PlanLayer, StateMessage } from '../../net/protocol.gen';
-import { distance } from '../../plan/transform';
+import { distance } from '../../lab/geometry';
 
 export function wayLengthM(way: PlanLayer['way']): number {
   let length_m = 0;

@@ -1,10 +1,10 @@
 // How fast simulated time goes, how late its ticks come, and whether some were given up.
 
 import { Show, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { achievedWords, lateWords, lostWords } from './steps';
+import type { Trial } from '../../lab/slices';
 
-export function Achieved(props: { lab: Lab }): JSX.Element {
+export function Achieved(props: { lab: Trial }): JSX.Element {
   const { lab } = props;
   const achieved = () =>
     achievedWords(lab.state()?.speed_target ?? 1, lab.state()?.speed_achieved ?? 0);

@@ -9,10 +9,10 @@ import {
   onMount,
   type JSX,
 } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { Limiter } from '../../net/limiter';
 import { clusters } from './eventMarks';
 import type { EventMessage } from '../../net/protocol.gen';
+import type { Events } from '../../lab/slices';
 
 /** The side of a mark, as `--target` has it. */
 const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
@@ -24,7 +24,7 @@ const LAYOUTS_PER_S = 4;
 /** How far a key moves along the marks. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
-export function EventMarks(props: { lab: Lab; oldest: number; newest: number }): JSX.Element {
+export function EventMarks(props: { lab: Events; oldest: number; newest: number }): JSX.Element {
   const { lab } = props;
   let bar!: HTMLDivElement;
   const [width_px, setWidth] = createSignal(0);

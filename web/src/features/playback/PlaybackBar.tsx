@@ -2,24 +2,19 @@
 
 import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
-import { SPEEDS, speedName, ticksToControlStep } from './steps';
-import type { Links } from '../../lab/pageExperiment';
+import { loadMap } from '../../lab/loadMap';
+import { speedName, SPEEDS, ticksToControlStep } from './steps';
 import { Achieved } from './Achieved';
-import { LinkBar } from '../share/ExperimentNotice';
-import { NoticeBar } from '../../ui/NoticeBar';
-import { OpenMap } from '../maps/OpenMap';
-import { PresetSelect } from '../share/PresetSelect';
-import { ShareButton } from '../share/ShareButton';
+import { PlaceNotice } from '../../lab/PlaceNotice';
 import { Timeline } from './Timeline';
 import { TruthSelect } from '../../ui/ServerSelect';
-import { WhyCard } from '../why/WhyCard';
+import type { Events, Notices, Session, Trial } from '../../lab/slices';
 
 /** One second of ticks. */
 const MANY_TICKS = 125;
 const SEED_LIMIT = 2 ** 32;
 
-function RunButtons(props: { lab: Lab }): JSX.Element {
+function RunButtons(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
   const running = (): boolean => lab.state()?.running ?? false;
   const toggle = (): void => {
@@ -72,7 +67,7 @@ function RunButtons(props: { lab: Lab }): JSX.Element {
   );
 }
 
-function Seed(props: { lab: Lab; seed: number }): JSX.Element {
+function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
   const show = (): void => {
@@ -86,7 +81,7 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
         event.preventDefault();
         const seed = input.valueAsNumber;
         if (Number.isSafeInteger(seed) && seed >= 0) lab.send({ type: 'reset', seed });
-        else lab.notify('transport', 'A seed is a whole number from 0.');
+        else lab.notify('playback', 'A seed is a whole number from 0.');
       }}
     >
       <label for="seed">Seed</label>
@@ -116,8 +111,18 @@ function Seed(props: { lab: Lab; seed: number }): JSX.Element {
   );
 }
 
-export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
-  const { lab, links } = props;
+export function PlaybackBar(props: {
+  lab: Session & Trial & Events & Notices;
+  /** Above the row of controls. */
+  above: JSX.Element;
+  /** Beside the map: other ways to choose an experiment. */
+  choices: JSX.Element;
+  /** At the end of the row. */
+  share: JSX.Element;
+  /** Below the timeline. */
+  below: JSX.Element;
+}): JSX.Element {
+  const { lab } = props;
   // A memo of its own: other news must not make the list anew under the pointer.
   const target = createMemo(() => lab.state()?.speed_target ?? 1);
   const speeds = createMemo(() => {
@@ -128,22 +133,9 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
     equals: (a, b) => a.join() === b.join(),
   });
   const maps = createMemo(() => names().map((name) => [name, name] as const));
-  const loadMap = (map: string): void => {
-    const scene = lab.scene();
-    const state = lab.state();
-    if (!scene || !state) return;
-    // A new map is no reason to lose what was tuned.
-    lab.send({
-      type: 'load_scenario',
-      map,
-      controller: state.controller,
-      seed: scene.seed,
-      parameters: scene.parameters,
-    });
-  };
   return (
     <footer class="bar transport" role="region" aria-label="Transport">
-      <LinkBar lab={lab} links={links} />
+      {props.above}
       <div class="transport-row">
         <RunButtons lab={lab} />
         <TruthSelect
@@ -166,12 +158,13 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
                 options={maps()}
                 refusals={lab.refusals()}
                 disabled={!lab.canOperate()}
-                onChoose={loadMap}
+                onChoose={(map) => {
+                  loadMap(lab, map);
+                }}
               />
-              <OpenMap lab={lab} onMap={loadMap} />
-              <PresetSelect lab={lab} links={links} />
+              {props.choices}
               <Seed lab={lab} seed={scene().seed} />
-              <ShareButton links={links} />
+              {props.share}
             </>
           )}
         </Show>
@@ -185,8 +178,8 @@ export function Transport(props: { lab: Lab; links: Links }): JSX.Element {
         </div>
       </div>
       <Timeline lab={lab} />
-      <WhyCard lab={lab} />
-      <NoticeBar lab={lab} place="transport" />
+      {props.below}
+      <PlaceNotice lab={lab} place="playback" />
     </footer>
   );
 }

@@ -3,9 +3,9 @@
 import { For, type JSX } from 'solid-js';
 import { describe } from '../../lab/disturbance';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
+import type { Trial } from '../../lab/slices';
 
-export function ScriptMarks(props: { lab: Lab; oldest: number; newest: number }): JSX.Element {
+export function ScriptMarks(props: { lab: Trial; oldest: number; newest: number }): JSX.Element {
   const planned = () =>
     (props.lab.scene()?.scenario.script ?? []).flatMap(({ at, disturbance }) =>
       'tick' in at && at.tick >= props.oldest && at.tick <= props.newest

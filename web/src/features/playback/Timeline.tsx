@@ -2,17 +2,17 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import { Limiter } from '../../net/limiter';
 import { ticksToControlStep } from './steps';
 import { EventMarks } from './EventMarks';
 import { ScriptMarks } from './ScriptMarks';
+import type { Events, Session, Trial } from '../../lab/slices';
 
 const MAX_REWINDS_PER_S = 15;
 /** How long the slider stays where it was let go, until the server's answer is here. */
 const SETTLE_MS = 300;
 
-export function Timeline(props: { lab: Lab }): JSX.Element {
+export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element {
   const { lab } = props;
   const [scrubbed, setScrubbed] = createSignal<number>();
   const oldest = createMemo(() => lab.state()?.oldest_tick ?? 0);

@@ -2,21 +2,22 @@
 
 import { createEffect, createMemo, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import type { Palette } from '../../ui/palette';
-import { fitView, type Vec2, type View } from '../../plan/transform';
+import { fitView, type View } from '../../plan/transform';
 import { wallPath } from '../../plan/drawMap';
 import { drawLocus, placesAt, sampleAt } from './drawLocus';
 import type { Figure } from './figure';
 import { LOCUS_LETTER } from './parts';
 import { nearestIndex } from './sample';
+import type { Vec2 } from '../../lab/geometry';
+import type { Trial } from '../../lab/slices';
 
 const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
 /** How near the way a pointer reads it. */
 const REACH_PX = 24;
 
 export function LocusPlot(props: {
-  lab: Lab;
+  lab: Trial;
   figure: Figure;
   palette: () => Palette;
   onDraw: (draw: () => void) => void;

@@ -9,15 +9,19 @@ import { createFigure, type Figure } from './figure';
 import { FIGURE_PX, figureSvg } from './figureSvg';
 import { PARTS } from './parts';
 import { Rotation } from './rotation';
-import { WINDOWS, csvOf, type WindowChoice } from './sample';
+import { csvOf, type WindowChoice, WINDOWS } from './sample';
 import type { PlotContext } from './timePlot';
 import { clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import { createPalette, type Palette } from '../../ui/palette';
-import type { TabProps } from '../../ui/Tabs';
+import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { Events, Notices, Trial } from '../../lab/slices';
 
 /** Window and files, in the strip of the tabs. */
-function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX.Element {
+function Tools(props: {
+  lab: Trial & Notices;
+  figure: Figure;
+  palette: () => Palette;
+}): JSX.Element {
   const { lab, figure } = props;
   /** Name of a file, or nothing while there is nothing to save. */
   const name = (): string | undefined => {
@@ -61,7 +65,7 @@ function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX
     try {
       download(`${file}.png`, await pngOf(drawing, FIGURE_PX));
     } catch {
-      lab.notify('transport', 'This browser could not draw the figure as a PNG.');
+      lab.notify('playback', 'This browser could not draw the figure as a PNG.');
     }
   };
   return (
@@ -97,7 +101,7 @@ function Tools(props: { lab: Lab; figure: Figure; palette: () => Palette }): JSX
   );
 }
 
-export function PlotsPanel(props: TabProps): JSX.Element {
+function PlotsPanel(props: PanelProps<Trial & Events & Notices>): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const figure = createFigure(lab);
@@ -154,3 +158,5 @@ export function PlotsPanel(props: TabProps): JSX.Element {
     </>
   );
 }
+
+export const PLOTS_TAB: TabPanel = { id: 'plots', title: 'Plots', panel: PlotsPanel };

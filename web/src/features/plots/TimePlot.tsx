@@ -8,7 +8,7 @@ import type { Theme } from '../../ui/theme';
 import type { Figure } from './figure';
 import type { Part } from './parts';
 import { nearestIndex } from './sample';
-import { createTimePlot, showCursor, showSample, type PlotContext } from './timePlot';
+import { createTimePlot, type PlotContext, showCursor, showSample } from './timePlot';
 
 interface TimePlotProps {
   readonly part: Part;

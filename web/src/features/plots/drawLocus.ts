@@ -1,10 +1,11 @@
 // The way in the plane: where tool and bead have been, the goal, the walls, where the bead was disturbed.
 
 import type { Palette } from '../../ui/palette';
-import { distance, pxFromWorld, type Vec2, type View } from '../../plan/transform';
+import { pxFromWorld, type View } from '../../plan/transform';
 import { GOAL_RADIUS_M } from '../../net/protocol.gen';
-import { drawTrail } from '../../plan/drawMoving';
 import type { Sample } from './sample';
+import { distance, type Vec2 } from '../../lab/geometry';
+import { drawTrail } from '../../plan/drawTrail';
 
 const DOT_PX = 3;
 const STRUCK_PX = 3.5;

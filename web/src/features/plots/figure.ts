@@ -1,8 +1,8 @@
 // What the parts of the figure share: the sample they show and the time that is pointed at.
 
 import { createSignal, type Accessor } from 'solid-js';
-import type { Lab } from '../../lab/lab';
-import { takeSample, type Sample, type WindowChoice } from './sample';
+import { type Sample, takeSample, type WindowChoice } from './sample';
+import type { Events, Trial } from '../../lab/slices';
 
 export interface Figure {
   readonly sample: () => Sample | undefined;
@@ -15,7 +15,7 @@ export interface Figure {
   renew(): void;
 }
 
-export function createFigure(lab: Lab): Figure {
+export function createFigure(lab: Trial & Events): Figure {
   const [choice, setChoice] = createSignal<WindowChoice>('60');
   const [pointed_s, setPointed] = createSignal<number>();
   let sample: Sample | undefined;

@@ -3,9 +3,10 @@
 import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { GOAL_RADIUS_M, type Polygon, type Rect } from '../../net/protocol.gen';
-import { fitView, pxFromWorld, type Vec2 } from '../../plan/transform';
-import { LOCUS_LETTER, PARTS, partRange, type Part } from './parts';
+import { fitView, pxFromWorld } from '../../plan/transform';
+import { LOCUS_LETTER, type Part, partRange, PARTS } from './parts';
 import type { Sample } from './sample';
+import type { Vec2 } from '../../lab/geometry';
 
 export interface FigureFacts {
   /** What was run, in a line. */

@@ -1,6 +1,6 @@
 // What the figure shows: a window of the history, thinned to what a screen can show. Pure.
 
-import { COLUMNS, type Column, type History } from '../../lab/history';
+import { type Column, COLUMNS, type History } from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
 
 export const WINDOWS = [

@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import { inside } from '../../ui/plotArea';
-import { partRange, type Part } from './parts';
+import { type Part, partRange } from './parts';
 import type { Sample } from './sample';
 
 export interface PlotContext {

@@ -2,7 +2,7 @@
 
 import { For, Show, createSignal, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
-import { createRecordings, fileAddress, size, startedAt, title, type Ending } from './recordings';
+import { createRecordings, type Ending, fileAddress, size, startedAt, title } from './recordings';
 import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 

@@ -4,7 +4,7 @@ import { Show, createEffect, on, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
 import { title } from './recordings';
 import type { Theme } from '../../ui/theme';
-import { viewerAddress, type ThemeMessage } from './viewerMessages';
+import { type ThemeMessage, viewerAddress } from './viewerMessages';
 
 const LEAVE_KEY = 'F6';
 

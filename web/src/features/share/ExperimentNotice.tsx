@@ -1,11 +1,11 @@
 // What the page's address asks for and has not got, and why.
 
 import { Match, Switch, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
 import { experimentWords } from '../../lab/experimentLink';
-import type { Links } from '../../lab/pageExperiment';
+import type { PageExperiment } from '../../lab/pageExperiment';
+import type { Session } from '../../lab/slices';
 
-export function LinkBar(props: { lab: Lab; links: Links }): JSX.Element {
+export function ExperimentNotice(props: { lab: Session; links: PageExperiment }): JSX.Element {
   const { lab, links } = props;
   const close = (
     <button
@@ -41,7 +41,7 @@ export function LinkBar(props: { lab: Lab; links: Links }): JSX.Element {
               <button
                 type="button"
                 class="small primary"
-                disabled={lab.link().kind !== 'live'}
+                disabled={lab.connection().kind !== 'live'}
                 onClick={() => {
                   links.load();
                 }}

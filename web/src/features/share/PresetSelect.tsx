@@ -1,10 +1,10 @@
 // Experiments by name; shows the name of the one that is on the page, as long as nothing of it was changed.
 
 import { createMemo, type JSX } from 'solid-js';
-import type { Lab } from '../../lab/lab';
-import type { Links } from '../../lab/pageExperiment';
+import type { PageExperiment } from '../../lab/pageExperiment';
 import { PRESETS } from './presets';
 import { TruthSelect } from '../../ui/ServerSelect';
+import type { Session } from '../../lab/slices';
 
 const NONE = '';
 const OPTIONS = [
@@ -12,7 +12,7 @@ const OPTIONS = [
   ...PRESETS.map(({ name, link }) => [link, name] as const),
 ];
 
-export function PresetSelect(props: { lab: Lab; links: Links }): JSX.Element {
+export function PresetSelect(props: { lab: Session; links: PageExperiment }): JSX.Element {
   const { lab, links } = props;
   const value = createMemo(() => {
     const now = links.now();

@@ -1,7 +1,7 @@
 // The experiment on the page as a link to take along.
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
-import type { Links } from '../../lab/pageExperiment';
+import type { PageExperiment } from '../../lab/pageExperiment';
 import { createPopover } from '../../ui/popover';
 
 type Copied = 'no' | 'copied' | 'selected';
@@ -12,7 +12,7 @@ const WORDS: Readonly<Record<Copied, string>> = {
   selected: 'Selected: copy it with the keyboard or the menu.',
 };
 
-export function ShareButton(props: { links: Links }): JSX.Element {
+export function ShareButton(props: { links: PageExperiment }): JSX.Element {
   let box!: HTMLDivElement;
   let button!: HTMLButtonElement;
   let field!: HTMLInputElement;

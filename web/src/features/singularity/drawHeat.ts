@@ -3,7 +3,8 @@
 import type { Palette } from '../../ui/palette';
 import type { WorkspaceMap } from '../../net/protocol.gen';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { heatPixels, refusedRuns, type Ramp, type Run } from './heat';
+import { heatRamp } from '../../plan/colourRamp';
+import { heatPixels, refusedRuns, type Run } from './heat';
 
 const HATCH_PX = 7;
 
@@ -14,10 +15,6 @@ export interface Heat {
   /** A pixel a cell. */
   readonly image: HTMLCanvasElement;
   readonly refused: readonly Run[];
-}
-
-export function heatRamp(palette: Palette): Ramp {
-  return [palette['heat-low'], palette['heat-middle'], palette['heat-high']];
 }
 
 export function createHeat(map: WorkspaceMap, palette: Palette): Heat {

@@ -1,16 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import type { WorkspaceMap } from '../../net/protocol.gen';
 import { sceneOf } from '../../lab/testing';
-import {
-  cellM,
-  heatColor,
-  heatPixels,
-  heatRange,
-  refusedRuns,
-  refusedWords,
-  workspaceQuery,
-  type Ramp,
-} from './heat';
+import { cellM, heatPixels, heatRange, refusedRuns, refusedWords, workspaceQuery } from './heat';
+import { type Ramp, rampColour } from '../../plan/colourRamp';
 
 const RAMP: Ramp = ['#000000', '#646464', '#ff0080'];
 
@@ -64,11 +56,11 @@ describe('the legend', () => {
 
 describe('the colours', () => {
   it('go from the least over the middle to the greatest', () => {
-    expect(heatColor(RAMP, 0)).toEqual([0, 0, 0]);
-    expect(heatColor(RAMP, 0.25)).toEqual([50, 50, 50]);
-    expect(heatColor(RAMP, 0.5)).toEqual([100, 100, 100]);
-    expect(heatColor(RAMP, 1)).toEqual([255, 0, 128]);
-    expect(heatColor(RAMP, 7)).toEqual([255, 0, 128]);
+    expect(rampColour(RAMP, 0)).toEqual([0, 0, 0]);
+    expect(rampColour(RAMP, 0.25)).toEqual([50, 50, 50]);
+    expect(rampColour(RAMP, 0.5)).toEqual([100, 100, 100]);
+    expect(rampColour(RAMP, 1)).toEqual([255, 0, 128]);
+    expect(rampColour(RAMP, 7)).toEqual([255, 0, 128]);
   });
 
   it('stand upright: the upper row of the table is the first of the picture', () => {

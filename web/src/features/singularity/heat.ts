@@ -8,14 +8,11 @@ import type {
   WorkspaceMap,
   WorkspaceQuery,
 } from '../../net/protocol.gen';
+import { type Ramp, rampColour } from '../../plan/colourRamp';
 
 /** Fine enough to look smooth, on the paper's workspace and on a table of two metres. */
 const LEAST_CELL_M = 0.005;
 const MOST_CELLS_A_SIDE = 120;
-
-type Rgb = readonly [number, number, number];
-/** Colours of the least, the middle and the greatest value, `#rrggbb`. */
-export type Ramp = readonly [string, string, string];
 
 /** Cells of a row next to each other: `[row, first column, number]`. */
 export type Run = readonly [number, number, number];
@@ -56,21 +53,6 @@ export function heatRange(map: WorkspaceMap): [number, number] | undefined {
   return range;
 }
 
-export function rgb(color: string): Rgb {
-  const value = Number.parseInt(color.slice(1), 16);
-  return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
-}
-
-/** Colour of a share of the range, 0 to 1. */
-export function heatColor(ramp: Ramp, share: number): Rgb {
-  const inside = Math.min(1, Math.max(0, share));
-  const [from, to] = inside < 0.5 ? [ramp[0], ramp[1]] : [ramp[1], ramp[2]];
-  const along = inside < 0.5 ? 2 * inside : 2 * inside - 1;
-  const [a, b] = [rgb(from), rgb(to)];
-  const mix = (k: 0 | 1 | 2): number => Math.round(a[k] + along * (b[k] - a[k]));
-  return [mix(0), mix(1), mix(2)];
-}
-
 /**
  * A pixel a cell, RGBA, the upper row first as in a picture. Refused cells, which are hatched, have
  * the colour of the least value: a smoothed picture gets no edge from them.
@@ -82,7 +64,7 @@ export function heatPixels(map: WorkspaceMap, ramp: Ramp): Uint8ClampedArray<Arr
   map.manipulability_m3.forEach((value_m3, cell) => {
     const row = map.rows - 1 - Math.floor(cell / map.columns);
     const above_m3 = (value_m3 ?? 0) - least_m3;
-    const color = heatColor(ramp, span_m3 > 0 ? above_m3 / span_m3 : 0);
+    const color = rampColour(ramp, span_m3 > 0 ? above_m3 / span_m3 : 0);
     pixels.set([...color, 255], 4 * (row * map.columns + (cell % map.columns)));
   });
   return pixels;

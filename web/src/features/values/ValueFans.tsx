@@ -5,7 +5,7 @@ import { ACTIONS } from '../../lab/actions';
 import { fixed } from '../../ui/format';
 import { digits } from '../../lab/parameters';
 import type { JudgementLayer } from '../../net/protocol.gen';
-import { bestOf, fanAxis, fanOf, percentAlong, type Axis, type Fan } from './fans';
+import { type Axis, bestOf, type Fan, fanAxis, fanOf, percentAlong } from './fans';
 
 function Strip(props: { fan: Fan; axis: Axis }): JSX.Element {
   const at = (value: number): string => `${percentAlong(props.axis, value)}%`;

@@ -3,9 +3,9 @@
 import type { Palette } from '../../ui/palette';
 import type { ValueMap } from '../../net/protocol.gen';
 import { pxFromWorld, type View } from '../../plan/transform';
-import { arrowPath } from '../flow/drawFlow';
-import { heatRamp } from '../singularity/drawHeat';
 import { valueArrows, valuePicture, type ValuePicture } from './value';
+import { arrowPath } from '../../plan/arrows';
+import { heatRamp } from '../../plan/colourRamp';
 
 export interface Values {
   readonly picture: ValuePicture;

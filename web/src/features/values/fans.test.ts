@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { bestOf, fanAxis, fanOf, percentAlong, type Fan } from './fans';
+import { bestOf, type Fan, fanAxis, fanOf, percentAlong } from './fans';
 
 function fanFrom(least: number, greatest: number): Fan {
   return { least, lower: least, mean: least, upper: greatest, greatest };

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import type { ValueMap } from '../../net/protocol.gen';
 import { sceneOf } from '../../lab/testing';
-import type { Ramp } from '../singularity/heat';
 import { valueArrows, valueKey, valuePicture, valueRange } from './value';
+import type { Ramp } from '../../plan/colourRamp';
 
 const RAMP: Ramp = ['#000000', '#646464', '#ff0080'];
 

@@ -2,9 +2,9 @@
 
 import { ACTIONS } from '../../lab/actions';
 import type { SceneMessage, ValueCell, ValueMap } from '../../net/protocol.gen';
-import type { Vec2 } from '../../plan/transform';
-import type { Arrow } from '../flow/flow';
-import { heatColor, type Ramp } from '../singularity/heat';
+import type { Vec2 } from '../../lab/geometry';
+import type { Arrow } from '../../plan/arrows';
+import { type Ramp, rampColour } from '../../plan/colourRamp';
 
 /** Of the distance between two arrows. */
 const LENGTH = 0.6;
@@ -52,7 +52,7 @@ export function valuePicture(map: ValueMap, ramp: Ramp): ValuePicture | undefine
   const pixels = new Uint8ClampedArray(4 * columns * rows);
   const span = range[1] - range[0];
   for (const cell of map.cells) {
-    const color = heatColor(ramp, span > 0 ? (cell.value - range[0]) / span : 0);
+    const color = rampColour(ramp, span > 0 ? (cell.value - range[0]) / span : 0);
     pixels.set([...color, 255], 4 * (row(cell) * columns + column(cell)));
   }
   const half_m = map.spacing_m / 2;

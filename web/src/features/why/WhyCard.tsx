@@ -4,10 +4,10 @@ import { Match, Show, Switch, createEffect, createMemo, createResource, on } fro
 import type { JSX } from 'solid-js';
 import { get } from '../../net/requests';
 import { centimetres, clock } from '../../ui/format';
-import type { Lab } from '../../lab/lab';
 import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
+import type { Events, OpenTab, Session } from '../../lab/slices';
 
 /** e on a scale up to twice the limit, and the limit in its middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
@@ -46,7 +46,7 @@ function Story(props: { moment: MomentMessage; path: string }): JSX.Element {
 const isSame = (a: EventMessage, b: EventMessage): boolean =>
   a.tick === b.tick && a.kind === b.kind && a.text === b.text;
 
-function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
+function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): JSX.Element {
   const { lab } = props;
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
@@ -161,7 +161,7 @@ function Card(props: { lab: Lab; event: EventMessage }): JSX.Element {
 }
 
 /** Open while an event is inspected; focus goes back to where it came from. */
-export function WhyCard(props: { lab: Lab }): JSX.Element {
+export function WhyCard(props: { lab: Session & Events & OpenTab }): JSX.Element {
   let from: Element | null = null;
   createEffect(
     on(props.lab.inspected, (now, before) => {

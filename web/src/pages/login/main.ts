@@ -2,7 +2,7 @@
 
 import { problemText } from '../../net/problem';
 import { createTheme } from '../../ui/theme';
-import { takeToken } from './token';
+import { takeToken } from '../../net/loginToken';
 
 function byTag<T extends Element>(selector: string, kind: new () => T): T {
   const found = document.querySelector(selector);

@@ -1,22 +1,21 @@
-// The magnet's field on the table, as the plan draws it: a sheet that goes with the tool.
+// A layer's picture on the table, as the plan view draws it: a sheet that moves with the tool.
 
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 import type { Palette } from '../ui/palette';
-import { drawField, type FieldPicture } from '../features/field/drawPlane';
-import { HALF_SIDE_M } from '../features/field/plane';
+import type { UnderTool } from '../plan/layer';
 import { ORDER, type Paints } from './paints';
 
 const PICTURE_PX = 512;
 /** Over the shadow that lies on the floor. */
 const UP_M = 4e-4;
 
-export class FieldSheet {
+export class ToolSheet {
   readonly mesh: Mesh;
   private readonly texture: CanvasTexture;
   private readonly material: MeshBasicMaterial;
 
   constructor(
-    readonly of: FieldPicture,
+    readonly of: UnderTool,
     palette: Palette,
     paints: Paints,
   ) {
@@ -25,8 +24,8 @@ export class FieldSheet {
     canvas.height = PICTURE_PX;
     const ctx = canvas.getContext('2d');
     const half_px = PICTURE_PX / 2;
-    const view = { originX: half_px, originY: half_px, pxPerM: half_px / HALF_SIDE_M };
-    if (ctx) drawField(ctx, view, palette, [0, 0], of);
+    const view = { originX: half_px, originY: half_px, pxPerM: half_px / of.halfSide_m };
+    if (ctx) of.draw(ctx, view, palette);
     this.texture = new CanvasTexture(canvas);
     this.texture.colorSpace = SRGBColorSpace;
     this.material = new MeshBasicMaterial({
@@ -36,7 +35,7 @@ export class FieldSheet {
       depthWrite: false,
       clippingPlanes: paints.overTheTable(),
     });
-    const side_m = 2 * HALF_SIDE_M;
+    const side_m = 2 * of.halfSide_m;
     this.mesh = new Mesh(new PlaneGeometry(side_m, side_m), this.material);
     this.mesh.renderOrder = ORDER.marks;
   }

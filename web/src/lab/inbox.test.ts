@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { enqueue } from './lab';
+import { enqueue } from './inbox';
 import type { Input } from './model';
 import { sceneOf, stateAt } from './testing';
 

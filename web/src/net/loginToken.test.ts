@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { takeToken } from './token';
+import { takeToken } from './loginToken';
 
 function at(hash: string): { token: string | undefined; address: string | undefined } {
   let address: string | undefined;

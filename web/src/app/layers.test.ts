@@ -1,0 +1,21 @@
+import { expect, it } from 'vitest';
+import { LESSONS } from '../features/lessons/lessons';
+import { MAP_LAYERS } from './layers';
+
+const ids = MAP_LAYERS.map(({ id }) => id);
+
+it('have an id each, as browsers have stored it', () => {
+  expect(ids.join(' ')).toBe(
+    'singularity value seen flow blocks rectangles sensed obstacles plan ghosts field trail camera capture',
+  );
+});
+
+it('are first those that cover nothing', () => {
+  const first = MAP_LAYERS.filter(({ shownAtFirst }) => shownAtFirst).map(({ id }) => id);
+  expect(first.sort()).toEqual(['camera', 'capture', 'ghosts', 'plan', 'sensed', 'trail']);
+});
+
+it('include those that lessons switch on', () => {
+  const wanted = LESSONS.flatMap(({ runs }) => runs.flatMap(({ layers }) => layers));
+  for (const id of wanted) expect(ids).toContain(id);
+});

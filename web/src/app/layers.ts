@@ -1,0 +1,31 @@
+// The layers of the map, in the order in which they are drawn.
+
+import { CAMERA_LAYER, SENSED_LAYER } from '../features/camera/cameraLayers';
+import { CAPTURE_LAYER } from '../features/capture/captureLayer';
+import { GHOSTS_LAYER } from '../features/compare/ghostsLayer';
+import { FIELD_LAYER } from '../features/field/fieldLayer';
+import { FLOW_LAYER } from '../features/flow/flowLayer';
+import { BLOCKS_LAYER, RECTANGLES_LAYER, SEEN_LAYER } from '../features/observed/observedLayers';
+import { OBSTACLES_LAYER, PLAN_LAYER } from '../features/planner/plannerLayers';
+import { SINGULARITY_LAYER } from '../features/singularity/singularityLayer';
+import { TRAIL_LAYER } from '../features/trail/trailLayer';
+import { VALUE_LAYER } from '../features/values/valueLayer';
+import type { MapLayer } from '../plan/layer';
+import type { InScene } from '../scene/sceneLayer';
+
+export const MAP_LAYERS: readonly (MapLayer & InScene)[] = [
+  SINGULARITY_LAYER,
+  VALUE_LAYER,
+  SEEN_LAYER,
+  FLOW_LAYER,
+  BLOCKS_LAYER,
+  RECTANGLES_LAYER,
+  SENSED_LAYER,
+  OBSTACLES_LAYER,
+  PLAN_LAYER,
+  GHOSTS_LAYER,
+  FIELD_LAYER,
+  TRAIL_LAYER,
+  CAMERA_LAYER,
+  CAPTURE_LAYER,
+];

@@ -1,0 +1,13 @@
+// The panels that share a place, in the order of their tabs.
+
+import { COMPARE_TAB } from '../features/compare/ComparePanel';
+import { EVENTS_TAB } from '../features/events/EventsPanel';
+import { LESSONS_TAB } from '../features/lessons/lessonsTab';
+import { MAGNET_TAB } from '../features/magnet/MagnetPanel';
+import { PLOTS_TAB } from '../features/plots/PlotsPanel';
+import type { TabPanel } from '../lab/panel';
+
+type TabList = readonly [TabPanel, ...TabPanel[]];
+
+export const LOWER_TABS: TabList = [PLOTS_TAB, MAGNET_TAB, COMPARE_TAB];
+export const ASIDE_TABS: TabList = [EVENTS_TAB, LESSONS_TAB];

@@ -1,0 +1,33 @@
+// The layers of the camera: the area that it sees, and the obstacles that it senses there.
+
+import type { LayerContext, MapLayer } from '../../plan/layer';
+import type { InScene } from '../../scene/sceneLayer';
+import { drawFootprint, drawSensed } from './drawCamera';
+import type { Pictures } from '../../lab/slices';
+
+export const CAMERA_LAYER: MapLayer & InScene = {
+  id: 'camera',
+  label: 'Camera field',
+  group: 'Camera',
+  shownAtFirst: true,
+  create: () => ({ moving: () => drawFootprint }),
+  sceneObject: async () => (await import('./sceneFrustum')).sceneFrustum,
+};
+
+export const SENSED_LAYER: MapLayer = {
+  id: 'sensed',
+  label: 'Sensed',
+  group: 'Camera',
+  shownAtFirst: true,
+  create: ({ lab }: LayerContext<Pictures>) => ({
+    aboveWalls: () => () => {
+      const overlay = lab.overlay();
+      return (
+        overlay &&
+        ((ctx, { view, palette }) => {
+          drawSensed(ctx, view, palette, overlay);
+        })
+      );
+    },
+  }),
+};

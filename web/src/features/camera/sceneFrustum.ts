@@ -1,0 +1,47 @@
+// The camera's field in the 3-D scene.
+
+import { Group, Mesh } from 'three';
+import { ORDER } from '../../scene/paints';
+import type { CreateSceneObject } from '../../scene/sceneLayer';
+import { type Point, triangles } from '../../scene/solids';
+import { Strokes } from '../../scene/strokes';
+
+const UP_M = 8e-4;
+
+/** From the camera to the table that it sees. */
+export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_sees_m }) => {
+  const eye: Point = [
+    parameters.camera_offset_x_m,
+    parameters.camera_offset_y_m,
+    parameters.camera_height_m,
+  ];
+  const corners = camera_sees_m.map(([x, y]): Point => [x, y, UP_M]);
+  const sides = corners.flatMap((corner, k): Point[] => [
+    eye,
+    corner,
+    corners[(k + 1) % corners.length] ?? corner,
+  ]);
+  const rays = new Strokes(paints, 'tool', corners.length, { width_px: 1, opacity: 0.4 });
+  const foot = new Strokes(paints, 'tool', corners.length, {
+    width_px: 1.5,
+    opacity: 0.55,
+    through: true,
+  });
+  corners.forEach((corner, k) => {
+    rays.move(...eye).line(...corner);
+    foot.move(...corner).line(...(corners[(k + 1) % corners.length] ?? corner));
+  });
+  rays.done();
+  foot.done();
+  // Among the solids it is as near as it is; on the floor it is a mark.
+  const air = new Group();
+  air.renderOrder = ORDER.air;
+  air.add(new Mesh(triangles(sides), paints.flat('tool', { opacity: 0.045 })), rays.object);
+  const object = new Group().add(air, foot.object);
+  return {
+    object,
+    place: ({ tool_m: [x, y] }) => {
+      object.position.set(x, y, 0);
+    },
+  };
+};

@@ -1,0 +1,17 @@
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { FeatureShortcuts } from '../../lab/shortcuts';
+import type { Session, Trial } from '../../lab/slices';
+
+const CONTROLLERS = ['rl', 'errt', 'attractor'] as const;
+
+export const CONTROLLER_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) =>
+  CONTROLLERS.map((controller, index) => ({
+    group: 'Controller',
+    keys: [String(index + 1)],
+    does: CONTROLLER_LABELS[controller],
+    run: operate(() => {
+      if (lab.scene()?.controllers.includes(controller)) {
+        lab.send({ type: 'select_controller', controller });
+      }
+    }),
+  }));

@@ -1,0 +1,50 @@
+// The layer of the magnet's field: asked for while it is shown; it moves with the tool.
+
+import { createMemo } from 'solid-js';
+import type { Plane, PlaneQuery } from '../../net/protocol.gen';
+import { createAnswer } from '../../net/requests';
+import type { LayerContext, MapLayer } from '../../plan/layer';
+import { FieldLegend } from './FieldLegend';
+import { createFieldPicture, drawField } from './drawPlane';
+import { HALF_SIDE_M, planeQuery } from './plane';
+import type { Session, Trial } from '../../lab/slices';
+
+export const FIELD_LAYER: MapLayer = {
+  id: 'field',
+  label: 'Field and pull',
+  group: 'Motion',
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
+    const answer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {
+      const parameters = lab.tuning();
+      const asks = isShown() && lab.connection().kind === 'live';
+      return asks && parameters ? planeQuery(parameters) : undefined;
+    });
+    const field = createMemo(() => {
+      const plane = answer().data;
+      return plane && isShown() ? createFieldPicture(plane, palette()) : undefined;
+    });
+    return {
+      moving: () => {
+        const now = field();
+        return (
+          now &&
+          ((ctx, { view, palette, state }) => {
+            drawField(ctx, view, palette, [state.tool_m[0], state.tool_m[1]], now);
+          })
+        );
+      },
+      underTool: createMemo(() => {
+        const now = field();
+        return (
+          now && {
+            halfSide_m: HALF_SIDE_M,
+            draw: (ctx, view, palette) => {
+              drawField(ctx, view, palette, [0, 0], now);
+            },
+          }
+        );
+      }),
+      legend: () => <FieldLegend answer={answer()} />,
+    };
+  },
+};

@@ -1,0 +1,71 @@
+// The layer of the attractor's flow: asked for while it is shown.
+
+import { Show, createMemo, untrack } from 'solid-js';
+import type { FlowField, FlowQuery } from '../../net/protocol.gen';
+import { createAnswer } from '../../net/requests';
+import { sessionPath } from '../../net/session';
+import type { LayerContext, MapLayer } from '../../plan/layer';
+import { FlowLegend } from './FlowLegend';
+import { createFlow, drawFlow } from './drawFlow';
+import { flowKey, flowQuery } from './flow';
+import type { Pictures, Session, Trial } from '../../lab/slices';
+
+/** While the camera shows new things, the field is another ten times a second: costly, and too fast to read. */
+const ASKED_PER_S = 4;
+
+export const FLOW_LAYER: MapLayer = {
+  id: 'flow',
+  label: 'Attractor flow',
+  group: 'Attractor',
+  create: ({ lab, isShown }: LayerContext<Session & Trial & Pictures>) => {
+    const asks = createMemo(
+      () => isShown() && lab.goal() !== undefined && lab.connection().kind === 'live',
+    );
+    const answer = createAnswer<FlowQuery, FlowField>(
+      sessionPath(lab.session, 'flow'),
+      () => {
+        const [scene, seen] = [lab.scene(), lab.obstacleMap()];
+        return asks() && scene && seen ? flowQuery(scene, seen) : undefined;
+      },
+      {
+        key: () => {
+          const [scene, goal_m] = [lab.scene(), lab.goal()];
+          return scene && goal_m ? flowKey(scene, goal_m) : '';
+        },
+        perS: ASKED_PER_S,
+      },
+    );
+    const answered = createMemo(() => {
+      const field = answer().data;
+      // For which it was answered: a later goal, or a larger observed area, brings its own field.
+      const [goal_m, seen] = untrack(() => [lab.goal(), lab.obstacleMap()] as const);
+      return field && goal_m && seen && field.velocity_m_s.length > 0
+        ? createFlow(field, goal_m, seen)
+        : undefined;
+    });
+    const flow = () => (asks() && lab.obstacleMap() ? answered() : undefined);
+    return {
+      aboveWalls: () => () => {
+        const now = flow();
+        return (
+          now &&
+          ((ctx, picture) => {
+            drawFlow(ctx, picture.view, picture.palette, now);
+          })
+        );
+      },
+      legend: () => (
+        <Show when={lab.scene()}>
+          {(scene) => (
+            <FlowLegend
+              answer={answer()}
+              flow={flow()}
+              hasGoal={lab.goal() !== undefined}
+              law={scene().parameters.attractor_law}
+            />
+          )}
+        </Show>
+      ),
+    };
+  },
+};

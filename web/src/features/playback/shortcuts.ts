@@ -1,0 +1,43 @@
+import type { FeatureShortcuts } from '../../lab/shortcuts';
+import { nextSpeed, ticksToControlStep } from './steps';
+import type { Session, Trial } from '../../lab/slices';
+
+export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) => {
+  const shiftSpeed = (direction: 1 | -1) =>
+    operate(() => {
+      const target = lab.state()?.speed_target ?? 1;
+      const factor = nextSpeed(target, direction);
+      if (factor !== target) lab.send({ type: 'set_speed', factor });
+    });
+  const step = (ticks: () => number) =>
+    operate(() => {
+      if (!lab.state()?.running) lab.send({ type: 'step', ticks: ticks() });
+    });
+  return [
+    {
+      group: 'Time',
+      keys: [' '],
+      does: 'run or pause',
+      run: operate(() => {
+        lab.send({ type: lab.state()?.running ? 'pause' : 'run' });
+      }),
+    },
+    { group: 'Time', keys: ['.'], does: 'one tick of 8 ms', run: step(() => 1) },
+    {
+      group: 'Time',
+      keys: [','],
+      does: 'to the next control step',
+      run: step(() => ticksToControlStep(lab.state()?.tick ?? 0, lab.scene()?.tick_s ?? 0.008)),
+    },
+    { group: 'Time', keys: ['[', '-'], does: 'slower', run: shiftSpeed(-1) },
+    { group: 'Time', keys: [']', '+'], does: 'faster', run: shiftSpeed(1) },
+    {
+      group: 'Time',
+      keys: ['r'],
+      does: 'reset, with the same seed',
+      run: operate(() => {
+        lab.send({ type: 'reset' });
+      }),
+    },
+  ];
+};

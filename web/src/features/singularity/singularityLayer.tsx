@@ -1,0 +1,49 @@
+// The layer of singularities: asked for while it is shown.
+
+import { Show, createMemo } from 'solid-js';
+import type { WorkspaceMap, WorkspaceQuery } from '../../net/protocol.gen';
+import { createAnswer } from '../../net/requests';
+import type { LayerContext, MapLayer } from '../../plan/layer';
+import { HeatLegend } from './HeatLegend';
+import { createHeat, drawHeat } from './drawHeat';
+import { workspaceQuery } from './heat';
+import type { Session, Trial } from '../../lab/slices';
+
+export const SINGULARITY_LAYER: MapLayer = {
+  id: 'singularity',
+  label: 'Singularity',
+  group: 'Arm',
+  unavailable: (lab: Trial) =>
+    lab.scene()?.positioner === 'planar_stage'
+      ? 'The planar stage has no arm, and so no singularities.'
+      : undefined,
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
+    const question = createMemo<WorkspaceQuery | undefined>(() => {
+      const [scene, parameters] = [lab.scene(), lab.tuning()];
+      return isShown() && scene && parameters ? workspaceQuery(scene, parameters) : undefined;
+    });
+    const answer = createAnswer<WorkspaceQuery, WorkspaceMap>('/api/kinematics/workspace', () =>
+      lab.connection().kind === 'live' ? question() : undefined,
+    );
+    const heat = createMemo(() => {
+      const map = answer().data;
+      return map && createHeat(map, palette());
+    });
+    return {
+      belowWalls: () => () => {
+        const now = question() && heat();
+        return (
+          now &&
+          ((ctx, picture) => {
+            drawHeat(ctx, picture.view, picture.palette, now);
+          })
+        );
+      },
+      legend: () => (
+        <Show when={question()}>
+          <HeatLegend answer={answer()} />
+        </Show>
+      ),
+    };
+  },
+};

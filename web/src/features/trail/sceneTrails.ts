@@ -1,0 +1,36 @@
+// The trails on the floor of the 3-D scene.
+
+import { Group } from 'three';
+import type { CreateSceneObject } from '../../scene/sceneLayer';
+import { Strokes } from '../../scene/strokes';
+import { trailsOf } from './trail';
+
+const UP_M = 1.2e-3;
+/** Beyond this many points a trail looks no different. */
+const POINTS = 800;
+
+export const sceneTrails: CreateSceneObject = (paints) => {
+  const style = { width_px: 1.75, opacity: 0.6, through: true };
+  const strokes = [
+    new Strokes(paints, 'tool', POINTS + 1, style),
+    new Strokes(paints, 'bead', POINTS + 1, style),
+  ] as const;
+  const object = new Group();
+  for (const one of strokes) object.add(one.object);
+  return {
+    object,
+    place: (state, history) => {
+      trailsOf(state, history).forEach(({ xs_m, ys_m }, index) => {
+        const trail = strokes[index as 0 | 1].clear();
+        const stride = Math.max(1, Math.ceil(xs_m.length / POINTS));
+        // From the newest back, which is always there.
+        for (let i = xs_m.length - 1; i >= 0; i -= stride) {
+          const [x, y] = [xs_m[i] ?? 0, ys_m[i] ?? 0];
+          if (i === xs_m.length - 1) trail.move(x, y, UP_M);
+          else trail.line(x, y, UP_M);
+        }
+        trail.done();
+      });
+    },
+  };
+};

@@ -1,0 +1,54 @@
+// The layer of values: asked for while it is shown.
+
+import { createMemo } from 'solid-js';
+import type { ValueMap, ValueQuery } from '../../net/protocol.gen';
+import { createAnswer } from '../../net/requests';
+import { sessionPath } from '../../net/session';
+import type { LayerContext, MapLayer } from '../../plan/layer';
+import { ValueLegend } from './ValueLegend';
+import { createValues, drawValues } from './drawValue';
+import { valueKey } from './value';
+import type { Session, Trial } from '../../lab/slices';
+
+export const VALUE_LAYER: MapLayer = {
+  id: 'value',
+  label: 'Value',
+  group: 'RL',
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
+    const key = createMemo(() => {
+      const [scene, goal_m] = [lab.scene(), lab.goal()];
+      return scene && goal_m && isShown() ? valueKey(scene, goal_m) : undefined;
+    });
+    const answer = createAnswer<ValueQuery, ValueMap>(
+      sessionPath(lab.session, 'values'),
+      () => {
+        const goal_m = lab.goal();
+        const asks = key() !== undefined && lab.connection().kind === 'live';
+        return asks && goal_m ? { goal_m: [goal_m[0], goal_m[1]] } : undefined;
+      },
+      { key: () => key() ?? '' },
+    );
+    // Only of this goal, map and policy: a first answer takes seconds, and other values would mislead.
+    const isNow = createMemo(() => key() !== undefined && answer().key === key());
+    const error = createMemo(() => (isNow() ? answer().error : undefined));
+    const map = createMemo(() => (isNow() && error() === undefined ? answer().data : undefined));
+    return {
+      belowWalls: (view) => {
+        const values = createMemo(() => {
+          const [mapNow, viewNow] = [map(), view()];
+          return mapNow && viewNow ? createValues(mapNow, palette(), viewNow) : undefined;
+        });
+        return () => {
+          const now = values();
+          return (
+            now &&
+            ((ctx, picture) => {
+              drawValues(ctx, picture.view, picture.palette, now);
+            })
+          );
+        };
+      },
+      legend: () => <ValueLegend map={map()} error={error()} hasGoal={lab.goal() !== undefined} />,
+    };
+  },
+};

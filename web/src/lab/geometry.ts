@@ -1,0 +1,44 @@
+// Points of the table, in metres (x right, y up).
+
+import type { Polygon, Rect } from '../net/protocol.gen';
+
+export type Vec2 = readonly [number, number];
+
+/** Between the table and a picture of it, however that shows the table: from above or in perspective. */
+export interface TableView {
+  /** The point of the table at a pixel; none where the picture shows none, as over the horizon. */
+  readonly toWorld: (px: Vec2) => [number, number] | undefined;
+  /** The pixel of a point of the table, or of one above it; none behind the eye. */
+  readonly toPx: (point: Vec2, height_m?: number) => [number, number] | undefined;
+}
+
+export function distance(a: Vec2, b: Vec2): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+export function clampToRect(rect: Rect, point: Vec2): [number, number] {
+  return [
+    Math.min(rect.x_max_m, Math.max(rect.x_min_m, point[0])),
+    Math.min(rect.y_max_m, Math.max(rect.y_min_m, point[1])),
+  ];
+}
+
+function crossings(ring: readonly Vec2[], [x, y]: Vec2): number {
+  let count = 0;
+  let previous = ring.at(-1);
+  for (const vertex of ring) {
+    if (previous && vertex[1] > y !== previous[1] > y) {
+      const slope = (previous[0] - vertex[0]) / (previous[1] - vertex[1]);
+      if (x < vertex[0] + (y - vertex[1]) * slope) count += 1;
+    }
+    previous = vertex;
+  }
+  return count;
+}
+
+/** Whether `point` is in the filled part of `polygon`: even-odd over the exterior and the holes. */
+export function insidePolygon(polygon: Polygon, point: Vec2): boolean {
+  let count = crossings(polygon.exterior, point);
+  for (const hole of polygon.holes) count += crossings(hole, point);
+  return count % 2 === 1;
+}

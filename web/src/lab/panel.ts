@@ -1,0 +1,18 @@
+// A panel that shares its place with others, under a tab.
+
+import type { Component } from 'solid-js';
+import type { TabHead } from '../ui/Tabs';
+import type { Theme } from '../ui/theme';
+import type { Lab } from './slices';
+
+export interface PanelProps<L = Lab> {
+  readonly lab: L;
+  readonly theme: () => Theme;
+  /** Room for the panel's own controls, beside the tabs. */
+  readonly tools: HTMLElement;
+}
+
+/** What a feature exports for a tab; `app` lists them. */
+export interface TabPanel extends TabHead {
+  readonly panel: Component<PanelProps>;
+}

@@ -1,0 +1,10 @@
+// The keys that a feature adds to the page.
+
+import type { Shortcut } from '../ui/shortcuts';
+import type { Lab } from './slices';
+
+/** `operate` wraps what only the operator may do, and only while the laboratory is shown and has a state. */
+export type FeatureShortcuts<L = Lab> = (
+  lab: L,
+  operate: (act: () => void) => () => void,
+) => readonly Shortcut[];

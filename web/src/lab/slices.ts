@@ -1,0 +1,74 @@
+// What the page knows and does, in slices: a function names those that it uses.
+
+import type { Accessor } from 'solid-js';
+import type { Picture } from '../net/connection';
+import type { ClientMessage, EventMessage, Parameters } from '../net/protocol.gen';
+import type { Comparison } from './comparison';
+import type { Edits } from './edits';
+import type { Vec2 } from './geometry';
+import type { History } from './history';
+import type { Layers } from './layers';
+import type { Model, Place } from './model';
+
+export type { Layers };
+
+/** The session of this page, and what may be sent to it. */
+export interface Session {
+  /** Its name. */
+  readonly session: string;
+  readonly connection: Accessor<Model['connection']>;
+  readonly hello: Accessor<Model['hello']>;
+  /** Why the session ended, if it has. */
+  readonly ended: Accessor<string | undefined>;
+  /** Connected as the operator of a session that has not ended. */
+  readonly canOperate: Accessor<boolean>;
+  /** Grows with each refusal and each new connection, so that forms show the server's values again. */
+  readonly refusals: Accessor<number>;
+  send(message: ClientMessage): void;
+}
+
+export interface Trial {
+  readonly scene: Accessor<Model['scene']>;
+  readonly state: Accessor<Model['state']>;
+  readonly goal: Accessor<Vec2 | undefined>;
+  readonly history: History;
+  /** The parameters in force, with changes that are on their way on top. */
+  readonly tuning: Accessor<Parameters | undefined>;
+  readonly edits: Edits;
+  /** Grows when the server has released a bead because it received nothing of the hand. */
+  readonly silences: Accessor<number>;
+}
+
+export interface Events {
+  readonly log: Accessor<Model['log']>;
+  readonly marks: Accessor<Model['marks']>;
+  /** The event whose story is open. */
+  readonly inspected: Accessor<EventMessage | undefined>;
+  inspect(event: EventMessage | undefined): void;
+}
+
+export interface Notices {
+  readonly notices: Accessor<Model['notices']>;
+  notify(place: Place, text: string): void;
+  dismiss(place: Place, id: number): void;
+}
+
+/** What the camera and the controllers see. */
+export interface Pictures {
+  readonly camera: Accessor<Picture | undefined>;
+  readonly observation: Accessor<Picture | undefined>;
+  readonly overlay: Accessor<Model['overlay']>;
+  readonly obstacleMap: Accessor<Model['obstacleMap']>;
+}
+
+export interface Compared {
+  readonly comparison: Comparison;
+}
+
+export interface OpenTab {
+  /** The tab that is to be opened, wherever it is. */
+  readonly opened: Accessor<{ readonly tab: string } | undefined>;
+  openTab(tab: string | undefined): void;
+}
+
+export interface Lab extends Session, Trial, Events, Notices, Pictures, Compared, Layers, OpenTab {}

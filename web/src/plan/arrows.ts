@@ -1,0 +1,31 @@
+// Arrows on the table.
+
+import type { Vec2 } from '../lab/geometry';
+import { pxFromWorld, type View } from './transform';
+
+/** Head of an arrow: of its length, and not more. */
+const HEAD = 0.4;
+const MOST_HEAD_PX = 4.5;
+
+export interface Arrow {
+  readonly from_m: Vec2;
+  readonly to_m: Vec2;
+  /** Whether the camera has shown the place; else it is drawn faint. */
+  readonly isSeen: boolean;
+}
+
+export function arrowPath(view: View, arrows: readonly Arrow[]): Path2D {
+  const path = new Path2D();
+  for (const { from_m, to_m } of arrows) {
+    const [from, [x, y]] = [pxFromWorld(view, from_m), pxFromWorld(view, to_m)];
+    const [dx, dy] = [x - from[0], y - from[1]];
+    const length = Math.hypot(dx, dy);
+    const head = Math.min(MOST_HEAD_PX, HEAD * length) / length;
+    path.moveTo(...from);
+    path.lineTo(x, y);
+    path.moveTo(x - head * (dx - 0.6 * dy), y - head * (dy + 0.6 * dx));
+    path.lineTo(x, y);
+    path.lineTo(x - head * (dx + 0.6 * dy), y - head * (dy - 0.6 * dx));
+  }
+  return path;
+}

@@ -1,0 +1,84 @@
+// Layers of the map. A feature exports its layers; `app` lists them in the order in which they are drawn.
+
+import { createMemo, type Accessor, type JSX } from 'solid-js';
+import type { History } from '../lab/history';
+import type { SceneMessage, StateMessage } from '../net/protocol.gen';
+import type { Palette } from '../ui/palette';
+import type { View } from './transform';
+import type { Lab } from '../lab/slices';
+
+/** Headings of the menu, in its order. */
+export const LAYER_GROUPS = ['Motion', 'Camera', 'RL', 'ERRT', 'Attractor', 'Arm'] as const;
+
+export interface BasePicture {
+  readonly view: View;
+  readonly palette: Palette;
+  readonly scene: SceneMessage;
+}
+
+export interface MovingPicture extends BasePicture {
+  readonly state: StateMessage;
+  readonly history: History;
+}
+
+export type Draw<P extends BasePicture> = (ctx: CanvasRenderingContext2D, picture: P) => void;
+
+/**
+ * Called once for each surface, so that what follows from its view can be a memo. The accessor returns `undefined`
+ * while there is nothing to draw; it is read only while the layer is shown.
+ */
+export type BaseDrawing = (
+  view: Accessor<View | undefined>,
+) => Accessor<Draw<BasePicture> | undefined>;
+
+/** A square picture whose middle is below the tool, which the 3-D scene hangs there. */
+export interface UnderTool {
+  readonly halfSide_m: number;
+  readonly draw: (ctx: CanvasRenderingContext2D, view: View, palette: Palette) => void;
+}
+
+/** What a layer draws; each part is optional. */
+export interface LayerParts {
+  readonly belowWalls?: BaseDrawing;
+  readonly aboveWalls?: BaseDrawing;
+  /** With every state, above the base map and below goal, tool and bead. */
+  readonly moving?: Accessor<Draw<MovingPicture> | undefined>;
+  readonly underTool?: Accessor<UnderTool | undefined>;
+  readonly legend?: () => JSX.Element;
+}
+
+export interface LayerContext<L = Lab> {
+  readonly lab: L;
+  readonly palette: Accessor<Palette>;
+  readonly isShown: Accessor<boolean>;
+}
+
+export interface MapLayer {
+  /** Stored by the browser; part of the page's interface for tests. */
+  readonly id: string;
+  readonly label: string;
+  readonly group: (typeof LAYER_GROUPS)[number];
+  readonly shownAtFirst?: true;
+  /** `aboveWalls` may reach beyond the workspace. */
+  readonly isUnclipped?: true;
+  /** Why the layer cannot be shown now, if it cannot. */
+  readonly unavailable?: (lab: Lab) => string | undefined;
+  create(context: LayerContext): LayerParts;
+}
+
+/** A layer with its parts, for one laboratory. */
+export type LiveLayer<L extends MapLayer = MapLayer> = L &
+  LayerParts & { readonly isShown: Accessor<boolean> };
+
+export function createLayers<L extends MapLayer>(
+  layers: readonly L[],
+  lab: Lab,
+  palette: Accessor<Palette>,
+): readonly LiveLayer<L>[] {
+  return layers.map((layer) => {
+    const isShown = createMemo(
+      () => lab.layers().has(layer.id) && layer.unavailable?.(lab) === undefined,
+    );
+    return { ...layer, ...layer.create({ lab, palette, isShown }), isShown };
+  });
+}
