@@ -1,4 +1,4 @@
-//! The paper's experiment: many random trials, counted honestly.
+//! Evaluations: many random trials, as in the paper's experiment, summarised with confidence intervals.
 
 mod comparison;
 mod course;

@@ -1,14 +1,14 @@
 //! The magnets: a block on the tool, a bead on the table, and the pull between them.
 //!
 //! - [`cuboid`]: field and field gradient of a uniformly magnetised block, in closed form.
-//! - [`dipole`]: the bead, which acts and is acted upon as a point dipole at its centre.
-//! - [`posed`]: a block that lies anywhere and anyhow, seen from `base`.
-//! - [`force`]: the pull on the bead, and where it lifts or drags it.
-//! - [`curves`]: that pull over offset and height, to be plotted.
-//! - [`plane`]: field and pull over the table, to be drawn.
+//! - [`dipole`]: the bead, which behaves as a point dipole at its centre.
+//! - [`posed`]: a block at any pose, in `base`.
+//! - [`force`]: the pull on the bead, and where it lifts or drags the bead.
+//! - [`curves`]: the pull over offset and height, for plots.
+//! - [`plane`]: field and pull over the table, for drawings.
 //!
 //! SI units throughout: tesla, newtons, metres, A·m². Points are given from the source's centre, in
-//! axes parallel to its sides, unless they are given in `base`. Nothing here knows of arms, walls or time.
+//! axes parallel to its sides, unless they are given in `base`. This module knows nothing about arms, walls or time.
 
 pub mod cuboid;
 pub mod curves;
@@ -46,7 +46,7 @@ mod tests {
         gradient
     }
 
-    /// The printed formula for J along z, of B inside too: no mirror, no cancelling, T.
+    /// The published formula for J along z, also for B inside, T: without mirroring and without rearranged terms.
     fn plain_field_t(half_m: [f64; 3], jz_t: f64, p: &Vector3<f64>) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
         for corner in 0..8 {
@@ -62,7 +62,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
         #[test]
-        fn field_is_the_printed_formula(
+        fn field_matches_the_published_formula(
             point in prop::array::uniform3(-0.1_f64..0.1),
         ) {
             // In line with an edge it is the printed formula that loses its digits.
@@ -74,7 +74,7 @@ mod tests {
         }
 
         #[test]
-        fn rods_and_wafers_follow_it_too_inside_and_beside(
+        fn rods_and_wafers_match_the_published_formula_inside_and_nearby(
             size in prop::array::uniform3(-3.0_f64..0.0),
             place in prop::array::uniform3(-1.5_f64..1.5),
         ) {
@@ -88,13 +88,13 @@ mod tests {
         }
 
         #[test]
-        fn many_points_are_each_of_them(
+        fn many_points_equal_single_points(
             j in prop::array::uniform3(-1.5..1.5),
             used in 0..8,
             places in prop::collection::vec((prop::array::uniform3(-3.0..3.0), 0..6), 0..8),
         ) {
             let magnet = magnet(std::array::from_fn(|k| if used >> k & 1 == 1 { j[k] } else { 0.0 }));
-            // Around the magnet, on its planes, and where it is a dipole.
+            // Around the magnet, on its planes, and where the dipole is used.
             let points: Vec<_> = places
                 .into_iter()
                 .map(|(place, kind): ([f64; 3], _)| {
@@ -112,11 +112,11 @@ mod tests {
         }
 
         #[test]
-        fn other_axes_are_the_same_magnet_turned(
+        fn permuted_axes_give_the_permuted_field(
             j in prop::array::uniform3(-1.5..1.5),
             p in prop::array::uniform3(-0.1..0.1),
         ) {
-            // (x, y, z) → (z, x, y), sides and all.
+            // (x, y, z) → (z, x, y), the sides included.
             let turn = |v: [f64; 3]| Vector3::new(v[2], v[0], v[1]);
             let turned = Cuboid::new(turn(HALF_M), turn(j)).unwrap();
             let field: [f64; 3] = magnet(j).field_t(&p.into()).into();
@@ -130,12 +130,12 @@ mod tests {
         }
 
         #[test]
-        fn gradient_is_symmetric_traceless_and_the_fields(
+        fn gradient_is_symmetric_traceless_and_matches_differences(
             j in prop::array::uniform3(-1.5..1.5),
             p in prop::array::uniform3(-0.1..0.1),
         ) {
             let (magnet, point) = (magnet(j), Vector3::<f64>::from(p));
-            // Differences need the field smooth over their step: keep off the surface's planes.
+            // Differences need a smooth field over their step: avoid the planes of the surface.
             prop_assume!((0..3).all(|k| (p[k].abs() - HALF_M[k]).abs() > 1e-3));
             let gradient = magnet.gradient_t_m(&point);
             let size = gradient.norm() + 1e-3;
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_point_has_no_field_and_spoils_no_other() {
+    fn a_nan_point_gives_nan_and_does_not_affect_other_points() {
         let magnet = magnet([0.0, 0.0, 1.19]);
         let point = Vector3::new(0.01, 0.02, 0.03);
         for value in [f64::NAN, f64::INFINITY] {
@@ -206,8 +206,8 @@ mod tests {
     }
 
     #[test]
-    fn line_of_an_edge_keeps_its_digits() {
-        // In line with an edge R − Y cancels: the plain formula has no digit left at this point.
+    fn field_in_line_with_an_edge_is_accurate() {
+        // In line with an edge R − Y cancels: the published formula has no correct digit at this point.
         let magnet = magnet([0.0, 0.0, 1.19]);
         let at = |aside_m: f64| Vector3::new(HALF_M[0] + aside_m, 0.06, HALF_M[2] + aside_m);
         let rise = magnet.field_t(&at(1e-6)) - magnet.field_t(&at(0.0));
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn flux_crosses_a_face_and_the_polarisation_is_left_inside() {
+    fn normal_flux_is_continuous_across_a_face() {
         let magnet = magnet([0.0, 0.0, 1.19]);
         let across = |z_m: f64| magnet.field_t(&Vector3::new(0.003, 0.002, z_m)).z;
         assert!((across(HALF_M[2] - 1e-9) - across(HALF_M[2] + 1e-9)).abs() < 1e-6);
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_magnets_are_refused_by_name() {
+    fn rejects_invalid_magnets_by_field_name() {
         let sides = Vector3::new(0.01, 0.0, 0.01);
         let expected = CuboidError::HalfSize { field: "half_size_m.y", value: 0.0 };
         assert_eq!(Cuboid::new(sides, Vector3::z()), Err(expected));

@@ -1,6 +1,6 @@
-//! The physics: arm, bead, contact, disturbance. One [`Plant::step`] is a servo period of 8 ms.
+//! The physics of arm, bead, contacts and disturbances. One [`Plant::step`] is a servo period of 8 ms.
 //!
-//! `step` takes all state as an argument and owns none.
+//! `step` receives all state as an argument; [`Plant`] itself has no changing state.
 
 mod bead;
 pub(crate) mod contact;
@@ -19,14 +19,13 @@ pub use bead::{Bead, BeadMotion};
 pub use force::Orientation as BlockOrientation;
 pub use positioner::{Positioner, PositionerKind, ToolOrientation, manipulability_map};
 
-/// Length of gripper and block, flange to tool point (specification §1).
+/// Length of gripper and block, from the flange to the tool point.
 pub const TOOL_LENGTH_M: f64 = 0.180;
 /// Radius of the bead.
 pub const BEAD_RADIUS_M: f64 = dipole::SPHERE_DIAMETER_M / 2.0;
-/// Plant steps a servo period: 1 kHz.
+/// Plant steps per servo period: 1 kHz.
 pub const SUBSTEPS: usize = 8;
 
-/// What the physics can be told.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlantParameters {
     /// How the block is turned.
@@ -51,17 +50,16 @@ impl PlantParameters {
     }
 }
 
-/// The hand that disturbs: a critically damped spring from the bead to the pointer.
+/// The hand: a critically damped spring from the bead to the operator's pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hand {
     /// Where the pointer is.
     pub target_m: Point2<f64>,
-    /// Whether it carries the bead over walls.
+    /// Whether the bead is lifted over walls.
     pub lift: bool,
 }
 
-/// All that the physics remember.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The complete state of the physics.#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlantState {
     /// What carries the magnet.
     pub positioner: Positioner,
@@ -69,18 +67,17 @@ pub struct PlantState {
     pub bead: Bead,
     /// The hand, while it holds the bead.
     pub hand: Option<Hand>,
-    /// A force that pushes the bead along for a while: a disturbance.
+    /// A disturbance that pushes the bead with a force for some time.
     pub drift_n: Vector2<f64>,
 }
 
 impl PlantState {
-    /// A bead at rest at `bead_m`, and nothing that disturbs it.
+    /// A bead at rest at `bead_m`, without disturbances.
     pub fn at_rest(positioner: Positioner, bead_m: Point2<f64>) -> Self {
         Self { positioner, bead: Bead::at(bead_m), hand: None, drift_n: Vector2::zeros() }
     }
 }
 
-/// Forces on the bead at one moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Pull of the magnet in the table's plane.
@@ -90,13 +87,13 @@ pub struct Load {
 }
 
 impl Load {
-    /// Upward pull in units of the bead's weight; 1 is lift-off.
+    /// Upward pull in units of the bead's weight; the bead lifts off at 1.
     pub fn lift_ratio(&self) -> f64 {
         self.vertical_n / dipole::weight_n()
     }
 }
 
-/// The fixed part of the physics.
+/// The physics, with everything that stays constant during a trial.
 #[derive(Clone, Debug)]
 pub struct Plant {
     parameters: PlantParameters,
@@ -105,7 +102,6 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// A plant with these parameters.
     pub fn new(parameters: PlantParameters) -> Self {
         let block = force::block(parameters.block_orientation, dipole::BLOCK_REMANENCE_T);
         Self { block_half_height_m: block.half_size_m.z, parameters, block }
@@ -134,7 +130,7 @@ impl Plant {
         let travel_m = base_from_tool.translation.vector - before.translation.vector;
         let dt_s = ur5::SERVO_PERIOD_S / SUBSTEPS as f64;
         for substep in 1..=SUBSTEPS {
-            // The tool moves evenly; its tilt hardly changes in a servo period.
+            // The tool moves at constant speed; its tilt hardly changes in a servo period.
             let part = substep as f64 / SUBSTEPS as f64;
             base_from_tool.translation.vector = before.translation.vector + travel_m * part;
             self.step_bead(state, map, &base_from_tool, dt_s);

@@ -4,11 +4,11 @@
 //! - [`forward`]: joints → flange pose, and every link frame for drawing.
 //! - [`inverse`]: flange pose → all closed-form joint solutions, or a typed refusal.
 //! - [`jacobian`]: joint speeds → flange twist; distance from a singularity.
-//! - [`servo`]: the joints as speed-limited integrators at the controller's 125 Hz.
+//! - [`servo`]: the joints as speed-limited integrators at 125 Hz, the controller's rate.
 //! - [`workspace`]: the manipulability over a horizontal plane, as a map.
 //!
 //! Poses are `base_from_flange`: metres, in the UR5's `base` frame (z up, origin on the table under
-//! joint 1). Angles are radians. Nothing here knows of magnets, tools or maps, and nothing has state.
+//! joint 1). Angles are radians. This module knows nothing about magnets, tools or maps, and keeps no state.
 
 pub mod forward;
 pub mod inverse;
@@ -31,18 +31,18 @@ pub fn tool_down() -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(0.0, FRAC_1_SQRT_2, -FRAC_1_SQRT_2, 0.0))
 }
 
-/// Least and greatest horizontal distance `(r_min_m, r_max_m)` from the base axis that the flange
+/// Minimum and maximum horizontal distance `(r_min_m, r_max_m)` from the base axis that the flange
 /// reaches while it points straight down at height `flange_z_m` above the table.
 ///
-/// `None` where it reaches nothing: too high, too low, or a height that is not a number.
+/// `None` if it reaches nothing: the height is too high, too low, or NaN.
 ///
 /// With the tool down, wrist 1 and wrist 2 lie in one horizontal plane, `d5` apart, and the upper arm
 /// and the forearm must bridge the rest in the vertical plane that `d4` offsets from the base axis:
-/// r_max = √((√((a2+a3)² − (z+d6−d1)²) + d5)² + d4²). The least distance is `d4`, except near the
+/// r_max = √((√((a2+a3)² − (z+d6−d1)²) + d5)² + d4²). The minimum distance is `d4`, except near the
 /// extreme heights, where the nearly straight arm spans less than `d5`.
 pub fn reach(flange_z_m: f64) -> Option<(f64, f64)> {
     let rise_m = flange_z_m + ur5::D6_M - ur5::D1_M;
-    // Not a number where the straight arm is too short, and where the height is not one.
+    // NaN if the straight arm is too short, or if the height is NaN.
     let span_m = ((ur5::A2_M + ur5::A3_M).powi(2) - rise_m * rise_m).sqrt();
     if span_m.is_nan() {
         return None;
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn reach_is_where_inverse_kinematics_begins_and_ends() {
+    fn reach_limits_match_inverse_kinematics() {
         for z_m in [-0.5, 0.0, 0.1, 0.28, 0.5, 0.7, 0.8235] {
             let (r_min_m, r_max_m) = reach(z_m).unwrap();
             assert!(solvable(r_min_m + 1e-9, z_m), "{z_m}");
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_reached_beyond_the_straight_arm() {
+    fn reaches_nothing_beyond_the_straight_arm() {
         assert_eq!(reach(0.9), None);
         assert_eq!(reach(-0.9), None);
         assert_eq!(reach(f64::NAN), None);
@@ -123,7 +123,7 @@ mod tests {
                 prop_assert!(miss(branch, &flange) <= 1e-12, "{branch:?}");
                 prop_assert!(branch.iter().all(|q| -PI < *q && *q <= PI));
             }
-            // Near a singularity the joints are ill determined by the pose, the pose by them never.
+            // Near a singularity the pose hardly determines the joints; the joints always determine the pose.
             if jacobian::manipulability(&joints) > 1e-4 {
                 let found = inverse::nearest(&flange, &joints).unwrap();
                 prop_assert!(apart(&found, &joints) < 1e-8, "{found:?}");
@@ -132,8 +132,8 @@ mod tests {
     }
 
     #[test]
-    fn singular_poses_have_answers_and_no_nan() {
-        // Every corner of the joint space in quarter turns: straight elbows, aligned wrists, and both.
+    fn singular_poses_have_solutions_without_nan() {
+        // All joints at multiples of a quarter turn: straight elbows, aligned wrists, and both.
         for index in 0..4_usize.pow(6) {
             let quarters: [usize; 6] = std::array::from_fn(|i| index / 4_usize.pow(i as u32) % 4);
             let joints = quarters.map(|n| n as f64 * FRAC_PI_2 - FRAC_PI_2);
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn free_wrist_keeps_the_seed() {
+    fn undetermined_wrist_angle_is_taken_from_the_seed() {
         let flange = forward::flange(&[0.4, -1.0, 1.2, 0.3, 0.0, 0.7]);
         for branch in &inverse::solutions(&flange, &SEED).unwrap() {
             if branch[4].abs() < 1e-12 {
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_reached_is_refused_with_the_distance() {
+    fn rejects_unreachable_poses_with_the_missing_distance() {
         let refusal = |flange: &Isometry3<f64>| inverse::solutions(flange, &SEED).unwrap_err();
         for (x_m, missing) in [(0.0, ur5::D4_M), (0.05, ur5::D4_M - 0.05)] {
             match refusal(&down_over(x_m, 0.0, 0.3)) {
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn limits_choose_the_copy_and_refuse_what_lies_outside() {
+    fn joint_limits_select_the_equivalent_angle_or_reject_the_pose() {
         let joints = [3.0, -1.2, 1.5, -1.8, -1.4, -3.0];
         let flange = forward::flange(&joints);
         let turned = joints.map(|q| q + if q < 0.0 { 2.0 * PI } else { -2.0 * PI });
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn the_papers_places_have_eight_solutions_each() {
+    fn each_position_of_the_paper_has_eight_solutions() {
         // x and y in m; also x = ±d4, where θ1 = 0 or π and the published θ234 is undetermined.
         let places = [
             (-0.24, -0.27),

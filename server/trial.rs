@@ -1,9 +1,8 @@
-//! The trial: one episode as a pure loop. Live sessions, evaluation, replay and tests all run this
-//! one and no second.
+//! The trial: one episode as a pure loop. Live sessions, evaluation, replay and tests all run this loop.
 //!
-//! It is deterministic: scenario, seed and inputs give the same state at every tick. It reads no
-//! clock and draws only from the generator in its own state. The camera comes in from outside through
-//! [`Eye`], so that recorded frames, or recorded decisions, can stand in for it.
+//! It is deterministic: scenario, seed and inputs determine the state at every tick. It reads no clock and
+//! draws random numbers only from the generator in its state. The camera is passed in through [`Eye`], so
+//! recorded frames or recorded decisions can replace it.
 
 mod case;
 mod decide;
@@ -45,14 +44,12 @@ pub use sink::{Beginning, Nowhere, Sink};
 pub use state::{Counters, Decision, Mind, Motion, TrialState, World, WorldHashes};
 pub use tally::Tally;
 
-/// Why a trial could not be made or go on.
+/// Why a trial could not be created or continued.
 #[derive(Debug, thiserror::Error)]
 pub enum TrialError {
-    /// The map was refused.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// No place to start.
-    #[error(transparent)]
+    /// No valid start was found.    #[error(transparent)]
     Random(#[from] RandomTrialError),
     /// A parameter is out of range.
     #[error("parameters: {0}")]
@@ -63,35 +60,32 @@ pub enum TrialError {
     /// A scripted disturbance is impossible.
     #[error("script[{index}]: {error}")]
     Script {
-        /// Which one, from 0.
+        /// Its index in the script, from 0.
         index: usize,
-        /// What is wrong with it.
         error: InputError,
     },
-    /// More disturbances than a script may hold.
+    /// The script has more entries than allowed.
     #[error("script has {entries} disturbances, the limit is {}", crate::scenario::SCRIPT_LIMIT)]
     LongScript {
-        /// How many.
         entries: usize,
     },
-    /// The state in a file is none.
+    /// The state in a file is not a valid state.
     #[error(transparent)]
     State(#[from] StateError),
-    /// No picture.
-    #[error(transparent)]
+    /// The camera delivered no image.    #[error(transparent)]
     Camera(#[from] CameraError),
-    /// The system gives no thread to run in.
+    /// The operating system could not start a thread.
     #[error("the session's thread could not start: {0}")]
     Thread(String),
-    /// The simulation has left the numbers; the state is of no use any more.
-    #[error("tick {tick}: {what} is not a finite number any more")]
+    /// A simulated value became NaN or infinite; the state is unusable.
+    #[error("tick {tick}: {what} is no longer a finite number")]
     NotFinite {
         /// The tick.
         tick: u64,
         /// What.
         what: &'static str,
     },
-    /// A replay needs a decision at this tick and the log has none.
+    /// A replay needs a decision at this tick, but the log does not contain it.
     #[error("log: no decision at tick {tick}")]
     MissingDecision {
         /// The tick.
@@ -99,14 +93,13 @@ pub enum TrialError {
     },
 }
 
-/// A map made ready for trials; many trials share one.
+/// A map prepared for trials; many trials share one.
 #[derive(Clone, Debug)]
 pub struct Arena {
-    /// Walls.
     pub map: Map,
-    /// Free space that keeps [`CLEARANCE_M`].
+    /// Free space with a clearance of [`CLEARANCE_M`] from walls.
     pub space: FreeSpace,
-    /// A policy to use in place of any shipped one.
+    /// A policy that replaces the shipped ones.
     pub policy: Option<Arc<Policy>>,
 }
 
@@ -116,20 +109,19 @@ impl Arena {
         Ok(Self::of(Map::open(name_or_path)?))
     }
 
-    /// Makes a map ready.
     pub fn of(map: Map) -> Arc<Self> {
         let space = FreeSpace::new(&map, CLEARANCE_M);
         Arc::new(Self { map, space, policy: None })
     }
 
-    /// The same with a policy of one's own.
+    /// The same arena with a policy that replaces the shipped ones.
     pub fn with_policy(self: Arc<Self>, policy: Policy) -> Arc<Self> {
         let mut arena = Arc::unwrap_or_clone(self);
         arena.policy = Some(Arc::new(policy));
         Arc::new(arena)
     }
 
-    /// The policy in use: one's own, or the shipped one that is asked for.
+    /// The policy in use: the arena's own, or else the requested shipped one.
     pub fn policy(&self, asked: RlPolicy) -> Result<Arc<Policy>, PolicyError> {
         if let Some(own) = &self.policy {
             return Ok(own.clone());
@@ -142,7 +134,7 @@ impl Arena {
         Policy::shipped(name)
     }
 
-    /// The last gate for every step in this map.
+    /// The final limiter for every step on this map.
     pub fn limits(&self, parameters: &Parameters) -> Limits {
         Limits {
             workspace: *self.map.workspace(),
@@ -160,11 +152,11 @@ impl Arena {
     }
 }
 
-/// Where a control step's decision comes from.
+/// Source of a control step's decision.
 pub enum Source<'a> {
-    /// The camera: decide from what it sees.
+    /// The camera: the controllers decide from its image.
     Eye(&'a mut dyn Eye),
-    /// A log: do what was decided.
+    /// A log: the logged decision is carried out.
     Logged(Option<Decision>),
 }
 
@@ -181,7 +173,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Sets up a scenario in an arena that was made from its map.
+    /// Creates the trial of a scenario. `arena` must be made from the scenario's map.
     pub fn new(scenario: Scenario, arena: Arc<Arena>) -> Result<Self, TrialError> {
         scenario.parameters.check()?;
         let limits = arena.limits(&scenario.parameters);
@@ -208,12 +200,10 @@ impl Trial {
         Ok(trial)
     }
 
-    /// What it was set up with.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
     }
 
-    /// Where it takes place.
     pub fn arena(&self) -> &Arc<Arena> {
         &self.arena
     }
@@ -223,17 +213,16 @@ impl Trial {
         &self.inputs
     }
 
-    /// Its whole state, to be kept.
+    /// A copy of the complete state; see [`Self::restore`].
     pub fn snapshot(&self) -> TrialState {
         self.state.clone()
     }
 
-    /// Its state, to be looked at.
     pub fn state(&self) -> &TrialState {
         &self.state
     }
 
-    /// Back to a kept state of the same scenario.
+    /// Returns to a snapshot of the same scenario.
     pub fn restore(&mut self, state: TrialState) {
         self.plant = Plant::new(state.world.parameters.plant());
         self.state = state;
@@ -246,7 +235,7 @@ impl Trial {
         self.state.world.plant.positioner.tool_m()
     }
 
-    /// What a camera would look at now.
+    /// The scene that a camera would render now.
     pub fn subject(&self) -> Subject {
         let world = &self.state.world;
         let tool = self.tool_m();
@@ -268,7 +257,7 @@ impl Trial {
         self.plant.load(&plant.positioner.base_from_tool(), plant.bead.position_m)
     }
 
-    /// Advances one servo period of 8 ms. When the camera fails, nothing has changed.
+    /// Advances one servo period of 8 ms. If the camera fails, the state is unchanged.
     pub fn tick(&mut self, source: Source<'_>) -> Result<TickRecord, TrialError> {
         fault_point!("step");
         let tick = self.state.world.tick;
@@ -302,7 +291,7 @@ impl Trial {
         Ok(self.record(decision, seen))
     }
 
-    /// Moves the tool's reference along the motion, and arm and bead after it.
+    /// Moves the tool's reference along the motion; arm and bead follow.
     fn advance_reference(&mut self) {
         let world = &mut self.state.world;
         let limits = self.arena.limits(&world.parameters);
@@ -321,7 +310,7 @@ impl Trial {
         };
         let reference = world.reference;
         let wanted_m = Point3::new(wanted.x, wanted.y, world.parameters.tool_height_m);
-        // A flight over the edge of the reach waits at the edge.
+        // A motion beyond the reach stops at its edge.
         if let Ok((next_m, next)) = limits.advance(world.reference_m, wanted_m, &reference) {
             world.reference_m = next_m;
             world.reference = next;

@@ -1,24 +1,24 @@
-//! How far the tool went while it carried, and how far it had to.
+//! Length of the tool's path during transport, compared with the shortest path.
 
 use crate::control::switching::Mode;
 use crate::geometry::Point2;
 use crate::map::FreeSpace;
 use crate::trial::{Moment, Phase};
 
-/// Less progress than this says nothing about detours.
+/// With less progress than this, the ratio is meaningless.
 const LEAST_PROGRESS_M: f64 = 0.05;
 
-/// The legs of transport of one trial, added up.
+/// Sums over the transport legs of one trial.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
     way_m: f64,
-    /// Where each leg began and ended.
+    /// Start and end of each leg.
     legs: Vec<[Point2<f64>; 2]>,
     carrying: bool,
 }
 
 impl Course {
-    /// Takes a tick in.
+    /// Adds a tick.
     pub(super) fn add(&mut self, moment: &Moment) {
         let carries = moment.switching.mode == Mode::Transport && moment.phase == Phase::Transporting;
         let here = moment.tool_m.xy();
@@ -33,8 +33,8 @@ impl Course {
         self.carrying = carries;
     }
 
-    /// The way that the tool went over the shortest that would have brought it as much nearer to the goal, leg by
-    /// leg; `None` if it hardly came nearer. `space` is what the bead has room in.
+    /// The tool's path length divided by the shortest path with the same progress toward the goal, summed over legs.
+    /// `None` with almost no progress. `space` is the free space of the bead.
     pub(super) fn ratio(&self, space: &FreeSpace, goal: Point2<f64>) -> Option<f64> {
         let left_m = |from: Point2<f64>| {
             let way = space.taut_way(from, goal)?;

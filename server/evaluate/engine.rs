@@ -1,4 +1,5 @@
-//! What evaluations run on: threads and a graphics device of their own, which give way to live sessions.
+//! The engine of evaluations: separate threads and a separate graphics device, with lower priority than live
+//! sessions.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -13,8 +14,7 @@ use crate::faults;
 use crate::map::MapError;
 use crate::trial::Arena;
 
-/// Why there is nothing to run on.
-#[derive(Debug, thiserror::Error)]
+/// Why the engine could not start.#[derive(Debug, thiserror::Error)]
 pub(super) enum EngineError {
     #[error(transparent)]
     Camera(#[from] CameraError),
@@ -27,11 +27,11 @@ pub(super) struct Engine {
     gpu: Arc<Gpu>,
 }
 
-/// Of 0 to 99; on Linux a niceness of 10, as the command `nice` gives. With the lowest, an evaluation stands still
-/// while anything else runs.
+/// Priority, 0 to 99; on Linux it becomes a niceness of 10, the default of the command `nice`. With the lowest
+/// priority an evaluation would make no progress while anything else runs.
 const PRIORITY: u8 = 22;
 
-/// The system prefers other threads to this one, and to those that it starts.
+/// Lowers the priority of this thread and of the threads that it starts.
 pub(super) fn give_way() {
     let lowered = ThreadPriorityValue::try_from(PRIORITY).and_then(|value| {
         set_current_thread_priority(ThreadPriority::Crossplatform(value)).map_err(|error| error.to_string())
@@ -41,7 +41,7 @@ pub(super) fn give_way() {
     }
 }
 
-/// All cores but one, behind what others do on them.
+/// A pool with all cores except one, at low priority.
 pub(crate) fn gentle_pool(name: &'static str) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
     let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
     ThreadPoolBuilder::new()
@@ -52,10 +52,10 @@ pub(crate) fn gentle_pool(name: &'static str) -> Result<ThreadPool, rayon::Threa
 }
 
 impl Engine {
-    /// All cores but one, and a device like `gpu`. To be called in a thread that gives way: a driver that draws on
-    /// the processor does so in threads that it starts here, and they inherit that.
+    /// A pool with all cores except one, and a device like `gpu`. Call it on a thread with low priority: a software
+    /// graphics driver starts its threads here, and they inherit the priority.
     pub(super) fn new(gpu: &Gpu) -> Result<Self, EngineError> {
-        // A driver's panic ends one evaluation, not all that wait.
+        // A panic in the driver ends one evaluation, not the waiting ones.
         let another = catch_unwind(AssertUnwindSafe(|| gpu.another()));
         let gpu = another.unwrap_or_else(|panic| {
             let (adapter, reason) = (gpu.adapter_name().to_owned(), faults::words(&*panic));
@@ -64,7 +64,7 @@ impl Engine {
         Ok(Self { pool: gentle_pool("evaluate")?, gpu })
     }
 
-    /// Runs an evaluation to its end, whatever that is.
+    /// Runs an evaluation until it is done, failed or cancelled.
     pub(super) fn run(&self, evaluation: &Evaluation) -> Stage {
         ending(|| self.run_cells(evaluation))
     }
@@ -88,7 +88,7 @@ impl Engine {
     }
 }
 
-/// How work ended. A panic in a trial ends its evaluation with a message, and nothing else.
+/// Converts the result of the work. A panic in a trial only ends its evaluation, with a message.
 fn ending(work: impl FnOnce() -> Result<(), EvaluateError>) -> Stage {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(())) => Stage::Done,
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_or_an_error_ends_its_evaluation_and_the_next_one_runs() {
+    fn a_panic_or_an_error_only_ends_its_own_evaluation() {
         let engine = engine();
         let stage = ending(|| engine.pool.install(|| panic!("seven wings")));
         assert_eq!(stage, Stage::Failed("a trial panicked: seven wings".into()));
@@ -136,10 +136,10 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn its_threads_give_way() {
+    fn its_threads_have_low_priority() {
         let niceness = || {
             let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
-            // The name, in brackets, may hold anything; nice is the 17th field after it.
+            // The name, in brackets, may contain anything; nice is the 17th field after it.
             stat.rsplit_once(')').unwrap().1.split_whitespace().nth(16).unwrap().parse::<i32>().unwrap()
         };
         assert_eq!(engine().pool.install(niceness), 10);

@@ -1,4 +1,4 @@
-//! One evaluation: what was asked, how far it is, what came of it.
+//! One evaluation: its query, progress and results.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,80 +9,72 @@ use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Row, Venue};
 use crate::map::Map;
 use crate::scenario::Parameters;
 
-/// An evaluation. Whoever runs it writes, all others look.
+/// An evaluation. The engine updates it; all others only read.
 #[derive(Debug)]
 pub struct Evaluation {
-    /// Its name.
     pub id: String,
-    /// What was asked.
     pub query: EvaluationQuery,
-    /// What that comes to, in the order in which it runs.
+    /// The cells of the query, in the order in which they run.
     pub cells: Vec<Cell>,
-    /// The maps that these name.
+    /// The maps of the query.
     maps: Vec<Map>,
-    /// Every tick of every trial looks at it.
+    /// Cancellation flag, checked at every tick of every trial.
     stop: AtomicBool,
     progress: Mutex<Progress>,
 }
 
-/// How an evaluation stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Another one runs.
+    /// Another evaluation is running.
     Waiting,
-    /// It runs.
     Running,
-    /// Every cell has its row.
+    /// All cells are complete.
     Done,
-    /// Somebody wanted no more of it; the rows up to then are kept.
+    /// It was cancelled; completed rows are kept.
     Cancelled,
-    /// A trial could not go on; the rows up to then are kept.
+    /// A trial failed with an error; completed rows are kept.
     Failed(String),
 }
 
 impl Stage {
-    /// Whether nothing more comes.
+    /// Whether the evaluation has ended.
     pub fn is_final(&self) -> bool {
         !matches!(self, Self::Waiting | Self::Running)
     }
 }
 
-/// How far an evaluation is.
 #[derive(Clone, Debug)]
 pub struct Progress {
-    /// How it stands.
     pub stage: Stage,
-    /// One a cell.
+    /// One entry per cell.
     pub cells: Vec<CellProgress>,
-    /// The cells that are through, from the first. A cell that was broken off has none: what ends early is not a
-    /// fair sample of it.
+    /// Results of the completed cells, in order. An interrupted cell has no result: its trials that ended first are
+    /// the short ones, and not a fair sample.
     pub results: Vec<Arc<CellResult>>,
 }
 
-/// How far a cell is.
 #[derive(Clone, Debug, Default)]
 pub struct CellProgress {
-    /// Trials that ended.
+    /// Number of trials that ended.
     pub done: u32,
-    /// Of these, trials whose bead arrived.
+    /// Number of these that delivered.
     pub delivered: u32,
-    /// How long it ran, to the last trial that ended.
+    /// Time until the last trial ended.
     pub elapsed_s: f64,
 }
 
-/// What came of a cell.
+/// Result of a cell.
 #[derive(Clone, Debug)]
 pub struct CellResult {
-    /// Its row of the table.
     pub row: Row,
-    /// Trials whose bead did not arrive.
+    /// Trials that did not deliver.
     pub failures: Vec<Failure>,
-    /// All its trials, in their order.
+    /// All its trials, in order.
     pub episodes: Vec<Episode>,
 }
 
 impl CellResult {
-    /// Adds a cell's episodes up.
+    /// Summarises a cell's episodes.
     pub(super) fn of(cell: &Cell, episodes: Vec<Episode>) -> Self {
         let failures = episodes.iter().filter_map(|episode| Failure::of(cell, episode)).collect();
         Self { row: Row::of(cell, &episodes), failures, episodes }
@@ -90,36 +82,34 @@ impl CellResult {
 }
 
 impl Progress {
-    /// The cells that are through, with their trials.
+    /// The completed cells with their trials.
     pub fn done<'a>(&'a self, cells: &'a [Cell]) -> Vec<(&'a Cell, &'a [Episode])> {
         cells.iter().zip(&self.results).map(|(cell, result)| (cell, result.episodes.as_slice())).collect()
     }
 }
 
 impl Evaluation {
-    /// One that waits; `cells` and `maps` are the query's.
+    /// A waiting evaluation; `cells` and `maps` belong to the query.
     pub(super) fn new(id: String, query: EvaluationQuery, cells: Vec<Cell>, maps: Vec<Map>) -> Arc<Self> {
         let progress =
             Progress { stage: Stage::Waiting, cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
         Arc::new(Self { id, query, cells, maps, stop: AtomicBool::new(false), progress: Mutex::new(progress) })
     }
 
-    /// Where a cell's trials take place.
+    /// The venue of a cell's trials.
     pub(super) fn map(&self, cell: &Cell) -> Option<&Map> {
         self.maps.iter().find(|map| map.name() == cell.map)
     }
 
-    /// How far it is.
     pub fn progress(&self) -> Progress {
         self.lock().clone()
     }
 
-    /// How it stands.
     pub fn stage(&self) -> Stage {
         self.lock().stage.clone()
     }
 
-    /// Wants no more of it: trials that run stop at their next tick. False when it had ended already.
+    /// Cancels the evaluation: running trials stop at their next tick. Returns false if it had already ended.
     pub fn cancel(&self) -> bool {
         let mut progress = self.lock();
         if progress.stage == Stage::Waiting {
@@ -137,7 +127,7 @@ impl Evaluation {
         &self.stop
     }
 
-    /// Its turn. False when nobody wants it any more.
+    /// Starts the evaluation. Returns false if it was cancelled.
     pub(super) fn begin(&self) -> bool {
         let mut progress = self.lock();
         let waits = progress.stage == Stage::Waiting;
@@ -163,8 +153,7 @@ impl Evaluation {
         self.lock().stage = stage;
     }
 
-    /// What the table's row of a cell comes from.
-    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Experiment {
+    /// Stores the result of a cell.    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Experiment {
         Experiment {
             cell: cell.clone(),
             venue: venue.clone(),
@@ -175,7 +164,7 @@ impl Evaluation {
         }
     }
 
-    /// A trial that panics holds no lock of ours; should one ever, its numbers are still whole.
+    /// Ignores lock poisoning: a panicking trial holds no lock here, and the numbers would still be consistent.
     fn lock(&self) -> MutexGuard<'_, Progress> {
         self.progress.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! Random trials in bulk: the same starts, goals, seeds and pushes for every controller.
+//! Random trials in bulk: every controller gets the same starts, goals, seeds and disturbances.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,24 +17,22 @@ use crate::plant::BEAD_RADIUS_M;
 use crate::scenario::{Parameters, Scenario};
 use crate::trial::{Arena, Beginning, Nowhere, Phase, Sink, Source, Tally, TickRecord, Trial, TrialError};
 
-/// A map ready for many trials.
+/// A map prepared for many trials.
 pub struct Venue {
-    /// Where they take place.
     pub arena: Arc<Arena>,
-    /// What the bead has room in, for shortest ways.
+    /// Free space of the bead, for shortest paths.
     room: FreeSpace,
-    /// A camera a worker: they are cheap beside the trials, and none waits for another.
+    /// One camera per worker, so that no worker waits for another.
     cameras: Mutex<Vec<Camera>>,
 }
 
 impl Venue {
-    /// Makes an arena ready.
     pub fn of(arena: Arc<Arena>) -> Arc<Self> {
         let room = FreeSpace::new(&arena.map, BEAD_RADIUS_M);
         Arc::new(Self { arena, room, cameras: Mutex::default() })
     }
 
-    /// What looks at this map; given back by [`Self::keep`].
+    /// Takes a camera for this map; [`Self::keep`] returns it.
     fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let kept = self.cameras.lock().unwrap_or_else(PoisonError::into_inner).pop();
         kept.map_or_else(|| self.arena.camera(gpu), Ok)
@@ -48,13 +46,11 @@ impl Venue {
 /// The trials of one row of the table.
 #[derive(Clone)]
 pub struct Experiment {
-    /// What the row is about.
     pub cell: Cell,
-    /// Where.
     pub venue: Arc<Venue>,
-    /// Name or path of the map, as scenarios tell it.
+    /// Name or path of the map, as in scenarios.
     pub map: String,
-    /// How many trials.
+    /// Number of trials.
     pub episodes: u32,
     /// Seed of the trials: the same for every controller.
     pub seed: u64,
@@ -63,7 +59,7 @@ pub struct Experiment {
 }
 
 impl Experiment {
-    /// The trial of an index: whatever the controller, it starts and goes to the same places.
+    /// The trial of an index. Start and goal do not depend on the controller.
     pub fn scenario(&self, index: u32) -> Result<Scenario, TrialError> {
         let arena = &self.venue.arena;
         let random = Scenario::random(
@@ -82,64 +78,60 @@ impl Experiment {
 /// One trial's result.
 #[derive(Clone, Debug)]
 pub struct Episode {
-    /// Which trial of the seed.
+    /// Index of the trial.
     pub index: u32,
-    /// How it was set up.
     pub scenario: Scenario,
     /// Whether the tool came within 2 cm of the goal: the paper's success.
     pub reached: bool,
-    /// Whether the bead did: ours.
+    /// Whether the bead came within 2 cm of the goal.
     pub delivered: bool,
-    /// How it ended.
     pub outcome: String,
-    /// What kept sub-controller 2 from the goal in the end, if anything did.
+    /// What kept sub-controller 2 from the goal at the end, if anything.
     pub trouble: Option<String>,
-    /// Why the arm held in the end, if it did.
+    /// Why the arm held at the end, if it did.
     pub refusal: Option<String>,
     /// Tracking errors during transport.
     pub tally: Tally,
-    /// Way of the tool over the shortest, of a trial that delivered.
+    /// Path of the tool divided by the shortest path, if the trial delivered.
     pub path_ratio: Option<f64>,
     /// Control steps.
     pub steps: u32,
     /// Switches of the active sub-controller.
     pub switches: u32,
-    /// Disturbances that struck.
+    /// Number of disturbances applied.
     pub disturbances: u32,
-    /// Seconds a control step, camera and decision, on the wall clock.
+    /// Wall-clock seconds of each control step: camera and decision.
     pub decision_s: Vec<f64>,
-    /// Its course, to be drawn: of a row's first trial.
+    /// The trajectory for the figure; only for a row's first trial.
     pub trace: Option<Box<Trace>>,
 }
 
 /// Why an experiment could not run.
 #[derive(Debug, thiserror::Error)]
 pub enum EvaluateError {
-    /// `episodes` is zero or absurd.
+    /// `episodes` is out of range.
     #[error("episodes is {0}, it must be 1 to 100000")]
     Episodes(u32),
-    /// There is no such trial.
+    /// The trial index is out of range.
     #[error("episode is {index}, it must be 0 to {}", episodes - 1)]
     Episode {
-        /// The index asked for.
+        /// The requested index.
         index: u32,
-        /// How many there are.
+        /// Number of trials.
         episodes: u32,
     },
-    /// A recording is not whole.
+    /// A recording is incomplete.
     #[error("recording: {0}")]
     NotRecorded(String),
-    /// A trial could not be made or go on.
+    /// A trial could not be created or continued.
     #[error(transparent)]
     Trial(#[from] TrialError),
-    /// No camera.
-    #[error(transparent)]
+    /// The camera could not be created.    #[error(transparent)]
     Camera(#[from] CameraError),
-    /// A recording could not begin.
+    /// A recording could not start.
     #[error("{0}")]
     Recording(String),
-    /// Somebody wanted no more of it.
-    #[error("stopped before its end")]
+    /// The experiment was cancelled.    #[error("stopped before its end")]
     Stopped,
 }
 
@@ -149,7 +141,7 @@ impl From<MapError> for EvaluateError {
     }
 }
 
-/// Makes what an episode is recorded to.
+/// Creates the sink that records an episode.
 pub type Recorders<'a> = &'a (dyn Fn(&Experiment, u32) -> Result<Box<dyn Sink>, EvaluateError> + Sync);
 
 /// Records nothing.
@@ -157,17 +149,17 @@ pub fn unrecorded(_: &Experiment, _: u32) -> Result<Box<dyn Sink>, EvaluateError
     Ok(Box::new(Nowhere::default()))
 }
 
-/// Who wants to know, while an experiment runs.
+/// Observers of a running experiment.
 pub struct Watch<'a> {
-    /// Turns true when nobody wants more of it: [`EvaluateError::Stopped`].
+    /// Set to true to cancel: the experiment ends with [`EvaluateError::Stopped`].
     pub stop: &'a AtomicBool,
-    /// Called after each trial, with the number of its experiment.
+    /// Called after each trial, with the index of its experiment.
     pub progress: &'a (dyn Fn(usize, &Episode) + Sync),
-    /// What each trial is recorded to.
+    /// Creates the sink of each trial.
     pub recorders: Recorders<'a>,
 }
 
-/// An eye that notes whether somebody looked.
+/// A camera wrapper that notes whether it was used.
 struct Noting<'a> {
     eye: &'a mut dyn Eye,
     looked: bool,
@@ -180,7 +172,7 @@ impl Eye for Noting<'_> {
     }
 }
 
-/// Runs a trial to its end; `watch` sees every tick, and may break it off: [`EvaluateError::Stopped`].
+/// Runs a trial to its end. `watch` is called after every tick and may cancel it: [`EvaluateError::Stopped`].
 pub fn episode(
     scenario: Scenario,
     venue: &Venue,
@@ -228,7 +220,7 @@ pub fn episode(
     }
 }
 
-/// Runs experiments on all threads of the present pool, and returns the episodes of each.
+/// Runs experiments on all threads of the current pool and returns the episodes of each.
 pub fn run(experiments: &[Experiment], gpu: &Arc<Gpu>, watch: &Watch<'_>) -> Result<Vec<Vec<Episode>>, EvaluateError> {
     let mut wanted = Vec::new();
     for (number, experiment) in experiments.iter().enumerate() {
@@ -254,7 +246,7 @@ fn check_episodes(experiment: &Experiment) -> Result<(), EvaluateError> {
     }
 }
 
-/// Runs one trial of an experiment, with a camera of its venue.
+/// Runs one trial of an experiment with a camera of its venue.
 pub fn run_one(
     experiment: &Experiment,
     index: u32,

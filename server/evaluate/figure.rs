@@ -1,4 +1,4 @@
-//! The course of one trial as a figure like the paper's: the locus of tool and bead, their x and y, and the errors.
+//! One trial as a figure like the paper's: trajectories of tool and bead, their x and y, and the tracking errors.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -15,9 +15,9 @@ const GOAL: RGBColor = RGBColor(21, 128, 61);
 const WALL: RGBColor = RGBColor(205, 170, 165);
 const MARK: RGBColor = RGBColor(198, 40, 40);
 const FONT: &str = "sans-serif";
-/// The bead has jumped, by somebody's hand, when it is this far from where it was 8 ms before.
+/// A larger step of the bead within 8 ms is a displacement, not motion.
 const JUMP_M: f64 = 0.02;
-/// Of the samples of a curve, every fifth is drawn: 40 ms are less than a pixel.
+/// Only every fifth sample of a curve is drawn: 40 ms are less than a pixel.
 const DRAWN_EVERY: usize = 5;
 
 /// A figure could not be drawn.
@@ -25,7 +25,6 @@ const DRAWN_EVERY: usize = 5;
 #[error("figure: {0}")]
 pub struct FigureError(String);
 
-/// One tick's places.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     time_s: f64,
@@ -33,11 +32,11 @@ struct Sample {
     bead_m: Point2<f64>,
 }
 
-/// What a figure is drawn from.
+/// The data of a figure.
 #[derive(Clone, Debug)]
 pub struct Trace {
     workspace: Rect,
-    /// Outlines of walls and of the holes in them, the larger first, and whether it is a wall.
+    /// Outlines of walls and of their holes, larger ones first, and whether each is a wall.
     outlines: Vec<(Vec<[f64; 2]>, bool)>,
     title: String,
     start_m: Option<Point2<f64>>,
@@ -47,7 +46,6 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// An empty trace of a trial to come.
     pub fn of(map: &Map, scenario: &Scenario) -> Self {
         Self {
             workspace: *map.workspace(),
@@ -60,7 +58,7 @@ impl Trace {
         }
     }
 
-    /// Takes a tick in.
+    /// Adds a tick.
     pub fn add(&mut self, record: &TickRecord) {
         let moment = &record.moment;
         let time_s = moment.sim_time_s();
@@ -69,10 +67,10 @@ impl Trace {
         self.disturbed_s.extend(record.events.iter().filter(|event| is_disturbance(event.kind)).map(|_| time_s));
     }
 
-    /// The figure.
+    /// The figure as SVG.
     ///
     /// # Errors
-    /// [`FigureError`] with the plotting library's words.
+    /// [`FigureError`] with the message of the plotting library.
     pub fn to_svg(&self) -> Result<String, FigureError> {
         let mut svg = String::new();
         self.draw(&SVGBackend::with_string(&mut svg, SIZE_PX).into_drawing_area())
@@ -98,11 +96,11 @@ impl Trace {
         area.present()
     }
 
-    /// Walls, start, goal, and where tool and bead went, at one scale.
+    /// Walls, start, goal, and trajectories of tool and bead, with equal scales of x and y.
     fn locus(&self, area: &DrawingArea<SVGBackend, Shift>) -> Result<(), DrawingError> {
         let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = self.workspace;
         let (width_px, height_px) = area.dim_in_pixel();
-        // Margins and labels of the axes take some sixty pixels.
+        // Margins and axis labels take about sixty pixels.
         let aspect = f64::from(width_px - 60) / f64::from(height_px - 60);
         let size = self.workspace.size_m();
         let more_m = 0.5 * (size.y * aspect - size.x).max(0.0);
@@ -118,7 +116,7 @@ impl Trace {
         chart.draw_series(self.outlines.iter().map(filled))?;
         chart.draw_series([Rectangle::new([(x_min_m, y_min_m), (x_max_m, y_max_m)], BLACK.stroke_width(1))])?;
         chart.configure_mesh().disable_mesh().label_style((FONT, 13)).draw()?;
-        // Where somebody carries the bead away, it draws no line.
+        // A displacement interrupts the line.
         for carried in self.samples.chunk_by(|a, b| (a.bead_m - b.bead_m).norm() < JUMP_M) {
             let course = drawn(carried).map(|sample| (sample.bead_m.x, sample.bead_m.y));
             chart.draw_series(LineSeries::new(course, BEAD.stroke_width(2)))?;
@@ -135,7 +133,7 @@ impl Trace {
         Ok(())
     }
 
-    /// Two curves over time, disturbances marked.
+    /// Two curves over time, with disturbances marked.
     fn lines(
         &self,
         area: &DrawingArea<SVGBackend, Shift>,
@@ -168,7 +166,7 @@ impl Trace {
     }
 }
 
-/// What is drawn of a curve, its last sample with it.
+/// The samples of a curve that are drawn, including the last one.
 fn drawn(samples: &[Sample]) -> impl Iterator<Item = &Sample> {
     let last = samples.len().saturating_sub(1);
     samples.iter().enumerate().filter(move |&(at, _)| at % DRAWN_EVERY == 0 || at == last).map(|(_, sample)| sample)
@@ -178,7 +176,7 @@ fn outlines(map: &Map) -> Vec<(Vec<[f64; 2]>, bool)> {
     let rings =
         map.walls().iter().flat_map(|wall| wall.rings().zip(std::iter::once(true).chain(std::iter::repeat(false))));
     let mut outlines: Vec<_> = rings.map(|(ring, is_wall)| (ring.to_vec(), is_wall)).collect();
-    // What lies within another is the smaller.
+    // An outline inside another one is the smaller one.
     let area = |ring: &[[f64; 2]]| {
         let next = ring.iter().cycle().skip(1);
         ring.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>().abs()

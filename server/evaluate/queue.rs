@@ -1,4 +1,4 @@
-//! Evaluations one after the other, in the background.
+//! A queue that runs evaluations one after the other in the background.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -9,26 +9,26 @@ use super::{Evaluation, EvaluationQuery, QueryError, Stage};
 use crate::camera::Gpu;
 use crate::map::Library;
 
-/// Evaluations that may wait while one runs.
+/// Maximum number of waiting evaluations.
 const WAITING_LIMIT: usize = 4;
-/// Evaluations that ended and are kept.
+/// Number of ended evaluations that are kept.
 const KEPT: usize = 16;
 
-/// Why an evaluation is not taken in.
+/// Why an evaluation is rejected.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
-    /// It asks for what cannot be done.
+    /// The query is invalid.
     #[error(transparent)]
     Query(#[from] QueryError),
-    /// Others wait already.
-    #[error("{WAITING_LIMIT} evaluations wait already; cancel one, or come back later")]
+    /// The queue is full.
+    #[error("the queue is full: {WAITING_LIMIT} evaluations are waiting; cancel one or try again later")]
     Full,
-    /// The server stops.
+    /// The server is stopping.
     #[error("the server is stopping")]
     Closing,
 }
 
-/// The evaluations of a server. Dropping it breaks off the one that runs.
+/// The evaluations of a server. Dropping it cancels the running one.
 pub struct Queue {
     shared: Arc<Shared>,
     thread: Mutex<Option<JoinHandle<()>>>,
@@ -37,15 +37,15 @@ pub struct Queue {
 #[derive(Default)]
 struct Shared {
     line: Mutex<Line>,
-    /// Somebody was added, or it is time to go.
+    /// Signals a new evaluation or the end.
     news: Condvar,
 }
 
 #[derive(Default)]
 struct Line {
-    /// In the order in which they were asked for.
+    /// In the order of submission.
     evaluations: VecDeque<Arc<Evaluation>>,
-    /// Made so far, for their names.
+    /// Number of evaluations created so far, for their names.
     made: u64,
     closing: bool,
 }
@@ -55,7 +55,7 @@ impl Shared {
         self.line.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next that waits; none when it is time to go.
+    /// The next waiting evaluation; `None` when the queue is closing.
     fn next(&self) -> Option<Arc<Evaluation>> {
         let mut line = self.lock();
         loop {
@@ -74,7 +74,7 @@ impl Shared {
         let mut engine = None;
         while let Some(evaluation) = self.next() {
             tracing::info!(id = evaluation.id, "evaluation begins");
-            // Most servers are never asked, so it is made when one first is.
+            // Created on first use: most servers never run an evaluation.
             let stage = match engine.take().map_or_else(|| Engine::new(gpu), Ok) {
                 Ok(made) => engine.insert(made).run(&evaluation),
                 Err(error) => Stage::Failed(error.to_string()),
@@ -87,7 +87,7 @@ impl Shared {
 }
 
 impl Line {
-    /// Forgets the oldest that ended.
+    /// Removes the oldest ended evaluations.
     fn prune(&mut self) {
         let ended = self.evaluations.iter().filter(|evaluation| evaluation.stage().is_final()).count();
         for _ in KEPT..ended {
@@ -99,10 +99,10 @@ impl Line {
 }
 
 impl Queue {
-    /// An empty one; its device will be like `gpu`.
+    /// An empty queue whose device will be like `gpu`.
     ///
     /// # Errors
-    /// When the system gives no thread to run in.
+    /// The thread could not start.
     pub fn start(gpu: Arc<Gpu>) -> std::io::Result<Self> {
         let shared = Arc::new(Shared::default());
         let served = shared.clone();
@@ -110,10 +110,10 @@ impl Queue {
         Ok(Self { shared, thread: Mutex::new(Some(thread)) })
     }
 
-    /// Takes an evaluation in, on maps of a library.
+    /// Adds an evaluation on maps of a library.
     pub fn submit(&self, query: EvaluationQuery, library: &Library) -> Result<Arc<Evaluation>, SubmitError> {
         let cells = query.cells()?;
-        // Reads them, so nobody has to wait for it.
+        // Reads the maps without holding the lock.
         let maps = query.maps(library)?;
         let mut line = self.shared.lock();
         if line.closing {
@@ -131,17 +131,16 @@ impl Queue {
         Ok(evaluation)
     }
 
-    /// The one of that name.
     pub fn find(&self, id: &str) -> Option<Arc<Evaluation>> {
         self.shared.lock().evaluations.iter().find(|evaluation| evaluation.id == id).cloned()
     }
 
-    /// All that are kept, in the order in which they were asked for.
+    /// All kept evaluations, in the order of submission.
     pub fn all(&self) -> Vec<Arc<Evaluation>> {
         self.shared.lock().evaluations.iter().cloned().collect()
     }
 
-    /// Takes nothing more in and breaks off what runs and waits; does not wait for it.
+    /// Closes the queue and cancels running and waiting evaluations, without waiting for them.
     pub fn stop(&self) {
         let mut line = self.shared.lock();
         line.closing = true;
@@ -151,12 +150,12 @@ impl Queue {
         self.shared.news.notify_all();
     }
 
-    /// The same, and waits: for a tick of a trial, or for a map being read.
+    /// Closes the queue and waits until it has stopped: for a tick of a trial, or for a map being read.
     pub fn close(&self) {
         self.stop();
         let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(thread) = thread {
-            // The engine catches the panics of trials.
+            // The engine catches panics of trials.
             let _ = thread.join();
         }
     }

@@ -1,8 +1,8 @@
-//! Intervals for what was counted and measured.
+//! Confidence intervals for shares and means.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// The standard normal's quantile for 95 %.
+/// Two-sided 95 % quantile of the standard normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
 
 /// Wilson's score interval at 95 % for `k` of `n` (Wilson 1927).
@@ -14,21 +14,18 @@ pub fn wilson95(k: u32, n: u32) -> [f64; 2] {
     [(center - half).max(0.0), (center + half).min(1.0)]
 }
 
-/// How often two succeed and fail at the same trials.
+/// Counts of paired successes and failures at the same trials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PairedCounts {
     /// Both succeeded.
     pub both: u32,
-    /// The first alone.
-    pub first: u32,
-    /// The second alone.
-    pub second: u32,
-    /// Neither.
-    pub neither: u32,
+    /// Only the first succeeded.    pub first: u32,
+    /// Only the second succeeded.    pub second: u32,
+    /// Both failed.    pub neither: u32,
 }
 
 impl PairedCounts {
-    /// Share of successes of the first minus that of the second, and its interval at 95 % (Newcombe 1998,
+    /// Success share of the first minus that of the second, and its 95 % interval (Newcombe 1998,
     /// "Improved confidence intervals for the difference between binomial proportions based on paired data", method
     /// 10: Wilson's intervals joined, with a correlation corrected for continuity).
     pub fn difference95(self) -> (f64, [f64; 2]) {
@@ -52,7 +49,7 @@ impl PairedCounts {
     }
 }
 
-/// Mean of differences, and its interval at 95 % by Student's t; `None` for fewer than two.
+/// Mean of differences and its 95 % interval by Student's t; `None` for fewer than two values.
 pub fn mean95(values: &[f64]) -> Option<(f64, [f64; 2])> {
     let n = values.len() as f64;
     if values.len() < 2 {
@@ -88,13 +85,13 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_turned_round_is_its_negative_and_none_is_not_certain() {
+    fn swapping_the_pair_negates_the_difference_and_zero_is_not_certain() {
         let counts = PairedCounts { both: 150, first: 30, second: 3, neither: 17 };
         let turned = PairedCounts { first: counts.second, second: counts.first, ..counts };
         let ((d, [low, high]), (t, [t_low, t_high])) = (counts.difference95(), turned.difference95());
         assert!((d + t).abs() < 1e-12 && (low + t_high).abs() < 1e-12 && (high + t_low).abs() < 1e-12);
         assert!(low < d && d < high && low > 0.0);
-        // All of 200 delivered by both says little about what lies below 2 %.
+        // 200 of 200 delivered by both says little about differences below 2 %.
         let (d, [low, high]) = PairedCounts { both: 200, ..PairedCounts::default() }.difference95();
         assert!(d == 0.0 && (-0.03..-0.01).contains(&low) && (low + high).abs() < 1e-12, "{low} {high}");
     }

@@ -9,8 +9,8 @@
 //! (Camacho and Sosa, Rev. Mex. Fís. E 59, 8 (2013); Engel-Herbert and Hesjedal, J. Appl. Phys. 97,
 //! 074504 (2005)). Its derivatives are algebraic, and symmetric in all three indices.
 //!
-//! The plain sums lose digits in line with edges and take 24 to 48 logarithms and arctangents. The
-//! module `edges` makes three to five of them, and keeps the digits.
+//! The published sums lose digits in line with edges and take 24 to 48 logarithms and arctangents. The
+//! module `edges` needs only three to five and keeps the digits.
 
 use super::{
     VACUUM_PERMEABILITY_T_M_A, dipole,
@@ -19,18 +19,17 @@ use super::{
 use crate::geometry::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// Beyond this many half-diagonals the magnet is a dipole to about 1e-6 of its field, and the closed
-/// form, an eightfold difference, keeps no more digits than that.
+/// Beyond this many half-diagonals the magnet is a dipole to about 1e-6 of its field. The closed form is an
+/// eightfold difference and is no more accurate there.
 const DIPOLE_DISTANCE: f64 = 1e3;
 
-/// Half sides within which nothing overflows, m.
+/// Range of half sides without overflow, m.
 const LEAST_HALF_M: f64 = 1e-9;
 const MOST_HALF_M: f64 = 1e6;
 
-/// Why a cuboid cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CuboidError {
-    /// A side is zero, negative, NaN, or of no magnet's size.
+    /// A side is zero, negative, NaN, or out of range.
     #[error("{field} must be {LEAST_HALF_M} to {MOST_HALF_M} m, not {value}")]
     HalfSize {
         /// `half_size_m.x`, `half_size_m.y` or `half_size_m.z`.
@@ -48,7 +47,7 @@ pub enum CuboidError {
     },
 }
 
-/// A uniformly magnetised cuboid, its centre in the origin and its sides along the axes.
+/// A uniformly magnetised cuboid with its centre at the origin and its sides along the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
     /// Half of each side, m.
@@ -91,8 +90,8 @@ impl Cuboid {
 
     /// The magnetic flux density B, T, at a point given from the centre, m.
     ///
-    /// Inside the magnet B is μ0·H plus the polarisation; a face belongs to the outside. Finite for
-    /// every finite point, on faces, edges and corners too; not a number if the point is not.
+    /// Inside the magnet B is μ0·H plus the polarisation; a face belongs to the outside. The result is finite
+    /// for every finite point, also on faces, edges and corners, and NaN for a NaN point.
     pub fn field_t(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
         Scaled::new(self).fields([point_m; LANES])[0]
     }
@@ -111,7 +110,7 @@ impl Cuboid {
 
     /// The gradient of B, T/m, at a point given from the centre, m: entry (i, j) is ∂B_i/∂x_j.
     ///
-    /// Symmetric and traceless, inside the magnet too, because neither curl nor divergence is left.
+    /// Symmetric and traceless, also inside the magnet, because curl and divergence are zero.
     pub fn gradient_t_m(&self, point_m: &Vector3<f64>) -> Matrix3<f64> {
         let scaled = Scaled::new(self);
         if scaled.is_near(point_m) {
@@ -134,7 +133,7 @@ impl Cuboid {
     }
 }
 
-/// A cuboid measured in its half-diagonals.
+/// A cuboid with lengths in units of its half-diagonal.
 struct Scaled<'a> {
     cuboid: &'a Cuboid,
     half: Vector3<f64>,
@@ -142,10 +141,10 @@ struct Scaled<'a> {
     unit_per_m: f64,
 }
 
-/// Points seen in the mirror where their coordinates are positive.
+/// Points mirrored to non-negative coordinates.
 struct Look {
     view: View,
-    /// ±1 along each axis: what undoes the mirror.
+    /// ±1 along each axis: multiplying by it undoes the mirroring.
     mirror: [Lanes; 3],
 }
 
@@ -156,7 +155,7 @@ impl<'a> Scaled<'a> {
         Self { cuboid, half: cuboid.half_size_m * unit_per_m, unit_per_m }
     }
 
-    /// Whether the closed form applies, not the dipole; false for what is not a number.
+    /// Whether the closed form applies instead of the dipole; false for NaN.
     #[inline(always)]
     fn is_near(&self, point_m: &Vector3<f64>) -> bool {
         (point_m * self.unit_per_m).norm_squared() <= DIPOLE_DISTANCE * DIPOLE_DISTANCE
@@ -168,7 +167,7 @@ impl<'a> Scaled<'a> {
         Look { view: View::new(&self.half, points.map(Lanes::abs)), mirror: points.map(|p| Lanes::ONE.copysign(p)) }
     }
 
-    /// B in T, of the dipole where that applies.
+    /// B in T, from the dipole where that applies.
     #[inline(always)]
     fn fields(&self, points_m: [&Vector3<f64>; LANES]) -> [Vector3<f64>; LANES] {
         let mut fields = self.field(&self.look(points_m));
@@ -205,7 +204,7 @@ impl<'a> Scaled<'a> {
         let first = |lanes: Lanes| lanes.to_array()[0];
         let xyz = first(slopes.xyz);
         let ([yyz, xzz, xxy], [yzz, xxz, xyy]) = (slopes.next.map(first), slopes.last.map(first));
-        // The rest follows because the potential is harmonic.
+        // The other entries follow because the potential is harmonic.
         let (xxx, yyy, zzz) = (-xyy - xzz, -xxy - yzz, -xxz - yyz);
         let mirror = Vector3::from(look.mirror.map(first));
         let [jx, jy, jz] = self.cuboid.polarization_t.component_mul(&mirror).into();

@@ -41,7 +41,7 @@ pub fn moment_a_m2() -> f64 {
 /// The field of a point dipole, T, at `from_dipole_m` (m) from a dipole of `moment_a_m2` (A·m²).
 ///
 /// B = μ0/4π · (3n(n·m) − m)/r³ with n the unit vector to the point (Jackson, *Classical
-/// Electrodynamics*, eq. 5.56). Not a number at the dipole itself.
+/// Electrodynamics*, eq. 5.56). NaN at the dipole itself.
 pub fn field_t(moment_a_m2: &Vector3<f64>, from_dipole_m: &Vector3<f64>) -> Vector3<f64> {
     let r = from_dipole_m.norm();
     let n = from_dipole_m / r;
@@ -68,14 +68,14 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn bead_weighs_and_pulls_what_its_data_say() {
+    fn bead_mass_and_moment_match_their_published_values() {
         assert!((mass_kg() - 0.491e-3).abs() < 0.5e-6);
         assert!((weight_n() - 4.815e-3).abs() < 0.5e-6 + 1e-9);
         assert!((moment_a_m2() - 0.0677).abs() < 0.5e-4);
     }
 
     #[test]
-    fn field_on_the_axis_is_twice_that_beside_it() {
+    fn field_on_the_axis_is_twice_that_at_the_equator() {
         let moment = Vector3::new(0.0, 0.0, 2.0);
         let axis = field_t(&moment, &Vector3::new(0.0, 0.0, 0.1));
         let beside = field_t(&moment, &Vector3::new(0.1, 0.0, 0.0));
@@ -85,7 +85,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn gradient_is_the_fields(
+        fn gradient_matches_differences_of_the_field(
             moment in prop::array::uniform3(-2.0..2.0),
             point in prop::array::uniform3(0.05..0.2),
         ) {

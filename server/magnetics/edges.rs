@@ -1,7 +1,7 @@
-//! What the field of a cuboid is made of, seen from a few points at once, one a lane.
+//! The terms of a cuboid's field at several points together, one point per vector lane.
 //!
 //! The tensor T of the field is a sum over edges and faces, as for any polyhedron (Werner and Scheeres,
-//! Celest. Mech. Dyn. Astron. 65, 313 (1996)). Let L be an edge's length, r₁ and r₂ its ends seen from
+//! Celest. Mech. Dyn. Astron. 65, 313 (1996)). Let L be an edge's length, r₁ and r₂ its ends relative to
 //! the point, N = R₁ + R₂ the sum of their distances and S = R₁R₂ + r₁·r₂, which is (N² − L²)/2. Then
 //! - an edge along z adds ± ln((N + L)/(N − L)) = ± ln((N + L)²/2S) to T_xy;
 //! - a face normal to x, at the distance X, adds ± its solid angle to T_xx. Half of that is the sum of
@@ -9,26 +9,25 @@
 //!   line, negative on the line's outer side (Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30,
 //!   125 (1983)).
 //!
-//! So each entry of T takes one logarithm, of a product, or one argument, of a product: outside, the
+//! So each entry of T takes one logarithm of a product, or one complex argument of a product: outside, the
 //! half angles add up to less than half a turn.
 //!
-//! Lengths are in half-diagonals, and points mirrored into x, y, z ≥ 0. `axis` is always a literal and
-//! everything inlined, so that indices are constants: through memory it takes four times as long.
+//! Lengths are in half-diagonals, and points are mirrored to x, y, z ≥ 0. `axis` is always a literal and
+//! all functions are inlined, so that indices are constants: with run-time indices it takes four times as long.
 
 use crate::geometry::Vector3;
 use std::f64::consts::PI;
 use wide::f64x2;
 
-/// A number for each of the points.
 pub(super) type Lanes = f64x2;
-/// How many points are seen at once: what fits a register of any x86-64. Four gain nothing there.
+/// Points per call: as many as fit a register of any x86-64. Four are no faster.
 pub(super) const LANES: usize = 2;
 
-/// On an edge the field is infinite. Nearer to it than this part of the half-diagonal, some tens of
-/// picometres and less than any real edge is sharp, it is taken at this distance.
+/// On an edge the field is infinite. Points nearer to it than this share of the half-diagonal (some tens of
+/// picometres, sharper than any real edge) are evaluated at this distance.
 const EDGE_RADIUS: f64 = 1e-9;
 
-/// T, outside the cuboid that of B, inside that of H.
+/// The tensor T: of B outside the cuboid, of H inside.
 pub(super) struct Tensor {
     /// T_xx, T_yy, T_zz.
     pub(super) diagonal: [Lanes; 3],
@@ -36,7 +35,7 @@ pub(super) struct Tensor {
     pub(super) mixed: [Lanes; 3],
 }
 
-/// The derivatives of T, but for those that follow because the potential is harmonic.
+/// The derivatives of T, except those that follow because the potential is harmonic.
 pub(super) struct Slopes {
     /// ∂T_yz/∂x.
     pub(super) xyz: Lanes,
@@ -46,13 +45,13 @@ pub(super) struct Slopes {
     pub(super) last: [Lanes; 3],
 }
 
-/// The cuboid as seen from the points.
+/// The cuboid relative to the points.
 pub(super) struct View {
-    /// X, Y, Z: by axis, the point from the upper (0) and from the lower (1) face.
+    /// X, Y, Z: by axis, the position relative to the upper (0) and to the lower (1) face.
     offset: [[Lanes; 2]; 3],
     /// Their squares.
     square: [[Lanes; 2]; 3],
-    /// Distance of each corner, by the face that it lies on along x, y and z.
+    /// Distance of each corner, by its face along x, y and z.
     distance: [[[Lanes; 2]; 2]; 2],
     /// Length of the edges along each axis.
     length: [Lanes; 3],
@@ -60,7 +59,7 @@ pub(super) struct View {
     is_between: [Lanes; 3],
 }
 
-/// An edge as seen from the points.
+/// An edge relative to the points.
 struct Edge {
     /// N.
     sum: Lanes,
@@ -70,14 +69,14 @@ struct Edge {
     scalar: Lanes,
 }
 
-/// The edges along an axis, by the face that they lie on along the next axis and the one after it.
+/// The edges along an axis, by their face along the next axis and the one after it.
 type Edges = [[Edge; 2]; 2];
 
 /// Real and imaginary part.
 type Complex = (Lanes, Lanes);
 
 impl View {
-    /// Of a cuboid of half sides `half`, from `points`, given by coordinate, none of them negative.
+    /// For a cuboid of half sides `half` and `points` by coordinate, none of them negative.
     #[inline(always)]
     pub(super) fn new(half: &Vector3<f64>, points: [Lanes; 3]) -> Self {
         let half = [Lanes::splat(half.x), Lanes::splat(half.y), Lanes::splat(half.z)];
@@ -97,17 +96,17 @@ impl View {
         }
     }
 
-    /// All bits set where the point lies inside; a face belongs to the outside.
+    /// All bits set if the point lies inside; a face belongs to the outside.
     #[inline(always)]
     pub(super) fn is_inside(&self) -> Lanes {
         self.is_between[0] & self.is_between[1] & self.is_between[2]
     }
 
-    /// T, as far as T·J takes it where only `axes` of J are not zero; the rest is zero.
+    /// The entries of T that T·J needs if only `axes` of J are not zero; the others are zero.
     #[inline(always)]
     pub(super) fn tensor(&self, axes: [bool; 3]) -> Tensor {
         let [x, y, z] = [self.edges(0), self.edges(1), self.edges(2)];
-        // Arithmetic first: logarithms and arctangents branch, and across a branch all goes through memory.
+        // Arithmetic first: logarithms and arctangents branch, and values that live across a branch go through memory.
         let ratios = [self.ratio(0, &x), self.ratio(1, &y), self.ratio(2, &z)];
         let is_trace_enough = axes[0] && axes[1];
         let faces = [
@@ -123,7 +122,7 @@ impl View {
         let xx = if axes[0] { faces[0].angle() } else { Lanes::ZERO };
         let yy = if axes[1] { faces[1].angle() } else { Lanes::ZERO };
         let zz = if is_trace_enough {
-            // All six faces together are seen all around from inside, and from outside cancel.
+            // Seen from inside, the six faces cover the full solid angle; from outside they cancel.
             (self.is_inside() & Lanes::splat(-4.0 * PI)) - xx - yy
         } else if axes[2] {
             faces[2].angle()
@@ -160,14 +159,14 @@ impl View {
         // Squared distance from the edge's line.
         let aside = (self.square[u][i] + self.square[v][j]).fast_max(Lanes::splat(EDGE_RADIUS * EDGE_RADIUS));
         let dot = self.offset[axis][0] * self.offset[axis][1] + aside;
-        // Beside the edge R₁R₂ + r₁·r₂ cancels: there it is |r₁ × r₂|²/(R₁R₂ − r₁·r₂).
+        // Beside the edge R₁R₂ + r₁·r₂ cancels; the equal |r₁ × r₂|²/(R₁R₂ − r₁·r₂) does not.
         let larger = product + dot.abs();
         let cross = aside * (self.length[axis] * self.length[axis]);
         let scalar = dot.simd_lt(Lanes::ZERO).select(cross / larger, larger);
         Edge { sum: upper + lower, product, scalar }
     }
 
-    /// What T_yz is the logarithm of, for `axis` x.
+    /// The number whose logarithm is T_yz, for `axis` x.
     #[inline(always)]
     fn ratio(&self, axis: usize, edges: &Edges) -> Lanes {
         let length = self.length[axis];
@@ -182,11 +181,11 @@ impl View {
     fn faces(&self, axis: usize, next: &Edges, last: &Edges) -> Faces {
         let near = self.face(axis, 0, next, last);
         let far = self.face(axis, 1, next, last);
-        // Seen from between them both count against the axis, from beyond the farther one only.
+        // From between the faces both count against the axis, from outside only the farther one.
         let is_between = self.is_between[axis];
         let (cosine, sine) = times(near, (far.0, far.1.flip_signs(!is_between)));
-        // Inside, the two may add up to more than half a turn, though only if the nearer face alone has
-        // more than a quarter: then the product is turned back by half a turn.
+        // Inside, the two may add up to more than half a turn, but only if the nearer face alone has more
+        // than a quarter: then the product is rotated back by half a turn.
         let is_turned = self.is_inside() & near.0.simd_lt(Lanes::ZERO);
         Faces {
             cosine: cosine.flip_signs(is_turned),
@@ -226,7 +225,7 @@ impl View {
     /// ∂T_yz/∂x for `axis` x.
     #[inline(always)]
     fn slope_along(&self, axis: usize, edges: &Edges) -> Lanes {
-        // 1/R₁ − 1/R₂ without the difference.
+        // 1/R₁ − 1/R₂ in a form without cancellation.
         let inverse = |edge: &Edge| Lanes::ONE / (edge.sum * edge.product);
         let [[a, b], [c, d]] = edges;
         let [upper, lower] = self.square[axis];
@@ -234,13 +233,13 @@ impl View {
     }
 }
 
-/// Two opposite faces, whose solid angles are an entry of T.
+/// Two opposite faces; their solid angles make up an entry of T.
 struct Faces {
     /// Real part of a number whose argument is half that entry.
     cosine: Lanes,
     /// Its imaginary part.
     sine: Lanes,
-    /// What to add to the argument.
+    /// Offset added to the argument.
     turn: Lanes,
     /// Whether the argument counts against the axis.
     is_between: Lanes,

@@ -1,4 +1,4 @@
-//! A block that lies anywhere and is turned anyhow.
+//! A block at any position and rotation.
 
 use super::{cuboid::Cuboid, force};
 use crate::geometry::{Isometry3, Point3, Vector3};
@@ -54,7 +54,7 @@ mod tests {
         Cuboid::new(HALF_M.into(), POLARIZATION_T.into()).unwrap()
     }
 
-    /// Up to a quarter of a metre away, turned anyhow.
+    /// Up to a quarter of a metre away, at any rotation.
     fn any_pose() -> impl Strategy<Value = Isometry3<f64>> {
         let numbers = || prop::array::uniform3(-1.0..1.0);
         (numbers(), numbers())
@@ -63,7 +63,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn quarter_turns_permute_the_sides(
+        fn quarter_rotations_permute_the_sides(
             turns in prop::array::uniform3(0..4),
             center in prop::array::uniform3(-0.2..0.2),
             point in prop::array::uniform3(-0.1..0.1),
@@ -87,7 +87,7 @@ mod tests {
         }
 
         #[test]
-        fn magnet_and_point_may_move_together(
+        fn moving_magnet_and_point_together_changes_nothing(
             pose in any_pose(),
             motion in any_pose(),
             point in prop::array::uniform3(-0.3..0.3),
@@ -103,7 +103,7 @@ mod tests {
         }
 
         #[test]
-        fn many_points_are_each_of_them(
+        fn many_points_equal_single_points(
             pose in any_pose(),
             points in prop::collection::vec(prop::array::uniform3(-0.3..0.3), 0..6),
         ) {

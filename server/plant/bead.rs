@@ -1,4 +1,4 @@
-//! The bead on the table: Coulomb stick-slip with a load that the magnet changes, rolling as an option,
+//! The bead on the table: Coulomb friction under a load that depends on the magnet, optional rolling,
 //! viscous drag, lift-off, and the hand.
 
 use serde::{Deserialize, Serialize};
@@ -8,13 +8,12 @@ use crate::geometry::{Isometry3, Point2, Point3, Vector2};
 use crate::magnetics::dipole;
 use crate::map::Map;
 
-/// Stiffness of the hand's spring: 1 mN a millimetre, so that a fifth of the bead's weight shows as
-/// one millimetre.
+/// Stiffness of the hand's spring: 1 mN per millimetre, about a fifth of the bead's weight.
 pub const HAND_STIFFNESS_N_M: f64 = 1.0;
-/// The hand moves the bead no faster than this (specification §2).
+/// Maximum speed at which the hand moves the bead.
 pub const HAND_SPEED_LIMIT_M_S: f64 = 1.0;
 
-/// No kick makes the bead faster than this.
+/// Maximum speed of the bead after a kick.
 const KICKED_M_S: f64 = 4.1;
 /// Moment of inertia of a sphere in units of m·r².
 const SPHERE_INERTIA: f64 = 0.4;
@@ -23,23 +22,21 @@ const SPHERE_INERTIA: f64 = 0.4;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BeadMotion {
-    /// The field holds its moment, and with it the sphere: it slides (specification §2).
+    /// The field holds the sphere's moment and so its orientation: the bead slides.
     #[default]
     Sliding,
-    /// The sphere is free to turn: it rolls where friction suffices, against a rolling resistance.
+    /// The sphere can rotate: it rolls if friction is large enough, against a rolling resistance.
     Rolling,
 }
 
-/// State of the bead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bead {
     /// Centre, in the table's plane.
     pub position_m: Point2<f64>,
-    /// Its velocity.
     pub velocity_m_s: Vector2<f64>,
-    /// The velocity at which its rotation alone would roll it; zero while it only slides.
+    /// The velocity that corresponds to its rotation (pure rolling); zero while it only slides.
     pub roll_m_s: Vector2<f64>,
-    /// Whether it has jumped to the magnet.
+    /// Whether it has jumped to the magnet and hangs there.
     pub lifted_off: bool,
 }
 
@@ -54,12 +51,12 @@ impl Bead {
         if self.lifted_off { tool_m.z - BEAD_RADIUS_M } else { BEAD_RADIUS_M }
     }
 
-    /// Kinetic energy, that of the rotation included.
+    /// Kinetic energy, including rotation.
     pub fn kinetic_energy_j(&self) -> f64 {
         0.5 * dipole::mass_kg() * (self.velocity_m_s.norm_squared() + SPHERE_INERTIA * self.roll_m_s.norm_squared())
     }
 
-    /// Kicks it. Kicks that come together do not add up to more than the strongest one.
+    /// Applies a kick. Simultaneous kicks do not add up to more than the strongest one.
     pub fn kick(&mut self, impulse_n_s: Vector2<f64>) {
         let most_m_s = self.velocity_m_s.norm().max(KICKED_M_S);
         self.velocity_m_s = (self.velocity_m_s + impulse_n_s / dipole::mass_kg()).cap_magnitude(most_m_s);
@@ -101,8 +98,8 @@ impl Plant {
                 normal_n = 0.0;
             }
         }
-        // Friction is an impulse that can stop but never reverse the bead, so that sticking is exact at
-        // any step length. Drag is implicit, and last, so that it does not help the bead to stick.
+        // Friction is an impulse that can stop but never reverse the bead, so sticking is exact for any step
+        // length. Drag is implicit and applied last, so that it does not help the bead to stick.
         bead.velocity_m_s += force_n * (dt_s / mass_kg);
         let is_lifted = hand.is_some_and(|hand| hand.lift);
         let wall_friction_m_s = if is_lifted { 0.0 } else { contact::lean(bead, map) };
@@ -114,7 +111,7 @@ impl Plant {
             bead.velocity_m_s *= HAND_SPEED_LIMIT_M_S / speed_m_s;
         }
         if is_lifted {
-            // Over walls, but not over the table's edge.
+            // A lifted bead passes over walls, but not over the table's edge.
             let next_m = bead.position_m + bead.velocity_m_s * dt_s;
             let w = map.workspace();
             bead.position_m = Point2::new(next_m.x.clamp(w.x_min_m, w.x_max_m), next_m.y.clamp(w.y_min_m, w.y_max_m));
@@ -128,13 +125,13 @@ impl Plant {
 
     /// Friction and rolling resistance; `load_m_s` is the normal impulse over the mass.
     ///
-    /// A sphere that slips gains 5/2 as much rolling velocity as it loses of its own (its inertia is
-    /// 2/5·m·r²), until both are equal and it rolls; then 7/5 of its mass resists (Goldstein,
+    /// A slipping sphere gains 5/2 as much rolling velocity as it loses linear velocity (its moment of inertia
+    /// is 2/5·m·r²), until both are equal and it rolls; then its effective mass is 7/5·m (Goldstein,
     /// *Classical Mechanics*, §5).
     fn rub(&self, bead: &mut Bead, load_m_s: f64) {
         let friction_m_s = self.parameters.friction * load_m_s;
         let resistance = self.parameters.rolling_resistance;
-        // A resistance beyond the friction never lets it begin to roll.
+        // With a rolling resistance above the friction it never begins to roll.
         if self.parameters.bead_motion == BeadMotion::Sliding || resistance >= self.parameters.friction {
             bead.roll_m_s = Vector2::zeros();
             bead.velocity_m_s = shrunk(bead.velocity_m_s, friction_m_s);
@@ -146,7 +143,7 @@ impl Plant {
             (bead.velocity_m_s, bead.roll_m_s) = (rolling, rolling);
             return;
         }
-        // It would take more than Coulomb's friction: the bead slips.
+        // Rolling would need more than Coulomb friction: the bead slips.
         let slip = bead.velocity_m_s - bead.roll_m_s;
         let change = slip.try_normalize(0.0).unwrap_or_default() * friction_m_s;
         bead.velocity_m_s -= change;
@@ -154,7 +151,7 @@ impl Plant {
     }
 }
 
-/// `velocity` made slower by `by_m_s`, at most to rest.
+/// `velocity` reduced by `by_m_s`, at most to zero.
 pub(super) fn shrunk(velocity: Vector2<f64>, by_m_s: f64) -> Vector2<f64> {
     let speed_m_s = velocity.norm();
     if speed_m_s > by_m_s { velocity * (1.0 - by_m_s / speed_m_s) } else { Vector2::zeros() }

@@ -1,28 +1,27 @@
-//! The bead against the walls: it slides along them, bounces a little, and never passes.
+//! Contact of the bead with walls: it slides along them, bounces a little, and never passes through.
 
 use super::bead::shrunk;
 use super::{BEAD_RADIUS_M, Bead};
 use crate::geometry::{Point2, Vector2};
 use crate::map::Map;
 
-/// Restitution of bead on wall.
+/// Coefficient of restitution between bead and wall.
 const RESTITUTION: f64 = 0.3;
-/// Friction of bead on wall.
+/// Coulomb friction coefficient between bead and wall.
 const WALL_FRICTION: f64 = 0.1;
-/// Most walls that one hop settles in turn before it looks for the corner between the last two.
+/// Maximum number of contacts resolved one after the other in one hop.
 const PASSES: usize = 4;
-/// Rounding allowed when a contact is checked.
+/// Rounding tolerance of contact checks.
 const SLOP_M: f64 = 1e-9;
-/// What a search for room does not skip on account of rounding.
+/// Margin for rounding in [`nearest_fit`]: radii closer than this are not skipped.
 const SKIP_MM: f64 = 1e-3;
-/// A bead this near to a wall leans on it.
-const TOUCH_M: f64 = 1e-7;
-/// Slower than this into the wall that it touches, the bead leans and does not bounce: what the strongest
-/// pull adds in a millisecond.
+/// A bead within this distance of a wall touches it.const TOUCH_M: f64 = 1e-7;
+/// A bead that touches a wall and moves into it slower than this leans on it instead of bouncing. The
+/// strongest pull changes the speed by this much in a millisecond.
 const LEAN_M_S: f64 = 0.02;
 
-/// Takes the push of a bead into the wall that it leans on, so that only what is left of it works
-/// against the table's friction. Returns by how much the wall's own friction slows the bead.
+/// Removes the velocity of a leaning bead into its wall, so that only the remaining velocity works against
+/// the table's friction. Returns by how much the wall's friction slows the bead, m/s.
 pub(super) fn lean(bead: &mut Bead, map: &Map) -> f64 {
     let Some(wall) = map.nearest_wall_point_within(bead.position_m, BEAD_RADIUS_M + TOUCH_M) else { return 0.0 };
     let Some(normal) = (bead.position_m - wall).try_normalize(1e-12) else { return 0.0 };
@@ -34,7 +33,7 @@ pub(super) fn lean(bead: &mut Bead, map: &Map) -> f64 {
     WALL_FRICTION * push_m_s
 }
 
-/// Moves the bead for `dt_s`, in hops short enough that its centre cannot cross a wall unseen.
+/// Moves the bead for `dt_s`, in hops so short that its centre cannot cross a wall undetected.
 pub(super) fn advance(bead: &mut Bead, map: &Map, dt_s: f64) {
     let travel_m = bead.velocity_m_s.norm() * dt_s;
     let hops = (travel_m / (0.5 * BEAD_RADIUS_M)).ceil().max(1.0);
@@ -43,7 +42,7 @@ pub(super) fn advance(bead: &mut Bead, map: &Map, dt_s: f64) {
     }
 }
 
-/// A wall where the bead met it: its nearest point, and the normal from it to the bead.
+/// A contact: the nearest point of the wall, and the normal from it to the bead.
 #[derive(Clone, Copy)]
 struct Contact {
     wall_m: Point2<f64>,
@@ -61,14 +60,15 @@ fn hop(bead: &mut Bead, map: &Map, dt_s: f64) {
             bead.position_m = to;
             return;
         };
-        // The hop is shorter than the radius, so `to` is still on the wall's free side, and the
+        // The hop is shorter than the radius, so `to` is still on the free side of the wall, and the
         // normal points from the wall to the bead.
         let Some(normal) = (to - wall_m).try_normalize(1e-12) else { break };
         let met = Contact { wall_m, normal };
         bounce(bead, normal);
         to = wall_m + normal * BEAD_RADIUS_M;
-        // In a corner each wall pushes the bead into the other, by less each time but never by nothing.
-        // Nearer than its radius to where it fitted there is no wall that it could have passed.
+        // In a corner each wall pushes the bead into the other one, by less each time but never by zero, so
+        // the bead is put where it touches both. Within a radius of its last valid position there is no wall
+        // that it could have passed.
         if let Some(corner_m) = last.and_then(|other| corner(other, met))
             && (corner_m - bead.position_m).norm() < BEAD_RADIUS_M
             && map.nearest_wall_point_within(corner_m, BEAD_RADIUS_M - SLOP_M).is_none()
@@ -77,11 +77,11 @@ fn hop(bead: &mut Bead, map: &Map, dt_s: f64) {
         }
         last = Some(met);
     }
-    // A wedge too narrow to resolve: stay where it was valid.
+    // The wedge is too narrow to resolve: stay at the last valid position.
     bead.velocity_m_s = Vector2::zeros();
 }
 
-/// The impulse of a wall on a bead that moves into it.
+/// Applies the impulse of a wall to a bead that moves into it.
 fn bounce(bead: &mut Bead, normal: Vector2<f64>) {
     let approach_m_s = bead.velocity_m_s.dot(&normal);
     if approach_m_s < 0.0 {
@@ -91,18 +91,18 @@ fn bounce(bead: &mut Bead, normal: Vector2<f64>) {
     }
 }
 
-/// Where the bead touches both walls, if they are not parallel.
+/// The position at which the bead touches both walls; `None` if they are parallel.
 fn corner(a: Contact, b: Contact) -> Option<Point2<f64>> {
     let normals = nalgebra::Matrix2::from_rows(&[a.normal.transpose(), b.normal.transpose()]);
     let reach = |c: Contact| c.normal.dot(&c.wall_m.coords) + BEAD_RADIUS_M;
     normals.try_inverse().map(|inverse| Point2::from(inverse * Vector2::new(reach(a), reach(b))))
 }
 
-/// The nearest point to `wanted` at which the bead fits, to a millimetre, searched outward on circles;
-/// `None` only if it fits nowhere.
+/// The nearest point to `wanted` at which the bead fits, to a millimetre. Searches outward on circles;
+/// `None` if it fits nowhere.
 pub fn nearest_fit(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
-    // Where so much room is lacking, it fits nowhere nearer than that: a large map that is all wall but for a far
-    // corner would be searched for a minute.
+    // If the clearance at `wanted` is too small by some distance, the bead fits nowhere within that distance.
+    // Without this skip, a large map that is solid except for a far corner takes a minute to search.
     let lacking_m = |p: Point2<f64>| BEAD_RADIUS_M - map.clearance_m(p);
     let here_m = lacking_m(wanted);
     if here_m <= 0.0 {
@@ -111,7 +111,7 @@ pub fn nearest_fit(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
     let nearest_mm = ((here_m * 1e3 - SKIP_MM) as u32).max(1);
     let farthest_mm = (map.workspace().size_m().norm() * 1e3).ceil() as u32;
     (nearest_mm..=farthest_mm).find_map(|radius_mm| {
-        // A millimetre apart on the circle too.
+        // Points on the circle are a millimetre apart, too.
         let count = (std::f64::consts::TAU * f64::from(radius_mm)).ceil().max(16.0) as u32;
         let mut k = 0;
         while k < count {
@@ -134,7 +134,7 @@ mod tests {
 
     use super::*;
 
-    /// The search without what it skips.
+    /// The search without skipping.
     fn plainly(map: &Map, wanted: Point2<f64>) -> Option<Point2<f64>> {
         let fits = |p: &Point2<f64>| map.clearance_m(*p) >= BEAD_RADIUS_M;
         let on_circle = |radius_mm: u32| {
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_room_is_found_as_if_nothing_were_skipped() {
+    fn skipping_does_not_change_the_nearest_fit() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let mut moved = 0;
         for name in ["colon", "posts"] {
@@ -164,13 +164,13 @@ mod tests {
     }
 
     #[test]
-    fn room_in_the_far_corner_of_a_large_map_takes_no_minute_to_find() {
+    fn finds_a_fit_in_the_far_corner_of_a_large_map_quickly() {
         let svg = r#"<svg viewBox="0 0 4000 4000"><path d="M0 0H4000V4000H20V3980H0Z"/></svg>"#;
         let map = Map::from_svg("far", svg).unwrap();
         let begun = std::time::Instant::now();
         let found = nearest_fit(&map, Point2::new(3.99, -0.01)).unwrap();
         assert!(found.x < 0.02 && found.y < -3.98, "{found}");
-        // It took a minute and more, and takes milliseconds.
+        // It takes milliseconds; without skipping it took more than a minute.
         assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
     }
 }

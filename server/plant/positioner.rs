@@ -1,6 +1,6 @@
-//! What carries the magnet over the table: the arm, or a planar stage without one.
+//! The positioner moves the magnet over the table: the arm, or a planar stage.
 //!
-//! The paper's attractor examples lie beyond the arm (specification §3); they run on the stage.
+//! The paper's attractor examples are beyond the arm's reach; they run on the planar stage.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,41 +15,40 @@ use crate::robot::inverse::{self, InverseError};
 use crate::robot::workspace::{self, ManipulabilityMap, WorkspaceError};
 use crate::robot::{self, Joints, forward, servo, ur5::SERVO_PERIOD_S};
 
-/// Gain K2 of the joints' integrators, and of the stage's (paper, §IV-D).
+/// Gain K2 of the integrators of joints and planar stage (paper, §IV-D).
 const SERVO_GAIN_PER_S: f64 = 4.0;
-/// Greatest speed of the stage: twice that of the fastest approach.
+/// Maximum speed of the planar stage: twice the maximum approach speed.
 const STAGE_SPEED_LIMIT_M_S: f64 = 0.5;
-/// The arm at rest over the table; the inverse's branch nearest to it is the one used throughout.
+/// The arm at rest over the table. Inverse kinematics always uses the branch nearest to it.
 const HOME_RAD: Joints = [-FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, FRAC_PI_2, 0.0];
 /// The paper's rotation vector of the flange, 3.2° off the vertical.
 const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
 
-/// Which of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
     /// The UR5.
     #[default]
     Arm,
-    /// Three axes that reach everywhere and never tilt.
+    /// Three linear axes that reach everywhere and never tilt.
     PlanarStage,
 }
 
 impl PositionerKind {
-    /// The one that a map is made for.
+    /// The positioner that a map is made for.
     pub fn of(map: &Map) -> Self {
         if map.is_for_stage() { Self::PlanarStage } else { Self::Arm }
     }
 }
 
-/// How the arm holds its flange.
+/// Orientation of the flange.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolOrientation {
     /// Straight down.
     #[default]
     Vertical,
-    /// The paper's rotation vector [2.182, −2.182, 0], to the letter.
+    /// The paper's rotation vector, exactly [2.182, −2.182, 0].
     Paper,
 }
 
@@ -64,7 +63,7 @@ impl ToolOrientation {
 }
 
 /// The arm's manipulability with its tool point over each cell of `area`, `tool_height_m` above the table
-/// (see [`workspace::manipulability_map`]), on the branch that is used throughout.
+/// (see [`workspace::manipulability_map`]), on the branch that the arm uses.
 ///
 /// # Errors
 /// Those of [`workspace::manipulability_map`].
@@ -86,22 +85,22 @@ pub fn manipulability_map(
     Ok(ManipulabilityMap { origin_m: [area.x_min_m, area.y_min_m], ..map })
 }
 
-/// The tool's frame in the flange's; see [`Positioner::base_from_tool`].
+/// The tool's frame in the flange frame; see [`Positioner::base_from_tool`].
 fn flange_from_tool() -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::new(0.0, 0.0, TOOL_LENGTH_M), robot::tool_down().inverse())
 }
 
-/// Where the positioner is, or should be.
+/// An actual or wanted position of the positioner.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Positioner {
     /// The arm, by its joint angles.
     Arm(Joints),
-    /// The stage, by its tool point.
+    /// The planar stage, by its tool point.
     PlanarStage(Point3<f64>),
 }
 
 impl Positioner {
-    /// Where a positioner of this kind waits before it goes to `tool_m`: a seed for [`Self::at`].
+    /// The rest position of a positioner of this kind, near `tool_m`: a seed for [`Self::at`].
     pub fn home(kind: PositionerKind, tool_m: Point3<f64>) -> Self {
         match kind {
             PositionerKind::Arm => Self::Arm(HOME_RAD),
@@ -109,8 +108,8 @@ impl Positioner {
         }
     }
 
-    /// The positioner of `seed`'s kind with its tool point at `tool_m`; the arm on the branch nearest to
-    /// the seed, and with its flange turned as `orientation` says, which the stage cannot be.
+    /// The positioner of `seed`'s kind with its tool point at `tool_m`. The arm takes the branch nearest to
+    /// the seed and the flange rotation of `orientation`; the planar stage ignores `orientation`.
     ///
     /// # Errors
     /// Those of [`inverse::nearest`].
@@ -125,7 +124,6 @@ impl Positioner {
         }
     }
 
-    /// Which of the two.
     pub fn kind(&self) -> PositionerKind {
         match self {
             Self::Arm(_) => PositionerKind::Arm,
@@ -133,7 +131,7 @@ impl Positioner {
         }
     }
 
-    /// The arm's joint angles, if there is an arm.
+    /// The arm's joint angles; `None` for the planar stage.
     pub fn joints_rad(&self) -> Option<Joints> {
         match self {
             Self::Arm(joints) => Some(*joints),
@@ -141,7 +139,7 @@ impl Positioner {
         }
     }
 
-    /// The arm's link frames, if there is an arm (see [`forward::link_frames`]).
+    /// The arm's link frames (see [`forward::link_frames`]); `None` for the planar stage.
     pub fn link_frames(&self) -> Option<[Isometry3<f64>; 6]> {
         self.joints_rad().map(|joints| forward::link_frames(&joints))
     }
@@ -160,8 +158,8 @@ impl Positioner {
         self.base_from_tool().translation.vector.into()
     }
 
-    /// One servo period later: it follows `reference` → `next_reference` as a single integrator with gain
-    /// K2 = 4 /s, no faster than it can. Stays where it is if the three are not of one kind.
+    /// The positioner one servo period later. It follows `reference` → `next_reference` as a single integrator
+    /// with gain K2 = 4 /s, within its speed limits. It does not move if the three are of different kinds.
     #[must_use]
     pub fn step(&self, reference: &Self, next_reference: &Self) -> Self {
         match (self, reference, next_reference) {
@@ -185,7 +183,7 @@ mod tests {
     const SEED: Positioner = Positioner::Arm(HOME_RAD);
 
     #[test]
-    fn the_tool_point_is_where_it_was_asked_for_in_either_orientation() {
+    fn the_tool_point_is_at_its_target_in_both_orientations() {
         let wanted = Point3::new(0.1, -0.4, 0.1);
         for orientation in [ToolOrientation::Vertical, ToolOrientation::Paper] {
             let arm = Positioner::at(wanted, orientation, &SEED).unwrap();
@@ -196,12 +194,11 @@ mod tests {
             (arm.base_from_tool().rotation * Vector3::z()).angle(&Vector3::z()).to_degrees()
         };
         assert!(tilt(ToolOrientation::Vertical) < 1e-6);
-        // Specification §1.
         assert!((tilt(ToolOrientation::Paper) - 3.2).abs() < 0.05, "{}", tilt(ToolOrientation::Paper));
     }
 
     #[test]
-    fn the_map_is_of_the_tool_point_in_either_orientation() {
+    fn the_manipulability_map_refers_to_the_tool_point_in_both_orientations() {
         let area = Rect { x_min_m: -0.30, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
         for orientation in [ToolOrientation::Vertical, ToolOrientation::Paper] {
             let map = manipulability_map(&area, 0.01, 0.1, orientation).unwrap();
@@ -212,13 +209,13 @@ mod tests {
                 let expected = jacobian::manipulability(&arm.joints_rad().unwrap());
                 assert!((map.manipulability_m3[cell].unwrap() - expected).abs() < 1e-12);
             }
-            // The paper: no singularity within the working environment.
+            // As in the paper: no singularity within the working environment.
             assert_eq!(map.share_at_least(0.018), 1.0);
         }
     }
 
     #[test]
-    fn the_stage_reaches_what_the_arm_does_not() {
+    fn the_planar_stage_reaches_positions_beyond_the_arm() {
         let far = Point3::new(-0.78, 0.73, 0.1);
         assert!(Positioner::at(far, ToolOrientation::Vertical, &SEED).is_err());
         let stage = Positioner::PlanarStage(Point3::origin());
@@ -226,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn the_stage_follows_without_lag_and_no_faster_than_it_can() {
+    fn the_planar_stage_follows_without_lag_within_its_speed_limit() {
         let reference = |k: f64| Positioner::PlanarStage(Point3::new(0.002 * k, -0.001 * k, 0.1));
         let mut stage = reference(0.0);
         for k in 0..100 {

@@ -1,4 +1,4 @@
-//! The bead's physics, against numbers worked out elsewhere and against what must never happen.
+//! The bead's physics, compared with independently computed numbers and with invariants.
 
 mod violence;
 
@@ -24,12 +24,12 @@ fn at_rest(position_m: Point2<f64>) -> PlantState {
     PlantState::at_rest(Positioner::PlanarStage(FAR_AWAY), position_m)
 }
 
-/// One bead step of a millisecond below an upright tool.
+/// One bead step of 1 ms below an upright tool.
 fn step(plant: &Plant, state: &mut PlantState, map: &Map, tool_m: Point3<f64>) {
     plant.step_bead(state, map, &Positioner::PlanarStage(tool_m).base_from_tool(), 1e-3);
 }
 
-/// Moves the tool in a straight line over a bead and returns by how much the bead trails at the end.
+/// Moves the tool in a straight line over a bead and returns the bead's lag at the end.
 fn trail_m(speed_m_s: f64) -> f64 {
     let (plant, map) = (Plant::new(PARAMETERS), open());
     let mut state = at_rest(Point2::new(-0.28, -0.4));
@@ -43,13 +43,12 @@ fn trail_m(speed_m_s: f64) -> f64 {
 
 #[test]
 fn the_bead_trails_by_16_mm_at_40_mm_s_and_is_lost_beyond_79() {
-    // Specification §2.
     assert!((trail_m(0.040) - 0.016).abs() < 5e-4, "{}", trail_m(0.040));
     assert!(trail_m(0.078) < 0.06 && trail_m(0.1) > 0.1, "{} {}", trail_m(0.078), trail_m(0.1));
 }
 
 #[test]
-fn the_pull_beats_friction_up_to_the_capture_radius_and_not_beyond() {
+fn the_pull_exceeds_friction_up_to_the_capture_radius_only() {
     let (plant, map) = (Plant::new(PARAMETERS), open());
     let radius_m = crate::magnetics::force::capture_radius_m(BlockOrientation::A, 0.1, PARAMETERS.friction).unwrap();
     for (distance_m, moves) in [(radius_m - 1e-3, true), (radius_m + 1e-3, false)] {
@@ -62,7 +61,7 @@ fn the_pull_beats_friction_up_to_the_capture_radius_and_not_beyond() {
 }
 
 #[test]
-fn at_rest_stays_at_rest_to_the_bit() {
+fn a_resting_bead_stays_at_rest_bit_for_bit() {
     let (plant, map) = (Plant::new(PARAMETERS), open());
     let mut state = at_rest(Point2::new(0.1, -0.4));
     let before = state.clone();
@@ -73,7 +72,7 @@ fn at_rest_stays_at_rest_to_the_bit() {
 }
 
 #[test]
-fn a_low_magnet_lifts_the_bead_off_and_a_hand_gets_it_back() {
+fn a_low_magnet_lifts_the_bead_off_and_a_hand_takes_it_back() {
     let (plant, map) = (Plant::new(PARAMETERS), open());
     let mut state = at_rest(Point2::new(0.1, -0.4));
     let lift_off_m = crate::magnetics::force::lift_off_height_m(BlockOrientation::A) - 0.005;
@@ -88,7 +87,7 @@ fn a_low_magnet_lifts_the_bead_off_and_a_hand_gets_it_back() {
 }
 
 #[test]
-fn a_sphere_that_slides_off_rolls_on_at_five_sevenths_of_its_speed() {
+fn a_sliding_sphere_ends_up_rolling_at_five_sevenths_of_its_speed() {
     let parameters = PlantParameters { bead_motion: BeadMotion::Rolling, drag_n_s_m: 0.0, ..PARAMETERS };
     let (plant, map) = (Plant::new(parameters.clone()), open());
     let mut state = at_rest(Point2::new(-0.25, -0.4));
@@ -100,12 +99,11 @@ fn a_sphere_that_slides_off_rolls_on_at_five_sevenths_of_its_speed() {
         assert!(state.bead.kinetic_energy_j() < energy_j);
         steps += 1;
     }
-    // Sliding ends after 2·v/(7·μ·g); the rolling resistance takes a little more, a twentieth of μ.
-    let expected_s = 2.0 * 0.4 / (7.0 * parameters.friction * dipole::GRAVITY_M_S2);
+    // Sliding ends after 2·v/(7·μ·g); the rolling resistance, a twentieth of μ, adds a little.    let expected_s = 2.0 * 0.4 / (7.0 * parameters.friction * dipole::GRAVITY_M_S2);
     assert!((f64::from(steps) * 1e-3 / expected_s - 1.0).abs() < 0.06, "{steps}");
     let speed = state.bead.velocity_m_s.x;
     assert!((speed / (0.4 * 5.0 / 7.0) - 1.0).abs() < 0.02, "{speed}");
-    // Then c·g·5/7 slows it, to a stop that lasts.
+    // Then it slows down with c·g·5/7 and stops for good.
     for _ in 0..200 {
         step(&plant, &mut state, &map, FAR_AWAY);
     }
@@ -118,7 +116,7 @@ fn a_sphere_that_slides_off_rolls_on_at_five_sevenths_of_its_speed() {
 }
 
 #[test]
-fn a_push_below_the_friction_does_not_move_the_bead_and_one_above_does() {
+fn only_a_push_above_the_friction_moves_the_bead() {
     let (plant, map) = (Plant::new(PARAMETERS), open());
     let holds_n = PARAMETERS.friction * dipole::weight_n();
     for (push_n, moves) in [(0.99 * holds_n, false), (1.01 * holds_n, true)] {
@@ -132,7 +130,7 @@ fn a_push_below_the_friction_does_not_move_the_bead_and_one_above_does() {
 }
 
 #[test]
-fn the_pull_goes_through_a_wall_and_the_bead_does_not() {
+fn the_pull_passes_through_a_wall_but_the_bead_does_not() {
     let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
         <rect x="0" y="200" width="4" height="200"/></svg>"#;
     let (plant, map) = (Plant::new(PARAMETERS), Map::from_svg("wall", svg).unwrap());
@@ -146,17 +144,17 @@ fn the_pull_goes_through_a_wall_and_the_bead_does_not() {
     for _ in 0..100 {
         step(&plant, &mut state, &map, Point3::new(0.03, -0.3, 0.1));
     }
-    assert_eq!(state, before, "pressed to the wall it rests");
+    assert_eq!(state, before, "a bead pressed against a wall rests");
     assert_eq!(state.bead.velocity_m_s, Vector2::zeros());
 }
 
 #[test]
-fn a_bead_that_leans_on_a_wall_is_held_by_the_tables_friction() {
+fn a_bead_leaning_on_a_wall_is_held_by_table_friction() {
     let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
         <rect x="0" y="200" width="4" height="200"/></svg>"#;
     let (plant, map) = (Plant::new(PARAMETERS), Map::from_svg("wall", svg).unwrap());
     let holds_n = PARAMETERS.friction * dipole::weight_n();
-    // Into the wall and along it, in units of what the table holds; whether it slides along the wall.
+    // Pull into the wall and along it, in units of the table's friction; whether the bead slides along the wall.
     for (into, along, slides) in [(2.0, 0.9, false), (3.0, 0.8, false), (0.5, 0.9, false), (2.0, 1.3, true)] {
         let mut state = at_rest(Point2::new(-BEAD_RADIUS_M, -0.3));
         state.drift_n = Vector2::new(into, 0.0) * holds_n;
@@ -187,8 +185,8 @@ fn a_bead_bounces_out_of_an_acute_corner() {
 }
 
 #[test]
-fn a_bead_rolls_only_as_far_as_friction_turns_it() {
-    // What slows or turns the bead in one step is never more than Coulomb's friction.
+fn the_friction_impulse_never_exceeds_coulomb_friction() {
+    // This limits both the change of velocity and the change of rotation in one step.
     for resistance in [0.0, 0.01, 0.1, 0.15, 0.19] {
         let parameters = PlantParameters {
             bead_motion: BeadMotion::Rolling,
@@ -209,7 +207,7 @@ fn a_bead_rolls_only_as_far_as_friction_turns_it() {
 }
 
 #[test]
-fn a_tilted_block_pulls_where_it_leans() {
+fn a_tilted_block_pulls_toward_its_tilt() {
     let plant = Plant::new(PARAMETERS);
     let tool = Point3::new(0.1, -0.4, 0.1);
     let home = Positioner::home(PositionerKind::Arm, tool);
@@ -219,8 +217,8 @@ fn a_tilted_block_pulls_where_it_leans() {
     };
     let (upright, tilted) = (pull(ToolOrientation::Vertical), pull(ToolOrientation::Paper));
     assert!(upright.lateral_n.norm() < 1e-12, "{upright:?}");
-    // By hand: the flange's rotation vector is the paper's, the block hangs on it with its middle 175 mm
-    // below, and the bead lies under the tool point, 180 mm below.
+    // Computed by hand: the flange has the paper's rotation vector, the middle of the block is 175 mm below
+    // it, and the bead is under the tool point, 180 mm below.
     let base_from_flange = UnitQuaternion::from_scaled_axis(Vector3::new(2.182, -2.182, 0.0));
     let down = base_from_flange * Vector3::z();
     let base_from_block = base_from_flange * crate::robot::tool_down().inverse();
@@ -229,7 +227,7 @@ fn a_tilted_block_pulls_where_it_leans() {
     let in_block = base_from_block.inverse() * bead_from_middle;
     let expected = base_from_block * force::force_n(&block, &in_block, dipole::moment_a_m2());
     assert!((tilted.lateral_n - expected.xy()).norm() < 1e-12 && (tilted.vertical_n - expected.z).abs() < 1e-12);
-    // It leans by 3.2°: a lateral pull of a part of the lift.
+    // The tilt is 3.2°, so the lateral pull is a fraction of the lift.
     assert!(tilted.lateral_n.norm() > 0.005 * tilted.vertical_n, "{tilted:?}");
 }
 
@@ -241,7 +239,7 @@ fn a_straight_tool_path_stays_in_its_plane() {
     let mut reference = at(tool, &Positioner::home(PositionerKind::Arm, tool));
     let mut state = PlantState::at_rest(reference, Point2::new(0.2, -0.25));
     while tool.x < 0.25 {
-        // The fastest flight, across the whole workspace.
+        // The fastest motion, across the whole workspace.
         tool += Vector3::new(0.25, 0.1, 0.0).normalize() * 0.25 * ur5::SERVO_PERIOD_S;
         let next = at(tool, &reference);
         plant.step(&mut state, &map, &reference, &next);
@@ -255,9 +253,9 @@ fn a_straight_tool_path_stays_in_its_plane() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A contact does no positive work, whatever the bead's speed and rotation.
+    /// A contact does no positive work, at any speed and rotation of the bead.
     #[test]
-    fn walls_give_the_bead_no_energy(
+    fn walls_add_no_energy(
         x in -0.27..0.25f64, y in -0.53..-0.22f64, speed in 0.0..40.0f64, angle in 0.0..std::f64::consts::TAU,
     ) {
         let map = Map::shipped("colon-folds").unwrap();
@@ -272,9 +270,9 @@ proptest! {
         }
     }
 
-    /// A pull within the friction's cone leaves a bead where it is, to the bit, sliding or rolling.
+    /// A pull below the friction limit leaves the bead where it is, bit for bit, sliding or rolling.
     #[test]
-    fn at_rest_stays_at_rest_below_any_magnet(
+    fn a_resting_bead_stays_at_rest_below_any_weak_magnet(
         x in -0.27..0.25f64, y in -0.53..-0.22f64, dx in -0.2..0.2f64, dy in -0.2..0.2f64, height in 0.095..0.2f64,
         rolls in any::<bool>(),
     ) {
@@ -294,9 +292,9 @@ proptest! {
         prop_assert_eq!(state, before);
     }
 
-    /// Friction takes energy and never gives any, sliding, slipping or rolling.
+    /// Friction only removes energy: sliding, slipping or rolling.
     #[test]
-    fn friction_gives_the_bead_no_energy(
+    fn friction_adds_no_energy(
         v in prop::array::uniform2(-1.0..1.0f64), roll in prop::array::uniform2(-1.0..1.0f64),
         friction in 0.0..1.0f64, rolling_resistance in 0.0..0.2f64, rolls in any::<bool>(),
     ) {
@@ -309,7 +307,7 @@ proptest! {
         let mut last_j = state.bead.kinetic_energy_j();
         for _ in 0..100 {
             step(&plant, &mut state, &map, FAR_AWAY);
-            // The far magnet's pull is some 1e-9 N.
+            // The distant magnet's pull is about 1e-9 N.
             prop_assert!(state.bead.kinetic_energy_j() <= last_j + 1e-11);
             last_j = state.bead.kinetic_energy_j();
         }

@@ -9,7 +9,7 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 
 /// The pose `base_from_flange` at `joints` (rad), metres.
 ///
-/// Joints that are not numbers give a pose that is not one either; no value panics.
+/// NaN joints give a NaN pose; no value panics.
 pub fn flange(joints: &Joints) -> Isometry3<f64> {
     link_frames(joints)[5]
 }
@@ -26,7 +26,7 @@ pub fn link_frames(joints: &Joints) -> [Isometry3<f64>; 6] {
     })
 }
 
-/// Rz(θ)·Tz(d)·Tx(a)·Rx(α): the next frame seen from this one.
+/// Rz(θ)·Tz(d)·Tx(a)·Rx(α): the next frame relative to this one.
 fn link(row: &DhRow, theta_rad: f64) -> Isometry3<f64> {
     let (sin, cos) = theta_rad.sin_cos();
     let (half_sin, half_cos) = (0.5 * theta_rad).sin_cos();
@@ -46,17 +46,17 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
     #[test]
-    fn stretched_arm_stands_where_the_table_says() {
+    fn stretched_arm_matches_the_reference_table() {
         let pose = flange(&[0.0; 6]);
         let expected = Vector3::new(-0.81725, -0.19145, -0.00549);
         // The reference is printed to five decimals: its z is 0.089159 − 0.09465 = −0.005491.
         assert!((pose.translation.vector - expected).amax() < 5e-6);
-        // The flange looks along base −y.
+        // The flange points along base −y.
         assert!((pose.rotation * Vector3::z() + Vector3::y()).norm() < 1e-15);
     }
 
     #[test]
-    fn upright_arm_stands_over_the_base() {
+    fn upright_arm_is_above_the_base() {
         let pose = flange(&[0.0, -FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0]);
         let top_m = ur5::D1_M - ur5::A2_M - ur5::A3_M + ur5::D5_M;
         let expected = Vector3::new(0.0, -ur5::D4_M - ur5::D6_M, top_m);
@@ -78,7 +78,7 @@ mod tests {
         }
 
         #[test]
-        fn first_joint_turns_everything(
+        fn first_joint_rotates_all_frames(
             joints in prop::array::uniform6(-PI..PI),
             turn_rad in -PI..PI,
         ) {

@@ -2,14 +2,14 @@
 //!
 //! The six equations and the order of solution (θ1, θ5, θ6, θ2+θ3+θ4, θ3, θ2, θ4) follow Hawkins,
 //! "Analytic Inverse Kinematics for the Universal Robots UR-5/UR-10 Arms" (Georgia Tech, 2013). Three
-//! things differ, each because the published form fails somewhere:
-//! - angles come from `atan2` alone; `acos` keeps only half the digits near its ends;
-//! - θ2+θ3+θ4 is fitted to all three axes of the flange instead of its x axis alone, which says nothing
-//!   when cos θ5 = sin θ6 = 0: the tool straight down and θ1 = 0 is such a pose;
-//! - where there is no answer a typed error says by how much, and no value is ever NaN.
+//! things differ, each because the published form fails for some poses:
+//! - all angles come from `atan2`; `acos` loses half the digits near its ends;
+//! - θ2+θ3+θ4 is fitted to all three axes of the flange. The published form uses the x axis alone, which
+//!   is undetermined if cos θ5 = sin θ6 = 0, for example with the tool straight down and θ1 = 0;
+//! - an unreachable pose returns a typed error with the missing distance; no result is ever NaN.
 //!
-//! θ1 and the sign of s5 have two values each: the four combinations are computed at once, in the lanes
-//! of a vector. Angles are carried as sine and cosine, and `atan2` comes last.
+//! θ1 and the sign of s5 have two values each. The four combinations are computed together in the lanes
+//! of a vector. Angles are kept as sine and cosine until the last step.
 
 use super::{
     Joints,
@@ -19,20 +19,19 @@ use crate::geometry::Isometry3;
 use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
-/// Excess that rounding explains: a pose computed by [`super::forward::flange`] at a singularity may
-/// miss it by some 1e-16, while clamping 1e-13 moves the flange by less than 1e-12 m.
+/// Tolerance for rounding: a pose computed by [`super::forward::flange`] at a singularity may miss it by
+/// about 1e-16, while clamping 1e-13 moves the flange by less than 1e-12 m.
 const ROUNDING: f64 = 1e-13;
 
-/// The four lanes: the sign of the wrist's distance along the arm's plane, which tells the two values of
-/// θ1 apart, and the sign of s5.
+/// The four lanes: the sign of the wrist's distance along the arm's plane, which distinguishes the two
+/// values of θ1, and the sign of s5.
 const SHOULDER: f64x4 = f64x4::new([1.0, 1.0, -1.0, -1.0]);
 const WRIST: f64x4 = f64x4::new([1.0, -1.0, 1.0, -1.0]);
 
-/// What a radian of each joint counts in [`nearest`]: the three joints that carry the whole arm count
-/// twice as much as those of the wrist.
+/// Weight of each joint in [`nearest`]: the first three joints move the whole arm and count twice as much
+/// as those of the wrist.
 const WEIGHTS: [f64; 6] = [1.0, 1.0, 1.0, 0.5, 0.5, 0.5];
 
-/// Why a pose has no joint solution.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum InverseError {
     /// An input is NaN or infinite.
@@ -44,7 +43,7 @@ pub enum InverseError {
         value: f64,
     },
     /// The wrist would lie inside the cylinder of radius `d4` about the base axis.
-    #[error("the wrist is {missing_m} m too near to the base axis")]
+    #[error("the wrist is {missing_m} m too close to the base axis")]
     ShoulderCylinder {
         /// How much farther from the axis the wrist must be, m.
         missing_m: f64,
@@ -56,7 +55,7 @@ pub enum InverseError {
         missing_m: f64,
     },
     /// No branch, and no copy of it turned by 360°, is inside the joint limits.
-    #[error("joint {joint} would stand at {angle_rad} rad, outside its limits")]
+    #[error("joint {joint} would be at {angle_rad} rad, outside its limits")]
     JointLimit {
         /// The joint, 0 (base) to 5 (wrist 3), of the first branch refused.
         joint: usize,
@@ -65,10 +64,10 @@ pub enum InverseError {
     },
 }
 
-/// Up to eight joint solutions, every angle in (−π, π], without an allocation.
+/// Up to eight joint solutions, every angle in (−π, π], stored without an allocation.
 ///
 /// The order is fixed: shoulder (θ1's sign +, −), then wrist (s5 +, −), then elbow (s3 +, −); branches
-/// that do not exist are left out, and branches that coincide exactly appear once.
+/// that do not exist are omitted, and branches that coincide exactly appear once.
 #[derive(Clone, Copy, Debug)]
 pub struct Solutions {
     joints: [Joints; 8],
@@ -99,10 +98,10 @@ impl<'a> IntoIterator for &'a Solutions {
     }
 }
 
-/// All joint solutions of `base_from_flange` (m); at least one.
+/// All joint solutions of `base_from_flange` (m): at least one.
 ///
-/// `seed` (rad) gives θ6 where the pose leaves it free, that is where s5 = 0 and wrist 3 turns about
-/// the axis of wrist 1; elsewhere it is not used.
+/// `seed` (rad) gives θ6 if the pose does not determine it, that is if s5 = 0 and wrist 3 turns about
+/// the axis of wrist 1; otherwise it is not used.
 ///
 /// # Errors
 /// [`InverseError::NonFinite`], [`InverseError::ShoulderCylinder`], [`InverseError::OutOfReach`].
@@ -116,8 +115,8 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
         return Err(InverseError::ShoulderCylinder { missing_m: D4_M - radius_m });
     }
 
-    // θ1: the wrist lies d4 off the arm's plane, s1·wx − c1·wy = d4, and √H along it. H by its factors:
-    // a difference of squares would lose the digits that matter at the cylinder.
+    // θ1: the wrist is d4 off the arm's plane, s1·wx − c1·wy = d4, and √H along it. H is computed from its
+    // factors: a difference of squares would lose digits near the cylinder.
     let root_h = (radius_m - D4_M).max(0.0).sqrt() * (radius_m + D4_M).sqrt();
     let off = D4_M / radius_m.max(D4_M);
     let on = SHOULDER * (root_h / radius_m.max(D4_M));
@@ -144,8 +143,8 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
         c6 = is_free.select(f64x4::splat(seed6.cos()), c6);
     }
 
-    // (along_k, up_k) is `flat_k` turned by θ234, for each axis k of the flange; fit the turn. Half the
-    // sum, because the squares of three axes of unit length add up to two in any plane.
+    // (along_k, up_k) is `flat_k` rotated by θ234, for each axis k of the flange: fit the rotation. Half the
+    // sum, because the squared projections of three orthonormal axes onto a plane add up to two.
     let flat = [[c5 * c6, s6], [-c5 * s6, c6], [-s5, f64x4::ZERO]];
     let (mut s234, mut c234) = (f64x4::ZERO, f64x4::ZERO);
     for (k, [a, b]) in flat.into_iter().enumerate() {
@@ -166,7 +165,7 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
     let theta2 = [(ks * x - kc * y).atan2(kc * x + ks * y), (ks * x + kc * y).atan2(kc * x - ks * y)];
     let theta4 = [wrapped(theta234 - theta2[0]) - theta3, wrapped(theta234 - theta2[1]) + theta3];
 
-    // False for what is not a number too, as where squares overflow.
+    // Also false for NaN, which results if squares overflow.
     let is_reached = c3.abs().simd_le(f64x4::splat(1.0 + ROUNDING)).to_bitmask();
     let is_free = is_free.to_bitmask();
     let is_straight = s3.simd_eq(f64x4::ZERO).to_bitmask();
@@ -201,8 +200,8 @@ pub fn solutions(flange: &Isometry3<f64>, seed: &Joints) -> Result<Solutions, In
 
 /// The solution of `base_from_flange` nearest to `seed` (rad), inside ±[`JOINT_LIMIT_RAD`].
 ///
-/// See [`nearest_within`]. The UR5's limits are a full turn each way, so that every branch has a copy
-/// inside them.
+/// See [`nearest_within`]. The UR5's limits are a full turn in each direction, so every branch has an
+/// equivalent inside them.
 ///
 /// # Errors
 /// Those of [`solutions`].
@@ -210,11 +209,11 @@ pub fn nearest(flange: &Isometry3<f64>, seed: &Joints) -> Result<Joints, Inverse
     nearest_within(flange, seed, &[[-JOINT_LIMIT_RAD, JOINT_LIMIT_RAD]; 6])
 }
 
-/// The solution of `base_from_flange` nearest to `seed` (rad) among all branches and their copies
-/// turned by 360°, inside `limits_rad` (`[least, greatest]` a joint).
+/// The solution of `base_from_flange` nearest to `seed` (rad) among all branches and their equivalents
+/// (± 360° per joint), inside `limits_rad` (`[min, max]` per joint).
 ///
-/// Distance is the sum of squared angles, the arm's three joints weighing twice the wrist's. Called
-/// along a path with the last answer as the seed, it keeps the branch.
+/// The distance is the sum of squared angles; the first three joints weigh twice as much as the wrist's.
+/// Along a path, with the previous solution as the seed, it stays on the same branch.
 ///
 /// # Errors
 /// Those of [`solutions`], and [`InverseError::JointLimit`] if nothing is inside the limits.
@@ -239,21 +238,21 @@ pub fn nearest_within(
     best.map(|(_, joints)| joints).ok_or_else(|| refusal.expect("one of the solutions is refused"))
 }
 
-/// How far wrist 1, at (`kc_m`, `ks_m`) from the shoulder, is from where the two links reach, m.
+/// Distance of wrist 1, at (`kc_m`, `ks_m`) from the shoulder, from the range that the two links reach, m.
 fn missing_m(kc_m: f64, ks_m: f64) -> f64 {
     let distance_m = kc_m.hypot(ks_m);
     let nearest_m = distance_m.clamp((A2_M - A3_M).abs(), (A2_M + A3_M).abs());
     (distance_m - nearest_m).abs()
 }
 
-/// `angle_rad` in [−2π, 2π] turned into (−π, π].
+/// Maps `angle_rad` from [−2π, 2π] to (−π, π].
 fn wrapped(angle_rad: f64x4) -> f64x4 {
     let is_above = angle_rad.simd_gt(f64x4::PI);
     let is_below = angle_rad.simd_le(-f64x4::PI);
     angle_rad - (is_above & f64x4::TAU) + (is_below & f64x4::TAU)
 }
 
-/// The copy of `branch` nearest to `seed` and inside the limits, each joint by itself.
+/// The equivalent of `branch` nearest to `seed` and inside the limits, chosen for each joint separately.
 fn nearest_copy(branch: &Joints, seed: &Joints, limits_rad: &[[f64; 2]; 6]) -> Result<Joints, InverseError> {
     let mut copy = *branch;
     for joint in 0..6 {
@@ -266,7 +265,7 @@ fn nearest_copy(branch: &Joints, seed: &Joints, limits_rad: &[[f64; 2]; 6]) -> R
     Ok(copy)
 }
 
-/// The copy of `angle_rad` inside the limits that is nearest to a seed outside them.
+/// The equivalent of `angle_rad` inside the limits that is nearest to a seed outside them.
 #[cold]
 fn copy_inside(joint: usize, angle_rad: f64, seed_rad: f64, limits_rad: [f64; 2]) -> Result<f64, InverseError> {
     let turns_to = |target_rad: f64| (target_rad - angle_rad) / TAU;
@@ -277,9 +276,9 @@ fn copy_inside(joint: usize, angle_rad: f64, seed_rad: f64, limits_rad: [f64; 2]
     Ok(angle_rad + TAU * turns_to(seed_rad).round().max(fewest).min(most))
 }
 
-/// The whole number nearest to `number`; in place, where `f64::round` is a call.
+/// `number` rounded to an integer, inlined; `f64::round` is a function call.
 fn whole(number: f64) -> f64 {
-    // From here on the spacing of floating-point numbers is one.
+    // From here on, floating-point numbers are one apart.
     const SHIFT: f64 = 1.5 * (1_u64 << 52) as f64;
     (number + SHIFT) - SHIFT
 }
@@ -306,7 +305,7 @@ mod tests {
     use crate::robot::forward;
 
     #[test]
-    fn wrapped_keeps_to_its_interval() {
+    fn wrapped_angles_stay_in_their_interval() {
         for (angle_rad, expected_rad) in [(-PI, PI), (PI, PI), (-TAU, 0.0), (TAU, 0.0), (4.0, 4.0 - TAU), (0.5, 0.5)] {
             assert_eq!(wrapped(f64x4::splat(angle_rad)), f64x4::splat(expected_rad));
         }
@@ -315,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn the_farthest_seed_still_gives_joints_within_limits() {
+    fn a_distant_seed_still_gives_joints_within_limits() {
         let flange = forward::flange(&[0.4, -1.0, 1.2, 0.3, 0.0, 0.7]);
         for seed_rad in [1e15, -1e200, f64::MAX] {
             let found = nearest(&flange, &[seed_rad; 6]).unwrap();

@@ -29,8 +29,8 @@ pub fn geometric(joints: &Joints) -> Matrix6<f64> {
 /// The factors of det J that change sign: the shoulder's a2·c2 + a3·c23 + d5·s234 (m), the wrist's s5 and
 /// the elbow's s3.
 ///
-/// Each is zero in a singularity of its own: wrist over the base axis, at the shoulder's cylinder;
-/// wrist 3 along wrist 1; elbow straight.
+/// Each is zero at one kind of singularity: wrist on the shoulder's cylinder around the base axis; wrist 3
+/// parallel to wrist 1; elbow straight.
 pub fn factors(joints: &Joints) -> [f64; 3] {
     let [_, theta2, theta3, theta4, theta5, _] = *joints;
     let shoulder_m = A2_M * theta2.cos() + A3_M * (theta2 + theta3).cos() + D5_M * (theta2 + theta3 + theta4).sin();
@@ -62,7 +62,7 @@ mod tests {
         }
 
         #[test]
-        fn columns_are_what_a_small_turn_does(joints in prop::array::uniform6(-PI..PI)) {
+        fn columns_match_numerical_derivatives(joints in prop::array::uniform6(-PI..PI)) {
             let step_rad = 1e-5;
             let jacobian = geometric(&joints);
             for joint in 0..6 {
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn singular_arms_have_none() {
+    fn manipulability_is_zero_at_singularities() {
         assert_eq!(manipulability(&[0.3, -1.0, 0.0, 0.2, 1.0, 0.4]), 0.0);
         assert_eq!(manipulability(&[0.3, -1.0, 1.0, 0.2, 0.0, 0.4]), 0.0);
     }

@@ -1,4 +1,4 @@
-//! The joint servo: single integrators that follow a reference, no faster than the joints can.
+//! The joint servo: single integrators that follow a reference within the joints' speed limits.
 
 use super::{
     Joints,
@@ -7,13 +7,13 @@ use super::{
 
 /// The joints (rad) one servo period of 8 ms after `joints`.
 ///
-/// `reference` is where the joints should be now, `next_reference` where they should be at the end of
-/// the period (rad, both), and `gain_per_s` the gain K2 of the paper's joint loop, 1/s. The speed is
-/// q̇ = (next_reference − reference)/dt + K2·(reference − q): the reference's own speed, and a part
-/// that makes the error die away as exp(−K2·t). The loop is stable for 0 < K2 < 2/dt = 250 /s.
+/// `reference` is the wanted position now, `next_reference` the one at the end of the period (rad, both).
+/// `gain_per_s` is the gain K2 of the paper's joint loop, 1/s. The speed is
+/// q̇ = (next_reference − reference)/dt + K2·(reference − q): the speed of the reference plus a term that
+/// makes the error decay as exp(−K2·t). The loop is stable for 0 < K2 < 2/dt = 250 /s.
 ///
-/// If any joint would exceed [`JOINT_SPEED_LIMIT_RAD_S`], all are slowed by the same factor, so that
-/// the arm keeps its direction. Inputs that are not numbers give joints that are not.
+/// If any joint would exceed [`JOINT_SPEED_LIMIT_RAD_S`], all joints slow down by the same factor, so the
+/// direction of motion stays the same. NaN inputs give NaN joints.
 pub fn step(joints: &Joints, reference: &Joints, next_reference: &Joints, gain_per_s: f64) -> Joints {
     let speed_rad_s: Joints = std::array::from_fn(|i| {
         (next_reference[i] - reference[i]) / SERVO_PERIOD_S + gain_per_s * (reference[i] - joints[i])
@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_dies_away_with_the_gain() {
+    fn an_error_decays_with_the_gain() {
         let mut joints = [0.1; 6];
         for _ in 0..125 {
             joints = step(&joints, &[0.0; 6], &[0.0; 6], GAIN_PER_S);

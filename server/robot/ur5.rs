@@ -7,9 +7,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Height of the shoulder axis above the base, m.
 pub const D1_M: f64 = 0.089159;
-/// Shoulder to elbow, m; negative in the maker's convention.
+/// Shoulder to elbow, m; negative in the manufacturer's convention.
 pub const A2_M: f64 = -0.425;
-/// Elbow to wrist 1, m; negative in the maker's convention.
+/// Elbow to wrist 1, m; negative in the manufacturer's convention.
 pub const A3_M: f64 = -0.39225;
 /// Sideways offset of the wrist from the arm's plane through the base axis, m.
 pub const D4_M: f64 = 0.10915;
@@ -34,9 +34,9 @@ pub struct DhRow {
 pub const DH: [DhRow; 6] =
     [row(D1_M, 0.0, 1), row(0.0, A2_M, 0), row(0.0, A3_M, 0), row(D4_M, 0.0, 1), row(D5_M, 0.0, -1), row(D6_M, 0.0, 0)];
 
-/// Every joint turns within ± this angle, rad.
+/// Joint limit, ± rad, the same for all joints.
 pub const JOINT_LIMIT_RAD: f64 = 2.0 * PI;
-/// Greatest speed of every joint, rad/s (180°/s).
+/// Maximum speed of each joint, rad/s (180°/s).
 pub const JOINT_SPEED_LIMIT_RAD_S: f64 = PI;
 /// Period of the CB3 controller, s (125 Hz).
 pub const SERVO_PERIOD_S: f64 = 0.008;

@@ -1,20 +1,20 @@
-//! Where the arm works well: manipulability over a horizontal plane, for a fixed rotation of the flange.
+//! The manipulability of the arm over a horizontal plane, for a fixed rotation of the flange.
 //!
-//! The sign of each factor of det J ([`jacobian::manipulability`]) stays until the arm passes through a
-//! singularity, and the three signs name its eight branches: shoulder, wrist, elbow. So a map keeps the
-//! signs of its seed, and with them the branch, however large the cells are and in whatever order they
-//! are looked at. Nothing on the map needs a passage through a singularity; a cell that only another
-//! branch reaches counts as not reached.
+//! The sign of each factor of det J ([`jacobian::manipulability`]) changes only at a singularity. The three
+//! signs (shoulder, wrist, elbow) identify the eight solution branches. A map uses the signs of its seed for
+//! all cells, so all cells are on one branch and no motion between them passes through a singularity. The
+//! result does not depend on the cell size or on the order of evaluation. A cell that only another branch
+//! reaches counts as not reached.
 
 use super::{Joints, inverse, jacobian};
 use crate::geometry::schema::Numbers2;
 use crate::geometry::{Isometry3, Point2, Rect, UnitQuaternion, Vector3};
 use serde::Serialize;
 
-/// The most cells of a map.
+/// Maximum number of cells of a map.
 pub const MOST_CELLS: usize = 250_000;
 
-/// A factor of det J this much on the wrong side of zero is a rounded zero.
+/// A factor of det J with the wrong sign, but smaller than this, counts as zero.
 const ROUNDING: f64 = 1e-9;
 
 /// Manipulability over a plane, in square cells.
@@ -29,12 +29,11 @@ pub struct ManipulabilityMap {
     pub origin_m: [f64; 2],
     /// Side of a cell.
     pub cell_m: f64,
-    /// |det J| in m³ with the flange over each cell's centre, row by row from the lower left; `None`
-    /// where the branch does not reach. `rows × columns` values.
+    /// |det J| in m³ with the flange over each cell's centre: `rows × columns` values, row by row from the
+    /// lower left. `None` if the branch does not reach the cell.
     pub manipulability_m3: Vec<Option<f64>>,
 }
 
-/// Why there is no map.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WorkspaceError {
     /// An input is NaN or infinite.
@@ -56,7 +55,6 @@ pub enum WorkspaceError {
     /// The cells have no size.
     #[error("a cell's side is {cell_m} m")]
     EmptyCell {
-        /// What was asked for.
         cell_m: f64,
     },
     /// More than [`MOST_CELLS`].
@@ -70,8 +68,8 @@ pub enum WorkspaceError {
 /// The manipulability over `area` with the flange at `flange_z_m` above the table and turned by
 /// `base_from_flange`, on the branch of `seed` (rad).
 ///
-/// The cells start at the area's lower left corner and cover it; the last of a row or column may stand
-/// out. A seed in a singularity counts as just on its positive side.
+/// The cells start at the area's lower left corner and cover it; the last cell of a row or column may reach
+/// beyond it. A seed in a singularity counts as just on its positive side.
 ///
 /// # Errors
 /// [`WorkspaceError`] if an argument is not finite, an extent not positive, or the cells too many.
@@ -95,7 +93,7 @@ pub fn manipulability_map(
     if cell_m <= 0.0 {
         return Err(WorkspaceError::EmptyCell { cell_m });
     }
-    // Less a little, so that rounding does not add a column to an area of whole cells.
+    // The small reduction keeps rounding from adding a column to an area of whole cells.
     let [columns, rows] = [size_m.x, size_m.y].map(|side_m| (side_m / cell_m - 1e-6).ceil().max(1.0));
     let cells = columns * rows;
     if cells > MOST_CELLS as f64 {
@@ -180,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_reached_lies_within_reach() {
+    fn reached_cells_are_within_reach() {
         for z_m in [-0.3, 0.0, 0.28, 0.5, 0.7, 0.8235] {
             let map = map(&AROUND, 0.008, z_m);
             assert_eq!((map.columns, map.rows, map.manipulability_m3.len()), (250, 250, 62_500));
@@ -195,7 +193,7 @@ mod tests {
                 assert!(is_within || value.is_none());
                 folded += usize::from(is_within && value.is_none());
             }
-            // Near the shoulder's height the arm cannot fold so far, but other branches reach there.
+            // Near the shoulder's height this branch cannot fold that far, but other branches can.
             assert_eq!(folded > 0, z_m == 0.0, "{z_m}");
         }
         let high = map(&AROUND, 0.02, 0.9);
@@ -203,14 +201,14 @@ mod tests {
     }
 
     #[test]
-    fn it_falls_to_zero_at_both_ends_of_the_reach() {
+    fn manipulability_falls_to_zero_at_both_ends_of_the_reach() {
         let (r_min_m, r_max_m) = reach(0.28).unwrap();
         let at = |r_m: f64| {
             let flange = Isometry3::from_parts(Vector3::new(0.6 * r_m, -0.8 * r_m, 0.28).into(), tool_down());
             on_branch(&flange, &SEED, &jacobian::factors(&SEED).map(f64::signum)).unwrap()
         };
         for inside_m in [1e-3, 1e-6, 1e-9] {
-            // As the root of the distance, in either way.
+            // In proportion to the root of the distance, at both ends.
             let root = f64::sqrt(inside_m);
             assert!((0.02 * root..0.5 * root).contains(&at(r_min_m + inside_m)), "{inside_m}");
             assert!((0.02 * root..0.5 * root).contains(&at(r_max_m - inside_m)), "{inside_m}");
@@ -219,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn turning_the_base_turns_the_map() {
+    fn rotating_the_base_rotates_the_map() {
         let area = Rect { x_min_m: 0.05, x_max_m: 0.55, y_min_m: -0.7, y_max_m: -0.2 };
         let tilted = UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1) * tool_down();
         let quarter = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), FRAC_PI_2);
@@ -243,7 +241,7 @@ mod tests {
 
     #[test]
     fn the_papers_working_area_is_free_of_singularities() {
-        // Half a cell more on every side, so that the outermost centres lie on the border.
+        // Half a cell larger on every side, so that the outermost centres are on the border.
         let area = Rect { x_min_m: -0.3025, x_max_m: 0.2825, y_min_m: -0.5425, y_max_m: -0.2075 };
         let papers_rotation = UnitQuaternion::from_scaled_axis(Vector3::new(2.182, -2.182, 0.0));
         for (rotation, expected_m3) in [(tool_down(), 0.01951), (papers_rotation, 0.01893)] {
@@ -253,7 +251,7 @@ mod tests {
             let least_m3 = map.manipulability_m3.iter().flatten().copied().fold(f64::INFINITY, f64::min);
             assert!((least_m3 - expected_m3).abs() < 1e-5, "{least_m3}");
         }
-        // With the tool down it depends on the distance alone, and is least where the base is nearest.
+        // With the tool down it depends on the distance alone, and is smallest nearest to the base.
         assert!((expected(0.21, 0.28) - 0.01951).abs() < 1e-5);
     }
 
@@ -293,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_count_cells() {
+    fn share_is_the_fraction_of_cells() {
         let strip = Rect { x_min_m: 0.0, x_max_m: 1.0, y_min_m: -0.05, y_max_m: 0.05 };
         let map = map(&strip, 0.1, 0.28);
         assert_eq!((map.columns, map.rows), (10, 1));
@@ -306,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn absurd_arguments_are_refused() {
+    fn rejects_invalid_arguments_by_name() {
         let refusal =
             |area: Rect, cell_m, z_m| manipulability_map(&area, cell_m, z_m, &tool_down(), &SEED).unwrap_err();
         for cell_m in [0.0, -0.01] {

@@ -1,4 +1,4 @@
-//! A scenario as the part of the page's address after `#` (`web/src/lab/experimentLink.ts` reads it).
+//! A scenario as an experiment link: the part of the page's address after `#`. `web/src/lab/experimentLink.ts` reads it.
 
 use serde_json::Value;
 
@@ -6,11 +6,12 @@ use super::{Parameters, Scenario};
 use crate::geometry::Point2;
 use crate::map::{Map, is_added};
 
-/// Raised with that of the page.
+/// Version of the link format; equal to that of the page.
 const VERSION: u32 = 1;
 
 impl Scenario {
-    /// The link, `#` included; `None` where the page has no such map, or for a script, which the page writes itself.
+    /// The link, including `#`. `None` if the page does not have the map, or if there is a script, which only the page
+    /// writes.
     pub fn link(&self) -> Option<String> {
         let is_known = Map::shipped_names().contains(&self.map) || is_added(&self.map);
         if !self.script.is_empty() || !is_known {
@@ -47,7 +48,7 @@ fn fields(parameters: &Parameters) -> Option<serde_json::Map<String, Value>> {
     }
 }
 
-/// A name without quotes, anything else as JSON.
+/// A name without quotes; any other value as JSON.
 fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
@@ -58,7 +59,7 @@ mod tests {
     use crate::scenario::{AttractorLaw, ControllerName};
 
     #[test]
-    fn a_link_tells_what_is_not_at_its_default() {
+    fn a_link_contains_only_values_other_than_the_default() {
         let idle = Scenario::idle("posts", 7);
         assert_eq!(idle.link().unwrap(), "#v=1&map=posts&controller=attractor&seed=7");
         let parameters =

@@ -1,4 +1,4 @@
-//! Random trials (specification §4): fair pairs of start and goal.
+//! Random trials: fair pairs of start and goal.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,18 +7,18 @@ use super::{ControllerName, Parameters, Scenario};
 use crate::geometry::Point2;
 use crate::map::{FreeSpace, Map};
 
-/// Starts, goals and displaced beads keep this far from walls.
+/// Minimum distance of starts, goals and displaced beads from walls.
 pub const CLEARANCE_M: f64 = 0.012;
-/// Start and goal are at least this far apart, along the shortest way.
+/// Minimum length of the shortest path from start to goal.
 pub const LEAST_DISTANCE_M: f64 = 0.15;
-/// Of the pairs, at least this share has its straight line blocked, on maps where that can be.
+/// Minimum share of pairs whose straight line is blocked, on maps where that is possible.
 const BLOCKED_SHARE: f64 = 0.6;
-/// Half width of the straight line when asking whether it is blocked: the bead's radius.
+/// Half width of the straight line for the test whether it is blocked: the bead's radius.
 const LINE_HALF_WIDTH_M: f64 = 0.0025;
-/// Draws before a map is given up.
+/// Maximum number of draws per map.
 const DRAWS: usize = 2000;
 
-/// No fair trial fits the map.
+/// The map has no fair pair of start and goal.
 #[derive(Debug, thiserror::Error)]
 #[error("map: {map:?} has no two free points {LEAST_DISTANCE_M} m apart that keep {CLEARANCE_M} m from the walls")]
 pub struct RandomTrialError {
@@ -26,7 +26,7 @@ pub struct RandomTrialError {
     pub map: String,
 }
 
-/// Where the bead starts when nothing is said: the first seeded free point that the arm comes to.
+/// The default start of the bead: the first random free point that the positioner reaches.
 pub fn start_point(
     map: &Map,
     space: &FreeSpace,
@@ -39,8 +39,7 @@ pub fn start_point(
 }
 
 impl Scenario {
-    /// The `index`-th random trial of a seed: the same for every controller, and whatever was drawn
-    /// before it.
+    /// The `index`-th random trial of a seed. It is the same for every controller and independent of earlier draws.
     pub fn random(
         map: &Map,
         map_name: &str,
@@ -52,7 +51,7 @@ impl Scenario {
     ) -> Result<Self, RandomTrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(index + 1);
-        // Every prefix of the trials holds its share of blocked pairs.
+        // Every prefix of the trials contains the minimum share of blocked pairs.
         let share_before = (index as f64 * BLOCKED_SHARE).ceil();
         let must_be_blocked = ((index + 1) as f64 * BLOCKED_SHARE).ceil() > share_before && !map.walls().is_empty();
         let refuse = || RandomTrialError { map: map.name().to_owned() };
@@ -80,7 +79,7 @@ impl Scenario {
     }
 }
 
-/// A trial's own seed: of 53 bits, so that links and pages hold it as a number.
+/// The seed of a single trial: 53 bits, so that JavaScript numbers represent it exactly.
 fn trial_seed(seed: u64, index: u64) -> u64 {
     const BITS: u32 = 53;
     (seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (u64::BITS - BITS)).wrapping_add(index) & ((1 << BITS) - 1)
@@ -89,7 +88,7 @@ fn trial_seed(seed: u64, index: u64) -> u64 {
 fn draw_pair(map: &Map, space: &FreeSpace, rng: &mut impl Rng) -> Option<(Point2<f64>, Point2<f64>)> {
     let start = space.sample(map, None, rng)?;
     let goal = space.sample(map, space.component_at(start), rng)?;
-    // The straight line is the lower bound, and cheap.
+    // The straight line is a lower bound and cheap to compute.
     let far = (goal - start).norm() >= LEAST_DISTANCE_M
         || space.geodesic_m(start, goal).is_some_and(|length_m| length_m >= LEAST_DISTANCE_M);
     far.then_some((start, goal))
@@ -100,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_start_out_of_reach_is_drawn_again() {
+    fn redraws_a_start_out_of_reach() {
         let map = Map::shipped("posts").unwrap();
         let space = FreeSpace::new(&map, CLEARANCE_M);
         let any = start_point(&map, &space, 7, &|_| true).unwrap();
@@ -111,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn trials_keep_their_promises_and_do_not_depend_on_each_other() {
+    fn trials_are_fair_and_independent_of_each_other() {
         let map = Map::shipped("posts").unwrap();
         let space = FreeSpace::new(&map, CLEARANCE_M);
         let make = |index| Scenario::random(&map, "posts", &space, ControllerName::Attractor, 0, 1, index).unwrap();

@@ -9,26 +9,23 @@ use super::Scenario;
 #[include = "*.json"]
 struct Files;
 
-/// A scenario with a name and a sentence.
+/// A scenario with its description.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shipped {
-    /// What it shows.
-    pub about: String,
-    /// The trial.
+    /// Description.    pub about: String,
     pub scenario: Scenario,
 }
 
-/// No such scenario.
+/// The scenario could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum ShippedError {
-    /// Neither shipped nor a file.
-    #[error("scenario: there is none named {name:?}; there are {}", Shipped::names().join(", "))]
+    /// No shipped scenario has this name.
+    #[error("scenario: {name:?} does not exist; the shipped ones are {}", Shipped::names().join(", "))]
     Unknown {
-        /// The name asked for.
-        name: String,
+        /// The requested name.        name: String,
     },
-    /// A file that cannot be read.
+    /// A file could not be read.
     #[error("scenario: {path}: {reason}")]
     Unreadable {
         /// The file.
@@ -39,7 +36,7 @@ pub enum ShippedError {
 }
 
 impl Shipped {
-    /// Names of all.
+    /// Names of all shipped scenarios.
     pub fn names() -> Vec<String> {
         let mut names: Vec<String> =
             Files::iter().filter_map(|file| file.strip_suffix(".json").map(str::to_owned)).collect();
@@ -62,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_are_read_and_others_are_named() {
+    fn reads_all_shipped_scenarios_and_rejects_unknown_names() {
         assert!(Shipped::names().len() >= 6);
         for name in Shipped::names() {
             let Shipped { about, scenario } = Shipped::open(&name).unwrap();

@@ -1,4 +1,4 @@
-//! Cases: a scenario, what an operator did in it, and what is expected of it. A drag on the page becomes one.
+//! Test cases: a scenario, the operator's inputs, and the expected result. The page saves a trial as a case.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -14,47 +14,44 @@ use crate::map::{Map, MapError};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Scenario, Shipped, ShippedError};
 
-/// What is not delivered yet has so long to be.
+/// Time for a delivery that is still pending when the case is saved.
 const TIME_TO_DELIVER_S: f64 = 60.0;
-/// What is delivered already may come so much later: with another adapter images differ, and decisions with them.
+/// Extra time for a delivery that has happened: another graphics adapter gives slightly different images and so
+/// different decisions.
 const SLACK_S: f64 = 10.0;
-/// Without an expectation it ends so long after the last input, should it never rest: without a goal nothing does.
+/// Without an expectation, a case that does not come to rest ends this long after the last input.
 const REST_S: f64 = 600.0;
-/// A larger file is no case: an hour of dragging comes to a tenth of it.
+/// Maximum file size; an hour of dragging needs a tenth of it.
 const BYTES_MOST: u64 = 64 << 20;
-/// A day of ticks: whoever waits for a later one waits for ever.
+/// Maximum tick in a case: one day.
 const TICKS_MOST: u64 = 24 * 3600 * 125;
 
-/// A trial that can be run again with whatever the controllers have become.
+/// A trial that can be run again with the present controllers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// What it shows.
+    /// Description.
     pub about: String,
-    /// How the trial is set up.
     pub scenario: Scenario,
-    /// Its map, where that does not come with Ferry.
+    /// Its map, if the map does not ship with Ferry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<LoggedMap>,
-    /// What is done in it, in order of ticks.
+    /// The inputs, in order of ticks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<Timed>,
-    /// What must come of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
 }
 
-/// An input and its time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+/// An input with its tick.#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
-    /// It comes before the tick after this one.
+    /// The input is applied after this tick and before the next one.
     pub tick: u64,
-    /// What.
     pub input: Input,
 }
 
-/// So many deliveries by then.
+/// Expected number of deliveries up to a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
@@ -64,21 +61,20 @@ pub struct Expectation {
     pub by_tick: u64,
 }
 
-/// What a case came to.
+/// Result of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseOutcome {
     /// Its last tick.
     pub tick: u64,
-    /// How it stood then.
-    pub phase: String,
-    /// Counters then.
+    /// Phase at that tick.    pub phase: String,
+    /// Counters at that tick.
     pub counters: Counters,
-    /// Inputs that the trial's course made impossible.
+    /// Inputs that were impossible because the trial took another course, and were skipped.
     pub refused: Vec<(u64, InputError)>,
 }
 
 impl CaseOutcome {
-    /// Whether it is what was expected; without an expectation, always.
+    /// Whether the expectation is met; always true without an expectation.
     pub fn meets(&self, case: &Case) -> bool {
         case.expect.is_none_or(|expect| self.counters.deliveries >= expect.deliveries && self.tick <= expect.by_tick)
     }
@@ -99,7 +95,7 @@ impl Case {
     /// Reads a case.
     ///
     /// # Errors
-    /// What is wrong with it, the field named.
+    /// A description that names the field.
     pub fn from_json(bytes: &[u8]) -> Result<Self, String> {
         let mut reader = serde_json::Deserializer::from_slice(bytes);
         let case: Self = serde_path_to_error::deserialize(&mut reader).map_err(|error| error.to_string())?;
@@ -112,7 +108,7 @@ impl Case {
         }
     }
 
-    /// Of a trial and all that it was told: what is under way is expected to be delivered. `None` if there is nothing
+    /// Makes a case of a trial and its inputs. It expects a pending goal to be delivered. `None` if there is nothing
     /// to expect.
     pub fn of(trial: &Trial, inputs: Vec<Timed>) -> Option<Self> {
         let world = &trial.state().world;
@@ -128,16 +124,15 @@ impl Case {
         (deliveries > 0).then_some(Self { about, scenario, map, inputs, expect: Some(expect) })
     }
 
-    /// Where it takes place.
-    ///
+    /// The arena of the case's map.    ///
     /// # Errors
-    /// When its map is none, or not to be had.
+    /// The map is invalid or cannot be found.
     pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
         self.map.as_ref().map_or_else(|| Arena::open(&self.scenario.map), LoggedMap::arena)
     }
 
-    /// Runs it in an arena made of its map, until what is expected has come, or its time is over; without an
-    /// expectation, until it rests. `watch` sees every tick and may stop it.
+    /// Runs the case until its expectation is met or its time is over; without an expectation, until it rests.
+    /// `watch` is called after every tick and may stop the run.
     pub fn run(
         &self,
         arena: &Arc<Arena>,
@@ -163,7 +158,7 @@ impl Case {
                 Some(Expectation { deliveries, by_tick }) => {
                     moment.counters.deliveries >= deliveries || record.tick >= by_tick
                 }
-                // Without a goal it never rests.
+                // Without a goal it does not come to rest.
                 None => rests || record.tick >= last_tick + ticks(REST_S),
             };
             if stopped || (over && inputs.peek().is_none()) {
@@ -183,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_case_that_would_never_end_is_refused() {
+    fn rejects_a_case_that_would_never_end() {
         let scenario = serde_json::to_string(&Scenario::idle("open", 1)).unwrap();
         let case = |rest: &str| Case::from_json(format!(r#"{{"about":"","scenario":{scenario}{rest}}}"#).as_bytes());
         assert!(case("").is_ok(), "without an expectation `run` ends it");

@@ -1,4 +1,4 @@
-//! A control step: what the controllers decide, and what the trial makes of it.
+//! A control step: the controllers decide, and the trial carries the decision out.
 
 use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
 use super::{Decision, Event, EventKind, Mind, Motion, Trial, World};
@@ -65,7 +65,7 @@ impl Trial {
         }
     }
 
-    /// Does what was decided: switches, counts, moves on, and lets the script strike.
+    /// Carries out a decision: switches, counts, starts the motion and applies due disturbances.
     pub(super) fn carry_out(&mut self, decision: &Decision) {
         let tick = self.state.world.tick;
         let switching = decision.switching;
@@ -76,7 +76,7 @@ impl Trial {
             self.events.push(Event::new(tick, EventKind::Switch, text));
         }
         if let Some(refusal) = &decision.refusal {
-            // Once, not at each step of a long hold.
+            // Reported once, not at each step of a long hold.
             if self.state.world.refusal.is_none() {
                 self.events.push(Event::new(tick, EventKind::Refused, format!("the arm holds: {refusal}")));
             }

@@ -1,4 +1,4 @@
-//! Disturbances: those of the scenario's script, those that strike at random, and the operator's.
+//! Disturbances: scripted ones, random ones, and those of the operator.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,29 +11,29 @@ use crate::plant::{Bead, contact};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Disturbance, SCRIPT_LIMIT, Scripted, When};
 
-/// A random disturbance puts the bead down at least this far away (specification §2).
+/// A random disturbance moves the bead at least this far.
 const LEAST_DISPLACEMENT_M: f64 = 0.15;
 
-/// Disturbances still to come, and those that last.
+/// Pending and active disturbances.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Script {
-    /// How many random displacements.
+    /// Total number of random displacements.
     pub remaining: u32,
-    /// How many of them have struck.
+    /// Number of random displacements applied so far.
     pub struck: u32,
-    /// At which step of the present leg the next one strikes; drawn when the leg begins.
+    /// Step of the current leg at which the next one is applied; drawn when the leg begins.
     pub at_leg_step: Option<u32>,
-    /// The scenario's own that have not struck yet.
+    /// Entries of the scenario's script that have not been applied yet.
     pub pending: Vec<Scripted>,
-    /// Where the bead was before the last tick.
+    /// Position of the bead before the last tick.
     pub bead_before_m: Option<Point2<f64>>,
-    /// Tick at which a drift ends.
+    /// Tick at which a push ends.
     pub drift_until: u64,
-    /// Tick at which the tracker sees again.
+    /// Tick at which tracker loss ends.
     pub dropout_until: u64,
 }
 
-/// What is drawn for a random displacement.
+/// The random draw of a displacement.
 #[derive(Clone, Copy, Debug)]
 enum Draw {
     Step,
@@ -41,15 +41,16 @@ enum Draw {
 }
 
 impl Script {
-    /// The next displacement's generator: its own, so that every controller meets the same, whatever else was drawn.
+    /// The generator of the next displacement. It is separate, so that every controller gets the same
+    /// displacements, independent of other random draws.
     fn draws(&self, seed: u64, draw: Draw) -> ChaCha8Rng {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        // The trial's own generator has stream 0.
+        // The trial's main generator uses stream 0.
         rng.set_stream(1 + 2 * u64::from(self.struck) + draw as u64);
         rng
     }
 
-    /// Draws the step of a leg of `least_steps` at which the next displacement strikes.
+    /// Draws the step at which the next displacement is applied, in a leg of at least `least_steps` steps.
     pub(super) fn draw_step(&mut self, seed: u64, least_steps: u32) {
         let share: f64 = self.draws(seed, Draw::Step).random();
         self.at_leg_step = Some(1 + (share * f64::from(least_steps)) as u32);
@@ -57,8 +58,8 @@ impl Script {
 }
 
 impl Trial {
-    /// Strikes with what is due, and ends what has lasted long enough. `at_step` is the number of a
-    /// control step just counted.
+    /// Applies due disturbances and ends expired ones. `at_step` is the number of the control step that was
+    /// just counted.
     pub(super) fn strike_as_scripted(&mut self, at_step: Option<u32>) {
         let world = &mut self.state.world;
         let tick = world.tick;
@@ -72,7 +73,7 @@ impl Trial {
         };
         let mut is_first = at_step.is_none();
         let is_due = |scripted: &mut Scripted| {
-            // Of those that wait for the bead only the first may strike.
+            // Of the entries that wait for the bead's position only the first may be applied.
             let is_next = !scripted.at.waits_for_bead() || std::mem::take(&mut is_first);
             is_next
                 && match scripted.at {
@@ -88,7 +89,7 @@ impl Trial {
         }
     }
 
-    /// Checks a scenario's script, naming the entry at fault.
+    /// Checks a scenario's script; an error names the entry.
     pub(super) fn check_script(script: &[Scripted], map: &Map) -> Result<(), TrialError> {
         if script.len() > SCRIPT_LIMIT {
             return Err(TrialError::LongScript { entries: script.len() });
@@ -111,8 +112,8 @@ impl Trial {
         }
     }
 
-    /// Carries out a disturbance that has been checked. A bead on the magnet feels neither kick nor push;
-    /// whoever displaces one takes it off the magnet, or out of the hand.
+    /// Applies a disturbance that has been checked. Kicks and pushes do not affect a bead on the magnet; a
+    /// displacement takes the bead off the magnet or out of the hand.
     pub(super) fn strike(&mut self, disturbance: &Disturbance) {
         let ticks = |for_s: f64| (for_s / SERVO_PERIOD_S).ceil() as u64;
         let world = &mut self.state.world;
@@ -121,11 +122,11 @@ impl Trial {
         let text = match *disturbance {
             Disturbance::Impulse { .. } | Disturbance::Drift { .. } if bead.lifted_off => return,
             Disturbance::Displace { x_m, y_m } => {
-                // A map without any room for the bead is no arena.
+                // An arena always has room for the bead.
                 let Some(to) = contact::nearest_fit(&self.arena.map, Point2::new(x_m, y_m)) else { return };
                 let from = std::mem::replace(bead, Bead::at(to)).position_m;
                 world.plant.hand = None;
-                // It did not pass what lies between.
+                // The bead did not pass through the places between.
                 world.script.bead_before_m = Some(to);
                 format!("the bead was lifted {:.0} cm away", (to - from).norm() * 100.0)
             }
@@ -134,7 +135,7 @@ impl Trial {
                 format!("a kick of {:.2} mN·s", x_n_s.hypot(y_n_s) * 1e3)
             }
             Disturbance::Drift { x_n, y_n, for_s } => {
-                // One push at a time: the last counts.
+                // There is one push at a time: the last one replaces the others.
                 world.plant.drift_n = Vector2::new(x_n, y_n);
                 world.script.drift_until = tick + ticks(for_s);
                 format!("a push of {:.1} mN for {for_s} s", x_n.hypot(y_n) * 1e3)
@@ -148,7 +149,7 @@ impl Trial {
         self.events.push(Event::new(tick, EventKind::Disturbance, format!("disturbed: {text}")));
     }
 
-    /// A random displacement: the bead is lifted to a free point far away and put down.
+    /// Applies a random displacement: lifts the bead to a free point at least [`FAR_M`] away.
     pub(super) fn strike_at_random(&mut self) {
         let world = &mut self.state.world;
         let mut rng = world.script.draws(self.scenario.seed, Draw::Place);

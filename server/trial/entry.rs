@@ -1,4 +1,4 @@
-//! What an input log is made of: how a trial began, and each tick of it.
+//! The entries of an input log: the beginning of a trial, and each of its ticks.
 
 use std::sync::Arc;
 
@@ -9,34 +9,32 @@ use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError};
 use crate::scenario::Scenario;
 
-/// What a log is made of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// An entry of a log.#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Entry {
-    /// What follows is of this trial.
+    /// The following entries belong to this trial.
     Begin(Box<LoggedBeginning>),
-    /// A tick of it.
+    /// A tick of the trial.
     Tick(LoggedTick),
 }
 
-/// How a trial, or the part of it that follows, began.
+/// The beginning of a trial, or of a later part of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoggedBeginning {
-    /// How the trial was set up.
     pub scenario: Scenario,
-    /// The map; left out where it is that of the beginning before.
+    /// The map; omitted if it is the map of the previous beginning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<LoggedMap>,
-    /// Hash of the file of a policy of one's own, used in place of the shipped ones.
+    /// Hash of the policy file, if a policy other than the shipped ones was used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub policy_hash: Option<u64>,
-    /// Where it goes on; left out, it is at its start.
+    /// The state from which it continues; omitted at its start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<Box<TrialState>>,
 }
 
 impl LoggedBeginning {
-    /// Of a trial that no input waits for.
+    /// The beginning for a trial without waiting inputs.
     pub fn of(trial: &Trial, how: Beginning) -> Self {
         Self {
             scenario: trial.scenario().clone(),
@@ -47,7 +45,7 @@ impl LoggedBeginning {
     }
 }
 
-/// A map as it was drawn: those that ship with Ferry may change.
+/// A map with its drawing, since shipped maps may change.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LoggedMap {
     /// Name, for people.
@@ -63,7 +61,7 @@ impl From<&Map> for LoggedMap {
 }
 
 impl LoggedMap {
-    /// Ready for trials.
+    /// The map, prepared for trials.
     pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
         Ok(Arena::of(Map::from_svg(&self.name, &self.svg)?))
     }
@@ -85,7 +83,7 @@ pub struct LoggedTick {
     /// The lowest 16 bits of the hash of each of [`super::World::FIELDS`], little-endian.
     #[serde(with = "serde_bytes")]
     pub fields: Vec<u8>,
-    /// Mind hash after the tick.
+    /// Hash of the controller state after the tick.
     pub mind_hash: u64,
 }
 

@@ -1,10 +1,10 @@
-//! The input log (`.ferry`): what trials were told and what they decided, enough to run them again.
+//! The input log (`.ferry`): inputs, decisions and hashes of trials, enough to run them again.
 //!
 //! A file is `ferrylog`, the format's version (32 bits, little-endian), and frames. A frame is its payload's length
 //! (32 bits), a check of that length (32 bits), the payload, and the payload's hash (64 bits). A payload is
-//! deflated (RFC 1951) and holds CBOR items (RFC 8949), each an [`Entry`] with its fields' names. Hashes are XXH3,
-//! each seeded with the one before: a file that was cut off is told from one that was edited, and no frame can be
-//! left out.
+//! deflated (RFC 1951) and contains CBOR items (RFC 8949), each an [`Entry`] with its fields' names. Hashes are
+//! XXH3, each seeded with the previous one. So a truncated file is distinguished from an edited one, and a
+//! missing frame is detected.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -17,21 +17,17 @@ use xxhash_rust::xxh3::xxh3_64_with_seed;
 use super::entry::{Entry, LoggedBeginning, LoggedMap};
 use crate::files::{ReadError, read_at_most};
 
-/// Raised when an old reader would misunderstand a file.
+/// Format version. Increase it when an older reader would misread a file.
 const VERSION: u32 = 5;
 const MAGIC: &[u8; 8] = b"ferrylog";
-/// Bytes before a frame's payload.
 const FRAME_HEAD: usize = 8;
-/// A larger file is no log: ten minutes, after which a session begins another, come to a third of it at 64 times the
-/// speed of time.
+/// Maximum file size. A session starts a new file every ten minutes; at 64× speed it reaches a third of this.
 const BYTES_MOST: u64 = 1 << 30;
-/// What all frames together may unpack to: a few bytes may stand for very many.
+/// Maximum unpacked size of all frames together, as protection against compressed bombs.
 const UNPACKED_MOST: u64 = 2 << 30;
 
-/// Why a log could not be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
-    /// Not a log.
     #[error("log: not a Ferry input log: it begins with {0:?}")]
     Foreign(String),
     /// Written by another version.
@@ -40,28 +36,26 @@ pub enum LogError {
         /// The version found.
         found: u32,
     },
-    /// A byte is not what was written.
+    /// The content does not match its hashes.
     #[error(
         "log: damaged or edited after {ticks} whole ticks: the frame at byte {byte} is not as it was written ({what})"
     )]
     Damaged {
-        /// Where the frame begins.
+        /// Offset of the frame.
         byte: usize,
-        /// Ticks before it.
+        /// Intact ticks before it.
         ticks: usize,
         /// What is wrong with it.
         what: String,
     },
-    /// Nothing whole is in it.
-    #[error("log: it ends before its first trial")]
+    /// It contains no complete frame.    #[error("log: it ends before its first trial")]
     Empty,
-    /// The disk or the pipe.
     #[error("log: {0}")]
     Io(#[from] std::io::Error),
     /// More than a log holds.
     #[error("log: {0}")]
     Unread(#[from] ReadError),
-    /// More than a log holds, unpacked.
+    /// The unpacked content is too large.
     #[error("log: the frame at byte {byte} and those before it unpack to more than the limit of {most} bytes")]
     TooLong {
         /// Where the frame begins.
@@ -69,29 +63,28 @@ pub enum LogError {
         /// The limit.
         most: u64,
     },
-    /// A value that has no CBOR form.
+    /// A value could not be encoded as CBOR.
     #[error("log: {0}")]
     Encode(String),
 }
 
-/// Writes a log, frame by frame. What was written before a crash stays readable.
+/// Writes a log, frame by frame. After a crash all complete frames stay readable.
 #[derive(Debug)]
 pub struct LogWriter<W> {
     out: W,
     hash: u64,
-    /// The map of the beginning before.
+    /// The map of the previous beginning.
     map: Option<LoggedMap>,
 }
 
 impl<W: Write> LogWriter<W> {
-    /// Writes the head.
-    pub fn new(mut out: W) -> Result<Self, LogError> {
+    /// Writes the file header.    pub fn new(mut out: W) -> Result<Self, LogError> {
         out.write_all(MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
         Ok(Self { out, hash: u64::from(VERSION), map: None })
     }
 
-    /// Writes entries as one frame, in one piece.
+    /// Writes entries as one frame, with a single write.
     pub fn append(&mut self, entries: Vec<Entry>) -> Result<(), LogError> {
         let mut payload = DeflateEncoder::new(Vec::new(), Compression::fast());
         for mut entry in entries {
@@ -125,25 +118,23 @@ fn length_check(length: [u8; 4], seed: u64) -> [u8; 4] {
     (xxh3_64_with_seed(&length, seed) as u32).to_le_bytes()
 }
 
-/// A whole log, read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputLog {
-    /// What it holds: first a beginning.
-    pub entries: Vec<Entry>,
-    /// Bytes of a last frame that was not written to its end.
+    /// The entries; the first one is a beginning.    pub entries: Vec<Entry>,
+    /// Size of an incomplete last frame.
     pub torn_bytes: usize,
 }
 
 impl InputLog {
-    /// Reads a log's file.
+    /// Reads a log from a file.
     ///
     /// # Errors
-    /// Those of [`Self::read`]; nothing of a file over 1 GiB is read.
+    /// Those of [`Self::read`]; a file over 1 GiB is rejected without reading it.
     pub fn open(path: &Path) -> Result<Self, LogError> {
         Self::read(&read_at_most(path, BYTES_MOST)?)
     }
 
-    /// Reads a log up to its end, or up to its last whole frame if it is torn.
+    /// Reads a log to its end, or to its last complete frame if it is truncated.
     pub fn read(bytes: &[u8]) -> Result<Self, LogError> {
         Self::read_at_most(bytes, UNPACKED_MOST)
     }
@@ -183,7 +174,7 @@ fn damaged(byte: usize, entries: &[Entry], what: &str) -> LogError {
     LogError::Damaged { byte, ticks, what: what.to_owned() }
 }
 
-/// The payload, its hash, and what follows; none where the frame is torn.
+/// The payload, its hash, and the remaining bytes; `None` if the frame is truncated.
 type Frame<'a> = (&'a [u8], u64, &'a [u8]);
 
 fn whole_frame(bytes: &[u8], hash: u64) -> Result<Option<Frame<'_>>, &'static str> {
@@ -202,7 +193,7 @@ fn whole_frame(bytes: &[u8], hash: u64) -> Result<Option<Frame<'_>>, &'static st
     Ok(Some((payload, hash, rest)))
 }
 
-/// A byte more than `most` at most.
+/// Unpacks at most `most` + 1 bytes.
 fn unpack(payload: &[u8], most: u64) -> std::io::Result<Vec<u8>> {
     let mut unpacked = Vec::new();
     DeflateDecoder::new(payload).take(most + 1).read_to_end(&mut unpacked)?;
@@ -256,7 +247,7 @@ mod tests {
             writer.append(frame).unwrap();
             ends.push(writer.out.len());
         }
-        // The second time the map is known.
+        // The second time the map is already known.
         if let Entry::Begin(beginning) = &mut entries[4] {
             beginning.map = None;
         }
@@ -264,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn a_log_cut_anywhere_reads_up_to_its_last_whole_frame() {
+    fn a_truncated_log_reads_to_its_last_complete_frame() {
         let (bytes, ends, entries) = written();
         assert_eq!(InputLog::read(&bytes).unwrap(), InputLog { entries: entries.clone(), torn_bytes: 0 });
         for cut in 0..bytes.len() {
@@ -281,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn any_edited_bit_is_refused_with_its_place() {
+    fn rejects_any_edited_bit_with_its_offset() {
         let (bytes, ends, _) = written();
         for at in 0..bytes.len() {
             for bit in 0..8 {
@@ -303,12 +294,12 @@ mod tests {
     }
 
     #[test]
-    fn a_few_bytes_that_stand_for_very_many_are_refused() {
+    fn rejects_a_small_file_that_unpacks_to_a_huge_one() {
         let (bytes, ends, _) = written();
         let whole = unpack(&bytes[12 + FRAME_HEAD..ends[0] - 8], 1 << 20).unwrap().len() as u64;
         let error = InputLog::read_at_most(&bytes, whole).unwrap_err();
         assert!(matches!(error, LogError::TooLong { byte, most } if (byte, most) == (ends[0], whole)), "{error}");
-        // Stopped on the way: of a billion bytes no more than one too many is unpacked.
+        // Unpacking stops one byte above the limit.
         let mut packed = DeflateEncoder::new(Vec::new(), Compression::best());
         packed.write_all(&[0; 1 << 20]).unwrap();
         let packed = packed.finish().unwrap();
@@ -316,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_too_large_is_refused_unread() {
+    fn rejects_a_too_large_file_without_reading_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("large.ferry");
         std::fs::File::create(&path).unwrap().set_len(BYTES_MOST + 1).unwrap();
@@ -325,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_that_was_left_out_or_comes_from_elsewhere_is_refused() {
+    fn rejects_a_missing_or_foreign_frame() {
         let (bytes, ends, _) = written();
         let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();
         assert!(matches!(InputLog::read(&without), Err(LogError::Damaged { ticks: 1, .. })));

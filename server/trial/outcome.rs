@@ -1,4 +1,4 @@
-//! How far the task is, and when it ends (specification §4).
+//! Progress of the task, and when it ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,49 +6,48 @@ use super::{Event, EventKind, Motion, Trial};
 use crate::control::switching::Mode;
 use crate::robot::ur5::SERVO_PERIOD_S;
 
-/// The paper's test: the goal is reached when the tool is this near, and delivered when the bead is.
+/// The goal is *reached* when the tool is within this distance (the paper's test), and *delivered* when the
+/// bead is.
 pub const GOAL_RADIUS_M: f64 = 0.02;
-/// A delivered bead is no longer there when it is this far away; a little more, so as not to flicker.
+/// A delivered bead counts as moved away beyond this distance. It is a little larger than [`GOAL_RADIUS_M`], so
+/// that the phase does not flicker.
 const LEFT_RADIUS_M: f64 = 0.025;
-/// The bead may take this long to follow after the tool has reached the goal.
+/// Time that the bead may take to follow after the tool has reached the goal.
 pub const SETTLE_S: f64 = 5.0;
-/// Control steps a transport leg, anew after each fetch.
-pub const LEG_STEP_LIMIT: u32 = 150;
-/// Control steps a goal.
+/// Control steps per transport leg; each fetch starts a new leg.pub const LEG_STEP_LIMIT: u32 = 150;
+/// Control steps per goal.
 pub const GOAL_STEP_LIMIT: u32 = 600;
 
 /// Progress of the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// No goal: the arm holds.
+    /// The arm holds because no goal is set.
     Holding,
     /// Sub-controller 1 fetches the bead.
     Approaching,
-    /// Sub-controller 2 carries it.
+    /// Sub-controller 2 transports it.
     Transporting,
-    /// The tool is at the goal, the bead follows.
+    /// The tool is at the goal; the bead is still following.
     Settling {
-        /// Since when.
         since_tick: u64,
     },
-    /// The bead is within 2 cm of the goal.
+    /// The bead is within [`GOAL_RADIUS_M`] of the goal.
     Delivered,
     /// The bead jumped to the magnet.
     LiftedOff,
-    /// A limit was met; the arm holds until the goal moves.
+    /// A limit was exceeded; the arm holds until the goal moves.
     Stopped(StopReason),
 }
 
-/// Which limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StopReason {
     /// [`LEG_STEP_LIMIT`].
     LegSteps,
     /// [`GOAL_STEP_LIMIT`].
     GoalSteps,
-    /// [`SETTLE_S`]: reached, but not delivered.
+    /// [`SETTLE_S`]: reached but not delivered.
     Settle,
-    /// No way leads to the goal.
+    /// No path leads to the goal.
     WalledOff,
 }
 
@@ -77,7 +76,7 @@ impl Phase {
 }
 
 impl Trial {
-    /// Looks at the world after a tick: has the bead arrived, jumped, or been given up?
+    /// Updates the phase after a tick: delivered, lifted off, or stopped by a limit.
     pub(super) fn judge(&mut self) {
         let tick = self.state.world.tick;
         let world = &mut self.state.world;
@@ -95,9 +94,9 @@ impl Trial {
         let Some(goal) = world.goal_m else { return };
         let left_m = (world.plant.bead.position_m - goal).norm();
         match world.phase {
-            // Pulled off the goal, but not so far that it must be fetched: the magnet gets it back.
+            // Pulled off the goal, but not so far that a fetch is needed: the magnet pulls it back.
             Phase::Delivered if left_m > LEFT_RADIUS_M => world.phase = Phase::Settling { since_tick: tick },
-            // Time that a hand takes is not the bead's.
+            // Time during which a hand holds the bead does not count.
             Phase::Settling { .. } if world.plant.hand.is_some() => world.phase = Phase::Settling { since_tick: tick },
             Phase::Settling { .. } | Phase::Stopped(StopReason::Settle)
                 if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() =>
@@ -123,25 +122,25 @@ impl Trial {
         self.events.push(Event::new(world.tick, EventKind::Stopped, world.phase.to_string()));
     }
 
-    /// A new leg begins: the goal moved or the bead was fetched.
+    /// Begins a new leg, because the goal moved or the bead was fetched.
     pub(super) fn start_leg(&mut self) {
         let tool = self.tool_m().xy();
         let world = &mut self.state.world;
         world.counters.leg_steps = 0;
         world.script.at_leg_step = None;
         if let (Some(goal), true) = (world.goal_m, world.script.remaining > 0) {
-            // No path is shorter than the straight line, so a step before its end always comes.
+            // No path is shorter than the straight line, so the leg has at least this many steps.
             let step_m = world.parameters.transport_speed_m_s * crate::control::CONTROL_PERIOD_S;
             let least_steps = (((goal - tool).norm() - GOAL_RADIUS_M) / step_m).floor().max(1.0) as u32;
             world.script.draw_step(self.scenario.seed, least_steps);
         }
     }
 
-    /// Phase that follows from mode and goal at a control step, with what it brings along.
+    /// Updates the phase from mode and goal at a control step, with its events.
     pub(super) fn progress(&mut self, mode: Mode, at_goal: bool) {
         let world = &mut self.state.world;
         let tick = world.tick;
-        // Nothing but a new goal, a reset or a hand ends these.
+        // Only a new goal, a reset or a hand ends these phases.
         if matches!(world.phase, Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps)) {
             return;
         }

@@ -1,4 +1,4 @@
-//! What a tick leaves behind, for viewers, recordings and tests.
+//! The record of a tick, for viewers, recordings and tests.
 
 use std::sync::Arc;
 
@@ -23,30 +23,28 @@ use super::state::{Counters, TrialState, WorldHashes};
 pub enum EventKind {
     /// The switching law changed the active sub-controller.
     Switch,
-    /// The bead was taken, displaced or let go.
+    /// The bead was taken, moved or released.
     Disturbance,
     /// The goal was placed or removed.
     Goal,
     /// The tool came within 2 cm of the goal.
     Reached,
-    /// The bead too.
+    /// The bead came within 2 cm of the goal, too.
     Delivered,
     /// The bead jumped to the magnet.
     LiftOff,
     /// A controller or a limit refused a step.
     Refused,
-    /// A limit of steps or time was met.
+    /// A limit of steps or time was exceeded.
     Stopped,
-    /// Anything about the session itself.
+    /// Something about the session itself.
     Session,
 }
 
-/// Something happened once.
+/// An event at one tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// When.
     pub tick: u64,
-    /// What.
     pub kind: EventKind,
     /// One plain sentence.
     pub text: String,
@@ -59,22 +57,21 @@ impl Event {
     }
 }
 
-/// What the controller saw and made of it at a control step.
+/// What the controller observed and computed at a control step.
 #[derive(Clone, Debug)]
 pub struct Sight {
-    /// The frame.
     pub frame: Arc<CameraFrame>,
-    /// The frame, understood.
+    /// The perception's result for the frame.
     pub percept: Percept,
-    /// Where the tool was.
+    /// Tool point when the frame was taken.
     pub tool_m: Point2<f64>,
     /// Goal.
     pub goal_m: Option<Point2<f64>>,
-    /// All that the camera has shown of the workspace up to now.
+    /// The obstacle map accumulated so far.
     pub known: ObstacleMap,
-    /// How the image is cut into blocks.
+    /// Parameters of the image's blocks.
     pub quadtree: QuadtreeParameters,
-    /// Sub-controller 2, having decided.
+    /// Sub-controller 2 after its decision.
     pub carrier: Carrier,
 }
 
@@ -90,7 +87,7 @@ impl Sight {
     }
 }
 
-/// One tick, told.
+/// The record of one tick.
 #[derive(Clone, Debug)]
 pub struct TickRecord {
     /// Ticks since the start, this one included.
@@ -99,11 +96,10 @@ pub struct TickRecord {
     pub inputs: Vec<Input>,
     /// The control step's decision, if one was due.
     pub decision: Option<Decision>,
-    /// What was seen for it; absent in a replay from logged decisions.
+    /// The observation for it; `None` in a replay from logged decisions.
     pub sight: Option<Sight>,
-    /// What happened.
-    pub events: Vec<Event>,
-    /// The moment after the tick.
+    /// Events of this tick.    pub events: Vec<Event>,
+    /// The state after the tick.
     pub moment: Moment,
     /// See [`super::TrialState::world_hash`].
     pub world: WorldHashes,
@@ -111,26 +107,25 @@ pub struct TickRecord {
     pub mind_hash: u64,
 }
 
-/// A trial at one moment, in the words of viewers.
+/// A summary of a trial's state, for viewers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// Ticks since the start.
     pub tick: u64,
     /// Tool point.
     pub tool_m: Point3<f64>,
-    /// Bead, the truth.
+    /// True position of the bead.
     pub bead_m: Point3<f64>,
-    /// Bead, as tracked.
+    /// Position of the bead from the tracker.
     pub tracked_m: Point2<f64>,
     /// Goal.
     pub goal_m: Option<Point2<f64>>,
-    /// Hand.
+    /// Target of the hand, while it holds the bead.
     pub hand: Option<Hand>,
     /// Force of the hand.
     pub hand_force_n: f64,
-    /// What carries the magnet.
     pub positioner: Positioner,
-    /// Mode, and why.
+    /// Active sub-controller, and why.
     pub switching: switching::Decision,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
@@ -138,9 +133,9 @@ pub struct Moment {
     pub motion: Motion,
     /// Progress of the task.
     pub phase: Phase,
-    /// Why the arm holds, if something was refused.
+    /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
-    /// Magnet on bead.
+    /// Magnetic load on the bead.
     pub load: Load,
     /// Counters.
     pub counters: Counters,
@@ -158,7 +153,7 @@ impl Moment {
     }
 }
 
-/// A frame of this tick, and where the tool was.
+/// The camera frame of this tick, and the tool point when it was taken.
 pub(super) struct Seen {
     pub frame: CameraFrame,
     pub percept: Percept,
@@ -166,7 +161,6 @@ pub(super) struct Seen {
 }
 
 impl Trial {
-    /// The present moment.
     pub fn moment(&self) -> Moment {
         let world = &self.state.world;
         let tool_m = self.tool_m();
@@ -190,12 +184,12 @@ impl Trial {
         }
     }
 
-    /// Events since the last call, which no record will then hold: for inputs while time stands.
+    /// Removes and returns the events since the last record, for inputs while paused.
     pub fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
     }
 
-    /// What the camera sees now, outside any control step: changes nothing.
+    /// The current observation, outside of control steps. The trial does not change.
     pub fn look(&self, eye: &mut dyn Eye) -> Result<Sight, CameraError> {
         let frame = eye.capture(&self.subject())?;
         let percept = Percept::of(&frame, self.tool_m().xy());

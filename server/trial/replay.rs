@@ -1,4 +1,4 @@
-//! Running a log again: the same trial, from the same inputs, compared at every tick.
+//! Replay of an input log: runs the trial again from the same inputs and compares the hashes at every tick.
 
 use std::sync::Arc;
 
@@ -8,21 +8,21 @@ use super::{Arena, InputError, Source, TickRecord, Trial, TrialError, TrialState
 use crate::camera::{CameraError, Eye};
 use crate::map::MapError;
 
-/// What a replay came to.
+/// Result of a replay without differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Replayed {
-    /// Trials that were set up.
+    /// Number of trials.
     pub trials: u32,
-    /// Times that a trial went on from another state: after a moment gone back to, or at a file's start.
+    /// How often a trial continued from another state: after a rewind, or at the start of a file.
     pub resumed: u32,
-    /// Ticks, all of them equal.
+    /// Number of ticks, all equal.
     pub ticks: u64,
 }
 
-/// Why a replay ended before its log.
+/// Why a replay ended early.
 #[derive(Debug, thiserror::Error)]
 pub enum ReplayError {
-    /// The map in the log is none.
+    /// The map in the log cannot be read.
     #[error("trial {trial}: {error}")]
     Map {
         /// Which trial of the log, from 1.
@@ -30,7 +30,7 @@ pub enum ReplayError {
         /// What is wrong.
         error: MapError,
     },
-    /// A trial could not be set up or go on.
+    /// A trial could not be created or continued.
     #[error("trial {trial}, tick {tick}: {error}")]
     Trial {
         /// Which trial of the log, from 1.
@@ -40,7 +40,7 @@ pub enum ReplayError {
         /// What is wrong.
         error: TrialError,
     },
-    /// Its decisions cannot be made again.
+    /// The decisions cannot be repeated because the policy is missing.
     #[error(
         "trial {trial}: a policy of its own decided, with hash {policy_hash:016x}, and only shipped ones can decide again; \
          without a camera the log's decisions are taken"
@@ -48,10 +48,10 @@ pub enum ReplayError {
     Policy {
         /// Which trial of the log, from 1.
         trial: u32,
-        /// Hash of the policy's file.
+        /// Hash of the policy file.
         policy_hash: u64,
     },
-    /// What was done then is refused now.
+    /// An input of the log is rejected now.
     #[error("trial {trial}, tick {tick}: an input of the log is refused: {error}")]
     Refused {
         /// Which trial of the log, from 1.
@@ -61,23 +61,23 @@ pub enum ReplayError {
         /// Why.
         error: InputError,
     },
-    /// The first tick that is not as it was.
+    /// The first tick that differs.
     #[error("trial {trial}: the first difference is at tick {tick}, in {}", fields.join(", "))]
     Differs {
         /// Which trial of the log, from 1.
         trial: u32,
         /// Its tick.
         tick: u64,
-        /// What differs.
+        /// Names of the parts that differ.
         fields: Vec<&'static str>,
     },
 }
 
-/// Makes eyes for the arenas of a log.
+/// Creates cameras for the arenas of a log.
 pub type Eyes<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn Eye>, CameraError>;
 
-/// Runs a log again, from its decisions; with eyes, from what they see, so that every decision is made again and
-/// the controller compared too. `watch` sees each tick.
+/// Runs a log again from its decisions. With `eyes`, every decision is made again from the camera images, and the
+/// controller's state is compared too. `watch` is called after each tick.
 pub fn replay(
     log: &InputLog,
     mut eyes: Option<Eyes<'_>>,
@@ -100,7 +100,7 @@ pub fn replay(
                 if let Some(map) = &beginning.map {
                     arena = Some(map.arena().map_err(|error| ReplayError::Map { trial: number, error })?);
                 }
-                // A log that was read begins with a map.
+                // The first entry of a log always contains a map.
                 let Some(arena) = &arena else { continue };
                 running = Some(begin(beginning, arena, &mut eyes).map_err(|error| {
                     let tick = beginning.state.as_ref().map_or(0, |state| state.world.tick);
@@ -174,7 +174,7 @@ fn differences(found: &LoggedTick, logged: &LoggedTick, sees: bool) -> Vec<&'sta
     }
     note(sees && found.mind_hash != logged.mind_hash, "mind");
     if fields.is_empty() {
-        // Two hashes in 65,536 are alike in their lowest bits.
+        // By chance, one pair of hashes in 65,536 has equal lowest 16 bits.
         fields.push("world");
     }
     fields

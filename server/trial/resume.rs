@@ -1,38 +1,37 @@
-//! Going on from a state that was read from a file: anyone may have written it.
+//! Continuing from a state read from a file. The file is untrusted, so every number is checked.
 
 use ciborium::Value;
 
 use super::{Trial, TrialError, TrialState};
 
-/// Lengths in metres, speeds, angles: nothing in a laboratory comes to more.
+/// Limit for lengths, speeds and angles, in SI units.
 const REAL_MOST: f64 = 100.0;
-/// Counters and numbers of cells: so far from where they would overflow that no run gets there.
+/// Limit for counters and cell numbers; far below overflow.
 const COUNT_MOST: u64 = 1 << 30;
-/// Ticks, likewise.
+/// Limit for ticks; far below overflow.
 const TICK_MOST: u64 = 1 << 53;
 
-/// Fields that hold ticks, or what grows no faster.
+/// Fields that contain ticks or grow no faster.
 const TICKS: [&str; 6] = ["tick", "since_tick", "reached_tick", "drift_until", "dropout_until", "version"];
-/// Fields that may hold any number, or are checked by themselves.
+/// Fields that may contain any number, or are checked elsewhere.
 const ANY: [&str; 8] = ["rng", "seen", "known", "parameters", "pending", "refusal", "judged", "remaining"];
 
-/// A state that no trial has been in.
+/// A state that no trial can reach.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("state: {field} is {value}, it must be {allowed}")]
 pub struct StateError {
-    /// The path of the field at fault.
+    /// Path of the invalid field.
     pub field: String,
-    /// Its value.
     pub value: String,
     /// What is allowed.
     pub allowed: String,
 }
 
 impl Trial {
-    /// Goes on from a state that comes from elsewhere, as [`Self::restore`] does from one of its own.
+    /// Continues from an untrusted state; compare [`Self::restore`].
     ///
     /// # Errors
-    /// A number in it is out of range, or it belongs to another map; nothing has changed then.
+    /// A number in it is out of range, or it belongs to another map. The trial is then unchanged.
     pub fn resume(&mut self, state: TrialState) -> Result<(), TrialError> {
         state.world.parameters.check()?;
         Self::check_script(&state.world.script.pending, &self.arena.map)?;
@@ -46,7 +45,7 @@ impl Trial {
             let (value, allowed) = (version.to_string(), format!("0 to {TICK_MOST}"));
             return Err(StateError { field: "mind.known.version".to_owned(), value, allowed }.into());
         }
-        // Of the state's many types each would have to tell of its numbers; their common form shows them all.
+        // The generic form exposes all numbers without code for each type.
         let form = Value::serialized(&state).expect("plain data serialises");
         check(&form, "", "")?;
         self.restore(state);
@@ -54,7 +53,7 @@ impl Trial {
     }
 }
 
-/// Looks at every number below `value`, which has this path and this name.
+/// Checks every number in `value`, whose path and field name are given.
 fn check(value: &Value, path: &str, name: &str) -> Result<(), StateError> {
     let refused = |value: String, allowed: String| {
         Err(StateError { field: path.trim_start_matches('.').to_owned(), value, allowed })
@@ -97,7 +96,7 @@ mod tests {
         Trial::new(scenario, arena).unwrap()
     }
 
-    /// The same cells; only a file can say so.
+    /// Only a file can contain such a list of cells.
     fn with_version(known: &ObstacleMap, version: u64) -> ObstacleMap {
         let mut form = Value::serialized(known).unwrap();
         let fields = form.as_map_mut().unwrap();
@@ -116,14 +115,14 @@ mod tests {
     }
 
     #[test]
-    fn a_state_of_ones_own_is_taken() {
+    fn accepts_a_state_of_the_same_trial() {
         let mut trial = trial("posts");
         trial.resume(trial.snapshot()).unwrap();
     }
 
     #[test]
-    fn what_no_trial_comes_to_is_refused_by_name() {
-        // A bead so fast would take for ever to move in hops shorter than its radius.
+    fn rejects_unreachable_states_by_field() {
+        // A bead this fast would need endless hops, since each is shorter than its radius.
         let error = refusal(|state| state.world.plant.bead.velocity_m_s.y = 1e300);
         assert!(error.starts_with("state: world.plant.bead.velocity_m_s[1] is 1000000000"), "{error}");
         let error = refusal(|state| state.world.goal_m = Some(Point2::new(f64::NAN, 0.0)));
@@ -134,7 +133,7 @@ mod tests {
         assert!(error.starts_with("state: world.tick is 18446744073709551615"), "{error}");
         let error = refusal(|state| state.world.parameters.tracker_noise_m = f64::INFINITY);
         assert!(error.starts_with("parameters: tracker_noise_m is inf"), "{error}");
-        // Fuzzed: it would grow by one at the next look.
+        // Found by fuzzing: incrementing this value would overflow.
         let error = refusal(|state| state.mind.known = with_version(&state.mind.known, u64::MAX));
         assert!(error.starts_with("state: mind.known.version is 18446744073709551615"), "{error}");
         let error = refusal(|state| state.mind.known = trial("attractor-example").snapshot().mind.known);

@@ -1,39 +1,37 @@
-//! Where a trial's ticks go: to a recording, or nowhere.
+//! Destination of a trial's ticks: a recording, or none.
 
 use super::{Event, TickRecord, Trial};
 
-/// How a sink comes to hear of a trial.
+/// Why a trial begins for a sink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beginning {
-    /// It was just set up from its scenario.
+    /// It was just created from its scenario.
     SetUp,
-    /// It goes on from a state: of a moment gone back to, or because the sink asked.
+    /// It continues from a state, after a rewind or because the sink requested it.
     Resumed,
 }
 
-/// Takes every tick, in order; called where trials run, so it must not wait longer than it was told to.
+/// Receives every tick in order. It is called on the trial's thread, so it must not block for long.
 pub trait Sink: Send {
-    /// A trial begins, or goes on from where it stands; no input waits for its next tick.
+    /// A trial begins or continues; no input is waiting for its next tick.
     fn begin(&mut self, trial: &Trial, how: Beginning);
-    /// A tick, with its events.
     fn record(&mut self, record: &TickRecord);
-    /// An event while time stands.
+    /// An event while the trial is paused.
     fn note(&mut self, event: &Event);
-    /// Whether it wants to hear where the trial stands before it hears of more ticks; asked after every tick.
+    /// Whether the sink needs the trial's current state before more ticks; called after every tick.
     fn wants_beginning(&mut self) -> bool;
-    /// `recording`, or why not.
+    /// `recording`, or why nothing is recorded.
     fn status(&self) -> String;
-    /// Nothing more comes: writes what waits and says why not all of it is kept, if so.
+    /// Writes everything that is pending and closes the sink.
     ///
     /// # Errors
-    /// The reason.
-    fn finish(self: Box<Self>) -> Result<(), String>;
+    /// Why not everything was kept.    fn finish(self: Box<Self>) -> Result<(), String>;
 }
 
-/// Keeps nothing.
+/// A sink that discards everything.
 #[derive(Clone, Debug, Default)]
 pub struct Nowhere {
-    /// Why, shown to viewers; empty where nobody asked for a recording.
+    /// Why nothing is recorded, shown to viewers; empty if no recording was requested.
     pub reason: String,
 }
 

@@ -1,5 +1,5 @@
-//! All that a trial remembers, split in two: the world, which a replay from logged decisions must
-//! reproduce, and the mind, which only a re-run from frames can.
+//! The complete state of a trial, in two parts. The *world* is reproduced by a replay from logged decisions. The
+//! *controller state* ([`Mind`]) is reproduced only if the decisions are made again from camera frames.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -21,22 +21,21 @@ use crate::tracking::Tracker;
 /// What the tool's reference does until the next control step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
-    /// Stands.
     Hold,
-    /// Runs a straight segment (sub-controller 2).
+    /// Follows a straight segment (sub-controller 2).
     Segment(TargetStep),
-    /// Flies after the tracked bead, tick by tick (sub-controller 1).
+    /// Follows the tracked bead, tick by tick (sub-controller 1).
     Track,
 }
 
-/// One control step's outcome; stands in the log.
+/// Result of a control step; part of the log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
-    /// Which sub-controller, and why.
+    /// The active sub-controller, and why.
     pub switching: switching::Decision,
     /// What the arm does.
     pub motion: Motion,
-    /// Why it holds, if something was refused.
+    /// Why the arm holds, if a step was refused.
     pub refusal: Option<Refusal>,
 }
 
@@ -62,7 +61,6 @@ pub struct Counters {
 pub struct World {
     /// Ticks of 8 ms since the start.
     pub tick: u64,
-    /// Parameters in force.
     pub parameters: Parameters,
     /// Goal, if any.
     pub goal_m: Option<Point2<f64>>,
@@ -70,17 +68,17 @@ pub struct World {
     pub plant: PlantState,
     /// Optical tracker.
     pub tracker: Tracker,
-    /// Generator of everything random below.
+    /// Generator of all random numbers of the trial.
     pub rng: ChaCha8Rng,
-    /// Where the tool should be.
+    /// Wanted tool point.
     pub reference_m: Point3<f64>,
-    /// The positioner there.
+    /// The positioner at that point.
     pub reference: Positioner,
     /// What the reference does.
     pub motion: Motion,
     /// The last switching decision.
     pub switching: switching::Decision,
-    /// Why the arm holds, if something was refused at the last control step.
+    /// Why the arm holds, if a step was refused at the last control step.
     pub refusal: Option<Refusal>,
     /// Progress of the task.
     pub phase: Phase,
@@ -88,18 +86,18 @@ pub struct World {
     pub reached_tick: Option<u64>,
     /// Counters.
     pub counters: Counters,
-    /// Disturbances to come, and those that last.
+    /// Pending and active disturbances.
     pub script: Script,
 }
 
-/// What the controller remembers and last saw.
+/// The controller state: memory and last observation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mind {
     /// Sub-controller 2 with its memory.
     pub carrier: Carrier,
     /// Hash of the last gray image.
     pub seen: u64,
-    /// All that the camera has shown of the workspace.
+    /// The obstacle map accumulated so far.
     pub known: ObstacleMap,
 }
 
@@ -115,7 +113,7 @@ pub struct TrialState {
 }
 
 impl World {
-    /// Names of what [`WorldHashes`] holds, in its order.
+    /// Names of the entries of [`WorldHashes`], in the same order.
     pub const FIELDS: [&'static str; 18] = [
         "tick",
         "parameters",
@@ -137,7 +135,7 @@ impl World {
         "script",
     ];
 
-    /// Hashes of all that it holds.
+    /// One hash per field.
     pub fn hashes(&self) -> WorldHashes {
         let Self {
             tick,
@@ -180,15 +178,15 @@ impl World {
     }
 }
 
-/// A world in short: one hash for each of [`World::FIELDS`].
+/// One hash for each of [`World::FIELDS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorldHashes {
-    /// In the order of the names.
+    /// In the order of [`World::FIELDS`].
     pub fields: [u64; World::FIELDS.len()],
 }
 
 impl WorldHashes {
-    /// One hash of all.
+    /// A single hash of all entries.
     pub fn total(&self) -> u64 {
         hash(&self.fields)
     }
@@ -234,13 +232,13 @@ impl TrialState {
         self.world.hashes().total()
     }
 
-    /// Hash of the mind: equal in a re-run from frames.
+    /// Hash of the controller state: equal if the decisions are made again from frames.
     pub fn mind_hash(&self) -> u64 {
         hash(&(&self.mind, self.controller))
     }
 }
 
 fn hash(value: &impl Serialize) -> u64 {
-    // Writing to a Vec fails on nothing that these types hold.
+    // Serialising these types to a `Vec` cannot fail.
     xxh3_64(&postcard::to_stdvec(value).expect("plain data serialises"))
 }

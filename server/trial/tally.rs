@@ -1,4 +1,4 @@
-//! Tracking errors of a trial, added up as the paper does: while sub-controller 2 transports (paper, §V).
+//! Tracking errors of a trial, summed while sub-controller 2 transports, as in the paper (§V).
 
 use super::{Moment, Phase};
 use crate::control::switching::Mode;
@@ -15,7 +15,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Takes a tick in, if it is one of transport.
+    /// Adds a tick if it belongs to transport.
     pub fn add(&mut self, moment: &Moment) {
         if moment.switching.mode != Mode::Transport || moment.phase != Phase::Transporting {
             return;
@@ -29,17 +29,17 @@ impl Tally {
         self.max_y_m = self.max_y_m.max(error.y.abs());
     }
 
-    /// Mean distance of tool and bead; 0 before any tick of transport.
+    /// Mean distance between tool and bead; 0 before the first tick of transport.
     pub fn mean_m(&self) -> f64 {
         self.sum_m / f64::from(self.ticks.max(1))
     }
 
-    /// Mean difference in x and in y, without its sign.
+    /// Mean absolute difference in x and in y.
     pub fn mean_axes_m(&self) -> [f64; 2] {
         [self.sum_x_m, self.sum_y_m].map(|sum_m| sum_m / f64::from(self.ticks.max(1)))
     }
 
-    /// Largest difference in x and in y.
+    /// Maximum absolute difference in x and in y.
     pub fn max_m(&self) -> [f64; 2] {
         [self.max_x_m, self.max_y_m]
     }

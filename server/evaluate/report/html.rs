@@ -1,4 +1,4 @@
-//! The report as one HTML file.
+//! The report as a single HTML file.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -132,7 +132,7 @@ fn paper_row(paper: &PaperRow, row: &Row) -> Markup {
     }
 }
 
-/// Share and interval on a line from 0 to 1, and in digits.
+/// A share and its interval on a line from 0 to 1, and as numbers.
 fn interval(count: u32, of: u32, [low, high]: [f64; 2]) -> Markup {
     let share = f64::from(count) / f64::from(of);
     html! {

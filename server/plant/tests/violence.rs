@@ -1,4 +1,4 @@
-//! What must never happen, however violent: the bead in a wall or beyond it, or two runs that differ.
+//! Invariants under violent inputs: the bead never enters or crosses a wall, and equal runs are equal.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::*;
 
-/// However violently a hand pulls, a magnet flies or a kick strikes, the bead stays on its side of
-/// every wall: ten million ticks, a tenth of a second each pull, on every map and in clutter.
+/// The bead stays on its side of every wall under violent drags, fast magnets and strong kicks: ten million
+/// ticks, on every map and in clutter. Each pull lasts a tenth of a second.
 #[test]
 fn ten_million_violent_ticks_cross_no_wall() {
     const TICKS: usize = 10_000_000;
@@ -32,7 +32,7 @@ fn a_violent_run_is_the_same_each_time() {
     assert_ne!(runs[0], violent_run(&map, 8, 20_000).1);
 }
 
-/// Thin walls at every angle, crossing each other: notches and wedges of all kinds.
+/// Thin walls at random angles that cross each other and form notches and wedges.
 fn clutter() -> Map {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
     let mut body = String::new();
@@ -45,7 +45,7 @@ fn clutter() -> Map {
     Map::from_svg("clutter", &svg).unwrap()
 }
 
-/// Counts steps after which the bead overlaps a wall or has passed through one, and hashes every tick.
+/// Counts the steps after which the bead overlaps a wall or has passed through one, and hashes every tick.
 fn violent_run(map: &Map, seed: u64, ticks: usize) -> (usize, u64) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let w = *map.workspace();
@@ -62,7 +62,7 @@ fn violent_run(map: &Map, seed: u64, ticks: usize) -> (usize, u64) {
             let target_m = anywhere(&mut rng);
             state.hand = rng.random_bool(0.7).then_some(Hand { target_m, lift: false });
             if rng.random_bool(0.2) {
-                // As fast as the strongest kick that a script may hold.
+                // As fast as after the strongest kick that a script may contain.
                 state.bead.velocity_m_s =
                     Vector2::new(rng.random_range(-4.0..4.0), rng.random_range(-4.0..4.0)).cap_magnitude(4.0);
             }
@@ -75,11 +75,11 @@ fn violent_run(map: &Map, seed: u64, ticks: usize) -> (usize, u64) {
             let before = state.bead.position_m;
             plant.step_bead(&mut state, map, &base_from_tool, 1e-3);
             if state.bead.lifted_off {
-                // It hangs on the magnet, maybe over a wall; a hand takes it back to where it was.
+                // It hangs on the magnet, perhaps over a wall; a hand takes it back to its last position.
                 state.bead = Bead::at(before);
             }
             let place = state.bead.position_m;
-            // In a millisecond the bead goes 4 mm at most: rounding a corner, its chord stays clear of it.
+            // The bead moves at most 4 mm per millisecond, so around a corner its chord does not touch the wall.
             let travel_m = (place - before).norm();
             let clearance_m = map.clearance_m(place);
             let passed = clearance_m < travel_m && !map.line_is_clear(before, place, 0.0);
