@@ -30,8 +30,8 @@ pub use evaluations::{
     EvaluationCell, EvaluationFailure, EvaluationReport, EvaluationStage, EvaluationSummary, Evaluations,
 };
 pub use layers::{
-    BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
-    ValueQuery,
+    BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell,
+    ValueMap, ValueQuery,
 };
 pub use past::{Branch, ComparisonMessage, MomentMessage};
 pub use recordings::{RecordingFile, RecordingList};
@@ -45,7 +45,6 @@ pub const BINARY_CAMERA_JPEG: u8 = 1;
 pub const BINARY_OBSERVATION: u8 = 2;
 
 /// What a browser may send. Fields are named and measured as everywhere: metres in `base`.
-#[allow(missing_docs)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[ts(tag = "type", rename_all = "snake_case")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

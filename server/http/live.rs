@@ -1,5 +1,10 @@
 //! The WebSocket: newest state out, commands in.
 
+mod comparison;
+mod hand;
+mod hub;
+mod seats;
+
 use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,13 +21,14 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
 use tokio::time::Instant;
 
+use self::hand::Hand;
+pub use self::hub::Hub;
+use self::hub::{Encoded, json};
+use self::seats::Seats;
 use super::Server;
-use super::hand::{self, Hand};
-use super::hub::{Encoded, Hub, json};
 use super::path::{Path, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
-use super::seats::Seats;
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, ServerMessage};
 use crate::scenario::ControllerName;
 use crate::session::CommandError;

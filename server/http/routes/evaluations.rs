@@ -7,13 +7,12 @@ use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::Server;
-use super::api::{attachment, parse};
-use super::body::WholeBody;
-use super::path::{EvaluationPath, Path, ReportPath};
-use super::problem::Problem;
-use super::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::evaluate::{Evaluation, EvaluationQuery, QueryError, Report, SubmitError};
+use crate::http::Server;
+use crate::http::body::{WholeBody, attachment, parse};
+use crate::http::path::{EvaluationPath, Path, ReportPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::protocol::{EvaluationReport, EvaluationSummary, Evaluations};
 
 /// The evaluations: what runs, waits, and ended last.

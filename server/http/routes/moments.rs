@@ -7,11 +7,12 @@ use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::Server;
-use super::api::{attachment, find};
-use super::path::{MomentPath, Path, SessionPath};
-use super::problem::Problem;
-use super::refusals::{NotFound, OutOfRange, Unavailable};
+use super::sessions::find;
+use crate::http::Server;
+use crate::http::body::attachment;
+use crate::http::path::{MomentPath, Path, SessionPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::image::EncodeError;
 use crate::protocol::MomentMessage;
 use crate::session::{CommandError, Past, Recalled};

@@ -10,7 +10,7 @@ use serde::Serialize;
 use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
-use super::fork;
+use super::comparison;
 use super::seats::Seats;
 use crate::camera::Gpu;
 use crate::protocol::{
@@ -161,7 +161,7 @@ impl Hub {
                 if !is_last() {
                     return;
                 }
-                fork::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
+                comparison::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
                     hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
                 });
             });

@@ -9,14 +9,13 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Server;
-use super::api::parse;
-use super::body::WholeBody;
-use super::problem::Problem;
-use super::refusals::{OutOfRange, Unavailable};
 use crate::control::limits::LEAST_MANIPULABILITY_M3;
 use crate::geometry::schema::{Numbers3, Numbers6, Rows3};
 use crate::geometry::{Isometry3, Matrix3, Vector3};
+use crate::http::Server;
+use crate::http::body::{WholeBody, parse};
+use crate::http::problem::Problem;
+use crate::http::refusals::{OutOfRange, Unavailable};
 use crate::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
 use crate::magnetics::plane::{self, Plane, PlaneQuery};
 use crate::magnetics::{cuboid::Cuboid, force};
