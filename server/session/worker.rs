@@ -14,7 +14,6 @@ use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, Eye};
 use crate::control::step_is_due;
 use crate::faults;
-use crate::geometry::Point2;
 use crate::map::Library;
 use crate::scenario::Scenario;
 use crate::trial::{Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError};
@@ -252,7 +251,6 @@ impl<E: Eye> Worker<E> {
         Ok(())
     }
 
-    /// While time stands a release puts the bead where the pointer is, since nothing else could.
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs, and matter only where time was gone back in.
@@ -281,15 +279,10 @@ impl<E: Eye> Worker<E> {
 
     /// Returns whether it changes the parameters.
     fn apply(&mut self, input: Input) -> Result<bool, InputError> {
-        let held = self.trial.state().world.plant.hand;
         let configures = matches!(input, Input::Configure(_));
-        match (&input, held) {
-            (Input::Release, Some(_)) if self.hand_is_past => {}
-            (Input::Release, Some(hand)) if !self.running => {
-                let Point2 { coords } = hand.target_m;
-                self.trial.apply(Input::Place { x_m: coords.x, y_m: coords.y })?;
-            }
-            _ => self.trial.apply(input)?,
+        let releases_past_hand = self.hand_is_past && matches!(input, Input::Release);
+        if !releases_past_hand {
+            self.trial.operate(input, !self.running)?;
         }
         Ok(configures)
     }

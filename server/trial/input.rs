@@ -155,6 +155,17 @@ fn check_finite(field: &'static str, point: Point2<f64>) -> Result<(), InputErro
 }
 
 impl Trial {
+    /// An operator's input, as [`Self::apply`]. While paused the spring cannot pull the bead, so a release puts it where
+    /// the pointer is; the log then holds [`Input::Place`].
+    pub fn operate(&mut self, input: Input, is_paused: bool) -> Result<(), InputError> {
+        match (&input, self.state.world.plant.hand) {
+            (Input::Release, Some(hand)) if is_paused => {
+                self.apply(Input::Place { x_m: hand.target_m.x, y_m: hand.target_m.y })
+            }
+            _ => self.apply(input),
+        }
+    }
+
     /// Applies one input between two ticks, or refuses it and changes nothing.
     pub fn apply(&mut self, input: Input) -> Result<(), InputError> {
         // A hand may always let go; while time stands it puts the bead down.
