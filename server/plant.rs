@@ -4,6 +4,7 @@
 
 mod bead;
 pub(crate) mod contact;
+mod motion;
 mod positioner;
 
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,7 @@
 //! A control step: what the controllers decide, and what the trial makes of it.
 
-use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
+use super::outcome::GOAL_RADIUS_M;
+use super::phase::{GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
 use super::{Decision, Event, EventKind, Mind, Motion, Trial, World};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
-use super::{Decision, Input, Motion, Phase, Trial};
+use super::state::{Counters, TrialState, WorldHashes};
+use super::{Decision, Event, Input, Motion, Phase, Trial};
 use crate::camera::{CameraError, Eye};
 use crate::control::switching;
 use crate::control::transport::Carrier;
@@ -14,50 +13,6 @@ use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreePar
 use crate::plant::{Hand, Load, Plant, Positioner};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
-
-use super::state::{Counters, TrialState, WorldHashes};
-
-/// Kinds of event, for the timeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EventKind {
-    /// The switching law changed the active sub-controller.
-    Switch,
-    /// The bead was taken, displaced or let go.
-    Disturbance,
-    /// The goal was placed or removed.
-    Goal,
-    /// The tool came within 2 cm of the goal.
-    Reached,
-    /// The bead too.
-    Delivered,
-    /// The bead jumped to the magnet.
-    LiftOff,
-    /// A controller or a limit refused a step.
-    Refused,
-    /// A limit of steps or time was met.
-    Stopped,
-    /// Anything about the session itself.
-    Session,
-}
-
-/// Something happened once.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Event {
-    /// When.
-    pub tick: u64,
-    /// What.
-    pub kind: EventKind,
-    /// One plain sentence.
-    pub text: String,
-}
-
-impl Event {
-    /// An event.
-    pub fn new(tick: u64, kind: EventKind, text: impl Into<String>) -> Self {
-        Self { tick, kind, text: text.into() }
-    }
-}
 
 /// What the controller saw and made of it at a control step.
 #[derive(Clone, Debug)]

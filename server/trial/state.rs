@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::disturb::Script;
-use super::outcome::Phase;
+use super::phase::Phase;
+use super::script::Script;
 use crate::control::switching::{self, Mode};
 use crate::control::transport::Carrier;
 use crate::control::{Refusal, TargetStep};

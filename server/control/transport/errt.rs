@@ -18,14 +18,17 @@
 
 mod cache;
 mod clearance;
+mod obstacles;
 mod planner;
 mod reach;
+mod segment;
 #[cfg(test)]
 mod tests;
 mod tree;
 mod way;
 
-pub use clearance::{Clearance, End, Obstacles};
+pub use clearance::{Clearance, End};
+pub use obstacles::Obstacles;
 pub use planner::{Planner, PlannerParameters, Progress};
 pub use tree::Tree;
 pub use way::Way;

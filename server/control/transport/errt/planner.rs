@@ -6,7 +6,8 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::cache::Cache;
-use super::clearance::{Clearance, End, Obstacles};
+use super::clearance::Clearance;
+use super::obstacles::Obstacles;
 use super::tree::Tree;
 use super::way::Way;
 use crate::geometry::{Point2, Rect};
@@ -164,8 +165,8 @@ impl Planner {
         self.cache.resize(parameters.waypoints);
         self.search = None;
         self.progress = Progress::WalledOff;
-        let start = End::near(from, obstacles, parameters.least_clearance_m);
-        let Some((start, goal)) = start.zip(End::at(goal, obstacles)) else { return };
+        let start = obstacles.end_near(from, parameters.least_clearance_m);
+        let Some((start, goal)) = start.zip(obstacles.end_at(goal)) else { return };
         let ends = [start, goal];
         let straight = Clearance { asked_m: parameters.clearance_m, ends };
         let is_straight = obstacles.is_clear(start.point, goal.point, &straight);

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::clearance::{Clearance, End, Obstacles};
+use super::clearance::{Clearance, End};
+use super::obstacles::Obstacles;
 use super::planner::{Planner, PlannerParameters, Progress};
 use super::tree::Tree;
 use super::way::Way;
@@ -166,15 +167,15 @@ proptest! {
         let least_m = 0.0057;
         let brute_m = brute_distance_m(&obstacles, point, point);
         prop_assume!(brute_m == 0.0 || brute_m > 1e-6);
-        let end = End::near(point, &obstacles, least_m);
+        let end = obstacles.end_near(point, least_m);
         if brute_m > 0.0 {
             prop_assert!(end.is_some_and(|end| end.point == point && (end.distance_m - brute_m).abs() < 1e-8));
-            prop_assert_eq!(End::at(point, &obstacles), end);
+            prop_assert_eq!(obstacles.end_at(point), end);
         } else {
             let centers = (0..60 * 40).map(|i| lattice_point(2 * (i % 60) + 1, 2 * (i / 60) + 1));
             let clear = centers.filter(|&p| brute_distance_m(&obstacles, p, p) >= least_m);
             let nearest_m = clear.map(|p| (p - point).norm()).min_by(f64::total_cmp);
-            prop_assert_eq!(End::at(point, &obstacles), None);
+            prop_assert_eq!(obstacles.end_at(point), None);
             prop_assert_eq!(end.is_some(), nearest_m.is_some());
             if let Some((end, nearest_m)) = end.zip(nearest_m) {
                 prop_assert!(((end.point - point).norm() - nearest_m).abs() < 1e-8 && end.distance_m > least_m - 1e-8);
@@ -225,13 +226,13 @@ proptest! {
         planner.advance(&obstacles, 3000);
         match planner.progress() {
             Progress::Found(way) => {
-                let start = End::near(from, &obstacles, LEAST_M).unwrap().point;
+                let start = obstacles.end_near(from, LEAST_M).unwrap().point;
                 prop_assert_eq!([way.points[0], *way.points.last().unwrap()], [start, goal]);
                 prop_assert!(way.is_clear_from(0.0, &obstacles, 0.0));
                 assert_all_kept(&planner, &obstacles, way);
             }
             Progress::WalledOff => {
-                let ends = End::near(from, &obstacles, LEAST_M).zip(End::at(goal, &obstacles));
+                let ends = obstacles.end_near(from, LEAST_M).zip(obstacles.end_at(goal));
                 let clearance = ends.map(|(start, goal)| Clearance { asked_m: LEAST_M, ends: [start, goal] });
                 prop_assert!(!clearance.is_some_and(|clearance| lattice_leads(&obstacles, &clearance)));
             }

@@ -4,7 +4,8 @@ use rand::{Rng, RngExt};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::clearance::{Clearance, Obstacles};
+use super::clearance::Clearance;
+use super::obstacles::Obstacles;
 use crate::geometry::Point2;
 
 /// Straight lines from start to goal.
