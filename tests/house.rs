@@ -28,7 +28,7 @@ const CONFINED: [(&str, &[&str]); 4] = [
 /// What would make a trial depend on anything but its scenario, seed and inputs.
 const IMPURE: [&str; 6] = ["Instant::now", "SystemTime", "thread_rng", "rand::rng()", "env::var", "static mut"];
 
-fn sources() -> Vec<(PathBuf, String, String)> {
+pub fn sources() -> Vec<(PathBuf, String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("server");
     let mut folders = vec![root.clone()];
     let mut found = Vec::new();

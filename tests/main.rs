@@ -4,6 +4,7 @@ mod access;
 mod answers;
 mod calculator;
 mod cases;
+mod circles;
 mod commands;
 mod contract;
 mod crashes;
