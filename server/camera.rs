@@ -71,7 +71,7 @@ pub const VIEW_PX: u32 = 480;
 const MOST_M: f64 = 10.0;
 
 /// How much work goes into pictures for people. The controllers' view is the same at either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quality {
     /// Hard edges and shadows, for adapters that render on the processor.

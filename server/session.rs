@@ -20,10 +20,9 @@ use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
-use crate::geometry::Point2;
 use crate::map::{Library, MapError};
 use crate::plant::PositionerKind;
-use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
+use crate::scenario::{Parameters, Scenario};
 use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, Trial, TrialError};
 
 pub use pacing::{SPEED_MAX, SPEED_MIN};
@@ -55,29 +54,18 @@ pub enum Command {
     SetSpeed(f64),
     /// Back to the start; with another seed, or the same.
     Reset(Option<u64>),
-    /// Another trial.
-    Load {
-        /// Name of a shipped map.
-        map: String,
-        /// Sub-controller 2, or the present one.
-        controller: Option<ControllerName>,
-        /// What carries the magnet, or what the map is made for.
-        positioner: Option<PositionerKind>,
-        /// Seed, or the present one.
-        seed: Option<u64>,
-        /// Bead and tool at the start.
-        start_m: Option<Point2<f64>>,
-        /// Goal at the start.
-        goal_m: Option<Point2<f64>>,
-        /// Parameters, or the present ones.
-        parameters: Option<Box<Parameters>>,
-        /// Disturbances at random.
-        disturbances: u32,
-        /// Disturbances at set times.
-        script: Vec<Scripted>,
-    },
+    /// Another trial: this scenario, but for what is kept.
+    Load { scenario: Box<Scenario>, kept: Kept },
     /// Back to the last control step at or before this tick; stops time.
     Rewind(u64),
+}
+
+/// What of a session stays as it is when another scenario is loaded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kept {
+    pub controller: bool,
+    pub seed: bool,
+    pub parameters: bool,
 }
 
 /// Why a command was refused; the session is as it was.

@@ -25,7 +25,7 @@ const HOME_RAD: Joints = [-FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, FRAC_P
 const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
 
 /// Which of the two.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
     /// The UR5.

@@ -5,7 +5,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
-use crate::geometry::schema::{Numbers2, Numbers4};
+use super::numbers::{Numbers2, Numbers4};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 use crate::session::{Past, Progress};

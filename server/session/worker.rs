@@ -10,7 +10,7 @@ use tokio::sync::{broadcast, watch};
 
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
+use super::{Command, CommandError, JOURNAL, Kept, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, Eye};
 use crate::control::step_is_due;
 use crate::faults;
@@ -216,28 +216,7 @@ impl<E: Eye> Worker<E> {
                 };
                 self.set_up(scenario, self.trial.arena().clone())?;
             }
-            Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, disturbances, script } => {
-                // A name only: no client path touches the file system.
-                let arena = Arena::of(self.scenery.known_maps.find(&map)?);
-                let present = self.trial.state();
-                let scenario = Scenario {
-                    map,
-                    controller: controller.unwrap_or(present.controller),
-                    positioner,
-                    seed: seed.unwrap_or(self.trial.scenario().seed),
-                    parameters: parameters.map_or_else(|| present.world.parameters.clone(), |p| *p),
-                    start_m,
-                    goal_m,
-                    disturbances,
-                    script,
-                };
-                let eye = (self.make_eye)(&arena).map_err(TrialError::from)?;
-                let before = std::mem::replace(&mut self.eye, eye);
-                if let Err(error) = self.set_up(scenario, arena) {
-                    self.eye = before;
-                    return Err(error);
-                }
-            }
+            Command::Load { scenario, kept } => self.load(*scenario, kept)?,
             Command::Rewind(tick) => {
                 let state = self.moment(tick)?.clone();
                 self.running = false;
@@ -285,6 +264,28 @@ impl<E: Eye> Worker<E> {
             self.trial.operate(input, !self.running)?;
         }
         Ok(configures)
+    }
+
+    fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
+        // A name only: no client path touches the file system.
+        let arena = Arena::of(self.scenery.known_maps.find(&scenario.map)?);
+        let present = self.trial.state();
+        if kept.controller {
+            scenario.controller = present.controller;
+        }
+        if kept.seed {
+            scenario.seed = self.trial.scenario().seed;
+        }
+        if kept.parameters {
+            scenario.parameters = present.world.parameters.clone();
+        }
+        let eye = (self.make_eye)(&arena).map_err(TrialError::from)?;
+        let before = std::mem::replace(&mut self.eye, eye);
+        let done = self.set_up(scenario, arena);
+        if done.is_err() {
+            self.eye = before;
+        }
+        done
     }
 
     fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
 use crate::camera::Eye;
@@ -26,7 +25,7 @@ const BYTES_MOST: u64 = 64 << 20;
 const TICKS_MOST: u64 = 24 * 3600 * 125;
 
 /// A trial that can be run again with whatever the controllers have become.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// What it shows.
@@ -45,7 +44,7 @@ pub struct Case {
 }
 
 /// An input and its time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
     /// It comes before the tick after this one.
@@ -55,7 +54,7 @@ pub struct Timed {
 }
 
 /// So many deliveries by then.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Deliveries since the start.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError};
@@ -48,7 +47,7 @@ impl LoggedBeginning {
 }
 
 /// A map as it was drawn: those that ship with Ferry may change.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoggedMap {
     /// Name, for people.
     pub name: String,

@@ -14,7 +14,7 @@ use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterEr
 const WAITING_MOST: usize = 50_000;
 
 /// One action; stands in the log at the tick that follows it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.

@@ -14,6 +14,9 @@ use crate::plant::{Hand, Load, Plant, Positioner};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 
+/// Instead of the switching law's reason, which no longer matters.
+const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
+
 /// What the controller saw and made of it at a control step.
 #[derive(Clone, Debug)]
 pub struct Sight {
@@ -105,6 +108,14 @@ impl Moment {
     /// Simulated time.
     pub fn sim_time_s(&self) -> f64 {
         self.tick as f64 * SERVO_PERIOD_S
+    }
+
+    /// Why the active sub-controller is active, one plain sentence.
+    pub fn reason(&self) -> String {
+        match self.phase {
+            Phase::LiftedOff => LIFTED_OFF.to_owned(),
+            _ => self.switching.reason(),
+        }
     }
 
     /// Tracking error: tool minus bead in the plane.

@@ -43,6 +43,8 @@ use crate::geometry::Point2;
 use crate::perception::{CellState, ObstacleMap};
 use crate::scenario::Parameters;
 
+/// Edges of a tree that are shown at most; more could not be told apart.
+pub const MOST_EDGES: usize = 4000;
 /// A tool farther from its way than this is not on it any more: the bead was fetched somewhere else.
 const OFF_WAY_M: f64 = 0.01;
 /// A way may lose so much of its clearance before another is planned: a cell of the map, as more of a wall is seen.
@@ -108,6 +110,11 @@ impl Errt {
     /// The planner.
     pub fn planner(&self) -> &Planner {
         &self.planner
+    }
+
+    /// Edges of the tree, no more than can be shown.
+    pub fn shown_edges(&self) -> impl Iterator<Item = [Point2<f64>; 2]> {
+        self.planner.tree().into_iter().flat_map(Tree::edges).take(MOST_EDGES)
     }
 
     /// The way that is followed.

@@ -7,6 +7,7 @@ use axum::extract::State;
 use axum::http::StatusCode;
 
 use super::sessions::view;
+use crate::control::transport::attractor::Flow;
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
@@ -29,5 +30,9 @@ pub async fn flow(
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("spacing_m"));
     }
     let view = view(&server, &id)?;
-    Ok(Json(server.work(move |_| FlowField::of(&view, spacing_m)).await?))
+    let flow = server.work(move |_| {
+        let known = &view.sight.1.known;
+        Flow::of(known, view.moment.goal_m, &view.scenery.parameters, spacing_m)
+    });
+    Ok(Json(flow.await?.into()))
 }

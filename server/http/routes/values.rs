@@ -102,7 +102,8 @@ pub async fn values(
     // One at a time, so that other long computations find their places.
     let judged = server.work_at(&server.painter, PAINTER_WAITS, move |server| {
         let atlas = server.atlases.of(&arena, &policy, &server.gpu)?;
-        Ok::<_, NoValues>(ValueMap::of(&atlas, goal_m)?)
+        let judged = atlas.judge(goal_m)?;
+        Ok::<_, NoValues>(ValueMap::of(&atlas, judged))
     });
     Ok(Json(judged.await??))
 }
