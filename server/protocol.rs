@@ -6,6 +6,7 @@
 //! little-endian, then the payload.
 
 mod client;
+mod comparison;
 mod described;
 mod error;
 mod evaluations;
@@ -13,7 +14,6 @@ mod layers;
 mod magnetics;
 mod numbers;
 mod parse;
-mod past;
 mod recordings;
 mod seed;
 mod server;
@@ -22,6 +22,7 @@ mod typescript;
 mod workspace;
 
 pub use client::ClientMessage;
+pub use comparison::{Branch, ComparisonMessage, MomentMessage};
 pub use error::ErrorMessage;
 pub use evaluations::{
     Cell, EvaluationCell, EvaluationFailure, EvaluationQuery, EvaluationReport, EvaluationStage, EvaluationSummary,
@@ -33,7 +34,6 @@ pub use layers::{
 };
 pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
 pub use numbers::{Numbers3, Numbers6, Rows3};
-pub use past::{Branch, ComparisonMessage, MomentMessage};
 pub use recordings::{RecordingFile, RecordingList};
 pub use server::{EventMessage, Hello, Role, SceneMessage, ServerMessage, StateMessage};
 pub use workspace::{ManipulabilityMap, WorkspaceMap, WorkspaceQuery};

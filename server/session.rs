@@ -3,10 +3,10 @@
 //! The thread is the only one that touches the trial. Whoever holds a [`Session`] may send commands
 //! (bounded; a full queue refuses) and watch. A slow watcher sees the newest view and no other.
 
+mod branch_point;
 #[cfg(test)]
 mod command_tests;
 mod pacing;
-mod past;
 mod recall;
 mod timeline;
 mod worker;
@@ -25,8 +25,8 @@ use crate::plant::PositionerKind;
 use crate::scenario::{Parameters, Scenario};
 use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, Trial, TrialError};
 
+pub use branch_point::{BranchPoint, Progress};
 pub use pacing::{SPEED_MAX, SPEED_MIN};
-pub use past::{Past, Progress};
 
 /// Commands that may wait.
 const COMMAND_QUEUE: usize = 256;
@@ -203,7 +203,7 @@ pub enum Recalled {
 /// What is asked of the thread, and where the answer goes.
 enum Request {
     Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
-    Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<Past, CommandError>> },
+    Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<BranchPoint, CommandError>> },
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
 }
 
@@ -238,7 +238,7 @@ impl Session {
     }
 
     /// A moment that is kept; changes nothing.
-    pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<Past, CommandError> {
+    pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<BranchPoint, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Recall { tick, moment, answer })?;
         answer_of(answered).await

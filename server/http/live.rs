@@ -149,7 +149,7 @@ impl Connection {
         self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
         let first = encoded.borrow_and_update().clone();
         self.send_newest(&first, &mut sent).await?;
-        self.tell_the_past(&mut comparison).await?;
+        self.send_history(&mut comparison).await?;
         loop {
             tokio::select! {
                 changed = encoded.changed(), if goes_on => {
@@ -248,7 +248,7 @@ impl Connection {
     }
 
     /// What happened before this browser came.
-    async fn tell_the_past(
+    async fn send_history(
         &mut self,
         comparison: &mut watch::Receiver<axum::extract::ws::Utf8Bytes>,
     ) -> Result<(), axum::Error> {

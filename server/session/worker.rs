@@ -37,7 +37,7 @@ pub(super) struct Worker<E> {
     sight: Arc<(u64, Sight)>,
     pub(super) running: bool,
     /// Whether the trial's hand is that of a moment gone back to, which holds nothing any more.
-    hand_is_past: bool,
+    hand_is_stale: bool,
     pace: Pace,
     journal: Arc<Vec<Event>>,
     /// A command was carried out as far as this let it: the session ends.
@@ -73,7 +73,7 @@ impl<E: Eye> Worker<E> {
             scenery,
             sight,
             running: false,
-            hand_is_past: false,
+            hand_is_stale: false,
             pace,
             journal: Arc::default(),
             broken: None,
@@ -220,7 +220,7 @@ impl<E: Eye> Worker<E> {
             Command::Rewind(tick) => {
                 let state = self.moment(tick)?.clone();
                 self.running = false;
-                self.hand_is_past = state.world.plant.hand.is_some();
+                self.hand_is_stale = state.world.plant.hand.is_some();
                 self.trial.restore(state);
                 self.scenery = Arc::new(self.next_scenery(0));
                 self.sink.begin(&self.trial, Beginning::Resumed);
@@ -234,14 +234,14 @@ impl<E: Eye> Worker<E> {
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs, and matter only where time was gone back in.
         let before = self.timeline.reaches_past(tick).then(|| self.hashes());
-        let as_it_was = self.hand_is_past.then(|| self.trial.snapshot());
+        let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
-            self.drop_past_hand()?;
+            self.drop_stale_hand()?;
         }
         let done = self.apply(input);
         if let (Err(_), Some(state)) = (&done, as_it_was) {
             self.trial.restore(state);
-            self.hand_is_past = true;
+            self.hand_is_stale = true;
         }
         let configures = done?;
         if before.is_some_and(|before| before != self.hashes()) {
@@ -259,8 +259,8 @@ impl<E: Eye> Worker<E> {
     /// Returns whether it changes the parameters.
     fn apply(&mut self, input: Input) -> Result<bool, InputError> {
         let configures = matches!(input, Input::Configure(_));
-        let releases_past_hand = self.hand_is_past && matches!(input, Input::Release);
-        if !releases_past_hand {
+        let releases_stale_hand = self.hand_is_stale && matches!(input, Input::Release);
+        if !releases_stale_hand {
             self.trial.operate(input, !self.running)?;
         }
         Ok(configures)
@@ -293,7 +293,7 @@ impl<E: Eye> Worker<E> {
         let sight = trial.look(&mut self.eye).map_err(TrialError::from)?;
         self.trial = trial;
         self.running = false;
-        self.hand_is_past = false;
+        self.hand_is_stale = false;
         self.scenery = Arc::new(self.next_scenery(1));
         self.sink.begin(&self.trial, Beginning::SetUp);
         self.sight = Arc::new((0, sight));
@@ -326,15 +326,15 @@ impl<E: Eye> Worker<E> {
     }
 
     /// The hand of a moment gone back to lets go as soon as something new happens.
-    fn drop_past_hand(&mut self) -> Result<(), InputError> {
-        if std::mem::take(&mut self.hand_is_past) {
+    fn drop_stale_hand(&mut self) -> Result<(), InputError> {
+        if std::mem::take(&mut self.hand_is_stale) {
             self.trial.apply(Input::Release)?;
         }
         Ok(())
     }
 
     pub(super) fn tick(&mut self) -> Result<(), TrialError> {
-        self.drop_past_hand()?;
+        self.drop_stale_hand()?;
         let tick = self.trial.state().world.tick;
         if step_is_due(tick) {
             self.forget_after(tick);

@@ -145,8 +145,8 @@ impl Hub {
 
     /// Starts a comparison, which tells of itself.
     pub async fn fork(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
-        let past = self.session.recall(tick, Recalled::Present).await?;
-        if !past.has_goal() {
+        let point = self.session.recall(tick, Recalled::Present).await?;
+        if !point.has_goal() {
             return Err(CommandError::NoGoal { tick });
         }
         let number = self.forks.fetch_add(1, Ordering::Relaxed) + 1;
@@ -161,7 +161,7 @@ impl Hub {
                 if !is_last() {
                     return;
                 }
-                comparison::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
+                comparison::compare(&point, trial, &controllers, &hub.gpu, &is_last, &|message| {
                     hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
                 });
             });
