@@ -305,11 +305,11 @@ impl ValueMap {
 impl PlanLayer {
     /// Of a planner around what is known.
     pub fn of(errt: &Errt, known: &ObstacleMap) -> Self {
-        let (planner, way) = (errt.planner(), errt.way());
+        let (planner, path) = (errt.planner(), errt.path());
         Self {
             tree: errt.shown_edges().map(|[from, to]| [from.x, from.y, to.x, to.y]).collect(),
-            way: way.map(|way| way.points.iter().map(|point| point.coords.into()).collect()).unwrap_or_default(),
-            clearance_m: way.map(|way| way.clearance.asked_m),
+            way: path.map(|path| path.points.iter().map(|point| point.coords.into()).collect()).unwrap_or_default(),
+            clearance_m: path.map(|path| path.clearance.asked_m),
             plans: errt.plans(),
             attempts: planner.attempts() as u32,
             beta: planner.beta(),

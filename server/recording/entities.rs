@@ -228,9 +228,9 @@ impl Writer {
         let edges = errt.planner().tree().into_iter().flat_map(Tree::edges);
         let edges: Vec<[[f32; 2]; 2]> = edges.map(|edge| edge.map(plan_mm)).collect();
         self.log("workspace/planner/tree", &LineStrips2D::new(edges).with_colors([color(TREE)]))?;
-        let way: Vec<[f32; 2]> =
-            errt.way().map(|way| way.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
-        self.log("workspace/planner/way", &LineStrips2D::new([way]).with_colors([color(GOAL)]))?;
+        let path: Vec<[f32; 2]> =
+            errt.path().map(|path| path.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
+        self.log("workspace/planner/way", &LineStrips2D::new([path]).with_colors([color(GOAL)]))?;
         let corners = known.rectangles().into_iter().map(|rect| {
             // Down is up: the highest y is the least.
             let min = plan_mm(Point2::new(rect.x_min_m, rect.y_max_m));
