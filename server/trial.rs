@@ -47,7 +47,7 @@ pub use replay::{Eyes, ReplayError, Replayed, replay};
 pub use resume::StateError;
 pub use script::Script;
 pub use sink::{Beginning, Nowhere, Sink};
-pub use state::{Counters, Decision, Mind, Motion, TrialState, World, WorldHashes};
+pub use state::{ControllerState, Counters, Decision, Motion, TrialState, World, WorldHashes};
 pub use tally::Tally;
 
 /// Why a trial could not be made or go on.

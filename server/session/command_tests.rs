@@ -188,8 +188,8 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
 fn fingerprint(worker: &Worker<MadeUp>) -> (u64, u64, bool, f64, Option<(u64, u64)>, u64) {
     let view = worker.view();
     let state = worker.trial.state();
-    let (world, mind) = (state.world_hash(), state.mind_hash());
-    (world, mind, view.running, view.speed_target, Some(view.rewind_ticks), view.scenery.version)
+    let (world, controller_state) = (state.world_hash(), state.controller_hash());
+    (world, controller_state, view.running, view.speed_target, Some(view.rewind_ticks), view.scenery.version)
 }
 
 /// Where the arm is and is meant to be; what it may have done since.

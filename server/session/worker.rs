@@ -322,7 +322,7 @@ impl<E: Eye> Worker<E> {
     }
 
     fn hashes(&self) -> (u64, u64) {
-        (self.trial.state().world_hash(), self.trial.state().mind_hash())
+        (self.trial.state().world_hash(), self.trial.state().controller_hash())
     }
 
     /// The hand of a moment gone back to lets go as soon as something new happens.

@@ -85,7 +85,8 @@ pub struct LoggedTick {
     #[serde(with = "serde_bytes")]
     pub fields: Vec<u8>,
     /// Mind hash after the tick.
-    pub mind_hash: u64,
+    #[serde(rename = "mind_hash")]
+    pub controller_hash: u64,
 }
 
 impl From<&TickRecord> for LoggedTick {
@@ -96,7 +97,7 @@ impl From<&TickRecord> for LoggedTick {
             decision: record.decision.clone(),
             world_hash: record.world.total(),
             fields: record.world.fields.iter().flat_map(|hash| (*hash as u16).to_le_bytes()).collect(),
-            mind_hash: record.mind_hash,
+            controller_hash: record.controller_hash,
         }
     }
 }

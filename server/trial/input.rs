@@ -182,7 +182,7 @@ impl Trial {
             Input::Release => self.release(),
             Input::SelectController(name) => {
                 self.state.controller = *name;
-                self.state.mind.carrier = Carrier::new(*name, self.scenario.seed);
+                self.state.controller_state.carrier = Carrier::new(*name, self.scenario.seed);
             }
             Input::Configure(parameters) => self.configure(parameters)?,
             Input::Disturb(disturbance) => {
@@ -213,7 +213,7 @@ impl Trial {
         let text = format!("goal placed at ({:.3}, {:.3}) m", goal.x, goal.y);
         self.events.push(Event::new(world.tick, EventKind::Goal, text));
         self.start_leg();
-        self.state.mind.carrier.transport().start_leg();
+        self.state.controller_state.carrier.transport().start_leg();
         Ok(())
     }
 

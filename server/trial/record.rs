@@ -65,8 +65,8 @@ pub struct TickRecord {
     pub moment: Moment,
     /// See [`super::TrialState::world_hash`].
     pub world: WorldHashes,
-    /// See [`super::TrialState::mind_hash`].
-    pub mind_hash: u64,
+    /// See [`super::TrialState::controller_hash`].
+    pub controller_hash: u64,
 }
 
 /// A trial at one moment, in the words of viewers.
@@ -169,18 +169,18 @@ impl Trial {
     }
 
     fn sight(&self, frame: Arc<CameraFrame>, percept: Percept, tool_m: Point2<f64>) -> Sight {
-        let TrialState { world, mind, .. } = &self.state;
+        let TrialState { world, controller_state, .. } = &self.state;
         Sight {
             frame,
             percept,
             tool_m,
             goal_m: world.goal_m,
-            known: mind.known.clone(),
+            known: controller_state.known.clone(),
             quadtree: QuadtreeParameters {
                 threshold: world.parameters.obstacle_level,
                 smallest_px: world.parameters.smallest_block_px as usize,
             },
-            carrier: mind.carrier.clone(),
+            carrier: controller_state.carrier.clone(),
         }
     }
 
@@ -194,7 +194,7 @@ impl Trial {
             sight,
             events: self.take_events(),
             world: self.state.world.hashes(),
-            mind_hash: self.state.mind_hash(),
+            controller_hash: self.state.controller_hash(),
             moment,
         }
     }

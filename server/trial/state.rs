@@ -94,7 +94,7 @@ pub struct World {
 
 /// What the controller remembers and last saw.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Mind {
+pub struct ControllerState {
     /// Sub-controller 2 with its memory.
     pub carrier: Carrier,
     /// Hash of the last gray image.
@@ -110,8 +110,9 @@ pub struct TrialState {
     pub world: World,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
-    /// See [`Mind`].
-    pub mind: Mind,
+    /// See [`ControllerState`].
+    #[serde(rename = "mind")]
+    pub controller_state: ControllerState,
 }
 
 impl World {
@@ -221,7 +222,7 @@ impl TrialState {
                 },
             },
             controller: scenario.controller,
-            mind: Mind {
+            controller_state: ControllerState {
                 carrier: Carrier::new(scenario.controller, scenario.seed),
                 seen: 0,
                 known: ObstacleMap::new(*workspace),
@@ -235,8 +236,8 @@ impl TrialState {
     }
 
     /// Hash of the mind: equal in a re-run from frames.
-    pub fn mind_hash(&self) -> u64 {
-        hash(&(&self.mind, self.controller))
+    pub fn controller_hash(&self) -> u64 {
+        hash(&(&self.controller_state, self.controller))
     }
 }
 
