@@ -24,7 +24,7 @@ mod tally;
 
 use std::sync::Arc;
 
-use crate::camera::{Camera, CameraError, Eye, Gpu, Stage, Subject, VIEW_PX};
+use crate::camera::{Camera, CameraError, Eye, Gpu, StaticScene, Subject, VIEW_PX};
 use crate::control::{approach, limits::Limits, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
@@ -160,8 +160,8 @@ impl Arena {
     /// A camera that looks at this map.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let map = &self.map;
-        let stage = Stage { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
-        Camera::new(gpu.clone(), &stage, VIEW_PX)
+        let static_scene = StaticScene { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
+        Camera::new(gpu.clone(), &static_scene, VIEW_PX)
     }
 }
 
