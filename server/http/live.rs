@@ -301,10 +301,10 @@ impl Connection {
             _ => None,
         };
         match message {
-            ClientMessage::Fork { tick, controllers } => {
+            ClientMessage::Compare { tick, controllers } => {
                 let mut asked = ControllerName::ALL.to_vec();
                 asked.retain(|name| controllers.is_empty() || controllers.contains(name));
-                self.hub.fork(tick, asked).await?;
+                self.hub.compare(tick, asked).await?;
             }
             message => {
                 if let Some(command) = message.command() {

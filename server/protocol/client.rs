@@ -91,7 +91,9 @@ pub enum ClientMessage {
     },
     /// Runs the control step at or before a tick that is still held on under these controllers, all of them when
     /// left out, beside the session; the answer is a `comparison`. A new one takes an older one's place.
-    Fork {
+    #[serde(rename = "fork")]
+    #[ts(rename = "fork")]
+    Compare {
         #[ts(type = "number")]
         tick: u64,
         #[serde(default)]
@@ -148,7 +150,7 @@ impl ClientMessage {
             }
             Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
-            Self::Fork { .. } | Self::TakeControl {} | Self::ReleaseControl {} => return None,
+            Self::Compare { .. } | Self::TakeControl {} | Self::ReleaseControl {} => return None,
         })
     }
 }
