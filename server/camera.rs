@@ -34,7 +34,7 @@ mod mesh;
 mod optics;
 mod pipeline;
 mod scene;
-mod stage;
+mod static_scene;
 mod target;
 mod view;
 
@@ -71,7 +71,7 @@ pub const VIEW_PX: u32 = 480;
 const MOST_M: f64 = 10.0;
 
 /// How much work goes into pictures for people. The controllers' view is the same at either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quality {
     /// Hard edges and shadows, for adapters that render on the processor.
@@ -117,7 +117,7 @@ pub fn check_mount(mount: &CameraMount, wall_height_m: f64) -> Result<(), Camera
 /// The static geometry. Walls are prisms on these polygons; in the controllers' view everything
 /// outside the workspace is wall besides.
 #[derive(Clone, Copy, Debug)]
-pub struct Stage<'a> {
+pub struct StaticScene<'a> {
     /// Where the bead may be.
     pub workspace: &'a Rect,
     /// Ground plan of the walls.
@@ -210,10 +210,10 @@ struct Renderers {
 }
 
 impl Renderers {
-    fn new(gpu: &Arc<Gpu>, stage: &Stage, view_px: u32) -> Result<Self, CameraError> {
+    fn new(gpu: &Arc<Gpu>, static_scene: &StaticScene, view_px: u32) -> Result<Self, CameraError> {
         let gpu = gpu.living()?;
         check_size(view_px, view_px, gpu.most_px())?;
-        let view = view::ViewRenderer::new(&gpu, stage, view_px)?;
+        let view = view::ViewRenderer::new(&gpu, static_scene, view_px)?;
         Ok(Self { gpu, view, scene: None })
     }
 }
@@ -223,17 +223,17 @@ impl Camera {
     /// the stage need a new camera.
     ///
     /// # Errors
-    /// [`CameraError::Size`] or [`CameraError::Stage`] for bad input, [`CameraError::Rejected`] or
+    /// [`CameraError::Size`] or [`CameraError::StaticScene`] for bad input, [`CameraError::Rejected`] or
     /// [`CameraError::DeviceLost`] when the device fails.
-    pub fn new(gpu: Arc<Gpu>, stage: &Stage, view_px: u32) -> Result<Self, CameraError> {
-        stage::check(stage)?;
+    pub fn new(gpu: Arc<Gpu>, static_scene: &StaticScene, view_px: u32) -> Result<Self, CameraError> {
+        static_scene::check(static_scene)?;
         Ok(Self {
-            workspace: *stage.workspace,
-            walls: stage.walls.to_vec(),
-            wall_height_m: stage.wall_height_m,
+            workspace: *static_scene.workspace,
+            walls: static_scene.walls.to_vec(),
+            wall_height_m: static_scene.wall_height_m,
             view_px,
             quality: None,
-            renderers: Renderers::new(&gpu, stage, view_px)?,
+            renderers: Renderers::new(&gpu, static_scene, view_px)?,
         })
     }
 
@@ -290,8 +290,8 @@ impl Camera {
             let scene = match scene {
                 Some(scene) => scene,
                 None => {
-                    let stage = Stage { workspace, walls, wall_height_m: *wall_height_m };
-                    scene.insert(scene::SceneRenderer::new(gpu, &stage, quality.unwrap_or(gpu.quality()))?)
+                    let static_scene = StaticScene { workspace, walls, wall_height_m: *wall_height_m };
+                    scene.insert(scene::SceneRenderer::new(gpu, &static_scene, quality.unwrap_or(gpu.quality()))?)
                 }
             };
             scene.draw(gpu, subject, viewpoint, width_px, height_px)
@@ -303,8 +303,9 @@ impl Camera {
         match picture(self) {
             Err(CameraError::DeviceLost { reason }) => {
                 tracing::warn!(reason, "the graphics device was lost and is opened anew");
-                let stage = Stage { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
-                self.renderers = Renderers::new(&self.renderers.gpu, &stage, self.view_px)?;
+                let static_scene =
+                    StaticScene { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
+                self.renderers = Renderers::new(&self.renderers.gpu, &static_scene, self.view_px)?;
                 picture(self)
             }
             drawn => drawn,

@@ -19,7 +19,7 @@ pub use evaluation::{CellProgress, CellResult, Evaluation, Progress, Stage};
 pub use experiment::{Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, run, run_one, unrecorded};
 pub use figure::{FigureError, Trace};
 pub use paper::PaperRow;
-pub use query::{CELL_LIMIT, Cell, EvaluationQuery, QueryError};
+pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
 pub use queue::{Queue, SubmitError};
 pub use report::{Report, ReportError};
 pub use statistics::wilson95;

@@ -3,9 +3,6 @@
 //! Everything is given in the UR5's `base` frame unless a name says otherwise: x right, y away from
 //! the user is negative, z up, origin on the table under joint 1. Metres and radians.
 
-pub mod schema;
-
-use self::schema::Numbers2;
 pub use nalgebra::{
     Isometry3, Matrix3, Matrix6, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3, Vector6,
 };
@@ -14,13 +11,11 @@ use serde::{Deserialize, Serialize};
 /// A filled polygon with holes, in metres.
 ///
 /// `exterior` runs counter-clockwise and each hole clockwise; no ring repeats its first point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Polygon {
     /// Outer ring, `[x_m, y_m]` a vertex.
-    #[schema(value_type = Vec<Numbers2>)]
     pub exterior: Vec<[f64; 2]>,
     /// Inner rings.
-    #[schema(value_type = Vec<Vec<Numbers2>>)]
     pub holes: Vec<Vec<[f64; 2]>>,
 }
 
@@ -32,7 +27,7 @@ impl Polygon {
 }
 
 /// An axis-aligned rectangle, in metres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rect {
     /// Least x.
     pub x_min_m: f64,

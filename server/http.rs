@@ -2,30 +2,18 @@
 
 mod accept;
 mod access;
-mod api;
 mod assets;
 mod body;
-mod calculator;
-mod evaluations;
 #[cfg(test)]
 mod fault_tests;
-mod fork;
-mod hand;
-mod hub;
 mod live;
-mod maps;
-mod messages;
 mod metrics;
-mod moments;
 mod openapi;
 mod path;
 mod problem;
-mod rates;
 mod refusals;
-mod seats;
+mod routes;
 mod sessions;
-mod values;
-mod viewer;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -33,14 +21,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
-use axum::extract::DefaultBodyLimit;
 use axum::http::StatusCode;
-use axum::routing::get;
 use tokio::net::TcpListener;
 use tokio::sync::{Semaphore, watch};
 use tokio_util::task::TaskTracker;
-use utoipa_axum::router::OpenApiRouter;
-use utoipa_axum::routes;
 
 use crate::camera::Gpu;
 use crate::evaluate::Queue;
@@ -48,15 +32,12 @@ use crate::recording::{Archive, Retention};
 use crate::trial::TrialError;
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
-use maps::Maps;
 use metrics::Counters;
 use problem::Problem;
+use routes::maps::Maps;
+use routes::values::Atlases;
 use sessions::Sessions;
 
-/// Largest request body.
-const BODY_LIMIT: usize = 1 << 20;
-/// The same where ten thousand poses must fit.
-const BATCH_BODY_LIMIT: usize = 8 << 20;
 /// Answers that take long to work out, at once; more wait.
 const WORKERS: usize = 4;
 /// For so long at most.
@@ -114,7 +95,7 @@ pub struct Server {
     recordings: Arc<Archive>,
     maps: Maps,
     /// Maps as policies see them.
-    atlases: values::Atlases,
+    atlases: Atlases,
     /// Evaluations in the background.
     evaluations: Queue,
     sessions: Arc<Sessions>,
@@ -148,7 +129,7 @@ impl Server {
             counters: Arc::default(),
             recordings,
             maps,
-            atlases: values::Atlases::in_folder(data.join("sweeps")),
+            atlases: Atlases::in_folder(data.join("sweeps")),
             sessions: Arc::new(sessions),
             workers: Arc::new(Semaphore::new(WORKERS)),
             painter: Arc::new(Semaphore::new(1)),
@@ -196,60 +177,10 @@ impl Server {
     }
 }
 
-/// Every route with its description: `routes!` takes no handler without one.
-fn routes() -> OpenApiRouter<Arc<Server>> {
-    let calculator = OpenApiRouter::new()
-        .routes(routes!(calculator::forward))
-        .routes(routes!(calculator::inverse))
-        .routes(routes!(calculator::workspace))
-        .routes(routes!(calculator::field))
-        .routes(routes!(calculator::pull))
-        .routes(routes!(calculator::reach))
-        .routes(routes!(calculator::plane))
-        .layer(DefaultBodyLimit::max(BATCH_BODY_LIMIT));
-    OpenApiRouter::with_openapi(openapi::base())
-        .routes(routes!(api::health))
-        .routes(routes!(metrics::metrics))
-        .routes(routes!(openapi::openapi))
-        .routes(routes!(access::login::form, access::login::login))
-        .routes(routes!(access::login::logout))
-        .routes(routes!(maps::list, maps::add))
-        .routes(routes!(maps::file, maps::delete))
-        .routes(routes!(api::sessions, api::create_session))
-        .routes(routes!(api::session, api::delete_session))
-        .routes(routes!(api::state))
-        .routes(routes!(api::camera))
-        .routes(routes!(api::observation))
-        .routes(routes!(api::flow))
-        .routes(routes!(values::values))
-        .routes(routes!(moments::moment))
-        .routes(routes!(moments::camera))
-        .routes(routes!(moments::observation))
-        .routes(routes!(moments::case))
-        .routes(routes!(live::live))
-        .routes(routes!(evaluations::list, evaluations::create))
-        .routes(routes!(evaluations::report, evaluations::cancel))
-        .routes(routes!(evaluations::file))
-        .routes(routes!(api::recordings))
-        .routes(routes!(api::recording))
-        .routes(routes!(viewer::file))
-        .layer(DefaultBodyLimit::max(BODY_LIMIT))
-        .merge(calculator)
-}
-
-/// All that is served: the routes, and the pages.
-fn served() -> Router<Arc<Server>> {
-    Router::from(routes())
-        .route("/", get(assets::main_session))
-        .route("/s/{name}", get(assets::named_session))
-        .method_not_allowed_fallback(problem::method_not_allowed)
-        .fallback(assets::page)
-}
-
-/// The same of a server, for those who may ask.
+/// All that is served, for those who may ask.
 pub fn router(server: Arc<Server>) -> Router {
     let guard = axum::middleware::from_fn_with_state(server.clone(), access::guard);
-    served().layer(guard).with_state(server)
+    routes::served().layer(guard).with_state(server)
 }
 
 /// Opens the listener, or says what to do instead.

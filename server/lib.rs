@@ -15,8 +15,6 @@
 //! - floor 10: [`http`]: axum routes and the WebSocket.
 //! - floor 11: [`cli`]: assembling.
 
-#![warn(missing_docs)]
-
 /// Panics here when a test has asked for it (see `faults`); nothing in any other build.
 macro_rules! fault_point {
     ($name:literal) => {

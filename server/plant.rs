@@ -4,6 +4,7 @@
 
 mod bead;
 pub(crate) mod contact;
+mod motion;
 mod positioner;
 
 use serde::{Deserialize, Serialize};
@@ -47,6 +48,18 @@ impl PlantParameters {
             BeadMotion::Sliding => self.friction,
             BeadMotion::Rolling => self.friction.min(self.rolling_resistance),
         }
+    }
+
+    /// Nearest and farthest distance from the tool at which the magnet's pull moves a resting bead, in so many
+    /// directions from +x counter-clockwise; `None` where it never does, and no farthest where it always does.
+    pub fn capture_m(&self, tool_height_m: f64, directions: u32) -> Vec<Option<(f64, Option<f64>)>> {
+        let breakaway = self.breakaway();
+        let capture_m = |k: u32| {
+            let direction_rad = f64::from(k) * std::f64::consts::TAU / f64::from(directions);
+            force::capture_interval_m(self.block_orientation, tool_height_m, breakaway, direction_rad)
+        };
+        let end_m = |far_m: f64| (far_m < force::FARTHEST_M).then_some(far_m);
+        (0..directions).map(|k| capture_m(k).map(|(near_m, far_m)| (near_m, end_m(far_m)))).collect()
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod archive;
 mod blueprint;
+mod drawing;
 mod entities;
 mod part;
 mod samples;

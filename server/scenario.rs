@@ -7,11 +7,8 @@ mod random;
 mod shipped;
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 use crate::geometry::Point2;
-use crate::geometry::schema::Numbers2;
 use crate::plant::PositionerKind;
 
 pub use disturbance::{
@@ -23,7 +20,7 @@ pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};
 
 /// Sub-controller 2, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerName {
     /// A trained Rainbow-IQN policy (paper, §IV-A).
@@ -66,7 +63,7 @@ pub struct UnknownController {
 }
 
 /// A trial before its first tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// Name of the map, or path of an SVG.
@@ -77,20 +74,15 @@ pub struct Scenario {
     #[serde(default)]
     pub positioner: Option<PositionerKind>,
     /// Seed of everything random in the trial.
-    #[ts(type = "number")]
     pub seed: u64,
     /// Parameters at the start.
     #[serde(default)]
     pub parameters: Parameters,
     /// Bead at the start, the tool above it; left out, a random free point.
     #[serde(default)]
-    #[ts(type = "[number, number] | null")]
-    #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<Point2<f64>>,
     /// Goal at the start; left out, none: the arm holds.
     #[serde(default)]
-    #[ts(type = "[number, number] | null")]
-    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
     /// How often the bead is lifted away at random during transport (specification §2).
     #[serde(default)]

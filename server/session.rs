@@ -3,10 +3,10 @@
 //! The thread is the only one that touches the trial. Whoever holds a [`Session`] may send commands
 //! (bounded; a full queue refuses) and watch. A slow watcher sees the newest view and no other.
 
+mod branch_point;
 #[cfg(test)]
 mod command_tests;
 mod pacing;
-mod past;
 mod recall;
 mod timeline;
 mod worker;
@@ -20,14 +20,13 @@ use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
-use crate::geometry::Point2;
 use crate::map::{Library, MapError};
 use crate::plant::PositionerKind;
-use crate::scenario::{ControllerName, Parameters, Scenario, Scripted};
+use crate::scenario::{Parameters, Scenario};
 use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, Trial, TrialError};
 
+pub use branch_point::{BranchPoint, Progress};
 pub use pacing::{SPEED_MAX, SPEED_MIN};
-pub use past::{Past, Progress};
 
 /// Commands that may wait.
 const COMMAND_QUEUE: usize = 256;
@@ -55,29 +54,18 @@ pub enum Command {
     SetSpeed(f64),
     /// Back to the start; with another seed, or the same.
     Reset(Option<u64>),
-    /// Another trial.
-    Load {
-        /// Name of a shipped map.
-        map: String,
-        /// Sub-controller 2, or the present one.
-        controller: Option<ControllerName>,
-        /// What carries the magnet, or what the map is made for.
-        positioner: Option<PositionerKind>,
-        /// Seed, or the present one.
-        seed: Option<u64>,
-        /// Bead and tool at the start.
-        start_m: Option<Point2<f64>>,
-        /// Goal at the start.
-        goal_m: Option<Point2<f64>>,
-        /// Parameters, or the present ones.
-        parameters: Option<Box<Parameters>>,
-        /// Disturbances at random.
-        disturbances: u32,
-        /// Disturbances at set times.
-        script: Vec<Scripted>,
-    },
+    /// Another trial: this scenario, but for what is kept.
+    Load { scenario: Box<Scenario>, kept: Kept },
     /// Back to the last control step at or before this tick; stops time.
     Rewind(u64),
+}
+
+/// What of a session stays as it is when another scenario is loaded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kept {
+    pub controller: bool,
+    pub seed: bool,
+    pub parameters: bool,
 }
 
 /// Why a command was refused; the session is as it was.
@@ -215,7 +203,7 @@ pub enum Recalled {
 /// What is asked of the thread, and where the answer goes.
 enum Request {
     Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
-    Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<Past, CommandError>> },
+    Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<BranchPoint, CommandError>> },
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
 }
 
@@ -250,7 +238,7 @@ impl Session {
     }
 
     /// A moment that is kept; changes nothing.
-    pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<Past, CommandError> {
+    pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<BranchPoint, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Recall { tick, moment, answer })?;
         answer_of(answered).await

@@ -8,19 +8,22 @@ mod case;
 mod decide;
 mod disturb;
 mod entry;
+mod event;
 mod input;
 mod log;
 mod outcome;
+mod phase;
 mod record;
 mod replay;
 mod resume;
+mod script;
 mod sink;
 mod state;
 mod tally;
 
 use std::sync::Arc;
 
-use crate::camera::{Camera, CameraError, Eye, Gpu, Stage, Subject, VIEW_PX};
+use crate::camera::{Camera, CameraError, Eye, Gpu, StaticScene, Subject, VIEW_PX};
 use crate::control::{approach, limits::Limits, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
@@ -32,16 +35,18 @@ use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError,
 use crate::tracking::TrackerParameters;
 
 pub use case::{Case, CaseOutcome, Expectation, Timed};
-pub use disturb::Script;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
+pub use event::{Event, EventKind};
 pub use input::{Input, InputError};
 pub use log::{InputLog, LogError, LogWriter};
-pub use outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
-pub use record::{Event, EventKind, Moment, Sight, TickRecord};
+pub use outcome::GOAL_RADIUS_M;
+pub use phase::{GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
+pub use record::{Moment, Sight, TickRecord};
 pub use replay::{Eyes, ReplayError, Replayed, replay};
 pub use resume::StateError;
+pub use script::Script;
 pub use sink::{Beginning, Nowhere, Sink};
-pub use state::{Counters, Decision, Mind, Motion, TrialState, World, WorldHashes};
+pub use state::{ControllerState, Counters, Decision, Motion, TrialState, World, WorldHashes};
 pub use tally::Tally;
 
 /// Why a trial could not be created or continued.
@@ -147,8 +152,8 @@ impl Arena {
     /// A camera that looks at this map.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let map = &self.map;
-        let stage = Stage { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
-        Camera::new(gpu.clone(), &stage, VIEW_PX)
+        let static_scene = StaticScene { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
+        Camera::new(gpu.clone(), &static_scene, VIEW_PX)
     }
 }
 

@@ -211,7 +211,7 @@ fn hashes() -> String {
     let script = Script(vec![drag(200, 0.0, -0.4), drag(220, 0.1, -0.4), (300, Input::Release)]);
     let mut trial = Trial::new(scenario(5), posts()).unwrap();
     let ticks = run(&mut trial, &script, 1000, &mut camera());
-    ticks.iter().map(|tick| format!("{:016x}{:016x}\n", tick.world_hash, tick.mind_hash)).collect()
+    ticks.iter().map(|tick| format!("{:016x}{:016x}\n", tick.world_hash, tick.controller_hash)).collect()
 }
 
 #[test]

@@ -99,7 +99,7 @@ fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
                 .map(|_| {
                     let record = trial.tick(Source::Eye(&mut camera)).unwrap();
                     searched += u32::from(record.moment.refusal.is_some_and(|why| why.contains("searches")));
-                    record.mind_hash
+                    record.controller_hash
                 })
                 .collect()
         };
@@ -107,7 +107,7 @@ fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
         // Through bytes and back, what was derived from the map is lost and made anew.
         trial.restore(postcard::from_bytes(&bytes).unwrap());
         let mut again =
-            || -> Vec<u64> { (0..63).map(|_| trial.tick(Source::Eye(&mut camera)).unwrap().mind_hash).collect() };
+            || -> Vec<u64> { (0..63).map(|_| trial.tick(Source::Eye(&mut camera)).unwrap().controller_hash).collect() };
         assert_eq!(first, again());
     }
     assert!(searched > 20, "{searched}");

@@ -7,7 +7,7 @@ use std::time::Duration;
 use ferry::plant::{BeadMotion, PositionerKind};
 use ferry::recording::{Archive, Options, Recorder, Retention};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
-use ferry::session::{Command, Session};
+use ferry::session::{Command, Kept, Session};
 use ferry::trial::{Input, InputLog, LogError, Replayed, replay};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -43,17 +43,14 @@ fn action(rng: &mut impl Rng, tick: u64) -> Command {
         11 => return Command::Rewind(rng.random_range(0..=tick)),
         12 => return Command::Reset(rng.random::<bool>().then_some(x_m.to_bits() >> 12)),
         13 => {
-            return Command::Load {
-                map: ["posts", "open", "colon"][rng.random_range(0..3)].into(),
-                controller: None,
+            let map = ["posts", "open", "colon"][rng.random_range(0..3)];
+            let scenario = Scenario {
                 positioner: rng.random::<bool>().then_some(PositionerKind::PlanarStage),
-                seed: Some(3),
-                start_m: None,
-                goal_m: None,
-                parameters: None,
                 disturbances: 2,
-                script: Vec::new(),
+                ..Scenario::idle(map, 3)
             };
+            let kept = Kept { controller: true, parameters: true, seed: false };
+            return Command::Load { scenario: Box::new(scenario), kept };
         }
         // While time runs, inputs come between any two ticks.
         _ => return Command::Run,

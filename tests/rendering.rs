@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use ferry::camera::{AdapterChoice, Camera, Gpu, Stage, Subject, VIEW_PX};
+use ferry::camera::{AdapterChoice, Camera, Gpu, StaticScene, Subject, VIEW_PX};
 use ferry::geometry::{Point2, Point3, Polygon, Rect, Vector2};
 use ferry::image::{CameraFrame, CameraMount};
 use ferry::map::{Map, WALL_HEIGHT_M};
@@ -149,8 +149,8 @@ fn a_pixel_and_its_place_on_the_table_agree_to_half_a_pixel() {
         let tool = Point2::new(rng.random_range(-0.15..0.15), rng.random_range(-0.42..-0.33));
         let [left, right, low, high] = std::array::from_fn(|_| rng.random_range(0.01..0.09));
         let walls = walls_around(tool, [left, right, low, high]);
-        let stage = Stage { workspace: &AROUND, walls: &walls, wall_height_m: WALL_HEIGHT_M };
-        let mut camera = Camera::new(gpu(), &stage, VIEW_PX).unwrap();
+        let static_scene = StaticScene { workspace: &AROUND, walls: &walls, wall_height_m: WALL_HEIGHT_M };
+        let mut camera = Camera::new(gpu(), &static_scene, VIEW_PX).unwrap();
         let frame = camera.capture(&subject(tool, NOWHERE, CameraMount::default())).unwrap();
         let percept = Percept::of(&frame, tool);
         let size = percept.gray.width_px;
@@ -182,11 +182,12 @@ fn a_leaning_camera_keeps_half_a_pixel_too() {
         let tool = Point2::new(rng.random_range(-0.15..0.15), rng.random_range(-0.42..-0.33));
         let away_m: [f64; 4] = std::array::from_fn(|_| rng.random_range(0.02..0.06));
         let walls = walls_around(tool, away_m);
-        let stage = Stage { workspace: &AROUND, walls: &walls, wall_height_m: WALL_HEIGHT_M };
+        let static_scene = StaticScene { workspace: &AROUND, walls: &walls, wall_height_m: WALL_HEIGHT_M };
         let tilt_rad = [rng.random_range(-0.3..0.3), rng.random_range(-0.3..0.3)];
         let offset_m = [rng.random_range(-0.015..0.015), rng.random_range(-0.015..0.015)];
         let mount = CameraMount { offset_m, tilt_rad, field_of_view_rad: 1.2, ..CameraMount::default() };
-        let frame = Camera::new(gpu(), &stage, VIEW_PX).unwrap().capture(&subject(tool, NOWHERE, mount)).unwrap();
+        let frame =
+            Camera::new(gpu(), &static_scene, VIEW_PX).unwrap().capture(&subject(tool, NOWHERE, mount)).unwrap();
         let gray = frame.picture.to_gray();
         let half_px = 0.5 * f64::from(VIEW_PX);
         let in_px = |p: Point2<f64>| {

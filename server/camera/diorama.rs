@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::mesh::{Color, Mesh};
-use super::stage::{SHADOW_LIFT_M, border, flat, floor};
-use super::{BEAD_RADIUS_M, Stage};
+use super::static_scene::{SHADOW_LIFT_M, border, flat, floor};
+use super::{BEAD_RADIUS_M, StaticScene};
 use crate::geometry::{Point3, Polygon, Rect, Vector3};
 
 /// Colours before light.
@@ -80,15 +80,15 @@ pub(super) const TABLE_THICKNESS_M: f64 = 0.020;
 const TABLE_GAP_M: f64 = 0.001;
 
 /// The stage for people: floor and walls in a tray, on a table that carries the robot too.
-pub(super) fn mesh(stage: &Stage) -> Mesh {
+pub(super) fn mesh(static_scene: &StaticScene) -> Mesh {
     let mut mesh = Mesh::default();
-    floor(&mut mesh, stage.workspace, colors::FLOOR);
-    let height_m = stage.wall_height_m;
-    let ground_plan = GroundPlan::of(stage);
-    for wall in stage.walls {
+    floor(&mut mesh, static_scene.workspace, colors::FLOOR);
+    let height_m = static_scene.wall_height_m;
+    let ground_plan = GroundPlan::of(static_scene);
+    for wall in static_scene.walls {
         flat(&mut mesh, wall, Vector3::z() * height_m, colors::TISSUE.top);
         // The tray covers what touches it.
-        let free = |[start, end]: &[Corner; 2]| !on_edge(stage.workspace, start.at_m, end.at_m);
+        let free = |[start, end]: &[Corner; 2]| !on_edge(static_scene.workspace, start.at_m, end.at_m);
         for edge in wall.rings().flat_map(smooth_edges).filter(free) {
             let [start_m, end_m] = edge.map(|corner| ground_plan.inside_m(corner.at_m, -corner.outward, BAND_M));
             // From the end of a fold to its root the band must not widen so fast that it leaves the fold.
@@ -96,7 +96,7 @@ pub(super) fn mesh(stage: &Stage) -> Mesh {
             strips(&mut mesh, edge, bands_m.map(|band_m| profile(&colors::TISSUE, height_m, band_m)));
         }
     }
-    let tray = border(stage.workspace, BORDER_M);
+    let tray = border(static_scene.workspace, BORDER_M);
     flat(&mut mesh, &tray, Vector3::z() * height_m, colors::TRAY_INSIDE.top);
     for (ring, colors) in tray.rings().zip([colors::TRAY_OUTSIDE, colors::TRAY_INSIDE]) {
         for edge in smooth_edges(ring) {
@@ -104,7 +104,7 @@ pub(super) fn mesh(stage: &Stage) -> Mesh {
         }
     }
 
-    let slab = Polygon { exterior: rounded_corners(&table(stage.workspace)), holes: vec![] };
+    let slab = Polygon { exterior: rounded_corners(&table(static_scene.workspace)), holes: vec![] };
     flat(&mut mesh, &slab, Vector3::z() * -TABLE_GAP_M, colors::TABLE_TOP);
     let side = |depth_m, eighths, color| Rib { aside_m: 0.0, up_m: -TABLE_GAP_M - depth_m, eighths, color };
     // Lit as if the upper edge were rounded.
@@ -226,14 +226,14 @@ struct GroundPlan {
 }
 
 impl GroundPlan {
-    fn of(stage: &Stage) -> Self {
-        let workspace = *stage.workspace;
+    fn of(static_scene: &StaticScene) -> Self {
+        let workspace = *static_scene.workspace;
         let size_m = workspace.size_m();
         let cell_m = LEAST_CELL_M.max(size_m.max() / MOST_CELLS);
         let [columns, rows] = [size_m.x, size_m.y].map(|side_m| (side_m / cell_m) as usize + 1);
         let mut in_wall = vec![false; columns * rows];
         // Each edge that crosses a row turns in to out, for all cells whose middle is right of it.
-        for ring in stage.walls.iter().flat_map(Polygon::rings) {
+        for ring in static_scene.walls.iter().flat_map(Polygon::rings) {
             for (&[x0, y0], &[x1, y1]) in ring.iter().zip(ring.iter().cycle().skip(1)) {
                 let row_at = |y_m: f64| ((y_m - workspace.y_min_m) / cell_m).clamp(0.0, rows as f64) as usize;
                 for row in row_at(y0.min(y1))..(row_at(y0.max(y1)) + 1).min(rows) {

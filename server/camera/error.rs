@@ -64,7 +64,7 @@ pub enum CameraError {
     },
     /// The static geometry cannot be drawn.
     #[error("the stage cannot be drawn: {what}")]
-    Stage {
+    StaticScene {
         /// Which number is wrong, and its value.
         what: String,
     },

@@ -13,7 +13,7 @@ use super::mesh::{Color, Mesh};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Solid {
     /// Everything that stands still.
-    Stage,
+    StaticScene,
     Sphere,
     Disc,
     Cube,
@@ -34,8 +34,8 @@ pub(super) struct Part {
 
 impl Part {
     /// The stage, which is in `base` already.
-    pub const fn stage(base_from_solid: Matrix4<f64>) -> Self {
-        Self { solid: Solid::Stage, base_from_solid, color: [255; 4] }
+    pub const fn static_scene(base_from_solid: Matrix4<f64>) -> Self {
+        Self { solid: Solid::StaticScene, base_from_solid, color: [255; 4] }
     }
 }
 

@@ -1,13 +1,13 @@
 //! Bad input is refused by name, and leaves the camera usable.
 
-use super::test_support::{WORKSPACE, block, gpu, posts, stage, subject};
+use super::test_support::{WORKSPACE, block, gpu, posts, static_scene, subject};
 use super::*;
 
 #[test]
 fn absurd_requests_are_refused_by_name() {
     let gpu = gpu();
     let walls = posts();
-    let open = |view_px| Camera::new(gpu.clone(), &stage(&walls), view_px);
+    let open = |view_px| Camera::new(gpu.clone(), &static_scene(&walls), view_px);
     for view_px in [0, 1_000_000] {
         let error = open(view_px).unwrap_err();
         assert!(matches!(error, CameraError::Size { .. }), "{error}");
@@ -54,16 +54,16 @@ fn absurd_requests_are_refused_by_name() {
 #[test]
 fn odd_stages_are_refused_or_drawn() {
     let gpu = gpu();
-    let open = |stage: &Stage| Camera::new(gpu.clone(), stage, VIEW_PX);
+    let open = |static_scene: &StaticScene| Camera::new(gpu.clone(), static_scene, VIEW_PX);
     let bad = [block(f64::NAN, 0.0, 0.1, 0.1)];
-    assert!(matches!(open(&stage(&bad)), Err(CameraError::Stage { .. })));
+    assert!(matches!(open(&static_scene(&bad)), Err(CameraError::StaticScene { .. })));
     let empty = Rect { x_max_m: -0.3, ..WORKSPACE };
-    let flat = Stage { workspace: &empty, ..stage(&[]) };
-    assert!(matches!(open(&flat), Err(CameraError::Stage { .. })));
-    let no_height = Stage { wall_height_m: 0.0, ..stage(&[]) };
-    assert!(matches!(open(&no_height), Err(CameraError::Stage { .. })));
+    let flat = StaticScene { workspace: &empty, ..static_scene(&[]) };
+    assert!(matches!(open(&flat), Err(CameraError::StaticScene { .. })));
+    let no_height = StaticScene { wall_height_m: 0.0, ..static_scene(&[]) };
+    assert!(matches!(open(&no_height), Err(CameraError::StaticScene { .. })));
     // Nothing to draw is nothing wrong.
     let hollow = [Polygon { exterior: vec![], holes: vec![] }, block(0.0, 0.0, 0.0, 0.0)];
     let state = subject([0.0, -0.37, 0.1], [0.0, -0.37, 0.0025]);
-    assert!(open(&stage(&hollow)).unwrap().capture(&state).is_ok());
+    assert!(open(&static_scene(&hollow)).unwrap().capture(&state).is_ok());
 }

@@ -10,7 +10,7 @@ use super::gpu::Gpu;
 use super::mesh::{self, Color};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::target::{DEPTH_FORMAT, Target};
-use super::{BEAD_RADIUS_M, CameraError, Quality, Stage, Subject, Viewpoint, arm, diorama, optics};
+use super::{BEAD_RADIUS_M, CameraError, Quality, StaticScene, Subject, Viewpoint, arm, diorama, optics};
 use crate::geometry::{Point3, Rect, Vector3};
 use crate::image::Picture;
 
@@ -101,11 +101,11 @@ pub(super) struct SceneRenderer {
 
 impl SceneRenderer {
     /// `stage` has been checked.
-    pub fn new(gpu: &Gpu, stage: &Stage, quality: Quality) -> Result<Self, CameraError> {
-        gpu.checked("the scene", || Self::build(gpu, stage, quality))
+    pub fn new(gpu: &Gpu, static_scene: &StaticScene, quality: Quality) -> Result<Self, CameraError> {
+        gpu.checked("the scene", || Self::build(gpu, static_scene, quality))
     }
 
-    fn build(gpu: &Gpu, stage: &Stage, quality: Quality) -> Self {
+    fn build(gpu: &Gpu, static_scene: &StaticScene, quality: Quality) -> Self {
         let Effort { samples, shadow_px, fragment } = quality.effort();
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("shadow map"),
@@ -155,18 +155,18 @@ impl SceneRenderer {
         ];
         // One mesh for each solid, in the order of `Solid`. Discs are thick here: the lids of the joints.
         let meshes = [
-            diorama::mesh(stage),
+            diorama::mesh(static_scene),
             mesh::unit_sphere(24),
             mesh::unit_lid(40),
             mesh::unit_cube(),
             mesh::unit_ring(64, RING_INNER),
             mesh::unit_cylinder(40),
         ];
-        let bounds = bounds(stage.workspace);
+        let bounds = bounds(static_scene.workspace);
         Self {
             light_from_base: optics::parallel_around(&bounds, toward_light()),
             bounds,
-            workspace: *stage.workspace,
+            workspace: *static_scene.workspace,
             picture_bindings: bind(gpu, &picture, &picture_resources),
             shadow_bindings: bind(gpu, &shadow, &picture_resources[..1]),
             picture,
@@ -273,7 +273,7 @@ fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
         Viewpoint::User => arm::parts(subject),
         Viewpoint::Above => vec![arm::block(subject)],
     };
-    parts.push(Part::stage(Matrix4::identity()));
+    parts.push(Part::static_scene(Matrix4::identity()));
     parts.push(Part {
         solid: Solid::Sphere,
         base_from_solid: Matrix4::new_translation(&subject.bead_m.into()) * Matrix4::new_scaling(BEAD_RADIUS_M),

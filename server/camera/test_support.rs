@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{AdapterChoice, Gpu, Stage, Subject};
+use super::{AdapterChoice, Gpu, StaticScene, Subject};
 use crate::geometry::{Isometry3, Polygon, Rect, Vector3};
 use crate::image::CameraMount;
 use nalgebra::{Translation3, UnitQuaternion};
@@ -15,8 +15,8 @@ pub fn gpu() -> Arc<Gpu> {
     Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter")
 }
 
-pub fn stage(walls: &[Polygon]) -> Stage<'_> {
-    Stage { workspace: &WORKSPACE, walls, wall_height_m: WALL_HEIGHT_M }
+pub fn static_scene(walls: &[Polygon]) -> StaticScene<'_> {
+    StaticScene { workspace: &WORKSPACE, walls, wall_height_m: WALL_HEIGHT_M }
 }
 
 /// A wall on the rectangle from (x0, y0) to (x1, y1).

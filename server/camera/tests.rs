@@ -1,6 +1,6 @@
 //! The promises of the module, checked on a real adapter.
 
-use super::test_support::{WALL_HEIGHT_M, WORKSPACE, block, gpu, posts, stage, subject};
+use super::test_support::{WALL_HEIGHT_M, WORKSPACE, block, gpu, posts, static_scene, subject};
 use super::*;
 use crate::geometry::Point2;
 use crate::image::GrayImage;
@@ -25,7 +25,7 @@ fn pixels(gray: &GrayImage) -> impl Iterator<Item = (u32, u32, u8)> {
 fn a_post_covers_the_pixels_that_geometry_says() {
     let (x0, y0, x1, y1) = (-0.02, -0.40, 0.03, -0.36);
     let walls = [block(x0, y0, x1, y1)];
-    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
+    let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     // A pinhole sees a prism as the hull of its foot and its top.
     let covered = |frame: &CameraFrame, column, row| {
         (0..=20).any(|step| {
@@ -55,7 +55,7 @@ fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
     // the foot is.
     let pixel_m = 0.2 / 480.0;
     let walls = [block(0.0, -0.45, 0.05, -0.30)];
-    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
+    let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     for (shift_px, first_dark) in [(-0.25, 240), (0.25, 240), (0.75, 239), (-0.75, 241)] {
         let tool_m = [shift_px * pixel_m, -0.37, 0.1];
         let gray = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap().picture.to_gray();
@@ -73,7 +73,7 @@ fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
 #[test]
 fn every_pixel_keeps_the_brightness_contract() {
     let walls = posts();
-    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
+    let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     let poses = [
         ([0.0, -0.37], [0.04, -0.40, 0.0025]),
         ([0.27, -0.22], [0.25, -0.25, 0.0025]),
@@ -110,7 +110,7 @@ fn every_pixel_keeps_the_brightness_contract() {
 #[test]
 fn controllers_see_neither_goal_nor_magnet_nor_arm() {
     let walls = posts();
-    let mut camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
+    let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     let seen = subject([0.17, -0.30, 0.1], [0.15, -0.32, 0.0025]);
     let mut other = seen;
     other.goal_m = None;
@@ -123,7 +123,7 @@ fn controllers_see_neither_goal_nor_magnet_nor_arm() {
 fn the_same_state_gives_the_same_bytes() {
     let walls = posts();
     let gpu = gpu();
-    let mut cameras = [0, 1].map(|_| Camera::new(gpu.clone(), &stage(&walls), VIEW_PX).unwrap());
+    let mut cameras = [0, 1].map(|_| Camera::new(gpu.clone(), &static_scene(&walls), VIEW_PX).unwrap());
     let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
     let elsewhere = subject([-0.1, -0.45, 0.1], [0.04, -0.36, 0.0025]);
     let [first, second] = &mut cameras;
@@ -143,21 +143,21 @@ fn the_same_state_gives_the_same_bytes() {
 fn a_camera_goes_on_when_its_device_is_lost() {
     let walls = posts();
     let gpu = gpu();
-    let mut camera = Camera::new(gpu.clone(), &stage(&walls), VIEW_PX).unwrap();
+    let mut camera = Camera::new(gpu.clone(), &static_scene(&walls), VIEW_PX).unwrap();
     let state = subject([0.05, -0.35, 0.1], [0.04, -0.36, 0.0025]);
     let (frame, scene) = (camera.capture(&state).unwrap(), camera.scene(&state, 320, 180).unwrap());
     gpu.destroy();
     assert!(camera.capture(&state).unwrap() == frame);
     assert!(camera.scene(&state, 320, 180).unwrap() == scene);
     // The next camera too, although it is given the lost device.
-    let mut next = Camera::new(gpu, &stage(&walls), VIEW_PX).unwrap();
+    let mut next = Camera::new(gpu, &static_scene(&walls), VIEW_PX).unwrap();
     assert!(next.capture(&state).unwrap() == frame);
 }
 
 #[test]
 fn the_scene_shows_arm_goal_and_bead() {
     let walls = posts();
-    let camera = Camera::new(gpu(), &stage(&walls), VIEW_PX).unwrap();
+    let camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     let mut camera = camera.with_quality(Quality::Fine);
     let seen = subject([-0.05, -0.33, 0.1], [0.07, -0.41, 0.0025]);
     let mut differences = Vec::new();
@@ -184,8 +184,8 @@ fn cameras_of_one_device_work_in_several_threads() {
     let frames: Vec<CameraFrame> = std::thread::scope(|scope| {
         let threads = [0, 1, 2].map(|_| {
             scope.spawn(|| {
-                let stage = stage(&walls);
-                let mut camera = Camera::new(gpu.clone(), &stage, VIEW_PX).unwrap();
+                let static_scene = static_scene(&walls);
+                let mut camera = Camera::new(gpu.clone(), &static_scene, VIEW_PX).unwrap();
                 (0..10).map(|_| camera.capture(&state).unwrap()).next_back()
             })
         });

@@ -7,9 +7,9 @@ use super::geometry_buffers::{GeometryBuffers, Part, Solid};
 use super::gpu::Gpu;
 use super::mesh::{self, Color, Mesh};
 use super::pipeline::{self, Pass, bind, pipeline};
-use super::stage::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
+use super::static_scene::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
 use super::target::Target;
-use super::{BEAD_RADIUS_M, CameraError, Stage, Subject, arm, optics};
+use super::{BEAD_RADIUS_M, CameraError, StaticScene, Subject, arm, optics};
 use crate::geometry::Point2;
 use crate::image::{CameraFrame, Picture};
 
@@ -41,7 +41,7 @@ pub(super) struct ViewRenderer {
 
 impl ViewRenderer {
     /// `stage` and the size have been checked.
-    pub fn new(gpu: &Gpu, stage: &Stage, size_px: u32) -> Result<Self, CameraError> {
+    pub fn new(gpu: &Gpu, static_scene: &StaticScene, size_px: u32) -> Result<Self, CameraError> {
         let target = Target::new(gpu, size_px, size_px, SAMPLES)?;
         gpu.checked("the controllers' view", || {
             let module = pipeline::module(gpu, "view", SHADER);
@@ -57,7 +57,8 @@ impl ViewRenderer {
                 },
             );
             let bindings = bind(gpu, &pipeline, &[uniforms.as_entire_binding()]);
-            let meshes = [stage::controllers_mesh(stage), shaded_bead(), mesh::unit_disc(24), mesh::unit_cube()];
+            let meshes =
+                [static_scene::controllers_mesh(static_scene), shaded_bead(), mesh::unit_disc(24), mesh::unit_cube()];
             Self {
                 size_px,
                 pipeline,
@@ -112,7 +113,7 @@ fn parts(subject: &Subject) -> Vec<Part> {
         color,
     };
     let mut parts = vec![
-        Part::stage(Matrix4::identity()),
+        Part::static_scene(Matrix4::identity()),
         round(Solid::Disc, shadow_m, controllers::SHADOW),
         round(Solid::Sphere, bead_m, [255; 4]),
     ];

@@ -1,15 +1,12 @@
 //! Two controllers at the same trials.
 
-use crate::geometry::schema::Numbers2;
 use serde::Serialize;
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 use super::statistics::{PairedCounts, mean95};
 use super::{Cell, Episode};
 
 /// The first controller against the second, trial by trial: the same start, goal, seed and pushes.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Map.
     pub map: String,
@@ -32,7 +29,6 @@ pub struct Comparison {
     /// Share delivered by the first minus that by the second.
     pub delivered_difference: f64,
     /// Its 95 % interval (Newcombe 1998, method 10).
-    #[schema(value_type = Numbers2)]
     pub delivered_difference95: [f64; 2],
     /// Control steps of the first minus those of the second, where both delivered.
     pub steps: Option<PairedMean>,
@@ -43,12 +39,11 @@ pub struct Comparison {
 }
 
 /// A mean difference.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PairedMean {
     /// Mean.
     pub mean: f64,
     /// Its 95 % interval (Student's t).
-    #[schema(value_type = Numbers2)]
     pub interval95: [f64; 2],
 }
 

@@ -206,7 +206,7 @@ pub fn episode(
             reached: trial.state().world.reached_tick.is_some(),
             delivered,
             outcome: moment.phase.to_string(),
-            trouble: trial.state().mind.carrier.trouble().map(|trouble| trouble.to_string()),
+            trouble: trial.state().controller_state.carrier.trouble().map(|trouble| trouble.to_string()),
             refusal: moment.refusal.clone(),
             tally,
             path_ratio: scenario.goal_m.filter(|_| delivered).and_then(|goal| course.ratio(&venue.room, goal)),

@@ -1,16 +1,11 @@
 //! What the paper reports, beside our rows.
 
-use serde::Serialize;
-use ts_rs::TS;
-use utoipa::ToSchema;
-
 use super::Cell;
 use super::statistics::wilson95;
-use crate::geometry::schema::Numbers2;
 use crate::scenario::ControllerName;
 
 /// The paper's numbers for a row.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PaperRow {
     /// Where they stand.
     pub section: String,
@@ -19,7 +14,6 @@ pub struct PaperRow {
     /// Trials whose tool reached the goal.
     pub successes: u32,
     /// Wilson 95 % interval of `successes / episodes`.
-    #[schema(value_type = Numbers2)]
     pub successes_wilson95: [f64; 2],
     /// As printed.
     pub printed: String,

@@ -1,10 +1,5 @@
 //! What an evaluation is asked to do, checked before anything runs.
 
-use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
-use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
-
 use crate::map::{Library, Map, MapError};
 use crate::scenario::ControllerName;
 
@@ -13,42 +8,26 @@ pub const CELL_LIMIT: usize = 24;
 /// Trials a cell.
 const EPISODES: std::ops::RangeInclusive<u32> = 1..=1000;
 /// Scripted disturbances a trial: with more, few trials end within their 600 steps.
-const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
+pub const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
 /// same starts, goals and seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EvaluationQuery {
     /// Sub-controllers 2.
-    #[schema(value_type = std::collections::BTreeSet<ControllerName>, min_items = 1)]
     pub controllers: Vec<ControllerName>,
     /// Names of maps, shipped or added.
-    #[schema(value_type = std::collections::BTreeSet<String>, min_items = 1, example = json!(["posts"]))]
     pub maps: Vec<String>,
     /// Scripted disturbances a trial, 0 to 10.
-    #[schema(schema_with = disturbances)]
     pub disturbances: Vec<u32>,
     /// Trials a cell, 1 to 1000.
-    #[schema(minimum = 1, maximum = 1000)]
     pub episodes: u32,
     /// Seed of the trials.
-    #[ts(type = "number")]
     pub seed: u64,
 }
 
-/// The derive has no limits for the items of a list.
-fn disturbances() -> Array {
-    let count = ObjectBuilder::new()
-        .schema_type(Type::Integer)
-        .minimum(Some(*DISTURBANCES.start()))
-        .maximum(Some(*DISTURBANCES.end()));
-    let about = "Scripted disturbances a trial, 0 to 10.";
-    ArrayBuilder::new().items(count).unique_items(true).min_items(Some(1)).description(Some(about)).build()
-}
-
 /// What one row of the table is about.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,

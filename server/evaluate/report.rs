@@ -3,12 +3,11 @@
 mod html;
 
 use serde::Serialize;
-use utoipa::ToSchema;
 
 use super::{Cell, Comparison, Episode, Failure, PaperRow, Row};
 
 /// A table of rows, and what belongs to it.
-#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// Version of Ferry.
     pub ferry: String,

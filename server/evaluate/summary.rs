@@ -1,16 +1,13 @@
 //! Episodes added up: the rows of the table.
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 use super::statistics::wilson95;
 use super::{Cell, Episode};
 use crate::geometry::Point2;
-use crate::geometry::schema::Numbers2;
 
 /// One row of the table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Sub-controller 2.
     pub controller: String,
@@ -23,12 +20,10 @@ pub struct Row {
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
     /// Wilson 95 % interval of `successes / episodes`.
-    #[schema(value_type = Numbers2)]
     pub successes_wilson95: [f64; 2],
     /// Trials whose bead reached the goal.
     pub delivered: u32,
     /// Wilson 95 % interval of `delivered / episodes`.
-    #[schema(value_type = Numbers2)]
     pub wilson95: [f64; 2],
     /// Mean over trials of the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
@@ -95,7 +90,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// A trial whose bead did not arrive, with what it takes to set it up again.
-#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failure {
     /// Sub-controller 2.
     pub controller: String,
@@ -108,10 +103,8 @@ pub struct Failure {
     /// Seed of the trial itself.
     pub seed: u64,
     /// Bead and tool at the start.
-    #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<Point2<f64>>,
     /// Goal.
-    #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
     /// Whether the tool came to the goal.
     pub reached: bool,

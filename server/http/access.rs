@@ -3,6 +3,7 @@
 
 pub mod login;
 mod origins;
+mod rates;
 mod token;
 
 use std::net::{IpAddr, SocketAddr};
@@ -16,10 +17,10 @@ use axum::response::{IntoResponse, Response};
 
 use super::Server;
 use super::problem::Problem;
-use super::rates::{Client, Rates, TooOften};
 
 use origins::Origins;
 pub use origins::{Origin, OriginError};
+use rates::{Client, Rates, TooOften};
 pub use token::{Token, TokenError};
 
 const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; \

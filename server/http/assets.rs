@@ -10,7 +10,10 @@ use axum::response::{IntoResponse, Response};
 use super::Server;
 use super::problem::Problem;
 use super::sessions::MAIN;
-use super::viewer;
+
+/// What the viewer's page may do: compile WebAssembly, and be framed by our own page.
+const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
+                          frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
 
 #[derive(rust_embed::RustEmbed)]
 #[folder = "$OUT_DIR/web"]
@@ -87,7 +90,7 @@ fn send(name: &str, headers: &HeaderMap) -> Response {
     ];
     let mut response = (head, file.data).into_response();
     if name.starts_with("viewer/") {
-        response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(viewer::POLICY));
+        response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(VIEWER_POLICY));
     }
     response
 }

@@ -1,10 +1,12 @@
-//! Request bodies, with refusals that are problem details as all others.
+//! Bodies of requests, with refusals that are problem details as all others, and of answers that are files.
 
 use std::time::Duration;
 
-use axum::body::Bytes;
+use axum::body::{Body, Bytes};
 use axum::extract::{FromRequest, Request};
-use axum::http::StatusCode;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
 
 use super::problem::Problem;
 
@@ -29,4 +31,18 @@ impl<S: Send + Sync> FromRequest<S> for WholeBody {
             Problem::new(status, code, refused.body_text())
         })
     }
+}
+
+pub fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {
+    let mut reader = serde_json::Deserializer::from_slice(body);
+    let malformed = |detail: String| Problem::new(StatusCode::BAD_REQUEST, "malformed", detail);
+    let value = serde_path_to_error::deserialize(&mut reader)
+        .map_err(|error| malformed(error.to_string()).field(&error.path().to_string()))?;
+    reader.end().map_err(|error| malformed(error.to_string()))?;
+    Ok(value)
+}
+
+pub fn attachment(kind: &'static str, name: &str, body: impl Into<Body>) -> Response {
+    let disposition = format!("attachment; filename=\"{name}\"");
+    ([(header::CONTENT_TYPE, kind.to_owned()), (header::CONTENT_DISPOSITION, disposition)], body.into()).into_response()
 }

@@ -157,7 +157,7 @@ async fn of_forks_by_the_hundred_the_last_is_told() {
     hub.session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
     let mut told = hub.comparison();
     for _ in 0..200 {
-        hub.fork(0, vec![ControllerName::Attractor]).await.unwrap();
+        hub.compare(0, vec![ControllerName::Attractor]).await.unwrap();
     }
     let done = told.wait_for(|text| text.contains("\"running\":false"));
     tokio::time::timeout(Duration::from_secs(60), done).await.expect("the last is told").unwrap();

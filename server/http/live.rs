@@ -1,5 +1,10 @@
 //! The WebSocket: newest state out, commands in.
 
+mod comparison;
+mod hand;
+mod hub;
+mod seats;
+
 use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,13 +21,14 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
 use tokio::time::Instant;
 
+use self::hand::Hand;
+pub use self::hub::Hub;
+use self::hub::{Encoded, json};
+use self::seats::Seats;
 use super::Server;
-use super::hand::{self, Hand};
-use super::hub::{Encoded, Hub, json};
 use super::path::{Path, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
-use super::seats::Seats;
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, ServerMessage};
 use crate::scenario::ControllerName;
 use crate::session::CommandError;
@@ -143,7 +149,7 @@ impl Connection {
         self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
         let first = encoded.borrow_and_update().clone();
         self.send_newest(&first, &mut sent).await?;
-        self.tell_the_past(&mut comparison).await?;
+        self.send_history(&mut comparison).await?;
         loop {
             tokio::select! {
                 changed = encoded.changed(), if goes_on => {
@@ -242,7 +248,7 @@ impl Connection {
     }
 
     /// What happened before this browser came.
-    async fn tell_the_past(
+    async fn send_history(
         &mut self,
         comparison: &mut watch::Receiver<axum::extract::ws::Utf8Bytes>,
     ) -> Result<(), axum::Error> {
@@ -295,10 +301,10 @@ impl Connection {
             _ => None,
         };
         match message {
-            ClientMessage::Fork { tick, controllers } => {
+            ClientMessage::Compare { tick, controllers } => {
                 let mut asked = ControllerName::ALL.to_vec();
                 asked.retain(|name| controllers.is_empty() || controllers.contains(name));
-                self.hub.fork(tick, asked).await?;
+                self.hub.compare(tick, asked).await?;
             }
             message => {
                 if let Some(command) = message.command() {

@@ -1,9 +1,7 @@
-//! The API's description, made of the routes themselves: `GET /api/openapi.json`.
+//! The API's description, made of the routes themselves.
 
-use std::sync::LazyLock;
+mod messages;
 
-use axum::http::header;
-use axum::response::IntoResponse;
 use serde_json::Value;
 use utoipa::openapi::path::Operation;
 use utoipa::openapi::security::{
@@ -12,7 +10,6 @@ use utoipa::openapi::security::{
 use utoipa::openapi::{OpenApi, PathItem, RefOr};
 use utoipa::{IntoResponses, OpenApi as _};
 
-use super::messages;
 use super::problem::Problem;
 use super::refusals::{ForeignHost, ForeignOrigin, Malformed, TooLarge, TooMany, TooSlow, Unauthorized};
 use crate::protocol::{ClientMessage, ServerMessage};
@@ -33,13 +30,6 @@ struct Base;
 pub fn base() -> OpenApi {
     Base::openapi()
 }
-
-static DOCUMENT: LazyLock<String> = LazyLock::new(|| {
-    let mut document = serde_json::to_value(document()).expect("a description is made of maps with text for keys");
-    bound(&mut document);
-    // Rustdoc's links mean nothing here.
-    document.to_string().replace("[`", "`").replace("`]", "`")
-});
 
 /// Gives the formats of unsigned integers their registered names, which the derive misspells, and says how much fits.
 fn bound(part: &mut Value) {
@@ -63,18 +53,18 @@ fn bound(part: &mut Value) {
     }
 }
 
-/// This description.
-#[utoipa::path(get, path = "/api/openapi.json", tag = "server", operation_id = "openapi",
-    responses((status = 200, description = "OpenAPI 3.1", content_type = "application/json", body = Object)))]
-pub async fn openapi() -> impl IntoResponse {
-    ([(header::CONTENT_TYPE, "application/json")], DOCUMENT.as_str())
+/// The routes' description with what all of them share, as JSON.
+pub fn text(routes: OpenApi) -> String {
+    let mut document =
+        serde_json::to_value(complete(routes)).expect("a description is made of maps with text for keys");
+    bound(&mut document);
+    // Rustdoc's links mean nothing here.
+    document.to_string().replace("[`", "`").replace("`]", "`")
 }
 
-/// The routes' description with what all of them share.
-pub fn document() -> OpenApi {
-    let mut document = super::routes().into_openapi();
+fn complete(mut document: OpenApi) -> OpenApi {
     for (path, item) in &mut document.paths.paths {
-        operations(item).for_each(|operation| complete(path, operation));
+        operations(item).for_each(|operation| complete_operation(path, operation));
     }
     let components = document.components.get_or_insert_default();
     if let Some(schema) = components.schemas.get_mut("ClientMessage") {
@@ -96,7 +86,7 @@ fn operations(item: &mut PathItem) -> impl Iterator<Item = &mut Operation> {
 }
 
 /// Describes a success with the summary where nothing else is said, and adds what `access`, `Path` and `WholeBody` may answer.
-fn complete(path: &str, operation: &mut Operation) {
+fn complete_operation(path: &str, operation: &mut Operation) {
     let mut shared =
         vec![Unauthorized::responses(), ForeignOrigin::responses(), ForeignHost::responses(), TooMany::responses()];
     if path.contains('{') || operation.request_body.is_some() {
@@ -123,6 +113,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
+    use crate::http::routes::description::DOCUMENT;
 
     fn described() -> Value {
         serde_json::from_str(&DOCUMENT).unwrap()
@@ -140,7 +131,7 @@ mod tests {
     #[test]
     fn every_path_that_is_served_is_described() {
         // The router says its paths to nobody but who debugs it: `paths: {RouteId(0): "/healthz", …}`.
-        let told = format!("{:?}", super::super::served());
+        let told = format!("{:?}", crate::http::routes::served());
         let routes = told.split("RouteId(").filter_map(|part| part.split_once("): \""));
         let served: BTreeSet<&str> = routes.map(|(_, path)| path.split('"').next().unwrap()).collect();
         let document = described();

@@ -8,7 +8,7 @@ use std::time::Duration;
 use axum::http::StatusCode;
 use tokio::sync::watch;
 
-use super::hub::Hub;
+use super::live::Hub;
 use super::problem::Problem;
 use crate::camera::Gpu;
 use crate::map::Library;

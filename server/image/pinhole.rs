@@ -81,6 +81,17 @@ impl Pinhole {
         (depth_m > 0.0).then(|| Vector2::new(right.dot(&ray), up.dot(&ray)) / (depth_m * self.tangent()))
     }
 
+    /// Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in a square picture: the homography
+    /// that [`Self::image_from_point`] is for points of the table.
+    pub fn picture_from_table(&self, width_px: u32) -> [[f64; 3]; 3] {
+        let [right, up, forward] = self.axes();
+        let half_px = 0.5 * f64::from(width_px);
+        let scale_px = half_px / self.tangent();
+        let center = self.center_m().coords;
+        let rows = [forward * half_px + right * scale_px, forward * half_px - up * scale_px, forward];
+        rows.map(|axis| [axis.x, axis.y, -axis.dot(&center)])
+    }
+
     /// The point of the table (z = 0) at a place of the image; `None` at or above the horizon.
     pub fn table_from_image(&self, place: Vector2<f64>) -> Option<Point2<f64>> {
         let [right, up, forward] = self.axes();

@@ -8,10 +8,7 @@ use super::{
     dipole::{self, BLOCK_REMANENCE_T, SPHERE_DIAMETER_M},
     force::{self, FARTHEST_M, Orientation},
 };
-use crate::geometry::schema::Numbers2;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
-use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
 
 /// Most points of a curve.
 pub const POINTS_LIMIT: u32 = 2000;
@@ -48,38 +45,25 @@ pub enum CurveError {
     },
 }
 
-/// The derive takes no constants for limits.
-fn direction() -> Object {
-    let about = "Where the bead lies, from below the block's middle: along the block's x, turned toward its y.";
-    let number = ObjectBuilder::new().schema_type(Type::Number).description(Some(about));
-    number.minimum(Some(-TAU)).maximum(Some(TAU)).build()
-}
-
 /// What [`pull`] is drawn for.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PullQuery {
     /// How the block hangs.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
-    #[schema(minimum = 0.005, maximum = 0.5)]
     pub lower_face_height_m: f64,
     /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
-    #[schema(schema_with = direction)]
     pub direction_rad: f64,
     /// Coulomb's coefficient.
-    #[schema(minimum = 0, maximum = 1000)]
     pub friction: f64,
     /// The greatest offset, m.
-    #[schema(minimum = 0, maximum = 0.5)]
     pub farthest_m: f64,
     /// Number of offsets, from zero on, evenly spaced.
-    #[schema(minimum = 2, maximum = 2000)]
     pub count: u32,
 }
 
 /// The pull on a bead over its horizontal offset: an entry an offset in every array.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PullCurve {
     /// Offset from below the block's middle, m.
     pub offset_m: Vec<f64>,
@@ -95,7 +79,6 @@ pub struct PullCurve {
     /// follows. `None` where friction holds nothing, because it is zero or the bead lifts off.
     pub drag_ratio: Vec<Option<f64>>,
     /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
-    #[schema(value_type = Option<Numbers2>)]
     pub capture_m: Option<(f64, f64)>,
 }
 
@@ -124,38 +107,30 @@ pub fn pull(query: &PullQuery) -> Result<PullCurve, CurveError> {
 }
 
 /// What [`reach`] is drawn for.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReachQuery {
     /// How the block hangs.
     pub orientation: Orientation,
     /// Least height of its lower face above the table, m: at least the bead's diameter.
-    #[schema(minimum = 0.005, maximum = 0.5)]
     pub lowest_m: f64,
     /// Greatest such height, m.
-    #[schema(minimum = 0.005, maximum = 0.5)]
     pub highest_m: f64,
     /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
-    #[schema(schema_with = direction)]
     pub direction_rad: f64,
     /// Coulomb's coefficient.
-    #[schema(minimum = 0, maximum = 1000)]
     pub friction: f64,
     /// Viscous drag on the bead, N·s/m: not zero, else no speed is too large.
-    #[schema(minimum = 0.000001, maximum = 1000)]
     pub drag_n_s_m: f64,
     /// Number of heights, evenly spaced.
-    #[schema(minimum = 2, maximum = 2000)]
     pub count: u32,
 }
 
 /// How far and how fast the block drags a bead, over its height: an entry a height in every array.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ReachCurve {
     /// Lower face above the table, m.
     pub lower_face_height_m: Vec<f64>,
     /// Offsets `(inner_m, outer_m)` between which a bead is dragged, of [`force::capture_interval_m`].
-    #[schema(value_type = Vec<Option<Numbers2>>)]
     pub capture_m: Vec<Option<(f64, f64)>>,
     /// Fz/W right below the block's middle.
     pub lift_ratio: Vec<f64>,

@@ -1,40 +1,32 @@
 //! The field over the table around the block, to be drawn: |B| and the pull at the height of the bead's centre.
 
-use serde::{Deserialize, Serialize};
-
 use super::curves::{CurveError, in_range};
 use super::dipole::{self, BLOCK_REMANENCE_T, SPHERE_DIAMETER_M};
 use super::force::{self, FARTHEST_M, Orientation};
 use crate::geometry::Vector3;
-use crate::geometry::schema::Numbers2;
 
 /// Most places of a row.
 pub const ROW_LIMIT: u32 = 101;
 
 /// What [`plane`] is computed for.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneQuery {
     /// How the block hangs.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
-    #[schema(minimum = 0.005, maximum = 0.5)]
     pub lower_face_height_m: f64,
     /// How far the square reaches from below the block's middle, m, along the block's x and y.
-    #[schema(minimum = 0.001, maximum = 0.5)]
     pub reach_m: f64,
     /// Places of a row and of a column, evenly spaced, the first and the last at the edges.
-    #[schema(minimum = 2, maximum = 101)]
     pub count: u32,
 }
 
 /// The field in a square around the block: an entry a place, row by row from the least x and y.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     /// |B|, T.
     pub field_t: Vec<f64>,
     /// Pull on the bead in the table's plane, N.
-    #[schema(value_type = Vec<Numbers2>)]
     pub pull_n: Vec<[f64; 2]>,
 }
 

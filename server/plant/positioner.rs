@@ -24,7 +24,8 @@ const HOME_RAD: Joints = [-FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, FRAC_P
 /// The paper's rotation vector of the flange, 3.2° off the vertical.
 const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+/// Which of the two.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
     /// The UR5.

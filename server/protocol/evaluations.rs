@@ -1,11 +1,78 @@
 //! Evaluations as the page gets them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
+use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
-use crate::evaluate::{Cell, Comparison, Evaluation, EvaluationQuery, Failure, PaperRow, Progress, Row, Stage};
-use crate::geometry::schema::Numbers2;
+use super::numbers::Numbers2;
+use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Stage};
+use crate::scenario::ControllerName;
+
+/// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
+/// same starts, goals and seeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EvaluationQuery {
+    /// Sub-controllers 2.
+    #[schema(value_type = std::collections::BTreeSet<ControllerName>, min_items = 1)]
+    pub controllers: Vec<ControllerName>,
+    /// Names of maps, shipped or added.
+    #[schema(value_type = std::collections::BTreeSet<String>, min_items = 1, example = json!(["posts"]))]
+    pub maps: Vec<String>,
+    /// Scripted disturbances a trial, 0 to 10.
+    #[schema(schema_with = disturbances)]
+    pub disturbances: Vec<u32>,
+    /// Trials a cell, 1 to 1000.
+    #[schema(minimum = 1, maximum = 1000)]
+    pub episodes: u32,
+    /// Seed of the trials.
+    #[ts(type = "number")]
+    pub seed: u64,
+}
+
+/// The derive has no limits for the items of a list.
+fn disturbances() -> Array {
+    let count = ObjectBuilder::new()
+        .schema_type(Type::Integer)
+        .minimum(Some(*DISTURBANCES.start()))
+        .maximum(Some(*DISTURBANCES.end()));
+    let about = "Scripted disturbances a trial, 0 to 10.";
+    ArrayBuilder::new().items(count).unique_items(true).min_items(Some(1)).description(Some(about)).build()
+}
+
+/// What one row of the table is about.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+pub struct Cell {
+    /// Sub-controller 2.
+    pub controller: ControllerName,
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances a trial.
+    pub disturbances: u32,
+}
+
+/// The paper's numbers for a row.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct PaperRow {
+    /// Where they stand.
+    pub section: String,
+    /// Trials.
+    pub episodes: u32,
+    /// Trials whose tool reached the goal.
+    pub successes: u32,
+    /// Wilson 95 % interval of `successes / episodes`.
+    #[schema(value_type = Numbers2)]
+    pub successes_wilson95: [f64; 2],
+    /// As printed.
+    pub printed: String,
+    /// Mean tracking error in both axes.
+    pub tracking_error_mean_m: Option<f64>,
+    /// Mean over trials of the largest in x.
+    pub tracking_error_max_x_m: Option<f64>,
+    /// The same in y.
+    pub tracking_error_max_y_m: Option<f64>,
+}
 
 /// How an evaluation stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
@@ -125,13 +192,13 @@ impl EvaluationSummary {
         let cells = evaluation.cells.iter().cloned().zip(progress.cells);
         Self {
             id: evaluation.id.clone(),
-            query: evaluation.query.clone(),
+            query: evaluation.query.clone().into(),
             stage,
             message,
             cells: cells
                 .map(|(cell, at)| EvaluationCell {
-                    paper: PaperRow::of(&cell),
-                    cell,
+                    paper: evaluate::PaperRow::of(&cell).map(Into::into),
+                    cell: cell.into(),
                     done: at.done,
                     delivered: at.delivered,
                     elapsed_s: at.elapsed_s,
@@ -173,6 +240,52 @@ impl EvaluationFailure {
             refusal: failure.refusal.clone(),
             steps: failure.steps,
             disturbances: failure.disturbances_struck,
+        }
+    }
+}
+
+impl From<EvaluationQuery> for evaluate::EvaluationQuery {
+    fn from(value: EvaluationQuery) -> Self {
+        let EvaluationQuery { controllers, maps, disturbances, episodes, seed } = value;
+        Self { controllers, maps, disturbances, episodes, seed }
+    }
+}
+
+impl From<evaluate::EvaluationQuery> for EvaluationQuery {
+    fn from(value: evaluate::EvaluationQuery) -> Self {
+        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed } = value;
+        Self { controllers, maps, disturbances, episodes, seed }
+    }
+}
+
+impl From<evaluate::Cell> for Cell {
+    fn from(value: evaluate::Cell) -> Self {
+        let evaluate::Cell { controller, map, disturbances } = value;
+        Self { controller, map, disturbances }
+    }
+}
+
+impl From<evaluate::PaperRow> for PaperRow {
+    fn from(value: evaluate::PaperRow) -> Self {
+        let evaluate::PaperRow {
+            section,
+            episodes,
+            successes,
+            successes_wilson95,
+            printed,
+            tracking_error_mean_m,
+            tracking_error_max_x_m,
+            tracking_error_max_y_m,
+        } = value;
+        Self {
+            section,
+            episodes,
+            successes,
+            successes_wilson95,
+            printed,
+            tracking_error_mean_m,
+            tracking_error_max_x_m,
+            tracking_error_max_y_m,
         }
     }
 }

@@ -4,8 +4,60 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::geometry::Rect;
-use crate::geometry::schema::{Lists4, Numbers2, Numbers4, Wholes4};
+use super::numbers::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
+use crate::control::transport::Carrier;
+use crate::control::transport::attractor::Flow;
+use crate::control::transport::errt::Errt;
+use crate::control::transport::rl::Rl;
+use crate::geometry::{Point2, Rect};
+use crate::learn::Atlas;
+use crate::perception::{CellState, ObstacleMap, PixelRect};
+use crate::policy::Judgement;
+use crate::scenario::RlPolicy;
+use crate::session::{Scenery, View};
+use crate::trial::{Arena, Motion, Sight};
+
+/// An obstacle as the attractor sees it: a superellipse of exponent 4.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct SensedObstacle {
+    /// Centre.
+    #[schema(value_type = Numbers2)]
+    pub center_m: [f64; 2],
+    /// Half sides of the fitted rectangle.
+    #[schema(value_type = Numbers2)]
+    pub half_size_m: [f64; 2],
+    /// Half sides of the superellipse with its safety margin.
+    #[schema(value_type = Numbers2)]
+    pub boundary_m: [f64; 2],
+}
+
+/// See [`ServerMessage::Overlay`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct OverlayMessage {
+    /// When the camera frame was taken.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// Obstacles sensed in it.
+    pub obstacles: Vec<SensedObstacle>,
+    /// Mean of the 15×15 pixels around the tool, 0 to 255.
+    pub center_mean: f64,
+    /// Those pixels, on the table.
+    pub patch: Rect,
+    /// Obstacle test: `center_mean` < 150.
+    pub obstacle: bool,
+    /// Next tool target.
+    #[schema(value_type = Option<Numbers2>)]
+    pub target_m: Option<[f64; 2]>,
+    /// Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's picture.
+    #[schema(value_type = Rows3)]
+    pub picture_from_table: [[f64; 3]; 3],
+    /// What the image is made of.
+    pub blocks: BlocksLayer,
+    /// What ERRT plans, while it is sub-controller 2.
+    pub plan: Option<PlanLayer>,
+    /// What the policy thinks, while it is sub-controller 2.
+    pub judgement: Option<JudgementLayer>,
+}
 
 /// ERRT's last search, and the way that is followed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -116,6 +168,9 @@ pub struct ValueCell {
     pub action: u8,
 }
 
+/// Spacing that a [`FlowQuery`] may ask for.
+pub const FLOW_SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
+
 /// Body of `POST /api/sessions/{id}/flow`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
@@ -145,4 +200,139 @@ pub struct FlowField {
     /// goal.
     #[schema(value_type = Vec<Option<Numbers2>>)]
     pub velocity_m_s: Vec<Option<[f64; 2]>>,
+}
+
+impl From<&View> for OverlayMessage {
+    fn from(view: &View) -> Self {
+        let (tick, sight) = &*view.sight;
+        let Scenery { arena, parameters, .. } = &*view.scenery;
+        Self::of(*tick, sight, view.moment.motion, arena, parameters.rl_policy)
+    }
+}
+
+impl OverlayMessage {
+    /// Of what was seen at a tick, and what the arm then did.
+    pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: RlPolicy) -> Self {
+        let sensed = match &sight.carrier {
+            Carrier::Attractor(attractor) => attractor.sensed(),
+            Carrier::Rl(_) | Carrier::Errt(_) => &[],
+        };
+        let obstacles = sensed.iter().map(|o| SensedObstacle {
+            center_m: o.center_m.coords.into(),
+            half_size_m: o.half_size_m.into(),
+            boundary_m: o.half_axes_m.into(),
+        });
+        Self {
+            tick,
+            obstacles: obstacles.collect(),
+            center_mean: sight.percept.center_mean,
+            patch: sight.percept.patch(sight.tool_m),
+            obstacle: sight.percept.obstacle(),
+            target_m: match motion {
+                Motion::Segment(step) => Some(step.target_m.coords.into()),
+                Motion::Hold | Motion::Track => None,
+            },
+            picture_from_table: sight.frame.pinhole.picture_from_table(sight.frame.picture.width_px),
+            blocks: BlocksLayer::from(sight),
+            plan: match &sight.carrier {
+                Carrier::Errt(errt) => Some(PlanLayer::of(errt, &sight.known)),
+                Carrier::Rl(_) | Carrier::Attractor(_) => None,
+            },
+            judgement: match &sight.carrier {
+                Carrier::Rl(rl) => JudgementLayer::of(rl, arena, policy),
+                Carrier::Errt(_) | Carrier::Attractor(_) => None,
+            },
+        }
+    }
+}
+
+impl From<&Sight> for BlocksLayer {
+    fn from(sight: &Sight) -> Self {
+        let tree = sight.blocks();
+        let calibration = &sight.percept.calibration;
+        let block = |rect: &PixelRect| [rect.column_px, rect.row_px, rect.width_px, rect.height_px].map(|px| px as u32);
+        Self {
+            origin_m: calibration.table_from_image(0.0, 0.0).coords.into(),
+            pixel_m: calibration.m_per_px,
+            dark: tree.dark.iter().map(block).collect(),
+            free: tree.free.iter().map(block).collect(),
+            rectangles: tree.partition().rectangles.iter().map(|cells| block(&tree.pixels(cells))).collect(),
+        }
+    }
+}
+
+impl From<Flow> for FlowField {
+    fn from(flow: Flow) -> Self {
+        Self {
+            columns: flow.columns as u32,
+            rows: flow.rows as u32,
+            origin_m: flow.origin_m.coords.into(),
+            spacing_m: flow.spacing_m,
+            velocity_m_s: flow.velocity_m_s.into_iter().map(|velocity| velocity.map(Into::into)).collect(),
+        }
+    }
+}
+
+impl JudgementLayer {
+    /// Of a policy in a session; `None` before the first image that it judged.
+    pub fn of(rl: &Rl, arena: &Arena, policy: RlPolicy) -> Option<Self> {
+        let (judgement, taken) = rl.judged()?;
+        let policy = arena.policy(policy).ok()?;
+        Some(Self {
+            quantiles: judgement.quantiles.clone(),
+            values: judgement.values(),
+            taken: taken.index() as u8,
+            trained_on: policy.manifest().maps.clone(),
+        })
+    }
+}
+
+impl ValueMap {
+    /// Of an atlas and what its policy made of each place.
+    pub fn of(atlas: &Atlas, judged: Vec<(Point2<f64>, Judgement)>) -> Self {
+        let cell = |(center_m, judgement): (Point2<f64>, Judgement)| {
+            let best = judgement.ranking()[0].index();
+            ValueCell { center_m: center_m.coords.into(), value: judgement.values()[best], action: best as u8 }
+        };
+        Self {
+            spacing_m: atlas.spacing_m(),
+            cells: judged.into_iter().map(cell).collect(),
+            trained_on: atlas.policy().manifest().maps.clone(),
+        }
+    }
+}
+
+impl PlanLayer {
+    /// Of a planner around what is known.
+    pub fn of(errt: &Errt, known: &ObstacleMap) -> Self {
+        let (planner, path) = (errt.planner(), errt.path());
+        Self {
+            tree: errt.shown_edges().map(|[from, to]| [from.x, from.y, to.x, to.y]).collect(),
+            way: path.map(|path| path.points.iter().map(|point| point.coords.into()).collect()).unwrap_or_default(),
+            clearance_m: path.map(|path| path.clearance.asked_m),
+            plans: errt.plans(),
+            attempts: planner.attempts() as u32,
+            beta: planner.beta(),
+            obstacles: known.rectangles(),
+        }
+    }
+}
+
+impl SeenMessage {
+    /// What is known, as message `number`.
+    pub fn of(known: &ObstacleMap, number: u64) -> Self {
+        let (columns, rows) = known.shape();
+        let state = |state| match state {
+            CellState::Unknown => 0,
+            CellState::Free => 1,
+            CellState::Obstacle => 2,
+        };
+        Self {
+            number,
+            workspace: *known.workspace(),
+            columns: columns as u32,
+            rows: rows as u32,
+            runs: known.runs().into_iter().map(|(cell, count)| (state(cell), count)).collect(),
+        }
+    }
 }

@@ -2,20 +2,20 @@
 
 use ts_rs::{Config, TS};
 
-use super::convert::MOST_EDGES;
 use super::*;
 use crate::control::CONTROL_PERIOD_S;
-use crate::evaluate::{Cell, Comparison, EvaluationQuery, PairedMean, PaperRow, Row};
-use crate::magnetics::curves::{PullCurve, PullQuery, ReachCurve, ReachQuery};
-use crate::magnetics::plane::{Plane, PlaneQuery};
+use crate::control::transport::errt::MOST_EDGES;
+use crate::evaluate::{Comparison, PairedMean, Row};
+use crate::geometry::{Polygon, Rect};
 use crate::map::MAX_SVG_BYTES;
 use crate::perception::OBSTACLE_MEAN;
-use crate::plant::{BeadMotion, BlockOrientation, ToolOrientation};
+use crate::plant::{BeadMotion, BlockOrientation, PositionerKind, ToolOrientation};
 use crate::scenario::{
-    AttractorLaw, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, RlPolicy, SCRIPT_LIMIT, SwitchingLaw, When,
+    AttractorLaw, ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, Parameters,
+    RlPolicy, SCRIPT_LIMIT, Scenario, Scripted, SwitchingLaw, When,
 };
 use crate::session::SPEED_MAX;
-use crate::trial::GOAL_RADIUS_M;
+use crate::trial::{EventKind, GOAL_RADIUS_M};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/net/protocol.gen.ts");
 

@@ -10,12 +10,12 @@ use rerun::archetypes::{
     BarChart, Boxes2D, Clear, EncodedImage, LineStrips2D, LineStrips3D, Points2D, Points3D, Scalars, SeriesLines,
     StateChange, TextLog,
 };
-use rerun::components::Color;
 use rerun::log::ChunkBatcherConfig;
 use rerun::sink::SinkFlushError;
 use rerun::{AsComponents, RecordingStream};
 
 use super::blueprint::blueprint;
+use super::drawing::{GOAL, TREE, WALL, color, plan_mm};
 use super::samples::Samples;
 use super::{Opening, RecordingError, Sample, trouble};
 use crate::control::switching::Mode;
@@ -33,13 +33,6 @@ const JPEG_QUALITY: u8 = 85;
 const FLUSH_EVERY: Duration = Duration::from_millis(250);
 /// Asked whether its file can be written, Rerun is given this long to answer.
 const CHECK_TIMEOUT: Duration = Duration::from_secs(1);
-
-const WALL: [u8; 3] = [190, 90, 80];
-pub(super) const TOOL: [u8; 3] = [60, 130, 220];
-pub(super) const BEAD: [u8; 3] = [250, 190, 60];
-const GOAL: [u8; 3] = [80, 200, 120];
-pub(super) const ARM: [u8; 3] = [120, 160, 210];
-const TREE: [u8; 3] = [130, 130, 140];
 
 /// Where a recording is on its timelines; it goes on from part to part.
 #[derive(Debug, Default)]
@@ -235,9 +228,9 @@ impl Writer {
         let edges = errt.planner().tree().into_iter().flat_map(Tree::edges);
         let edges: Vec<[[f32; 2]; 2]> = edges.map(|edge| edge.map(plan_mm)).collect();
         self.log("workspace/planner/tree", &LineStrips2D::new(edges).with_colors([color(TREE)]))?;
-        let way: Vec<[f32; 2]> =
-            errt.way().map(|way| way.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
-        self.log("workspace/planner/way", &LineStrips2D::new([way]).with_colors([color(GOAL)]))?;
+        let path: Vec<[f32; 2]> =
+            errt.path().map(|path| path.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
+        self.log("workspace/planner/way", &LineStrips2D::new([path]).with_colors([color(GOAL)]))?;
         let corners = known.rectangles().into_iter().map(|rect| {
             // Down is up: the highest y is the least.
             let min = plan_mm(Point2::new(rect.x_min_m, rect.y_max_m));
@@ -248,15 +241,6 @@ impl Writer {
         let seen = Boxes2D::from_mins_and_sizes(mins, sizes).with_colors([color(WALL)]);
         self.log("workspace/planner/seen", &seen)
     }
-}
-
-pub(super) fn color([red, green, blue]: [u8; 3]) -> Color {
-    Color::from_rgb(red, green, blue)
-}
-
-/// Metres on the table to the map's own units.
-pub(super) fn plan_mm(place: Point2<f64>) -> [f32; 2] {
-    [(place.x * 1e3) as f32, (-place.y * 1e3) as f32]
 }
 
 fn point(place: nalgebra::Vector3<f64>, radius_m: f64, rgb: [u8; 3]) -> Points3D {

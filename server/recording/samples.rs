@@ -3,7 +3,7 @@
 use rerun::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
 use rerun::{RecordingStream, SerializedComponentColumn, TimeColumn};
 
-use super::entities::{ARM, BEAD, TOOL, color, plan_mm};
+use super::drawing::{ARM, BEAD, TOOL, color, plan_mm};
 use super::{RecordingError, trouble};
 use crate::plant::BEAD_RADIUS_M;
 use crate::trial::Moment;

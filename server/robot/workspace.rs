@@ -7,9 +7,7 @@
 //! reaches counts as not reached.
 
 use super::{Joints, inverse, jacobian};
-use crate::geometry::schema::Numbers2;
 use crate::geometry::{Isometry3, Point2, Rect, UnitQuaternion, Vector3};
-use serde::Serialize;
 
 /// Maximum number of cells of a map.
 pub const MOST_CELLS: usize = 250_000;
@@ -18,14 +16,13 @@ pub const MOST_CELLS: usize = 250_000;
 const ROUNDING: f64 = 1e-9;
 
 /// Manipulability over a plane, in square cells.
-#[derive(Clone, Debug, PartialEq, Serialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ManipulabilityMap {
     /// Cells along x.
     pub columns: usize,
     /// Cells along y.
     pub rows: usize,
     /// Lower left corner of the lower left cell, `[x_m, y_m]`.
-    #[schema(value_type = Numbers2)]
     pub origin_m: [f64; 2],
     /// Side of a cell.
     pub cell_m: f64,

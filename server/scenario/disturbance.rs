@@ -1,8 +1,6 @@
 //! Scripted disturbances (specification §2): what befalls the bead, or what is known of it, and when.
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 /// Most disturbances of one script.
 pub const SCRIPT_LIMIT: usize = 64;
@@ -16,7 +14,7 @@ pub const MOST_DRIFT_N: f64 = 0.01;
 pub const MOST_SECONDS: f64 = 60.0;
 
 /// One disturbance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
     /// The bead is lifted and put down here, or where it fits nearest.
@@ -50,11 +48,11 @@ pub enum Disturbance {
 }
 
 /// When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// Before this tick.
-    Tick(#[ts(type = "number")] u64),
+    Tick(u64),
     /// At this control step, 1 to 600, of whichever goal first gets so far.
     Step(u32),
     /// When the bead's x passes this one, in either direction.
@@ -79,7 +77,7 @@ impl When {
 }
 
 /// A disturbance and its time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scripted {
     /// When.

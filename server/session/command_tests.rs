@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use tokio::sync::broadcast;
 
 use super::worker::Worker;
-use super::{Command, CommandError};
+use super::{Command, CommandError, Kept};
 use crate::camera::{CameraError, Eye, Subject};
 use crate::control::limits::{LEAST_MANIPULABILITY_M3, LIFT_SPEED_M_S};
 use crate::geometry::Point2;
@@ -127,19 +127,26 @@ fn load(rng: &mut impl Rng, present: &Parameters) -> Command {
     let some_place = |rng: &mut ChaCha8Rng| rng.random_bool(0.5).then(|| place(rng)).map(|(x, y)| Point2::new(x, y));
     let mut own = ChaCha8Rng::seed_from_u64(rng.next_u64());
     let rng = &mut own;
-    Command::Load {
-        map: maps[rng.random_range(0..maps.len())].to_owned(),
-        controller: rng.random_bool(0.5).then(|| controller(rng)),
-        positioner: [None, Some(PositionerKind::Arm), Some(PositionerKind::PlanarStage)][rng.random_range(0..3)],
-        seed: Some(rng.random_range(0..100)),
-        start_m: some_place(rng),
-        goal_m: some_place(rng),
-        parameters: rng.random_bool(0.5).then(|| Box::new(parameters(rng, present))),
+    let map = maps[rng.random_range(0..maps.len())];
+    let some_controller = rng.random_bool(0.5).then(|| controller(rng));
+    let positioner = [None, Some(PositionerKind::Arm), Some(PositionerKind::PlanarStage)][rng.random_range(0..3)];
+    let idle = Scenario::idle(map, rng.random_range(0..100));
+    let (start_m, goal_m) = (some_place(rng), some_place(rng));
+    let some_parameters = rng.random_bool(0.5).then(|| parameters(rng, present));
+    let kept = Kept { controller: some_controller.is_none(), seed: false, parameters: some_parameters.is_none() };
+    let scenario = Scenario {
+        controller: some_controller.unwrap_or(idle.controller),
+        positioner,
+        start_m,
+        goal_m,
+        parameters: some_parameters.unwrap_or_default(),
         disturbances: rng.random_range(0..4),
         script: (0..rng.random_range(0..3))
             .map(|_| Scripted { at: When::Tick(rng.random_range(0..500)), disturbance: disturbance(rng) })
             .collect(),
-    }
+        ..idle
+    };
+    Command::Load { scenario: Box::new(scenario), kept }
 }
 
 fn controller(rng: &mut impl Rng) -> ControllerName {
@@ -181,8 +188,8 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
 fn fingerprint(worker: &Worker<MadeUp>) -> (u64, u64, bool, f64, Option<(u64, u64)>, u64) {
     let view = worker.view();
     let state = worker.trial.state();
-    let (world, mind) = (state.world_hash(), state.mind_hash());
-    (world, mind, view.running, view.speed_target, Some(view.rewind_ticks), view.scenery.version)
+    let (world, controller_state) = (state.world_hash(), state.controller_hash());
+    (world, controller_state, view.running, view.speed_target, Some(view.rewind_ticks), view.scenery.version)
 }
 
 /// Where the arm is and is meant to be; what it may have done since.

@@ -1,7 +1,7 @@
 //! What the session's thread tells of moments gone by.
 
 use super::worker::Worker;
-use super::{CommandError, Past, Recalled};
+use super::{BranchPoint, CommandError, Recalled};
 use crate::camera::Eye;
 use crate::control::step_is_due;
 use crate::trial::{Case, Timed, TrialState};
@@ -17,7 +17,7 @@ impl<E: Eye> Worker<E> {
         Case::of(&self.trial, inputs).ok_or(CommandError::NothingCarried { tick })
     }
 
-    pub(super) fn recall(&self, tick: u64, which: Recalled) -> Result<Past, CommandError> {
+    pub(super) fn recall(&self, tick: u64, which: Recalled) -> Result<BranchPoint, CommandError> {
         let is_present = tick == self.trial.state().world.tick;
         let state = match which {
             Recalled::Present if is_present => self.trial.snapshot(),
@@ -26,7 +26,7 @@ impl<E: Eye> Worker<E> {
             _ => self.moment(tick)?.clone(),
         };
         let inputs = self.timeline.inputs_after(state.world.tick);
-        Ok(Past::new(&self.trial, state, inputs))
+        Ok(BranchPoint::new(&self.trial, state, inputs))
     }
 
     /// The last state kept at or before a tick that is not later than all of them.

@@ -10,11 +10,10 @@ use tokio::sync::{broadcast, watch};
 
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
+use super::{Command, CommandError, JOURNAL, Kept, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, Eye};
 use crate::control::step_is_due;
 use crate::faults;
-use crate::geometry::Point2;
 use crate::map::Library;
 use crate::scenario::Scenario;
 use crate::trial::{Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError};
@@ -38,7 +37,7 @@ pub(super) struct Worker<E> {
     sight: Arc<(u64, Sight)>,
     pub(super) running: bool,
     /// Whether the trial's hand is that of a moment gone back to, which holds nothing any more.
-    hand_is_past: bool,
+    hand_is_stale: bool,
     pace: Pace,
     journal: Arc<Vec<Event>>,
     /// A command was carried out as far as this let it: the session ends.
@@ -74,7 +73,7 @@ impl<E: Eye> Worker<E> {
             scenery,
             sight,
             running: false,
-            hand_is_past: false,
+            hand_is_stale: false,
             pace,
             journal: Arc::default(),
             broken: None,
@@ -217,32 +216,11 @@ impl<E: Eye> Worker<E> {
                 };
                 self.set_up(scenario, self.trial.arena().clone())?;
             }
-            Command::Load { map, controller, positioner, seed, start_m, goal_m, parameters, disturbances, script } => {
-                // A name only: no client path touches the file system.
-                let arena = Arena::of(self.scenery.known_maps.find(&map)?);
-                let present = self.trial.state();
-                let scenario = Scenario {
-                    map,
-                    controller: controller.unwrap_or(present.controller),
-                    positioner,
-                    seed: seed.unwrap_or(self.trial.scenario().seed),
-                    parameters: parameters.map_or_else(|| present.world.parameters.clone(), |p| *p),
-                    start_m,
-                    goal_m,
-                    disturbances,
-                    script,
-                };
-                let eye = (self.make_eye)(&arena).map_err(TrialError::from)?;
-                let before = std::mem::replace(&mut self.eye, eye);
-                if let Err(error) = self.set_up(scenario, arena) {
-                    self.eye = before;
-                    return Err(error);
-                }
-            }
+            Command::Load { scenario, kept } => self.load(*scenario, kept)?,
             Command::Rewind(tick) => {
                 let state = self.moment(tick)?.clone();
                 self.running = false;
-                self.hand_is_past = state.world.plant.hand.is_some();
+                self.hand_is_stale = state.world.plant.hand.is_some();
                 self.trial.restore(state);
                 self.scenery = Arc::new(self.next_scenery(0));
                 self.sink.begin(&self.trial, Beginning::Resumed);
@@ -252,19 +230,18 @@ impl<E: Eye> Worker<E> {
         Ok(())
     }
 
-    /// While time stands a release puts the bead where the pointer is, since nothing else could.
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs, and matter only where time was gone back in.
         let before = self.timeline.reaches_past(tick).then(|| self.hashes());
-        let as_it_was = self.hand_is_past.then(|| self.trial.snapshot());
+        let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
-            self.drop_past_hand()?;
+            self.drop_stale_hand()?;
         }
         let done = self.apply(input);
         if let (Err(_), Some(state)) = (&done, as_it_was) {
             self.trial.restore(state);
-            self.hand_is_past = true;
+            self.hand_is_stale = true;
         }
         let configures = done?;
         if before.is_some_and(|before| before != self.hashes()) {
@@ -281,17 +258,34 @@ impl<E: Eye> Worker<E> {
 
     /// Returns whether it changes the parameters.
     fn apply(&mut self, input: Input) -> Result<bool, InputError> {
-        let held = self.trial.state().world.plant.hand;
         let configures = matches!(input, Input::Configure(_));
-        match (&input, held) {
-            (Input::Release, Some(_)) if self.hand_is_past => {}
-            (Input::Release, Some(hand)) if !self.running => {
-                let Point2 { coords } = hand.target_m;
-                self.trial.apply(Input::Place { x_m: coords.x, y_m: coords.y })?;
-            }
-            _ => self.trial.apply(input)?,
+        let releases_stale_hand = self.hand_is_stale && matches!(input, Input::Release);
+        if !releases_stale_hand {
+            self.trial.operate(input, !self.running)?;
         }
         Ok(configures)
+    }
+
+    fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
+        // A name only: no client path touches the file system.
+        let arena = Arena::of(self.scenery.known_maps.find(&scenario.map)?);
+        let present = self.trial.state();
+        if kept.controller {
+            scenario.controller = present.controller;
+        }
+        if kept.seed {
+            scenario.seed = self.trial.scenario().seed;
+        }
+        if kept.parameters {
+            scenario.parameters = present.world.parameters.clone();
+        }
+        let eye = (self.make_eye)(&arena).map_err(TrialError::from)?;
+        let before = std::mem::replace(&mut self.eye, eye);
+        let done = self.set_up(scenario, arena);
+        if done.is_err() {
+            self.eye = before;
+        }
+        done
     }
 
     fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {
@@ -299,7 +293,7 @@ impl<E: Eye> Worker<E> {
         let sight = trial.look(&mut self.eye).map_err(TrialError::from)?;
         self.trial = trial;
         self.running = false;
-        self.hand_is_past = false;
+        self.hand_is_stale = false;
         self.scenery = Arc::new(self.next_scenery(1));
         self.sink.begin(&self.trial, Beginning::SetUp);
         self.sight = Arc::new((0, sight));
@@ -328,19 +322,19 @@ impl<E: Eye> Worker<E> {
     }
 
     fn hashes(&self) -> (u64, u64) {
-        (self.trial.state().world_hash(), self.trial.state().mind_hash())
+        (self.trial.state().world_hash(), self.trial.state().controller_hash())
     }
 
     /// The hand of a moment gone back to lets go as soon as something new happens.
-    fn drop_past_hand(&mut self) -> Result<(), InputError> {
-        if std::mem::take(&mut self.hand_is_past) {
+    fn drop_stale_hand(&mut self) -> Result<(), InputError> {
+        if std::mem::take(&mut self.hand_is_stale) {
             self.trial.apply(Input::Release)?;
         }
         Ok(())
     }
 
     pub(super) fn tick(&mut self) -> Result<(), TrialError> {
-        self.drop_past_hand()?;
+        self.drop_stale_hand()?;
         let tick = self.trial.state().world.tick;
         if step_is_due(tick) {
             self.forget_after(tick);

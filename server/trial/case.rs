@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
 use crate::camera::Eye;
@@ -26,8 +25,8 @@ const BYTES_MOST: u64 = 64 << 20;
 /// Maximum tick in a case: one day.
 const TICKS_MOST: u64 = 24 * 3600 * 125;
 
-/// A trial that can be run again with the present controllers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+/// A trial that can be run again with whatever the controllers have become.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// Description.
@@ -43,7 +42,8 @@ pub struct Case {
     pub expect: Option<Expectation>,
 }
 
-/// An input with its tick.#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+/// An input and its time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
     /// The input is applied after this tick and before the next one.
@@ -51,8 +51,8 @@ pub struct Timed {
     pub input: Input,
 }
 
-/// Expected number of deliveries up to a tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+/// So many deliveries by then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Deliveries since the start.

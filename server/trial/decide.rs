@@ -1,7 +1,8 @@
 //! A control step: the controllers decide, and the trial carries the decision out.
 
-use super::outcome::{GOAL_RADIUS_M, GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
-use super::{Decision, Event, EventKind, Mind, Motion, Trial, World};
+use super::outcome::GOAL_RADIUS_M;
+use super::phase::{GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
+use super::{ControllerState, Decision, Event, EventKind, Motion, Trial, World};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
@@ -13,11 +14,11 @@ impl Trial {
     /// Decides from a frame. Changes the mind only; the world waits for [`Self::carry_out`].
     pub(super) fn decide(&mut self, percept: &Percept) -> Decision {
         let world = &self.state.world;
-        let mind = &mut self.state.mind;
-        mind.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
+        let controller_state = &mut self.state.controller_state;
+        controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
         let dark = DarkPixels::of(&percept.gray, world.parameters.obstacle_level);
         let spread = wall_spread(world.parameters.camera_height_m, WALL_HEIGHT_M);
-        mind.known.update(&dark, &percept.calibration, spread);
+        controller_state.known.update(&dark, &percept.calibration, spread);
         let tool = self.tool_m();
         let bead = world.tracker.estimate().position_m;
         let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters, || {
@@ -35,13 +36,13 @@ impl Trial {
             return hold;
         };
         if fetched {
-            self.state.mind.carrier.transport().start_leg();
+            self.state.controller_state.carrier.transport().start_leg();
         }
         let world = &self.state.world;
         let proposed = if (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
             Ok(settle_step(tool.xy(), goal, world.parameters.transport_speed_m_s))
         } else {
-            let Mind { carrier, known, .. } = &mut self.state.mind;
+            let ControllerState { carrier, known, .. } = &mut self.state.controller_state;
             let parameters = &world.parameters;
             let policy = match carrier {
                 Carrier::Rl(_) => Some(self.arena.policy(parameters.rl_policy)),

@@ -1,9 +1,8 @@
 //! Disturbances: scripted ones, random ones, and those of the operator.
 
-use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
 
+use super::script::Draw;
 use super::{Event, EventKind, InputError, Trial, TrialError, input::check_on_table};
 use crate::geometry::{Point2, Vector2};
 use crate::map::{FreeSpace, Map};
@@ -13,49 +12,6 @@ use crate::scenario::{Disturbance, SCRIPT_LIMIT, Scripted, When};
 
 /// A random disturbance moves the bead at least this far.
 const LEAST_DISPLACEMENT_M: f64 = 0.15;
-
-/// Pending and active disturbances.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Script {
-    /// Total number of random displacements.
-    pub remaining: u32,
-    /// Number of random displacements applied so far.
-    pub struck: u32,
-    /// Step of the current leg at which the next one is applied; drawn when the leg begins.
-    pub at_leg_step: Option<u32>,
-    /// Entries of the scenario's script that have not been applied yet.
-    pub pending: Vec<Scripted>,
-    /// Position of the bead before the last tick.
-    pub bead_before_m: Option<Point2<f64>>,
-    /// Tick at which a push ends.
-    pub drift_until: u64,
-    /// Tick at which tracker loss ends.
-    pub dropout_until: u64,
-}
-
-/// The random draw of a displacement.
-#[derive(Clone, Copy, Debug)]
-enum Draw {
-    Step,
-    Place,
-}
-
-impl Script {
-    /// The generator of the next displacement. It is separate, so that every controller gets the same
-    /// displacements, independent of other random draws.
-    fn draws(&self, seed: u64, draw: Draw) -> ChaCha8Rng {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        // The trial's main generator uses stream 0.
-        rng.set_stream(1 + 2 * u64::from(self.struck) + draw as u64);
-        rng
-    }
-
-    /// Draws the step at which the next displacement is applied, in a leg of at least `least_steps` steps.
-    pub(super) fn draw_step(&mut self, seed: u64, least_steps: u32) {
-        let share: f64 = self.draws(seed, Draw::Step).random();
-        self.at_leg_step = Some(1 + (share * f64::from(least_steps)) as u32);
-    }
-}
 
 impl Trial {
     /// Applies due disturbances and ends expired ones. `at_step` is the number of the control step that was

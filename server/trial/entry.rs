@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError};
@@ -45,8 +44,8 @@ impl LoggedBeginning {
     }
 }
 
-/// A map with its drawing, since shipped maps may change.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+/// A map as it was drawn: those that ship with Ferry may change.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoggedMap {
     /// Name, for people.
     pub name: String,
@@ -83,8 +82,9 @@ pub struct LoggedTick {
     /// The lowest 16 bits of the hash of each of [`super::World::FIELDS`], little-endian.
     #[serde(with = "serde_bytes")]
     pub fields: Vec<u8>,
-    /// Hash of the controller state after the tick.
-    pub mind_hash: u64,
+    /// Mind hash after the tick.
+    #[serde(rename = "mind_hash")]
+    pub controller_hash: u64,
 }
 
 impl From<&TickRecord> for LoggedTick {
@@ -95,7 +95,7 @@ impl From<&TickRecord> for LoggedTick {
             decision: record.decision.clone(),
             world_hash: record.world.total(),
             fields: record.world.fields.iter().flat_map(|hash| (*hash as u16).to_le_bytes()).collect(),
-            mind_hash: record.mind_hash,
+            controller_hash: record.controller_hash,
         }
     }
 }

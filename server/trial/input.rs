@@ -14,7 +14,7 @@ use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterEr
 const WAITING_MOST: usize = 50_000;
 
 /// One action; stands in the log at the tick that follows it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
@@ -155,6 +155,17 @@ fn check_finite(field: &'static str, point: Point2<f64>) -> Result<(), InputErro
 }
 
 impl Trial {
+    /// An operator's input, as [`Self::apply`]. While paused the spring cannot pull the bead, so a release puts it where
+    /// the pointer is; the log then holds [`Input::Place`].
+    pub fn operate(&mut self, input: Input, is_paused: bool) -> Result<(), InputError> {
+        match (&input, self.state.world.plant.hand) {
+            (Input::Release, Some(hand)) if is_paused => {
+                self.apply(Input::Place { x_m: hand.target_m.x, y_m: hand.target_m.y })
+            }
+            _ => self.apply(input),
+        }
+    }
+
     /// Applies one input between two ticks, or refuses it and changes nothing.
     pub fn apply(&mut self, input: Input) -> Result<(), InputError> {
         // A hand may always let go; while time stands it puts the bead down.
@@ -171,7 +182,7 @@ impl Trial {
             Input::Release => self.release(),
             Input::SelectController(name) => {
                 self.state.controller = *name;
-                self.state.mind.carrier = Carrier::new(*name, self.scenario.seed);
+                self.state.controller_state.carrier = Carrier::new(*name, self.scenario.seed);
             }
             Input::Configure(parameters) => self.configure(parameters)?,
             Input::Disturb(disturbance) => {
@@ -202,7 +213,7 @@ impl Trial {
         let text = format!("goal placed at ({:.3}, {:.3}) m", goal.x, goal.y);
         self.events.push(Event::new(world.tick, EventKind::Goal, text));
         self.start_leg();
-        self.state.mind.carrier.transport().start_leg();
+        self.state.controller_state.carrier.transport().start_leg();
         Ok(())
     }
 

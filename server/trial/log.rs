@@ -225,7 +225,7 @@ mod tests {
             decision: None,
             world_hash: 7 + tick,
             fields: vec![1, 2, 3],
-            mind_hash: 9,
+            controller_hash: 9,
         })
     }
 

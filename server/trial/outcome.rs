@@ -1,8 +1,6 @@
 //! Progress of the task, and when it ends.
 
-use serde::{Deserialize, Serialize};
-
-use super::{Event, EventKind, Motion, Trial};
+use super::{Event, EventKind, Motion, Phase, SETTLE_S, StopReason, Trial};
 use crate::control::switching::Mode;
 use crate::robot::ur5::SERVO_PERIOD_S;
 
@@ -12,69 +10,6 @@ pub const GOAL_RADIUS_M: f64 = 0.02;
 /// A delivered bead counts as moved away beyond this distance. It is a little larger than [`GOAL_RADIUS_M`], so
 /// that the phase does not flicker.
 const LEFT_RADIUS_M: f64 = 0.025;
-/// Time that the bead may take to follow after the tool has reached the goal.
-pub const SETTLE_S: f64 = 5.0;
-/// Control steps per transport leg; each fetch starts a new leg.pub const LEG_STEP_LIMIT: u32 = 150;
-/// Control steps per goal.
-pub const GOAL_STEP_LIMIT: u32 = 600;
-
-/// Progress of the task.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Phase {
-    /// The arm holds because no goal is set.
-    Holding,
-    /// Sub-controller 1 fetches the bead.
-    Approaching,
-    /// Sub-controller 2 transports it.
-    Transporting,
-    /// The tool is at the goal; the bead is still following.
-    Settling {
-        since_tick: u64,
-    },
-    /// The bead is within [`GOAL_RADIUS_M`] of the goal.
-    Delivered,
-    /// The bead jumped to the magnet.
-    LiftedOff,
-    /// A limit was exceeded; the arm holds until the goal moves.
-    Stopped(StopReason),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum StopReason {
-    /// [`LEG_STEP_LIMIT`].
-    LegSteps,
-    /// [`GOAL_STEP_LIMIT`].
-    GoalSteps,
-    /// [`SETTLE_S`]: reached but not delivered.
-    Settle,
-    /// No path leads to the goal.
-    WalledOff,
-}
-
-impl std::fmt::Display for Phase {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Holding => "holding",
-            Self::Approaching => "approaching",
-            Self::Transporting => "transporting",
-            Self::Settling { .. } => "settling",
-            Self::Delivered => "delivered",
-            Self::LiftedOff => "lifted off",
-            Self::Stopped(StopReason::LegSteps) => "stopped: 150 steps without reaching the goal",
-            Self::Stopped(StopReason::GoalSteps) => "stopped: 600 steps without delivering",
-            Self::Stopped(StopReason::Settle) => "stopped: reached, but the bead did not follow within 5 s",
-            Self::Stopped(StopReason::WalledOff) => "stopped: the goal is walled off",
-        })
-    }
-}
-
-impl Phase {
-    /// Whether an evaluated episode ends here.
-    pub fn is_final(self) -> bool {
-        matches!(self, Self::Delivered | Self::LiftedOff | Self::Stopped(_))
-    }
-}
-
 impl Trial {
     /// Updates the phase after a tick: delivered, lifted off, or stopped by a limit.
     pub(super) fn judge(&mut self) {

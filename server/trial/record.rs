@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
-use super::{Decision, Input, Motion, Phase, Trial};
+use super::state::{Counters, TrialState, WorldHashes};
+use super::{Decision, Event, Input, Motion, Phase, Trial};
 use crate::camera::{CameraError, Eye};
 use crate::control::switching;
 use crate::control::transport::Carrier;
@@ -15,47 +14,8 @@ use crate::plant::{Hand, Load, Plant, Positioner};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 
-use super::state::{Counters, TrialState, WorldHashes};
-
-/// Kinds of event, for the timeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EventKind {
-    /// The switching law changed the active sub-controller.
-    Switch,
-    /// The bead was taken, moved or released.
-    Disturbance,
-    /// The goal was placed or removed.
-    Goal,
-    /// The tool came within 2 cm of the goal.
-    Reached,
-    /// The bead came within 2 cm of the goal, too.
-    Delivered,
-    /// The bead jumped to the magnet.
-    LiftOff,
-    /// A controller or a limit refused a step.
-    Refused,
-    /// A limit of steps or time was exceeded.
-    Stopped,
-    /// Something about the session itself.
-    Session,
-}
-
-/// An event at one tick.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Event {
-    pub tick: u64,
-    pub kind: EventKind,
-    /// One plain sentence.
-    pub text: String,
-}
-
-impl Event {
-    /// An event.
-    pub fn new(tick: u64, kind: EventKind, text: impl Into<String>) -> Self {
-        Self { tick, kind, text: text.into() }
-    }
-}
+/// Instead of the switching law's reason, which no longer matters.
+const LIFTED_OFF: &str = "lift-off: the bead hangs on the magnet; take it off by hand, or reset";
 
 /// What the controller observed and computed at a control step.
 #[derive(Clone, Debug)]
@@ -103,8 +63,8 @@ pub struct TickRecord {
     pub moment: Moment,
     /// See [`super::TrialState::world_hash`].
     pub world: WorldHashes,
-    /// See [`super::TrialState::mind_hash`].
-    pub mind_hash: u64,
+    /// See [`super::TrialState::controller_hash`].
+    pub controller_hash: u64,
 }
 
 /// A summary of a trial's state, for viewers.
@@ -145,6 +105,14 @@ impl Moment {
     /// Simulated time.
     pub fn sim_time_s(&self) -> f64 {
         self.tick as f64 * SERVO_PERIOD_S
+    }
+
+    /// Why the active sub-controller is active, one plain sentence.
+    pub fn reason(&self) -> String {
+        match self.phase {
+            Phase::LiftedOff => LIFTED_OFF.to_owned(),
+            _ => self.switching.reason(),
+        }
     }
 
     /// Tracking error: tool minus bead in the plane.
@@ -197,18 +165,18 @@ impl Trial {
     }
 
     fn sight(&self, frame: Arc<CameraFrame>, percept: Percept, tool_m: Point2<f64>) -> Sight {
-        let TrialState { world, mind, .. } = &self.state;
+        let TrialState { world, controller_state, .. } = &self.state;
         Sight {
             frame,
             percept,
             tool_m,
             goal_m: world.goal_m,
-            known: mind.known.clone(),
+            known: controller_state.known.clone(),
             quadtree: QuadtreeParameters {
                 threshold: world.parameters.obstacle_level,
                 smallest_px: world.parameters.smallest_block_px as usize,
             },
-            carrier: mind.carrier.clone(),
+            carrier: controller_state.carrier.clone(),
         }
     }
 
@@ -222,7 +190,7 @@ impl Trial {
             sight,
             events: self.take_events(),
             world: self.state.world.hashes(),
-            mind_hash: self.state.mind_hash(),
+            controller_hash: self.state.controller_hash(),
             moment,
         }
     }

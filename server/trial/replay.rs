@@ -153,7 +153,7 @@ fn repeat(
         && found.inputs == logged.inputs
         && found.decision == logged.decision
         && found.world_hash == logged.world_hash
-        && (!sees || found.mind_hash == logged.mind_hash);
+        && (!sees || found.controller_hash == logged.controller_hash);
     if same {
         return Ok(record);
     }
@@ -172,7 +172,7 @@ fn differences(found: &LoggedTick, logged: &LoggedTick, sees: bool) -> Vec<&'sta
     for (name, (found, logged)) in World::FIELDS.iter().zip(hashes) {
         note(found != logged, name);
     }
-    note(sees && found.mind_hash != logged.mind_hash, "mind");
+    note(sees && found.controller_hash != logged.controller_hash, "mind");
     if fields.is_empty() {
         // By chance, one pair of hashes in 65,536 has equal lowest 16 bits.
         fields.push("world");

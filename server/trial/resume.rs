@@ -35,12 +35,12 @@ impl Trial {
     pub fn resume(&mut self, state: TrialState) -> Result<(), TrialError> {
         state.world.parameters.check()?;
         Self::check_script(&state.world.script.pending, &self.arena.map)?;
-        let (own, workspace) = (self.arena.map.workspace(), state.mind.known.workspace());
+        let (own, workspace) = (self.arena.map.workspace(), state.controller_state.known.workspace());
         if workspace != own {
             let (value, allowed) = (format!("{workspace:?}"), format!("the map's, {own:?}"));
             return Err(StateError { field: "mind.known.workspace".to_owned(), value, allowed }.into());
         }
-        let version = state.mind.known.version();
+        let version = state.controller_state.known.version();
         if version > TICK_MOST {
             let (value, allowed) = (version.to_string(), format!("0 to {TICK_MOST}"));
             return Err(StateError { field: "mind.known.version".to_owned(), value, allowed }.into());
@@ -133,10 +133,13 @@ mod tests {
         assert!(error.starts_with("state: world.tick is 18446744073709551615"), "{error}");
         let error = refusal(|state| state.world.parameters.tracker_noise_m = f64::INFINITY);
         assert!(error.starts_with("parameters: tracker_noise_m is inf"), "{error}");
-        // Found by fuzzing: incrementing this value would overflow.
-        let error = refusal(|state| state.mind.known = with_version(&state.mind.known, u64::MAX));
+        // Fuzzed: it would grow by one at the next look.
+        let error =
+            refusal(|state| state.controller_state.known = with_version(&state.controller_state.known, u64::MAX));
         assert!(error.starts_with("state: mind.known.version is 18446744073709551615"), "{error}");
-        let error = refusal(|state| state.mind.known = trial("attractor-example").snapshot().mind.known);
+        let error = refusal(|state| {
+            state.controller_state.known = trial("attractor-example").snapshot().controller_state.known
+        });
         assert!(error.starts_with("state: mind.known.workspace is Rect"), "{error}");
     }
 }

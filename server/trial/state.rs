@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::disturb::Script;
-use super::outcome::Phase;
+use super::phase::Phase;
+use super::script::Script;
 use crate::control::switching::{self, Mode};
 use crate::control::transport::Carrier;
 use crate::control::{Refusal, TargetStep};
@@ -92,7 +92,7 @@ pub struct World {
 
 /// The controller state: memory and last observation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Mind {
+pub struct ControllerState {
     /// Sub-controller 2 with its memory.
     pub carrier: Carrier,
     /// Hash of the last gray image.
@@ -108,8 +108,9 @@ pub struct TrialState {
     pub world: World,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
-    /// See [`Mind`].
-    pub mind: Mind,
+    /// See [`ControllerState`].
+    #[serde(rename = "mind")]
+    pub controller_state: ControllerState,
 }
 
 impl World {
@@ -219,7 +220,7 @@ impl TrialState {
                 },
             },
             controller: scenario.controller,
-            mind: Mind {
+            controller_state: ControllerState {
                 carrier: Carrier::new(scenario.controller, scenario.seed),
                 seen: 0,
                 known: ObstacleMap::new(*workspace),
@@ -232,9 +233,9 @@ impl TrialState {
         self.world.hashes().total()
     }
 
-    /// Hash of the controller state: equal if the decisions are made again from frames.
-    pub fn mind_hash(&self) -> u64 {
-        hash(&(&self.mind, self.controller))
+    /// Hash of the mind: equal in a re-run from frames.
+    pub fn controller_hash(&self) -> u64 {
+        hash(&(&self.controller_state, self.controller))
     }
 }
 

@@ -62,7 +62,7 @@ fn messages() -> Vec<ClientMessage> {
         load(script()),
         ClientMessage::Disturb { disturbance: Disturbance::Displace { x_m, y_m } },
         ClientMessage::Rewind { tick: 31 },
-        ClientMessage::Fork { tick: 31, controllers: ControllerName::ALL.into() },
+        ClientMessage::Compare { tick: 31, controllers: ControllerName::ALL.into() },
         ClientMessage::TakeControl {},
         ClientMessage::ReleaseControl {},
     ]

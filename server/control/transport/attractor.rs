@@ -7,6 +7,7 @@
 //! clearance, uses a star-shaped basis (Huber, Billard & Slotine 2019) and follows the contour, on one
 //! side until the goal is no longer behind the obstacle.
 
+mod flow;
 mod modulation;
 
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,7 @@ use crate::perception::{CellState, ObstacleMap, ObstacleMask, Patch};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{AttractorLaw, Parameters};
 
+pub use flow::Flow;
 pub use modulation::Superellipse;
 use modulation::{Basis, modulate};
 

@@ -18,17 +18,20 @@
 
 mod cache;
 mod clearance;
+mod obstacles;
+mod path;
 mod planner;
 mod reach;
+mod segment;
 #[cfg(test)]
 mod tests;
 mod tree;
-mod way;
 
-pub use clearance::{Clearance, End, Obstacles};
+pub use clearance::{Clearance, End};
+pub use obstacles::Obstacles;
+pub use path::Path;
 pub use planner::{Planner, PlannerParameters, Progress};
 pub use tree::Tree;
-pub use way::Way;
 
 use std::sync::Arc;
 
@@ -40,8 +43,10 @@ use crate::geometry::Point2;
 use crate::perception::{CellState, ObstacleMap};
 use crate::scenario::Parameters;
 
+/// Edges of a tree that are shown at most; more could not be told apart.
+pub const MOST_EDGES: usize = 4000;
 /// A tool farther from its way than this is not on it any more: the bead was fetched somewhere else.
-const OFF_WAY_M: f64 = 0.01;
+const OFF_PATH_M: f64 = 0.01;
 /// A way may lose so much of its clearance before another is planned: a cell of the map, as more of a wall is seen.
 const TOLERANCE_M: f64 = 0.002;
 /// Spacing at which a way is asked whether it was seen.
@@ -70,14 +75,16 @@ struct Task {
     from: Point2<f64>,
     goal: Point2<f64>,
     /// Ways found so far, and the best with its expected length.
-    ways: u32,
-    best: Option<(Way, f64)>,
+    #[serde(rename = "ways")]
+    paths: u32,
+    best: Option<(Path, f64)>,
 }
 
 /// A way and how far along it the tool is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Followed {
-    way: Way,
+    #[serde(rename = "way")]
+    path: Path,
     along_m: f64,
     /// How far off the tool may be: at first as far as the place where it gets off a wall.
     off_m: f64,
@@ -107,9 +114,14 @@ impl Errt {
         &self.planner
     }
 
+    /// Edges of the tree, no more than can be shown.
+    pub fn shown_edges(&self) -> impl Iterator<Item = [Point2<f64>; 2]> {
+        self.planner.tree().into_iter().flat_map(Tree::edges).take(MOST_EDGES)
+    }
+
     /// The way that is followed.
-    pub fn way(&self) -> Option<&Way> {
-        self.followed.as_ref().map(|followed| &followed.way)
+    pub fn path(&self) -> Option<&Path> {
+        self.followed.as_ref().map(|followed| &followed.path)
     }
 
     /// Ways planned since the trial began.
@@ -127,14 +139,14 @@ impl Errt {
     }
 
     /// Drops a way that leads elsewhere, that the tool has left, or that a newly seen obstacle cuts.
-    fn check_way(&mut self, obstacles: &Obstacles, tool_m: Point2<f64>, goal_m: Point2<f64>) {
-        let is_good = |Followed { way, along_m, off_m }: &mut Followed| {
-            let (place_m, is_off_m) = way.nearest(tool_m, *along_m);
+    fn check_path(&mut self, obstacles: &Obstacles, tool_m: Point2<f64>, goal_m: Point2<f64>) {
+        let is_good = |Followed { path, along_m, off_m }: &mut Followed| {
+            let (place_m, is_off_m) = path.nearest(tool_m, *along_m);
             if place_m > *along_m {
-                *off_m = OFF_WAY_M;
+                *off_m = OFF_PATH_M;
             }
             *along_m = place_m;
-            way.goal() == goal_m && is_off_m <= *off_m && way.is_clear_from(*along_m, obstacles, TOLERANCE_M)
+            path.goal() == goal_m && is_off_m <= *off_m && path.is_clear_from(*along_m, obstacles, TOLERANCE_M)
         };
         if !self.followed.as_mut().is_some_and(is_good) {
             self.followed = None;
@@ -148,13 +160,13 @@ impl Errt {
         let parameters = planner_parameters(input.parameters);
         // Waypoints lead along the way that is known; to be compared it needs others.
         let other = PlannerParameters { waypoint_probability: 0.0, ..parameters };
-        let is_same = |task: &Task| task.goal == input.goal_m && (task.from - input.tool_m).norm() <= OFF_WAY_M;
+        let is_same = |task: &Task| task.goal == input.goal_m && (task.from - input.tool_m).norm() <= OFF_PATH_M;
         let goes_on = *self.planner.progress() == Progress::Searching && self.task.as_ref().is_some_and(is_same);
         let mut task = match self.task.take().filter(|_| goes_on) {
             Some(task) => task,
             None => {
                 self.planner.start(&parameters, obstacles, input.tool_m, input.goal_m);
-                Task { from: input.tool_m, goal: input.goal_m, ways: 0, best: None }
+                Task { from: input.tool_m, goal: input.goal_m, paths: 0, best: None }
             }
         };
         let mut left = input.parameters.errt_nodes_per_step as usize;
@@ -164,16 +176,16 @@ impl Errt {
                 Progress::WalledOff => return Err(Refusal::WalledOff),
                 // What is left is narrower than the least clearance, or the flood fill would have told where there is
                 // room for a search that never takes so long.
-                Progress::Exhausted if task.ways == 0 => return Err(Refusal::WalledOff),
-                Progress::Found(way) => {
-                    task.ways += 1;
-                    let cost_m = expected_m(way, input.known, input.parameters.errt_unseen_weight);
+                Progress::Exhausted if task.paths == 0 => return Err(Refusal::WalledOff),
+                Progress::Found(path) => {
+                    task.paths += 1;
+                    let cost_m = expected_m(path, input.known, input.parameters.errt_unseen_weight);
                     // Nothing is shorter than the straight line.
-                    let is_straight = way.points.len() == 2;
+                    let is_straight = path.points.len() == 2;
                     if task.best.as_ref().is_none_or(|(_, best_m)| cost_m < *best_m) {
-                        task.best = Some((way.clone(), cost_m));
+                        task.best = Some((path.clone(), cost_m));
                     }
-                    if is_straight || task.ways >= input.parameters.errt_ways {
+                    if is_straight || task.paths >= input.parameters.errt_ways {
                         break;
                     }
                 }
@@ -184,15 +196,15 @@ impl Errt {
                 break;
             }
             if *self.planner.progress() != Progress::Searching {
-                self.planner.start(if task.ways > 0 { &other } else { &parameters }, obstacles, task.from, task.goal);
+                self.planner.start(if task.paths > 0 { &other } else { &parameters }, obstacles, task.from, task.goal);
             }
         }
         match task.best.take() {
-            Some((way, _)) => {
+            Some((path, _)) => {
                 self.plans += 1;
-                self.planner.remember(&way);
-                let off_m = OFF_WAY_M.max((way.points[0] - input.tool_m).norm());
-                self.followed = Some(Followed { way, along_m: 0.0, off_m });
+                self.planner.remember(&path);
+                let off_m = OFF_PATH_M.max((path.points[0] - input.tool_m).norm());
+                self.followed = Some(Followed { path, along_m: 0.0, off_m });
                 Ok(())
             }
             None => {
@@ -205,10 +217,10 @@ impl Errt {
 
 /// Length of a way, with what leads through the unseen counted so many times: where a way leads there straight, the
 /// real one seldom does.
-fn expected_m(way: &Way, known: &ObstacleMap, unseen_weight: f64) -> f64 {
-    let length_m = way.length_m();
+fn expected_m(path: &Path, known: &ObstacleMap, unseen_weight: f64) -> f64 {
+    let length_m = path.length_m();
     let count = (length_m / SAMPLE_M).ceil().max(1.0);
-    let place = |i: usize| way.at(length_m * (i as f64 + 0.5) / count);
+    let place = |i: usize| path.at(length_m * (i as f64 + 0.5) / count);
     let unseen = (0..count as usize).filter(|&i| known.state(place(i)) == CellState::Unknown).count();
     length_m * (1.0 + (unseen_weight - 1.0) * unseen as f64 / count)
 }
@@ -234,17 +246,17 @@ impl Transport for Errt {
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
         let obstacles = self.obstacles(input.known, input.parameters.errt_clearance_m);
-        self.check_way(&obstacles, input.tool_m, input.goal_m);
+        self.check_path(&obstacles, input.tool_m, input.goal_m);
         if self.followed.is_none() {
             self.plan(&obstacles, input)?;
         }
         let reach_m = input.parameters.transport_speed_m_s * CONTROL_PERIOD_S;
-        let Some(Followed { way, along_m, .. }) = &self.followed else {
+        let Some(Followed { path, along_m, .. }) = &self.followed else {
             return Err(Refusal::Searching { attempts: 0 });
         };
         // Where the tool is off the way, the way to it counts too.
-        let off_m = (way.at(*along_m) - input.tool_m).norm();
-        let ahead_m = way.at(*along_m + (reach_m - off_m).max(0.0));
+        let off_m = (path.at(*along_m) - input.tool_m).norm();
+        let ahead_m = path.at(*along_m + (reach_m - off_m).max(0.0));
         let target_m = input.tool_m + (ahead_m - input.tool_m).cap_magnitude(reach_m);
         let speed_m_s = (target_m - input.tool_m).norm() / CONTROL_PERIOD_S;
         Ok(TargetStep { target_m, speed_m_s: speed_m_s.min(input.parameters.transport_speed_m_s) })

@@ -11,13 +11,12 @@ use cookie::{Cookie, CookieJar, Key, SameSite};
 use serde::Deserialize;
 use utoipa::ToSchema;
 
-use super::super::Server;
-use super::super::api::parse;
-use super::super::assets::login_page;
-use super::super::body::WholeBody;
-use super::super::problem::Problem;
-use super::super::refusals::{Conflict, TooMany};
 use super::Client;
+use crate::http::Server;
+use crate::http::assets::login_page;
+use crate::http::body::{WholeBody, parse};
+use crate::http::problem::Problem;
+use crate::http::refusals::{Conflict, TooMany};
 
 const NAME: &str = "ferry";
 /// A login lasts a term's half.

@@ -26,10 +26,10 @@ impl Cache {
     }
 
     /// Remembers a way: each of its points takes a random slot.
-    pub fn remember(&mut self, way: &[Point2<f64>], rng: &mut impl Rng) {
+    pub fn remember(&mut self, path: &[Point2<f64>], rng: &mut impl Rng) {
         let count = self.slots.len();
         if count > 0 {
-            way.iter().for_each(|&point| self.slots[rng.random_range(0..count)] = Some(point));
+            path.iter().for_each(|&point| self.slots[rng.random_range(0..count)] = Some(point));
         }
     }
 }

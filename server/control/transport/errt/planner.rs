@@ -6,9 +6,10 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::cache::Cache;
-use super::clearance::{Clearance, End, Obstacles};
+use super::clearance::Clearance;
+use super::obstacles::Obstacles;
+use super::path::Path;
 use super::tree::Tree;
-use super::way::Way;
 use crate::geometry::{Point2, Rect};
 
 /// Share of a step that is tried from the root where a whole one is not clear: a start beside a wall may have no room
@@ -106,7 +107,7 @@ pub enum Progress {
     /// It goes on.
     Searching,
     /// A way was found.
-    Found(Way),
+    Found(Path),
     /// It was given up. Another start draws other numbers.
     Exhausted,
     /// There is no way with the least clearance, whatever the unknown turns out to be.
@@ -164,8 +165,8 @@ impl Planner {
         self.cache.resize(parameters.waypoints);
         self.search = None;
         self.progress = Progress::WalledOff;
-        let start = End::near(from, obstacles, parameters.least_clearance_m);
-        let Some((start, goal)) = start.zip(End::at(goal, obstacles)) else { return };
+        let start = obstacles.end_near(from, parameters.least_clearance_m);
+        let Some((start, goal)) = start.zip(obstacles.end_at(goal)) else { return };
         let ends = [start, goal];
         let straight = Clearance { asked_m: parameters.clearance_m, ends };
         let is_straight = obstacles.is_clear(start.point, goal.point, &straight);
@@ -176,7 +177,7 @@ impl Planner {
         self.progress = Progress::Searching;
         if is_straight {
             tree.push(goal.point, 0);
-            self.progress = Progress::Found(Way { points: vec![start.point, goal.point], clearance });
+            self.progress = Progress::Found(Path { points: vec![start.point, goal.point], clearance });
         }
         let version = obstacles.version();
         self.search = Some(Search { parameters: *parameters, version, from, clearance, tree, attempts: 0 });
@@ -222,20 +223,20 @@ impl Planner {
                 self.beta = (self.beta + change).clamp(0.0, parameters.beta_most);
             }
             self.last = Some((goal, length_m));
-            let mut way = Way { points, clearance: search.clearance };
+            let mut path = Path { points, clearance: search.clearance };
             if let Some(count) = parameters.shortcuts {
-                way.skip_corners(obstacles);
-                (0..count).for_each(|_| way.cut_short(obstacles, &mut self.rng));
+                path.skip_corners(obstacles);
+                (0..count).for_each(|_| path.cut_short(obstacles, &mut self.rng));
             }
-            self.progress = Progress::Found(way);
+            self.progress = Progress::Found(path);
         } else if search.attempts >= parameters.most_attempts {
             self.progress = Progress::Exhausted;
         }
     }
 
     /// Remembers the corners of a way as waypoints.
-    pub fn remember(&mut self, way: &Way) {
-        self.cache.remember(&way.points, &mut self.rng);
+    pub fn remember(&mut self, path: &Path) {
+        self.cache.remember(&path.points, &mut self.rng);
     }
 
     /// How far the search has come.

@@ -7,10 +7,11 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::clearance::{Clearance, End, Obstacles};
+use super::clearance::{Clearance, End};
+use super::obstacles::Obstacles;
+use super::path::Path;
 use super::planner::{Planner, PlannerParameters, Progress};
 use super::tree::Tree;
-use super::way::Way;
 use crate::geometry::{Point2, Rect};
 use crate::image::GrayImage;
 use crate::map::{FreeSpace, Map};
@@ -108,15 +109,15 @@ fn assert_kept(obstacles: &Obstacles, from: Point2<f64>, to: Point2<f64>, cleara
     }
 }
 
-fn assert_all_kept(planner: &Planner, obstacles: &Obstacles, way: &Way) {
-    way.points.windows(2).for_each(|edge| assert_kept(obstacles, edge[0], edge[1], &way.clearance));
+fn assert_all_kept(planner: &Planner, obstacles: &Obstacles, path: &Path) {
+    path.points.windows(2).for_each(|edge| assert_kept(obstacles, edge[0], edge[1], &path.clearance));
     let tree = planner.tree().unwrap();
-    tree.edges().for_each(|[from, to]| assert_kept(obstacles, from, to, &way.clearance));
+    tree.edges().for_each(|[from, to]| assert_kept(obstacles, from, to, &path.clearance));
 }
 
-fn found(planner: &Planner) -> Option<&Way> {
+fn found(planner: &Planner) -> Option<&Path> {
     match planner.progress() {
-        Progress::Found(way) => Some(way),
+        Progress::Found(path) => Some(path),
         _ => None,
     }
 }
@@ -166,15 +167,15 @@ proptest! {
         let least_m = 0.0057;
         let brute_m = brute_distance_m(&obstacles, point, point);
         prop_assume!(brute_m == 0.0 || brute_m > 1e-6);
-        let end = End::near(point, &obstacles, least_m);
+        let end = obstacles.end_near(point, least_m);
         if brute_m > 0.0 {
             prop_assert!(end.is_some_and(|end| end.point == point && (end.distance_m - brute_m).abs() < 1e-8));
-            prop_assert_eq!(End::at(point, &obstacles), end);
+            prop_assert_eq!(obstacles.end_at(point), end);
         } else {
             let centers = (0..60 * 40).map(|i| lattice_point(2 * (i % 60) + 1, 2 * (i / 60) + 1));
             let clear = centers.filter(|&p| brute_distance_m(&obstacles, p, p) >= least_m);
             let nearest_m = clear.map(|p| (p - point).norm()).min_by(f64::total_cmp);
-            prop_assert_eq!(End::at(point, &obstacles), None);
+            prop_assert_eq!(obstacles.end_at(point), None);
             prop_assert_eq!(end.is_some(), nearest_m.is_some());
             if let Some((end, nearest_m)) = end.zip(nearest_m) {
                 prop_assert!(((end.point - point).norm() - nearest_m).abs() < 1e-8 && end.distance_m > least_m - 1e-8);
@@ -224,14 +225,14 @@ proptest! {
         planner.start(&parameters, &obstacles, from, goal);
         planner.advance(&obstacles, 3000);
         match planner.progress() {
-            Progress::Found(way) => {
-                let start = End::near(from, &obstacles, LEAST_M).unwrap().point;
-                prop_assert_eq!([way.points[0], *way.points.last().unwrap()], [start, goal]);
-                prop_assert!(way.is_clear_from(0.0, &obstacles, 0.0));
-                assert_all_kept(&planner, &obstacles, way);
+            Progress::Found(path) => {
+                let start = obstacles.end_near(from, LEAST_M).unwrap().point;
+                prop_assert_eq!([path.points[0], *path.points.last().unwrap()], [start, goal]);
+                prop_assert!(path.is_clear_from(0.0, &obstacles, 0.0));
+                assert_all_kept(&planner, &obstacles, path);
             }
             Progress::WalledOff => {
-                let ends = End::near(from, &obstacles, LEAST_M).zip(End::at(goal, &obstacles));
+                let ends = obstacles.end_near(from, LEAST_M).zip(obstacles.end_at(goal));
                 let clearance = ends.map(|(start, goal)| Clearance { asked_m: LEAST_M, ends: [start, goal] });
                 prop_assert!(!clearance.is_some_and(|clearance| lattice_leads(&obstacles, &clearance)));
             }
@@ -274,12 +275,12 @@ fn all_shipped_maps_are_planned_across_every_time() {
             let mut planner = Planner::new(seed);
             planner.start(&PlannerParameters::default(), &obstacles, from, goal);
             planner.advance(&obstacles, usize::MAX);
-            let way = found(&planner).unwrap_or_else(|| panic!("{name}: {from} to {goal}: {:?}", planner.progress()));
-            assert!(way.is_clear_from(0.0, &obstacles, 0.0));
+            let path = found(&planner).unwrap_or_else(|| panic!("{name}: {from} to {goal}: {:?}", planner.progress()));
+            assert!(path.is_clear_from(0.0, &obstacles, 0.0));
             // Walls on the map are no thinner than they are.
-            assert!(way.points.iter().all(|&p| map.clearance_m(p) > way.clearance.required_m(p) - 1e-3), "{name}");
+            assert!(path.points.iter().all(|&p| map.clearance_m(p) > path.clearance.required_m(p) - 1e-3), "{name}");
             if seed < 10 {
-                assert_all_kept(&planner, &obstacles, way);
+                assert_all_kept(&planner, &obstacles, path);
             }
             attempts.push(planner.attempts());
         }
@@ -305,8 +306,8 @@ fn a_tool_over_a_wall_leaves_it_and_follows_no_wall() {
         let mut planner = Planner::new(seed);
         planner.start(&PlannerParameters::default(), &obstacles, from, goal);
         planner.advance(&obstacles, usize::MAX);
-        let way = found(&planner).unwrap_or_else(|| panic!("{from} {depth_m}: {:?}", planner.progress()));
-        assert_all_kept(&planner, &obstacles, way);
+        let path = found(&planner).unwrap_or_else(|| panic!("{from} {depth_m}: {:?}", planner.progress()));
+        assert_all_kept(&planner, &obstacles, path);
     }
     assert!(over > 50, "{over}");
 }
@@ -323,7 +324,7 @@ fn narrow_places_are_passed_with_less_clearance_and_closed_ones_reported() {
         planner.advance(&obstacles, usize::MAX).clone()
     };
     let asked_m = |gap_m: f64| match plan(gap_m) {
-        Progress::Found(way) => way.clearance.asked_m,
+        Progress::Found(path) => path.clearance.asked_m,
         other => panic!("{gap_m}: {other:?}"),
     };
     assert_eq!(asked_m(0.036), 0.012);
@@ -362,12 +363,12 @@ fn a_search_begins_anew_when_the_map_changes() {
     let after = Obstacles::of(&map, CLEARANCE_M);
     assert_ne!(before.version(), after.version());
     planner.advance(&after, usize::MAX);
-    let way = found(&planner).unwrap();
-    assert_all_kept(&planner, &after, way);
+    let path = found(&planner).unwrap();
+    assert_all_kept(&planner, &after, path);
     assert!(
-        way.is_clear_from(0.0, &before, 0.0)
-            && !way.is_clear_from(0.0, &after, -0.002)
-            && way.is_clear_from(0.0, &after, 0.002)
+        path.is_clear_from(0.0, &before, 0.0)
+            && !path.is_clear_from(0.0, &after, -0.002)
+            && path.is_clear_from(0.0, &after, 0.002)
     );
 }
 

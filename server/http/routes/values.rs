@@ -8,15 +8,15 @@ use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
 
-use super::Server;
-use super::api::{parse, view};
-use super::body::WholeBody;
-use super::path::{Path, SessionPath};
-use super::problem::Problem;
-use super::refusals::{NotFound, OutOfRange, Unavailable};
+use super::sessions::view;
 use crate::camera::Gpu;
 use crate::evaluate::gentle_pool;
 use crate::geometry::Point2;
+use crate::http::Server;
+use crate::http::body::{WholeBody, parse};
+use crate::http::path::{Path, SessionPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::learn::{Atlas, AtlasError};
 use crate::policy::Policy;
 use crate::protocol::{ValueMap, ValueQuery};
@@ -102,7 +102,8 @@ pub async fn values(
     // One at a time, so that other long computations find their places.
     let judged = server.work_at(&server.painter, PAINTER_WAITS, move |server| {
         let atlas = server.atlases.of(&arena, &policy, &server.gpu)?;
-        Ok::<_, NoValues>(ValueMap::of(&atlas, goal_m)?)
+        let judged = atlas.judge(goal_m)?;
+        Ok::<_, NoValues>(ValueMap::of(&atlas, judged))
     });
     Ok(Json(judged.await??))
 }

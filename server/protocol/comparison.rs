@@ -5,10 +5,10 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::OverlayMessage;
-use crate::geometry::schema::{Numbers2, Numbers4};
+use super::numbers::{Numbers2, Numbers4};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
-use crate::session::{Past, Progress};
+use crate::session::{BranchPoint, Progress};
 use crate::trial::{Moment, Motion, TickRecord};
 
 /// Ticks between two samples of a branch: 25 Hz of simulated time.
@@ -59,10 +59,10 @@ pub struct MomentMessage {
 
 impl MomentMessage {
     /// Of a moment and the control step that started there; `None` when none did.
-    pub fn of(past: &Past, before: &Moment, record: &TickRecord) -> Option<Self> {
+    pub fn of(point: &BranchPoint, before: &Moment, record: &TickRecord) -> Option<Self> {
         let (decision, sight) = (record.decision.as_ref()?, record.sight.as_ref()?);
         let overlay =
-            OverlayMessage::of(before.tick, sight, decision.motion, past.arena(), past.parameters().rl_policy);
+            OverlayMessage::of(before.tick, sight, decision.motion, point.arena(), point.parameters().rl_policy);
         Some(Self {
             tick: before.tick,
             sim_time_s: before.sim_time_s(),
@@ -71,7 +71,7 @@ impl MomentMessage {
             reason: decision.switching.reason(),
             error_m: decision.switching.error_m,
             threshold_m: decision.switching.threshold_m,
-            controller: past.controller(),
+            controller: point.controller(),
             phase: record.moment.phase.to_string(),
             tool_m: before.tool_m.xy().coords.into(),
             bead_m: before.bead_m.xy().coords.into(),
@@ -143,13 +143,13 @@ pub struct Branch {
 
 impl ComparisonMessage {
     /// Before its first branch.
-    pub fn begin(trial: u64, past: &Past) -> Self {
+    pub fn begin(trial: u64, point: &BranchPoint) -> Self {
         Self {
             trial,
-            tick: past.tick(),
-            sim_time_s: past.tick() as f64 * SERVO_PERIOD_S,
-            until_tick: past.until_tick(),
-            controller: past.controller(),
+            tick: point.tick(),
+            sim_time_s: point.tick() as f64 * SERVO_PERIOD_S,
+            until_tick: point.until_tick(),
+            controller: point.controller(),
             ticks_a_sample: TICKS_A_SAMPLE,
             running: true,
             failed: None,
@@ -176,14 +176,14 @@ impl Branch {
     }
 
     /// Takes a tick in.
-    pub fn follow(&mut self, past: &Past, progress: &Progress<'_>) {
+    pub fn follow(&mut self, point: &BranchPoint, progress: &Progress<'_>) {
         let moment = &progress.record.moment;
-        if (moment.tick - past.tick()).is_multiple_of(TICKS_A_SAMPLE) {
+        if (moment.tick - point.tick()).is_multiple_of(TICKS_A_SAMPLE) {
             let ([tool_x, tool_y], [bead_x, bead_y]) =
                 (moment.tool_m.xy().coords.into(), moment.bead_m.xy().coords.into());
             self.samples.push([tool_x, tool_y, bead_x, bead_y]);
         }
-        let before = past.counters();
+        let before = point.counters();
         self.done = progress.done;
         self.delivered_tick = progress.delivered_tick;
         self.phase = moment.phase.to_string();

@@ -7,23 +7,24 @@ use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::Server;
-use super::api::{attachment, find};
-use super::path::{MomentPath, Path, SessionPath};
-use super::problem::Problem;
-use super::refusals::{NotFound, OutOfRange, Unavailable};
+use super::sessions::find;
+use crate::http::Server;
+use crate::http::body::attachment;
+use crate::http::path::{MomentPath, Path, SessionPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::image::EncodeError;
 use crate::protocol::MomentMessage;
-use crate::session::{CommandError, Past, Recalled};
+use crate::session::{BranchPoint, CommandError, Recalled};
 use crate::trial::{Case, Moment, TickRecord, TrialError};
 
 /// The moment, lived through again beside the session.
-async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(Past, Moment, TickRecord), Problem> {
-    let past = find(server, id)?.session.recall(tick, Recalled::Step).await.map_err(|error| problem(&error))?;
+async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(BranchPoint, Moment, TickRecord), Problem> {
+    let point = find(server, id)?.session.recall(tick, Recalled::Step).await.map_err(|error| problem(&error))?;
     let relived = server.work(move |server| {
-        let mut camera = past.camera(&server.gpu)?;
-        let (before, record) = past.relive(&mut camera)?;
-        Ok::<_, TrialError>((past, before, record))
+        let mut camera = point.camera(&server.gpu)?;
+        let (before, record) = point.relive(&mut camera)?;
+        Ok::<_, TrialError>((point, before, record))
     });
     relived.await?.map_err(Problem::internal)
 }
@@ -50,8 +51,8 @@ pub async fn moment(
     State(server): State<Arc<Server>>,
     Path(MomentPath { id, tick }): Path<MomentPath>,
 ) -> Result<Json<MomentMessage>, Problem> {
-    let (past, before, record) = relive(&server, &id, tick).await?;
-    MomentMessage::of(&past, &before, &record).map(Json).ok_or_else(|| no_step(tick))
+    let (point, before, record) = relive(&server, &id, tick).await?;
+    MomentMessage::of(&point, &before, &record).map(Json).ok_or_else(|| no_step(tick))
 }
 
 /// The camera's image at a control step.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::camera::Gpu;
 use crate::protocol::{Branch, ComparisonMessage};
 use crate::scenario::ControllerName;
-use crate::session::Past;
+use crate::session::BranchPoint;
 use crate::trial::TrialError;
 
 /// Ghosts grow on the page so often.
@@ -15,23 +15,23 @@ const TELL_EVERY: Duration = Duration::from_millis(250);
 
 /// Blocks until all branches have ended, or `is_wanted` turns false: then the page is told nothing more.
 pub fn compare(
-    past: &Past,
+    point: &BranchPoint,
     trial: u64,
     controllers: &[ControllerName],
     gpu: &Arc<Gpu>,
     is_wanted: &dyn Fn() -> bool,
     tell: &dyn Fn(ComparisonMessage),
 ) {
-    let mut comparison = ComparisonMessage::begin(trial, past);
+    let mut comparison = ComparisonMessage::begin(trial, point);
     tell(comparison.clone());
     let run = || -> Result<(), TrialError> {
-        let mut camera = past.camera(gpu)?;
+        let mut camera = point.camera(gpu)?;
         for &controller in controllers {
             comparison.branches.push(Branch::begin(controller));
             let mut told = Instant::now();
-            past.branch(controller, &mut camera, &mut |progress| {
+            point.branch(controller, &mut camera, &mut |progress| {
                 if let Some(branch) = comparison.branches.last_mut() {
-                    branch.follow(past, &progress);
+                    branch.follow(point, &progress);
                 }
                 if !is_wanted() {
                     return ControlFlow::Break(());

@@ -9,19 +9,20 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Server;
-use super::api::parse;
-use super::body::WholeBody;
-use super::problem::Problem;
-use super::refusals::{OutOfRange, Unavailable};
 use crate::control::limits::LEAST_MANIPULABILITY_M3;
-use crate::geometry::schema::{Numbers3, Numbers6, Rows3};
 use crate::geometry::{Isometry3, Matrix3, Vector3};
-use crate::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
-use crate::magnetics::plane::{self, Plane, PlaneQuery};
+use crate::http::Server;
+use crate::http::body::{WholeBody, parse};
+use crate::http::problem::Problem;
+use crate::http::refusals::{OutOfRange, Unavailable};
+use crate::magnetics::curves::{self, CurveError};
+use crate::magnetics::plane;
 use crate::magnetics::{cuboid::Cuboid, force};
 use crate::plant::manipulability_map;
-use crate::protocol::{WorkspaceMap, WorkspaceQuery};
+use crate::protocol::{
+    Numbers3, Numbers6, Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery, Rows3, WorkspaceMap,
+    WorkspaceQuery,
+};
 use crate::robot::workspace::WorkspaceError;
 use crate::robot::{Joints, forward, inverse};
 
@@ -153,7 +154,7 @@ pub async fn workspace(
         };
         Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no_workspace", error.to_string()).field(field)
     })?;
-    Ok(Json(WorkspaceMap { map, least_m3: LEAST_MANIPULABILITY_M3 }))
+    Ok(Json(WorkspaceMap { map: map.into(), least_m3: LEAST_MANIPULABILITY_M3 }))
 }
 
 /// The pull on the bead over its offset from the block.
@@ -161,8 +162,8 @@ pub async fn workspace(
     responses((status = 200, body = PullCurve), OutOfRange, Unavailable))]
 pub async fn pull(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<PullCurve>, Problem> {
     let query: PullQuery = parse(&body)?;
-    let curve = server.work(move |_| curves::pull(&query)).await?;
-    curve.map(Json).map_err(|error| no_curve(&error))
+    let curve = server.work(move |_| curves::pull(&query.into())).await?;
+    curve.map(|curve| Json(curve.into())).map_err(|error| no_curve(&error))
 }
 
 /// The field and the pull on the bead over the table around the block.
@@ -170,8 +171,8 @@ pub async fn pull(State(server): State<Arc<Server>>, WholeBody(body): WholeBody)
     responses((status = 200, body = Plane), OutOfRange, Unavailable))]
 pub async fn plane(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<Plane>, Problem> {
     let query: PlaneQuery = parse(&body)?;
-    let plane = server.work(move |_| plane::plane(&query)).await?;
-    plane.map(Json).map_err(|error| no_curve(&error))
+    let plane = server.work(move |_| plane::plane(&query.into())).await?;
+    plane.map(|plane| Json(plane.into())).map_err(|error| no_curve(&error))
 }
 
 /// How far and how fast the block drags the bead, over its height.
@@ -180,8 +181,8 @@ pub async fn plane(State(server): State<Arc<Server>>, WholeBody(body): WholeBody
 pub async fn reach(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<ReachCurve>, Problem> {
     let query: ReachQuery = parse(&body)?;
     // Some tenths of a millisecond a height.
-    let curve = server.work(move |_| curves::reach(&query)).await?;
-    curve.map(Json).map_err(|error| no_curve(&error))
+    let curve = server.work(move |_| curves::reach(&query.into())).await?;
+    curve.map(|curve| Json(curve.into())).map_err(|error| no_curve(&error))
 }
 
 fn no_curve(error: &CurveError) -> Problem {

@@ -3,7 +3,7 @@
 use earcut::Earcut;
 
 use super::mesh::{Color, Mesh};
-use super::{CameraError, Stage};
+use super::{CameraError, StaticScene};
 use crate::geometry::{Point3, Polygon, Rect, Vector3};
 
 /// Highest wall that is accepted.
@@ -43,18 +43,18 @@ pub(super) const SHADOW_LIFT_M: f64 = 2e-5;
 const OUTSIDE_M: f64 = 2.0;
 
 /// Refuses geometry that cannot be drawn.
-pub(super) fn check(stage: &Stage) -> Result<(), CameraError> {
-    let refuse = |what: String| Err(CameraError::Stage { what });
-    let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = *stage.workspace;
+pub(super) fn check(static_scene: &StaticScene) -> Result<(), CameraError> {
+    let refuse = |what: String| Err(CameraError::StaticScene { what });
+    let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = *static_scene.workspace;
     let finite = [x_min_m, x_max_m, y_min_m, y_max_m].iter().all(|side| side.is_finite());
     if !finite || x_min_m >= x_max_m || y_min_m >= y_max_m {
         return refuse(format!("workspace x {x_min_m} to {x_max_m} m, y {y_min_m} to {y_max_m} m"));
     }
-    if !(stage.wall_height_m > 0.0 && stage.wall_height_m <= MOST_WALL_M) {
-        let height_m = stage.wall_height_m;
+    if !(static_scene.wall_height_m > 0.0 && static_scene.wall_height_m <= MOST_WALL_M) {
+        let height_m = static_scene.wall_height_m;
         return refuse(format!("wall height {height_m} m: it must be above 0 and at most 1 m"));
     }
-    for (number, wall) in stage.walls.iter().enumerate() {
+    for (number, wall) in static_scene.walls.iter().enumerate() {
         let odd = |point: &&[f64; 2]| !point.iter().all(|coordinate| coordinate.is_finite());
         if let Some(point) = wall.rings().flatten().find(odd) {
             return refuse(format!("wall {number} has a corner at {point:?}"));
@@ -64,13 +64,13 @@ pub(super) fn check(stage: &Stage) -> Result<(), CameraError> {
 }
 
 /// The stage for controllers: floor, shadows and walls, all outside being wall.
-pub(super) fn controllers_mesh(stage: &Stage) -> Mesh {
+pub(super) fn controllers_mesh(static_scene: &StaticScene) -> Mesh {
     let mut mesh = Mesh::default();
-    floor(&mut mesh, stage.workspace, controllers::FLOOR);
-    let outside = border(stage.workspace, OUTSIDE_M);
-    let walls = || stage.walls.iter().chain([&outside]);
+    floor(&mut mesh, static_scene.workspace, controllers::FLOOR);
+    let outside = border(static_scene.workspace, OUTSIDE_M);
+    let walls = || static_scene.walls.iter().chain([&outside]);
     for wall in walls() {
-        shadow(&mut mesh, wall, stage.wall_height_m);
+        shadow(&mut mesh, wall, static_scene.wall_height_m);
     }
     let [away_x, away_y] = SHADOW_PER_HEIGHT;
     let side = |normal: Vector3<f64>| {
@@ -81,7 +81,7 @@ pub(super) fn controllers_mesh(stage: &Stage) -> Mesh {
         }
     };
     for wall in walls() {
-        let height_m = stage.wall_height_m;
+        let height_m = static_scene.wall_height_m;
         prism(&mut mesh, wall, height_m, controllers::WALL_TOP, side);
     }
     mesh

@@ -8,13 +8,9 @@ use axum::body::Bytes;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::path::{Path, ViewerPath};
-use super::problem::Problem;
-use super::refusals::NotFound;
-
-/// What the viewer's page may do: compile WebAssembly, and be framed by our own page.
-pub const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
-                          frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
+use crate::http::path::{Path, ViewerPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::NotFound;
 
 const FILES: [(&str, &str, &[u8]); 2] = [
     ("re_viewer.js", "text/javascript", include_bytes!(concat!(env!("OUT_DIR"), "/rerun/re_viewer.js.gz"))),

@@ -10,7 +10,7 @@ use serde::Serialize;
 use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
 
-use super::fork;
+use super::comparison;
 use super::seats::Seats;
 use crate::camera::Gpu;
 use crate::protocol::{
@@ -54,9 +54,9 @@ pub struct Hub {
     /// The newest comparison, ready to send; empty before the first.
     comparison: watch::Sender<Utf8Bytes>,
     /// Forks begun; an older one stops when it is no longer the last.
-    forks: AtomicU64,
+    comparisons: AtomicU64,
     /// The place of the one that runs.
-    forking: Arc<Semaphore>,
+    comparing: Arc<Semaphore>,
     /// When the last browser left, or somebody asked without one. Shared by its connections and by whoever parks.
     watched: Mutex<Instant>,
     /// Nobody looked for long: its time stands.
@@ -77,8 +77,8 @@ impl Hub {
             session,
             gpu,
             comparison: watch::Sender::new(Utf8Bytes::default()),
-            forks: AtomicU64::new(0),
-            forking: Arc::new(Semaphore::new(1)),
+            comparisons: AtomicU64::new(0),
+            comparing: Arc::new(Semaphore::new(1)),
             encoded,
             seats: watch::Sender::new(Seats::new(now)),
             encoder: Mutex::new(Some(encoder)),
@@ -144,24 +144,24 @@ impl Hub {
     }
 
     /// Starts a comparison, which tells of itself.
-    pub async fn fork(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
-        let past = self.session.recall(tick, Recalled::Present).await?;
-        if !past.has_goal() {
+    pub async fn compare(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
+        let point = self.session.recall(tick, Recalled::Present).await?;
+        if !point.has_goal() {
             return Err(CommandError::NoGoal { tick });
         }
-        let number = self.forks.fetch_add(1, Ordering::Relaxed) + 1;
+        let number = self.comparisons.fetch_add(1, Ordering::Relaxed) + 1;
         let trial = self.session.watch().borrow().scenery.trial;
         let hub = self.clone();
         tokio::spawn(async move {
             // The one before hears at its next tick that it is no longer the last.
-            let Ok(place) = hub.forking.clone().acquire_owned().await else { return };
+            let Ok(place) = hub.comparing.clone().acquire_owned().await else { return };
             let comparing = tokio::task::spawn_blocking(move || {
                 let _place = place;
-                let is_last = || hub.forks.load(Ordering::Relaxed) == number && !*hub.closing.borrow();
+                let is_last = || hub.comparisons.load(Ordering::Relaxed) == number && !*hub.closing.borrow();
                 if !is_last() {
                     return;
                 }
-                fork::compare(&past, trial, &controllers, &hub.gpu, &is_last, &|message| {
+                comparison::compare(&point, trial, &controllers, &hub.gpu, &is_last, &|message| {
                     hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
                 });
             });

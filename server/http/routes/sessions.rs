@@ -1,60 +1,24 @@
-//! Sessions, maps and recordings over plain HTTP.
+//! Sessions, and what they show now.
 
 use std::sync::Arc;
 
 use axum::Json;
-use axum::body::Body;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
-use tokio::io::AsyncReadExt;
-use tokio_util::io::ReaderStream;
 use utoipa::ToSchema;
 
-use super::Server;
-use super::body::WholeBody;
-use super::hub::Hub;
-use super::path::{Path, RecordingPath, SessionPath};
-use super::problem::Problem;
-use super::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use super::sessions::MAIN;
-use crate::protocol::{FlowField, FlowQuery, RecordingFile, RecordingList, StateMessage};
-use crate::recording::Listed;
+use crate::http::Server;
+use crate::http::body::{WholeBody, parse};
+use crate::http::live::Hub;
+use crate::http::path::{Path, SessionPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
+use crate::http::sessions::MAIN;
+use crate::protocol::StateMessage;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
-
-/// Whether the server answers, and means to go on.
-#[utoipa::path(get, path = "/healthz", tag = "server",
-    responses((status = 200, description = "It does.", content_type = "text/plain", body = String), Unavailable))]
-pub async fn health(State(server): State<Arc<Server>>) -> Result<&'static str, Problem> {
-    if *server.stopping.borrow() {
-        return Err(Problem::new(StatusCode::SERVICE_UNAVAILABLE, "stopping", "the server is stopping"));
-    }
-    Ok("ok\n")
-}
-
-/// A recording is read in pieces of this size.
-const CHUNK_BYTES: usize = 64 << 10;
-/// Spacing of a flow field.
-const SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
-
-/// Where attractor dynamics would lead.
-#[utoipa::path(post, path = "/api/sessions/{id}/flow", tag = "sessions", params(SessionPath), request_body = FlowQuery,
-    responses((status = 200, body = FlowField), NotFound, OutOfRange))]
-pub async fn flow(
-    State(server): State<Arc<Server>>,
-    Path(SessionPath { id }): Path<SessionPath>,
-    WholeBody(body): WholeBody,
-) -> Result<Json<FlowField>, Problem> {
-    let FlowQuery { spacing_m, .. } = parse(&body)?;
-    if !SPACING_M.contains(&spacing_m) {
-        let message = format!("spacing_m is {spacing_m}, it must be {} to {}", SPACING_M.start(), SPACING_M.end());
-        return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("spacing_m"));
-    }
-    let view = view(&server, &id)?;
-    Ok(Json(server.work(move |_| FlowField::of(&view, spacing_m)).await?))
-}
 
 /// A session in short.
 #[derive(Serialize, ToSchema)]
@@ -208,43 +172,6 @@ pub async fn observation(
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 
-/// The recordings.
-#[utoipa::path(get, path = "/api/recordings", tag = "recordings",
-    responses((status = 200, body = RecordingList, links(("the newest" = (operation_id = "recording",
-        parameters(("file" = "{$response.body#/recordings/0/id}.rrd")))))), Unavailable))]
-pub async fn recordings(State(server): State<Arc<Server>>) -> Result<Json<RecordingList>, Problem> {
-    let listed = server.work(|server| server.recordings.list()).await?.map_err(Problem::internal)?;
-    Ok(Json(RecordingList { recordings: listed.into_iter().map(RecordingFile::from).collect() }))
-}
-
-impl From<Listed> for RecordingFile {
-    fn from(listed: Listed) -> Self {
-        let Listed { id, session, started, bytes, log_bytes, live } = listed;
-        Self { id, session, started: started.map(|started| started.to_string()), bytes, log_bytes, live }
-    }
-}
-
-/// A recording: Rerun's file, or the input log.
-#[utoipa::path(get, path = "/api/recordings/{file}", tag = "recordings", params(RecordingPath),
-    responses((status = 200, description = "What is written up to now.", content(("application/octet-stream"))), NotFound, Unavailable))]
-pub async fn recording(
-    State(server): State<Arc<Server>>,
-    Path(RecordingPath { file: name }): Path<RecordingPath>,
-) -> Result<Response, Problem> {
-    // Only names that the list holds are opened, so that no client path touches the file system.
-    let asked = name.clone();
-    let found = server.work(move |server| server.recordings.file(&asked)).await?;
-    let path = found.map_err(Problem::internal)?;
-    let path = path.ok_or_else(|| Problem::not_found("recording", &name))?;
-    let opened = tokio::fs::File::open(path).await.map_err(Problem::internal)?;
-    // What is written while it is sent is left out, so that the length told is the length sent.
-    let bytes = opened.metadata().await.map_err(Problem::internal)?.len();
-    let body = Body::from_stream(ReaderStream::with_capacity(opened.take(bytes), CHUNK_BYTES));
-    let mut response = attachment("application/octet-stream", &name, body);
-    response.headers_mut().insert(header::CONTENT_LENGTH, bytes.into());
-    Ok(response)
-}
-
 pub fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
     Ok(find(server, id)?.session.watch().borrow().clone())
 }
@@ -254,18 +181,4 @@ pub fn find(server: &Server, id: &str) -> Result<Arc<Hub>, Problem> {
     let hub = server.sessions.find(id).ok_or_else(|| Problem::not_found("session", id))?;
     hub.touch();
     Ok(hub)
-}
-
-pub fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {
-    let mut reader = serde_json::Deserializer::from_slice(body);
-    let malformed = |detail: String| Problem::new(StatusCode::BAD_REQUEST, "malformed", detail);
-    let value = serde_path_to_error::deserialize(&mut reader)
-        .map_err(|error| malformed(error.to_string()).field(&error.path().to_string()))?;
-    reader.end().map_err(|error| malformed(error.to_string()))?;
-    Ok(value)
-}
-
-pub fn attachment(kind: &'static str, name: &str, body: impl Into<Body>) -> Response {
-    let disposition = format!("attachment; filename=\"{name}\"");
-    ([(header::CONTENT_TYPE, kind.to_owned()), (header::CONTENT_DISPOSITION, disposition)], body.into()).into_response()
 }

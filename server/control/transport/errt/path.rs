@@ -4,12 +4,13 @@ use rand::{Rng, RngExt};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::clearance::{Clearance, Obstacles};
+use super::clearance::Clearance;
+use super::obstacles::Obstacles;
 use crate::geometry::Point2;
 
 /// Straight lines from start to goal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Way {
+pub struct Path {
     /// Corners, start and goal included. If the tool was over a wall, the first is where it gets off.
     #[serde(deserialize_with = "ends_and_corners")]
     pub points: Vec<Point2<f64>>,
@@ -26,7 +27,7 @@ fn ends_and_corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Po
     Ok(points)
 }
 
-impl Way {
+impl Path {
     /// From start to goal.
     pub fn length_m(&self) -> f64 {
         self.points.windows(2).map(|edge| (edge[1] - edge[0]).norm()).sum()

@@ -16,7 +16,7 @@ const HORIZON_S: f64 = 60.0;
 
 /// A moment, and what the session was told after it.
 #[derive(Clone, Debug)]
-pub struct Past {
+pub struct BranchPoint {
     scenario: Scenario,
     arena: Arc<Arena>,
     state: TrialState,
@@ -37,7 +37,7 @@ pub struct Progress<'a> {
     pub done: bool,
 }
 
-impl Past {
+impl BranchPoint {
     pub(super) fn new(trial: &Trial, state: TrialState, inputs: Vec<(u64, Input)>) -> Self {
         Self { scenario: trial.scenario().clone(), arena: trial.arena().clone(), state, inputs }
     }

@@ -11,12 +11,11 @@ use serde::Serialize;
 use tokio::sync::watch;
 use utoipa::ToSchema;
 
-use super::Server;
-use super::api::attachment;
-use super::body::WholeBody;
-use super::path::{MapPath, Path};
-use super::problem::Problem;
-use super::refusals::{NotFound, OutOfRange, TooMany, Unavailable};
+use crate::http::Server;
+use crate::http::body::{WholeBody, attachment};
+use crate::http::path::{MapPath, Path};
+use crate::http::problem::Problem;
+use crate::http::refusals::{NotFound, OutOfRange, TooMany, Unavailable};
 use crate::map::{Library, MAX_SVG_BYTES, MapError};
 
 /// A drawing that is a map.

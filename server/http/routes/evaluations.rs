@@ -7,14 +7,13 @@ use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::Server;
-use super::api::{attachment, parse};
-use super::body::WholeBody;
-use super::path::{EvaluationPath, Path, ReportPath};
-use super::problem::Problem;
-use super::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::evaluate::{Evaluation, EvaluationQuery, QueryError, Report, SubmitError};
-use crate::protocol::{EvaluationReport, EvaluationSummary, Evaluations};
+use crate::evaluate::{Evaluation, QueryError, Report, SubmitError};
+use crate::http::Server;
+use crate::http::body::{WholeBody, attachment, parse};
+use crate::http::path::{EvaluationPath, Path, ReportPath};
+use crate::http::problem::Problem;
+use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
+use crate::protocol::{EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations};
 
 /// The evaluations: what runs, waits, and ended last.
 #[utoipa::path(get, path = "/api/evaluations", tag = "evaluations", operation_id = "evaluations",
@@ -32,7 +31,7 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: EvaluationQuery = parse(&body)?;
     // Reading the maps that it names blocks.
-    let evaluation = server.work(move |server| server.evaluations.submit(query, &server.maps.all)).await??;
+    let evaluation = server.work(move |server| server.evaluations.submit(query.into(), &server.maps.all)).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())

@@ -1,0 +1,78 @@
+//! All routes, one file a resource.
+
+mod calculator;
+pub mod description;
+mod evaluations;
+mod flow;
+mod health;
+pub mod maps;
+mod moments;
+mod recordings;
+mod sessions;
+pub mod values;
+mod viewer;
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::routing::get;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::{Server, access, assets, live, metrics, openapi, problem};
+
+/// Largest request body.
+const BODY_LIMIT: usize = 1 << 20;
+/// The same where ten thousand poses must fit.
+const BATCH_BODY_LIMIT: usize = 8 << 20;
+
+/// Every route with its description: `routes!` takes no handler without one.
+pub fn described() -> OpenApiRouter<Arc<Server>> {
+    let calculator = OpenApiRouter::new()
+        .routes(routes!(calculator::forward))
+        .routes(routes!(calculator::inverse))
+        .routes(routes!(calculator::workspace))
+        .routes(routes!(calculator::field))
+        .routes(routes!(calculator::pull))
+        .routes(routes!(calculator::reach))
+        .routes(routes!(calculator::plane))
+        .layer(DefaultBodyLimit::max(BATCH_BODY_LIMIT));
+    OpenApiRouter::with_openapi(openapi::base())
+        .routes(routes!(health::health))
+        .routes(routes!(metrics::metrics))
+        .routes(routes!(description::openapi))
+        .routes(routes!(access::login::form, access::login::login))
+        .routes(routes!(access::login::logout))
+        .routes(routes!(maps::list, maps::add))
+        .routes(routes!(maps::file, maps::delete))
+        .routes(routes!(sessions::sessions, sessions::create_session))
+        .routes(routes!(sessions::session, sessions::delete_session))
+        .routes(routes!(sessions::state))
+        .routes(routes!(sessions::camera))
+        .routes(routes!(sessions::observation))
+        .routes(routes!(flow::flow))
+        .routes(routes!(values::values))
+        .routes(routes!(moments::moment))
+        .routes(routes!(moments::camera))
+        .routes(routes!(moments::observation))
+        .routes(routes!(moments::case))
+        .routes(routes!(live::live))
+        .routes(routes!(evaluations::list, evaluations::create))
+        .routes(routes!(evaluations::report, evaluations::cancel))
+        .routes(routes!(evaluations::file))
+        .routes(routes!(recordings::recordings))
+        .routes(routes!(recordings::recording))
+        .routes(routes!(viewer::file))
+        .layer(DefaultBodyLimit::max(BODY_LIMIT))
+        .merge(calculator)
+}
+
+/// All that is served: the routes, and the pages.
+pub fn served() -> Router<Arc<Server>> {
+    Router::from(described())
+        .route("/", get(assets::main_session))
+        .route("/s/{name}", get(assets::named_session))
+        .method_not_allowed_fallback(problem::method_not_allowed)
+        .fallback(assets::page)
+}

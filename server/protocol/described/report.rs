@@ -1,0 +1,166 @@
+//! The report of an evaluation, as `ferry evaluate --json` writes it.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use crate::evaluate;
+use crate::geometry::Point2;
+use crate::protocol::numbers::Numbers2;
+
+describe! {
+    evaluate::Row as Row;
+    evaluate::Comparison as Comparison;
+    evaluate::PairedMean as PairedMean;
+}
+
+describe_schema! {
+    evaluate::Report as Report;
+    evaluate::Failure as Failure;
+}
+
+/// One row of the table.
+#[derive(Serialize, Deserialize, TS, ToSchema)]
+#[serde(remote = "crate::evaluate::Row")]
+pub struct Row {
+    /// Sub-controller 2.
+    pub controller: String,
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances a trial.
+    pub disturbances: u32,
+    /// Trials.
+    pub episodes: u32,
+    /// Trials whose tool reached the goal (paper's test).
+    pub successes: u32,
+    /// Wilson 95 % interval of `successes / episodes`.
+    #[schema(value_type = Numbers2)]
+    pub successes_wilson95: [f64; 2],
+    /// Trials whose bead reached the goal.
+    pub delivered: u32,
+    /// Wilson 95 % interval of `delivered / episodes`.
+    #[schema(value_type = Numbers2)]
+    pub wilson95: [f64; 2],
+    /// Mean over trials of the mean distance of tool and bead during transport.
+    pub tracking_error_mean_m: f64,
+    /// Mean over trials of the mean difference in x during transport, without its sign.
+    pub tracking_error_mean_x_m: f64,
+    /// The same in y.
+    pub tracking_error_mean_y_m: f64,
+    /// Mean over trials of the largest difference in x during transport.
+    pub tracking_error_max_x_m: f64,
+    /// The same in y.
+    pub tracking_error_max_y_m: f64,
+    /// Mean over trials that delivered of the tool's way over the shortest; none if none did.
+    pub path_ratio_mean: Option<f64>,
+    /// Mean control steps.
+    pub steps_mean: f64,
+    /// Mean switches.
+    pub switches_mean: f64,
+    /// Disturbances that struck, all trials together.
+    pub disturbances_struck: u32,
+    /// Median milliseconds a control step, camera included.
+    pub decision_ms_p50: f64,
+    /// 99th percentile.
+    pub decision_ms_p99: f64,
+}
+
+/// The first controller against the second, trial by trial: the same start, goal, seed and pushes.
+#[derive(Serialize, TS, ToSchema)]
+#[serde(remote = "crate::evaluate::Comparison")]
+pub struct Comparison {
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances a trial.
+    pub disturbances: u32,
+    /// The first.
+    pub controller: String,
+    /// The second.
+    pub against: String,
+    /// Trials.
+    pub episodes: u32,
+    /// Trials that both delivered.
+    pub both: u32,
+    /// That the first alone delivered.
+    pub first_only: u32,
+    /// That the second alone delivered.
+    pub second_only: u32,
+    /// That neither delivered.
+    pub neither: u32,
+    /// Share delivered by the first minus that by the second.
+    pub delivered_difference: f64,
+    /// Its 95 % interval (Newcombe 1998, method 10).
+    #[schema(value_type = Numbers2)]
+    pub delivered_difference95: [f64; 2],
+    /// Control steps of the first minus those of the second, where both delivered.
+    pub steps: Option<evaluate::PairedMean>,
+    /// The same of the mean distance of tool and bead during transport.
+    pub tracking_error_mean_m: Option<evaluate::PairedMean>,
+    /// The same of the way over the shortest.
+    pub path_ratio: Option<evaluate::PairedMean>,
+}
+
+/// A mean difference.
+#[derive(Serialize, TS, ToSchema)]
+#[serde(remote = "crate::evaluate::PairedMean")]
+pub struct PairedMean {
+    /// Mean.
+    pub mean: f64,
+    /// Its 95 % interval (Student's t).
+    #[schema(value_type = Numbers2)]
+    pub interval95: [f64; 2],
+}
+
+/// A trial whose bead did not arrive, with what it takes to set it up again.
+#[derive(Serialize, ToSchema)]
+#[serde(remote = "crate::evaluate::Failure")]
+pub struct Failure {
+    /// Sub-controller 2.
+    pub controller: String,
+    /// Map.
+    pub map: String,
+    /// Scripted disturbances.
+    pub disturbances: u32,
+    /// Which trial of the evaluation's seed.
+    pub index: u32,
+    /// Seed of the trial itself.
+    pub seed: u64,
+    /// Bead and tool at the start.
+    #[schema(value_type = Option<Numbers2>)]
+    pub start_m: Option<Point2<f64>>,
+    /// Goal.
+    #[schema(value_type = Option<Numbers2>)]
+    pub goal_m: Option<Point2<f64>>,
+    /// Whether the tool came to the goal.
+    pub reached: bool,
+    /// How it ended.
+    pub outcome: String,
+    /// What kept sub-controller 2 from the goal, if anything did.
+    pub trouble: Option<String>,
+    /// Why the arm held in the end, if it did.
+    pub refusal: Option<String>,
+    /// Control steps.
+    pub steps: u32,
+    /// Disturbances that struck.
+    pub disturbances_struck: u32,
+    /// The trial as the part of the page's address after `#`; none for a map that the page does not have.
+    pub link: Option<String>,
+}
+
+/// A table of rows, and what belongs to it.
+#[derive(Serialize, ToSchema)]
+#[serde(remote = "crate::evaluate::Report")]
+pub struct Report {
+    /// Version of Ferry.
+    pub ferry: String,
+    /// What rendered.
+    pub adapter: String,
+    /// Seed of the trials.
+    pub seed: u64,
+    /// Rows in the order of the cells.
+    pub rows: Vec<evaluate::Row>,
+    /// Every two controllers of the same map and disturbances.
+    pub comparisons: Vec<evaluate::Comparison>,
+    /// Trials whose bead did not arrive.
+    pub failures: Vec<evaluate::Failure>,
+}

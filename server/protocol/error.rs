@@ -1,0 +1,49 @@
+//! Refusals.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use crate::session::CommandError;
+use crate::trial::{InputError, TrialError};
+
+/// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct ErrorMessage {
+    /// For programs, such as `in_wall`.
+    pub code: String,
+    /// For people: names the field and the value.
+    pub message: String,
+    /// The field at fault.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub field: Option<String>,
+}
+
+impl From<&CommandError> for ErrorMessage {
+    fn from(error: &CommandError) -> Self {
+        let (code, field) = match error {
+            CommandError::Input(error) | CommandError::Trial(TrialError::Input(error)) => of_input(error),
+            CommandError::Map(_) | CommandError::Trial(TrialError::Map(_) | TrialError::Random(_)) => {
+                ("map_refused", Some("map"))
+            }
+            CommandError::Trial(TrialError::Parameter(error)) => ("parameter_out_of_range", Some(error.field)),
+            CommandError::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => {
+                ("bad_script", Some("script"))
+            }
+            CommandError::Trial(_) => ("trial_failed", None),
+            CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
+            CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
+            CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),
+            CommandError::Forgotten => ("forgotten", None),
+            CommandError::Busy => ("busy", None),
+            CommandError::Unanswered => ("unanswered", None),
+            CommandError::Ended => ("ended", None),
+        };
+        Self { code: code.to_owned(), message: error.to_string(), field: field.map(str::to_owned) }
+    }
+}
+
+fn of_input(error: &InputError) -> (&'static str, Option<&'static str>) {
+    (error.code(), Some(error.field()))
+}

@@ -1,0 +1,296 @@
+//! What the server sends.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use super::numbers::{Numbers2, Numbers3, Numbers6};
+use super::{ComparisonMessage, ErrorMessage, OverlayMessage, SeenMessage};
+use crate::geometry::{Point2, Polygon, Rect};
+use crate::plant::{BEAD_RADIUS_M, PositionerKind};
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::session::{Scenery, View};
+use crate::trial::{Event, EventKind};
+
+/// Directions in which the scene gives the capture distances.
+const CAPTURE_DIRECTIONS: u32 = 72;
+
+/// Who this browser is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// May send commands.
+    Operator,
+    /// Watches.
+    Viewer,
+}
+
+/// What the server sends as text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum ServerMessage {
+    /// First message of a connection; sent again when the role changes.
+    Hello(Hello),
+    /// What stands still: sent at the start and after each change.
+    Scene(Box<SceneMessage>),
+    /// What moves: at most 60 a second.
+    State(Box<StateMessage>),
+    /// Something happened once.
+    Event(EventMessage),
+    /// What the controller made of the last camera frame.
+    Overlay(Box<OverlayMessage>),
+    /// What the camera has shown up to now, when that changed.
+    Seen(SeenMessage),
+    /// How a fork goes on.
+    Comparison(Box<ComparisonMessage>),
+    /// A message was refused; nothing changed.
+    Error(ErrorMessage),
+}
+
+/// See [`ServerMessage::Hello`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct Hello {
+    /// [`PROTOCOL_VERSION`].
+    pub protocol: u32,
+    /// Name of the session.
+    pub session: String,
+    /// Ferry's version.
+    pub version: String,
+    /// This browser's role.
+    pub role: Role,
+    /// Number of the operator's lease; it rises when control passes on. A command may carry it as `epoch`, and is
+    /// refused when it is no longer that.
+    #[ts(type = "number")]
+    pub epoch: u64,
+    /// Whether anybody is the operator.
+    pub operator_present: bool,
+    /// Whether this browser is the operator and another one asks it to make way.
+    pub asked: bool,
+    /// Graphics adapter that renders the camera.
+    pub adapter: String,
+}
+
+/// See [`ServerMessage::Scene`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct SceneMessage {
+    /// Name of the map.
+    pub map: String,
+    /// Maps that `load_scenario` knows.
+    pub maps: Vec<String>,
+    /// How the trial was set up; controller, goal and parameters may have changed since.
+    pub scenario: Scenario,
+    /// What carries the magnet in this trial.
+    pub positioner: PositionerKind,
+    /// Controllers that `select_controller` knows.
+    pub controllers: Vec<ControllerName>,
+    /// The workspace.
+    pub workspace: Rect,
+    /// Walls inside the workspace, 5 mm high.
+    pub walls: Vec<Polygon>,
+    /// Seed in force.
+    #[ts(type = "number")]
+    pub seed: u64,
+    /// Parameters in force.
+    pub parameters: Parameters,
+    /// Their defaults.
+    pub defaults: Parameters,
+    /// Radius of the bead.
+    pub bead_radius_m: f64,
+    /// Corners of the part of the table that the camera sees, from the tool.
+    #[schema(value_type = Vec<Numbers2>)]
+    pub camera_sees_m: Vec<[f64; 2]>,
+    /// Number of the trial: another one when a trial was set up anew.
+    #[ts(type = "number")]
+    pub trial: u64,
+    /// Distances from the tool at which the magnet's pull beats friction, nearest and farthest, for the
+    /// parameters in force, in 72 directions from +x counter-clockwise; none where it never does, and no
+    /// farthest where it always does.
+    pub capture_m: Vec<Option<(f64, Option<f64>)>>,
+    /// Seconds a tick.
+    pub tick_s: f64,
+}
+
+/// See [`ServerMessage::State`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct StateMessage {
+    /// Ticks since the start of the trial.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// `tick` in seconds.
+    pub sim_time_s: f64,
+    /// Earliest tick that `rewind` reaches.
+    #[ts(type = "number")]
+    pub oldest_tick: u64,
+    /// Latest tick that `rewind` reaches.
+    #[ts(type = "number")]
+    pub newest_tick: u64,
+    /// Whether time runs.
+    pub running: bool,
+    /// Asked simulated seconds a second.
+    pub speed_target: f64,
+    /// Achieved simulated seconds a second.
+    pub speed_achieved: f64,
+    /// How late the latest tick of the last half second came, in milliseconds of the clock.
+    pub lateness_ms: f64,
+    /// How often the session fell so far behind that lost time was let go, since it began.
+    #[ts(type = "number")]
+    pub missed_deadlines: u64,
+    /// Tool point: the middle of the block's lower face.
+    #[schema(value_type = Numbers3)]
+    pub tool_m: [f64; 3],
+    /// Centre of the bead, the truth.
+    #[schema(value_type = Numbers3)]
+    pub bead_m: [f64; 3],
+    /// The bead as the optical tracker gives it.
+    #[schema(value_type = Numbers2)]
+    pub bead_tracked_m: [f64; 2],
+    /// Goal, if one is set.
+    #[schema(value_type = Option<Numbers3>)]
+    pub goal_m: Option<[f64; 3]>,
+    /// Where the hand wants the bead, while it holds it.
+    #[schema(value_type = Option<Numbers2>)]
+    pub hand_m: Option<[f64; 2]>,
+    /// Force of the hand's spring on the bead (0 when not held).
+    pub hand_force_n: f64,
+    /// Joint angles; none on the planar stage, which has no arm.
+    #[schema(value_type = Option<Numbers6>)]
+    pub joints_rad: Option<[f64; 6]>,
+    /// Active sub-controller, 1 or 2.
+    pub mode: u8,
+    /// Why it is active, one plain sentence.
+    pub reason: String,
+    /// Why the arm holds, if a step was refused.
+    pub refusal: Option<String>,
+    /// Sub-controller 2 in use.
+    pub controller: ControllerName,
+    /// What the arm does in words: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
+    pub phase: String,
+    /// Tool minus bead, x.
+    pub tracking_error_x_m: f64,
+    /// Tool minus bead, y.
+    pub tracking_error_y_m: f64,
+    /// Its norm: the `e` of the switching law.
+    pub tracking_error_m: f64,
+    /// Distance from the tool to the goal.
+    pub goal_distance_m: Option<f64>,
+    /// Horizontal pull of the magnet on the bead.
+    pub pull_n: f64,
+    /// Vertical pull in units of the bead's weight; 1 is lift-off.
+    pub lift_ratio: f64,
+    /// Control steps of the current transport leg.
+    pub leg_steps: u32,
+    /// Control steps of the trial.
+    pub steps: u32,
+    /// Switches of the trial.
+    pub switches: u32,
+    /// Goals delivered since the reset.
+    pub deliveries: u32,
+    /// Disturbances by hand or script since the reset.
+    pub disturbances: u32,
+    /// Hash of the plant's state, in hex.
+    pub world_hash: String,
+    /// `recording`, or why this session is not recorded.
+    pub recording: String,
+    /// Why the session ended, if it has.
+    pub ended: Option<String>,
+}
+
+/// See [`ServerMessage::Event`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct EventMessage {
+    /// When.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// When, in seconds.
+    pub sim_time_s: f64,
+    /// What.
+    pub kind: EventKind,
+    /// One plain sentence.
+    pub text: String,
+}
+
+impl From<&Event> for EventMessage {
+    fn from(event: &Event) -> Self {
+        Self {
+            tick: event.tick,
+            sim_time_s: event.tick as f64 * SERVO_PERIOD_S,
+            kind: event.kind,
+            text: event.text.clone(),
+        }
+    }
+}
+
+impl From<&Scenery> for SceneMessage {
+    fn from(scenery: &Scenery) -> Self {
+        let map = &scenery.arena.map;
+        let p = &scenery.parameters;
+        Self {
+            map: map.name().to_owned(),
+            maps: scenery.known_maps.names(),
+            scenario: scenery.scenario.clone(),
+            positioner: scenery.positioner,
+            controllers: ControllerName::ALL.to_vec(),
+            workspace: *map.workspace(),
+            walls: map.walls().to_vec(),
+            seed: scenery.scenario.seed,
+            parameters: p.clone(),
+            defaults: Parameters::default(),
+            bead_radius_m: BEAD_RADIUS_M,
+            camera_sees_m: camera_sees_m(p),
+            trial: scenery.trial,
+            capture_m: p.plant().capture_m(p.tool_height_m, CAPTURE_DIRECTIONS),
+            tick_s: SERVO_PERIOD_S,
+        }
+    }
+}
+
+/// Corners of the table seen, from the tool.
+fn camera_sees_m(p: &Parameters) -> Vec<[f64; 2]> {
+    let corners = p.camera_mount().over(Point2::origin()).table_corners_m();
+    corners.into_iter().flatten().map(|corner| corner.coords.into()).collect()
+}
+
+impl From<&View> for StateMessage {
+    fn from(view: &View) -> Self {
+        let m = &view.moment;
+        let error = m.tracking_error_m();
+        Self {
+            tick: m.tick,
+            sim_time_s: m.sim_time_s(),
+            oldest_tick: view.rewind_ticks.0,
+            newest_tick: view.rewind_ticks.1,
+            running: view.running,
+            speed_target: view.speed_target,
+            speed_achieved: view.speed_achieved,
+            lateness_ms: view.lateness.as_secs_f64() * 1e3,
+            missed_deadlines: view.missed_deadlines,
+            tool_m: m.tool_m.coords.into(),
+            bead_m: m.bead_m.coords.into(),
+            bead_tracked_m: m.tracked_m.coords.into(),
+            goal_m: m.goal_m.map(|goal| [goal.x, goal.y, 0.0]),
+            hand_m: m.hand.map(|hand| hand.target_m.coords.into()),
+            hand_force_n: m.hand_force_n,
+            joints_rad: m.positioner.joints_rad(),
+            mode: m.switching.mode.index(),
+            reason: m.reason(),
+            refusal: m.refusal.clone(),
+            controller: m.controller,
+            phase: m.phase.to_string(),
+            tracking_error_x_m: error.x,
+            tracking_error_y_m: error.y,
+            tracking_error_m: error.norm(),
+            goal_distance_m: m.goal_m.map(|goal| (m.tool_m.xy() - goal).norm()),
+            pull_n: m.load.lateral_n.norm(),
+            lift_ratio: m.load.lift_ratio(),
+            leg_steps: m.counters.leg_steps,
+            steps: m.counters.steps,
+            switches: m.counters.switches,
+            deliveries: m.counters.deliveries,
+            disturbances: m.counters.disturbances,
+            world_hash: format!("{:016x}", view.world_hash),
+            recording: view.recording.clone(),
+            ended: view.ended.clone(),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What is reported once.
+
+use serde::{Deserialize, Serialize};
+
+/// Kinds of event, for the timeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// The switching law changed the active sub-controller.
+    Switch,
+    /// The bead was taken, displaced or let go.
+    Disturbance,
+    /// The goal was placed or removed.
+    Goal,
+    /// The tool came within 2 cm of the goal.
+    Reached,
+    /// The bead too.
+    Delivered,
+    /// The bead jumped to the magnet.
+    LiftOff,
+    /// A controller or a limit refused a step.
+    Refused,
+    /// A limit of steps or time was met.
+    Stopped,
+    /// Anything about the session itself.
+    Session,
+}
+
+/// Something happened once.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Event {
+    /// When.
+    pub tick: u64,
+    /// What.
+    pub kind: EventKind,
+    /// One plain sentence.
+    pub text: String,
+}
+
+impl Event {
+    /// An event.
+    pub fn new(tick: u64, kind: EventKind, text: impl Into<String>) -> Self {
+        Self { tick, kind, text: text.into() }
+    }
+}

@@ -1,0 +1,69 @@
+//! How far the task is.
+
+use serde::{Deserialize, Serialize};
+
+/// The bead may take this long to follow after the tool has reached the goal.
+pub const SETTLE_S: f64 = 5.0;
+/// Control steps a transport leg, anew after each fetch.
+pub const LEG_STEP_LIMIT: u32 = 150;
+/// Control steps a goal.
+pub const GOAL_STEP_LIMIT: u32 = 600;
+
+/// Progress of the task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// No goal: the arm holds.
+    Holding,
+    /// Sub-controller 1 fetches the bead.
+    Approaching,
+    /// Sub-controller 2 carries it.
+    Transporting,
+    /// The tool is at the goal, the bead follows.
+    Settling {
+        /// Since when.
+        since_tick: u64,
+    },
+    /// The bead is within 2 cm of the goal.
+    Delivered,
+    /// The bead jumped to the magnet.
+    LiftedOff,
+    /// A limit was met; the arm holds until the goal moves.
+    Stopped(StopReason),
+}
+
+/// Which limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum StopReason {
+    /// [`LEG_STEP_LIMIT`].
+    LegSteps,
+    /// [`GOAL_STEP_LIMIT`].
+    GoalSteps,
+    /// [`SETTLE_S`]: reached, but not delivered.
+    Settle,
+    /// No way leads to the goal.
+    WalledOff,
+}
+
+impl std::fmt::Display for Phase {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Holding => "holding",
+            Self::Approaching => "approaching",
+            Self::Transporting => "transporting",
+            Self::Settling { .. } => "settling",
+            Self::Delivered => "delivered",
+            Self::LiftedOff => "lifted off",
+            Self::Stopped(StopReason::LegSteps) => "stopped: 150 steps without reaching the goal",
+            Self::Stopped(StopReason::GoalSteps) => "stopped: 600 steps without delivering",
+            Self::Stopped(StopReason::Settle) => "stopped: reached, but the bead did not follow within 5 s",
+            Self::Stopped(StopReason::WalledOff) => "stopped: the goal is walled off",
+        })
+    }
+}
+
+impl Phase {
+    /// Whether an evaluated episode ends here.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Delivered | Self::LiftedOff | Self::Stopped(_))
+    }
+}
