@@ -18,6 +18,7 @@ use crate::trial::EventKind;
 mod convert;
 mod evaluations;
 mod layers;
+mod parameters;
 mod parse;
 mod past;
 mod recordings;
@@ -30,8 +31,8 @@ pub use evaluations::{
     EvaluationCell, EvaluationFailure, EvaluationReport, EvaluationStage, EvaluationSummary, Evaluations,
 };
 pub use layers::{
-    BlocksLayer, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell, ValueMap,
-    ValueQuery,
+    BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, PixelBlock, PlanLayer, SeenMessage, ValueCell,
+    ValueMap, ValueQuery,
 };
 pub use past::{Branch, ComparisonMessage, MomentMessage};
 pub use recordings::{RecordingFile, RecordingList};

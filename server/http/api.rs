@@ -19,7 +19,7 @@ use super::path::{Path, RecordingPath, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use super::sessions::MAIN;
-use crate::protocol::{FlowField, FlowQuery, RecordingFile, RecordingList, StateMessage};
+use crate::protocol::{FLOW_SPACING_M, FlowField, FlowQuery, RecordingFile, RecordingList, StateMessage};
 use crate::recording::Listed;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
@@ -36,8 +36,6 @@ pub async fn health(State(server): State<Arc<Server>>) -> Result<&'static str, P
 
 /// A recording is read in pieces of this size.
 const CHUNK_BYTES: usize = 64 << 10;
-/// Spacing of a flow field.
-const SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
 
 /// Where attractor dynamics would lead.
 #[utoipa::path(post, path = "/api/sessions/{id}/flow", tag = "sessions", params(SessionPath), request_body = FlowQuery,
@@ -48,8 +46,9 @@ pub async fn flow(
     WholeBody(body): WholeBody,
 ) -> Result<Json<FlowField>, Problem> {
     let FlowQuery { spacing_m, .. } = parse(&body)?;
-    if !SPACING_M.contains(&spacing_m) {
-        let message = format!("spacing_m is {spacing_m}, it must be {} to {}", SPACING_M.start(), SPACING_M.end());
+    if !FLOW_SPACING_M.contains(&spacing_m) {
+        let (least, most) = (FLOW_SPACING_M.start(), FLOW_SPACING_M.end());
+        let message = format!("spacing_m is {spacing_m}, it must be {least} to {most}");
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("spacing_m"));
     }
     let view = view(&server, &id)?;

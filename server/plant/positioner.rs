@@ -43,7 +43,7 @@ impl PositionerKind {
 }
 
 /// How the arm holds its flange.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolOrientation {
     /// Straight down.

@@ -116,6 +116,9 @@ pub struct ValueCell {
     pub action: u8,
 }
 
+/// Spacing that a [`FlowQuery`] may ask for.
+pub const FLOW_SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
+
 /// Body of `POST /api/sessions/{id}/flow`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]

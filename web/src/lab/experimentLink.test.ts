@@ -9,7 +9,7 @@ import {
   type Experiment,
   type Known,
 } from './experimentLink';
-import { GROUPS } from './parameterGroups';
+import { FIELDS } from './parameters';
 import { LESSONS } from '../features/lessons/lessons';
 import { PRESETS } from '../features/share/presets';
 import type { Disturbance, Parameters, Scripted, When } from '../net/protocol.gen';
@@ -67,7 +67,7 @@ function anyExperiment(chance: () => number): Experiment {
       () => ({ near: { x_m: some(), y_m: some(), within_m: some() } }),
     ])();
   const parameters: Partial<Record<keyof Parameters, unknown>> = {};
-  for (const field of GROUPS.flatMap(({ fields }) => fields)) {
+  for (const field of FIELDS) {
     if (chance() < 0.7) continue;
     const value =
       field.kind === 'number'

@@ -4,11 +4,7 @@ import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../../ui/format';
 import { blocksPath, patchPath } from '../../lab/homography';
 import type { Lab } from '../../lab/lab';
-import { OBSTACLE_MEAN } from '../../net/protocol.gen';
-
-/** Side of the camera's image. */
-const CAMERA_PX = 480;
-const OBSERVATION_PX = 84;
+import { CAMERA_PX, OBSERVATION_PX, OBSTACLE_MEAN } from '../../net/protocol.gen';
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
 

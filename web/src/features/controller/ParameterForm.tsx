@@ -2,8 +2,7 @@
 
 import { For, Index, Show, createMemo, type JSX } from 'solid-js';
 import type { Lab } from '../../lab/lab';
-import { GROUPS } from '../../lab/parameterGroups';
-import type { Group } from '../../lab/parameters';
+import { GROUPS, type Group } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
 import { FieldRow, createForm, type Form } from '../../lab/ParameterField';
 

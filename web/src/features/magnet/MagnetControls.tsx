@@ -2,8 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { Lab } from '../../lab/lab';
-import { GROUPS } from '../../lab/parameterGroups';
-import type { Field } from '../../lab/parameters';
+import { FIELDS } from '../../lab/parameters';
 import type { Parameters, SceneMessage } from '../../net/protocol.gen';
 import { FieldRow, createForm } from '../../lab/ParameterField';
 
@@ -14,17 +13,15 @@ const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [
   ['friction', 'Friction'],
 ];
 
-const FIELDS: readonly Field[] = LABELS.flatMap(([name, label]) =>
-  GROUPS.flatMap(({ fields }) => fields)
-    .filter((field) => field.name === name)
-    .map((field) => ({ ...field, label })),
+const SHOWN = LABELS.flatMap(([name, label]) =>
+  FIELDS.filter((field) => field.name === name).map((field) => ({ ...field, label })),
 );
 
 function Controls(props: { lab: Lab; scene: SceneMessage }): JSX.Element {
   const form = createForm(props.lab, () => props.scene);
   return (
     <div class="magnet-controls" role="group" aria-label="Magnet and friction">
-      <For each={FIELDS}>{(field) => <FieldRow form={form} field={field} />}</For>
+      <For each={SHOWN}>{(field) => <FieldRow form={form} field={field} />}</For>
     </div>
   );
 }
