@@ -1,5 +1,6 @@
 //! The page's types are these types: `web/src/net/protocol.gen.ts` is generated, and compared here.
 
+mod arm;
 mod parameters;
 
 use ts_rs::{Config, TS};
