@@ -18,7 +18,8 @@
 //! | `mesh`, `geometry_buffers` | triangles, and their copies on the device |
 //! | `stage` | walls and floor as triangles for the controllers' view |
 //! | `diorama` | walls, floor and table for people |
-//! | `arm` | robot, gripper and magnet as a list of simple solids |
+//! | `robot` | the robot as simple solids, for the page too |
+//! | `arm` | robot, gripper and magnet, where they are now |
 //! | `optics` | projections |
 //! | `pipeline` | what the drawing passes have in common |
 //! | `view`, `scene` | the two renderers |
@@ -33,6 +34,7 @@ mod gpu;
 mod mesh;
 mod optics;
 mod pipeline;
+pub mod robot;
 mod scene;
 mod static_scene;
 mod target;

@@ -72,7 +72,8 @@ pub struct Hand {
     pub lift: bool,
 }
 
-/// The complete state of the physics.#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The complete state of the physics.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlantState {
     /// What carries the magnet.
     pub positioner: Positioner,

@@ -13,6 +13,7 @@ mod evaluations;
 mod layers;
 mod magnetics;
 mod numbers;
+mod parameters;
 mod parse;
 mod recordings;
 mod seed;

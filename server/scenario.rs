@@ -15,7 +15,10 @@ pub use disturbance::{
     Disturbance, DisturbanceError, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scripted,
     When,
 };
-pub use parameters::{AttractorLaw, ParameterError, Parameters, RlPolicy, SwitchingLaw};
+pub use parameters::{
+    AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, RlPolicy, SetError, SwitchingLaw,
+    Unit,
+};
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};
 

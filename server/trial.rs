@@ -54,7 +54,8 @@ pub use tally::Tally;
 pub enum TrialError {
     #[error(transparent)]
     Map(#[from] MapError),
-    /// No valid start was found.    #[error(transparent)]
+    /// No valid start was found.
+    #[error(transparent)]
     Random(#[from] RandomTrialError),
     /// A parameter is out of range.
     #[error("parameters: {0}")]
@@ -77,7 +78,8 @@ pub enum TrialError {
     /// The state in a file is not a valid state.
     #[error(transparent)]
     State(#[from] StateError),
-    /// The camera delivered no image.    #[error(transparent)]
+    /// The camera delivered no image.
+    #[error(transparent)]
     Camera(#[from] CameraError),
     /// The operating system could not start a thread.
     #[error("the session's thread could not start: {0}")]

@@ -1,13 +1,11 @@
 //! The robot, its gripper and the magnet as solids. Only the scene shows them.
-//!
-//! Joint frames come from the state; the housings between them are drawn after the real arm, whose
-//! upper arm and forearm run beside the joints' common plane.
 
 use nalgebra::{Matrix4, Vector4};
 
 use super::Subject;
 use super::geometry_buffers::{Part, Solid};
 use super::mesh::Color;
+use super::robot::{Material, solids};
 use crate::geometry::{Isometry3, Point3, Vector3};
 
 const METAL: Color = [203, 208, 214, 255];
@@ -19,16 +17,6 @@ const FINGER: Color = [120, 126, 136, 255];
 const PAD: Color = [34, 36, 42, 255];
 const MAGNET: Color = [228, 225, 214, 255];
 
-/// Along the shoulder's axis, from the joint frames' plane to the middle of the upper arm.
-const UPPER_ARM_ASIDE_M: f64 = 0.1358;
-/// The same for the forearm.
-const FOREARM_ASIDE_M: f64 = 0.0165;
-/// Of the housings around the joints: the first two, the elbow, the wrists.
-const SHOULDER_RADIUS_M: f64 = 0.060;
-const ELBOW_RADIUS_M: f64 = 0.051;
-const WRIST_RADIUS_M: f64 = 0.0405;
-/// Width of the dark ring between two housings.
-const SEAM_M: f64 = 0.006;
 /// Longest gripper that is drawn, for a stage whose tool is not on the arm.
 const MOST_GRIPPER_M: f64 = 0.30;
 
@@ -52,40 +40,21 @@ pub(super) fn parts(subject: &Subject) -> Vec<Part> {
     parts
 }
 
+/// The robot's own solids, wherever their frames are.
 fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
-    let origin = |link: usize| Point3::from(base_from_link[link - 1].translation.vector);
-    let axis = |link: usize| base_from_link[link - 1].rotation * Vector3::z();
-    let joint = |link: usize| Line { origin: origin(link), along: axis(link) };
-
-    let upright = Line { origin: Point3::origin(), along: Vector3::z() };
-    let shoulder_m = origin(1).z;
-    tube(parts, upright, [0.0, 0.010], 0.086, FOOT);
-    tube(parts, upright, [0.010, 0.034], 0.072, METAL);
-    tube(parts, upright, [0.034, 0.034 + SEAM_M], 0.069, SEAM);
-    tube(parts, upright, [0.034 + SEAM_M, shoulder_m], 0.0625, METAL);
-    housing(parts, joint(1), [-0.062, UPPER_ARM_ASIDE_M - 0.062], SHOULDER_RADIUS_M);
-
-    // The upper arm, on the far side of the shoulder, and the forearm, back beside the joints.
-    let aside = axis(1) * UPPER_ARM_ASIDE_M;
-    housing(parts, joint(1), [UPPER_ARM_ASIDE_M + 0.052, UPPER_ARM_ASIDE_M - 0.058], SHOULDER_RADIUS_M);
-    housing(parts, joint(2), [UPPER_ARM_ASIDE_M + 0.046, UPPER_ARM_ASIDE_M - 0.050], ELBOW_RADIUS_M);
-    limb(parts, [origin(1) + aside, origin(2) + aside], [0.054, 0.047], [0.088, 0.076], 0.043);
-
-    let aside = axis(2) * FOREARM_ASIDE_M;
-    housing(parts, joint(2), [FOREARM_ASIDE_M - 0.044, UPPER_ARM_ASIDE_M - 0.056], ELBOW_RADIUS_M);
-    limb(parts, [origin(2) + aside, origin(3) + aside], [0.046, 0.037], [0.076, 0.060], 0.036);
-
-    // Three wrists; each ends in the side of the next.
-    housing(parts, joint(3), [FOREARM_ASIDE_M - 0.034, 0.062], WRIST_RADIUS_M);
-    for (link, next) in [(3, 4), (4, 5)] {
-        let length_m = (origin(next) - origin(link)).norm();
-        tube(parts, joint(link), [0.5 * length_m, length_m], 0.036, METAL);
+    for solid in solids() {
+        let frame = if solid.frame == 0 { Isometry3::identity() } else { base_from_link[solid.frame - 1] };
+        let line =
+            Line { origin: frame * Point3::from(solid.origin_m), along: frame.rotation * Vector3::from(solid.along) };
+        let color = match solid.material {
+            Material::Metal => METAL,
+            Material::Lid => LID,
+            Material::Seam => SEAM,
+            Material::Foot => FOOT,
+        };
+        let place = if solid.is_lid { lid } else { tube };
+        place(parts, line, solid.places_m, solid.radius_m, color);
     }
-    for link in [4, 5] {
-        housing(parts, joint(link), [-0.040, 0.047], WRIST_RADIUS_M);
-    }
-    let flange_m = (origin(6) - origin(5)).norm();
-    tube(parts, joint(5), [0.047, flange_m], 0.0365, METAL);
 }
 
 /// The magnet.
@@ -152,30 +121,6 @@ struct Line {
 impl Line {
     fn at(&self, place: f64) -> Point3<f64> {
         self.origin + self.along * place
-    }
-}
-
-/// The housing of a joint, between two places on its axis: the first carries a lid, the second meets the next
-/// housing at a seam.
-fn housing(parts: &mut Vec<Part>, joint: Line, [closed, open]: [f64; 2], radius_m: f64) {
-    let out = (closed - open).signum();
-    tube(parts, joint, [open, closed], radius_m, METAL);
-    tube(parts, joint, [open - out * SEAM_M, open], 0.95 * radius_m, SEAM);
-    tube(parts, joint, [closed, closed + out * 0.003], 0.94 * radius_m, SEAM);
-    tube(parts, joint, [closed + out * 0.003, closed + out * 0.007], 0.97 * radius_m, LID);
-    lid(parts, joint, [closed + out * 0.007, closed + out * 0.018], 0.97 * radius_m, LID);
-}
-
-/// A tube between two housings, which end in rounded stubs around it.
-fn limb(parts: &mut Vec<Part>, [from, to]: [Point3<f64>; 2], stub_radius_m: [f64; 2], stub_m: [f64; 2], radius_m: f64) {
-    let along = (to - from).normalize();
-    let whole = Line { origin: from, along };
-    tube(parts, whole, [0.0, (to - from).norm()], radius_m, METAL);
-    let ends = [whole, Line { origin: to, along: -along }];
-    for (end, (stub_radius_m, stub_m)) in ends.into_iter().zip(stub_radius_m.into_iter().zip(stub_m)) {
-        tube(parts, end, [0.0, stub_m], stub_radius_m, METAL);
-        lid(parts, end, [stub_m, stub_m + 0.016], stub_radius_m, METAL);
-        tube(parts, end, [stub_m + 0.012, stub_m + 0.020], radius_m + 0.0012, SEAM);
     }
 }
 

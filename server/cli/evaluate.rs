@@ -96,7 +96,7 @@ pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 
 /// A row each, the controllers of a map side by side.
 fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
-    let parameters = parameters_with(&Parameters::default(), &arguments.set)?;
+    let parameters = Parameters::default().with(&arguments.set).context("--set")?;
     let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
     let mut experiments = Vec::new();
     for map in &arguments.map {
@@ -178,13 +178,6 @@ fn recorder(arguments: &Arguments, experiment: &Experiment, index: u32) -> Resul
     let name = format!("{map}-{}-{disturbances}-{index:04}", controller.as_str());
     let recorder = Recorder::to_folder(folder, &name).map_err(|error| EvaluateError::Recording(error.to_string()))?;
     Ok(Box::new(recorder))
-}
-
-/// Parameters with some values of their own.
-pub fn parameters_with(parameters: &Parameters, changes: &[String]) -> anyhow::Result<Parameters> {
-    let parameters = super::with_changes(parameters, changes)?;
-    parameters.check().context("--set")?;
-    Ok(parameters)
 }
 
 /// A table of text, the first `left` columns as words, the others as numbers.

@@ -71,7 +71,7 @@ fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut case = Case::open(name)?;
     let scenario = &mut case.scenario;
     scenario.controller = arguments.controller.unwrap_or(scenario.controller);
-    scenario.parameters = super::evaluate::parameters_with(&scenario.parameters, &arguments.set)?;
+    scenario.parameters = scenario.parameters.with(&arguments.set).context("--set")?;
     let scenario = case.scenario.clone();
     let arena = case.arena()?;
     let mut camera = arena.camera(&super::open_gpu()?)?;

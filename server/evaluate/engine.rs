@@ -14,7 +14,8 @@ use crate::faults;
 use crate::map::MapError;
 use crate::trial::Arena;
 
-/// Why the engine could not start.#[derive(Debug, thiserror::Error)]
+/// Why the engine could not start.
+#[derive(Debug, thiserror::Error)]
 pub(super) enum EngineError {
     #[error(transparent)]
     Camera(#[from] CameraError),

@@ -153,7 +153,8 @@ impl Evaluation {
         self.lock().stage = stage;
     }
 
-    /// Stores the result of a cell.    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Experiment {
+    /// The experiment of a cell.
+    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Experiment {
         Experiment {
             cell: cell.clone(),
             venue: venue.clone(),

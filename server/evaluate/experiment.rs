@@ -126,12 +126,14 @@ pub enum EvaluateError {
     /// A trial could not be created or continued.
     #[error(transparent)]
     Trial(#[from] TrialError),
-    /// The camera could not be created.    #[error(transparent)]
+    /// The camera could not be created.
+    #[error(transparent)]
     Camera(#[from] CameraError),
     /// A recording could not start.
     #[error("{0}")]
     Recording(String),
-    /// The experiment was cancelled.    #[error("stopped before its end")]
+    /// The experiment was cancelled.
+    #[error("stopped before its end")]
     Stopped,
 }
 

@@ -19,9 +19,12 @@ pub fn wilson95(k: u32, n: u32) -> [f64; 2] {
 pub struct PairedCounts {
     /// Both succeeded.
     pub both: u32,
-    /// Only the first succeeded.    pub first: u32,
-    /// Only the second succeeded.    pub second: u32,
-    /// Both failed.    pub neither: u32,
+    /// Only the first succeeded.
+    pub first: u32,
+    /// Only the second succeeded.
+    pub second: u32,
+    /// Both failed.
+    pub neither: u32,
 }
 
 impl PairedCounts {

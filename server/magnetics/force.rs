@@ -18,7 +18,7 @@ pub const FARTHEST_M: f64 = 0.5;
 const SCAN_STEP_M: f64 = 1e-3;
 
 /// How the block, 50 × 25 × 10 mm and magnetised across a face, hangs on the tool.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Orientation {
     /// Flat, 50 mm along x and 25 mm along y; magnetised along the vertical 10 mm side.
     #[default]

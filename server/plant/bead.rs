@@ -12,7 +12,7 @@ const KICKED_M_S: f64 = 4.1;
 pub(super) const SPHERE_INERTIA: f64 = 0.4;
 
 /// How the bead moves over the table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BeadMotion {
     /// The field holds the sphere's moment and so its orientation: the bead slides.

@@ -15,7 +15,8 @@ const PASSES: usize = 4;
 const SLOP_M: f64 = 1e-9;
 /// Margin for rounding in [`nearest_fit`]: radii closer than this are not skipped.
 const SKIP_MM: f64 = 1e-3;
-/// A bead within this distance of a wall touches it.const TOUCH_M: f64 = 1e-7;
+/// A bead within this distance of a wall touches it.
+const TOUCH_M: f64 = 1e-7;
 /// A bead that touches a wall and moves into it slower than this leans on it instead of bouncing. The
 /// strongest pull changes the speed by this much in a millisecond.
 const LEAN_M_S: f64 = 0.02;

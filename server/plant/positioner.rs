@@ -5,8 +5,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
-use ts_rs::TS;
-use utoipa::ToSchema;
 
 use super::TOOL_LENGTH_M;
 use crate::geometry::{Isometry3, Point3, Rect, Translation3, UnitQuaternion, Vector3};
@@ -43,7 +41,7 @@ impl PositionerKind {
 }
 
 /// Orientation of the flange.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolOrientation {
     /// Straight down.

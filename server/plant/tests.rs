@@ -99,7 +99,8 @@ fn a_sliding_sphere_ends_up_rolling_at_five_sevenths_of_its_speed() {
         assert!(state.bead.kinetic_energy_j() < energy_j);
         steps += 1;
     }
-    // Sliding ends after 2·v/(7·μ·g); the rolling resistance, a twentieth of μ, adds a little.    let expected_s = 2.0 * 0.4 / (7.0 * parameters.friction * dipole::GRAVITY_M_S2);
+    // Sliding ends after 2·v/(7·μ·g); the rolling resistance, a twentieth of μ, adds a little.
+    let expected_s = 2.0 * 0.4 / (7.0 * parameters.friction * dipole::GRAVITY_M_S2);
     assert!((f64::from(steps) * 1e-3 / expected_s - 1.0).abs() < 0.06, "{steps}");
     let speed = state.bead.velocity_m_s.x;
     assert!((speed / (0.4 * 5.0 / 7.0) - 1.0).abs() < 0.02, "{speed}");

@@ -1,23 +1,26 @@
 //! The page's types are these types: `web/src/net/protocol.gen.ts` is generated, and compared here.
 
+mod arm;
+mod parameters;
+
 use ts_rs::{Config, TS};
 
 use super::*;
+use crate::camera::VIEW_PX;
 use crate::control::CONTROL_PERIOD_S;
 use crate::control::transport::errt::MOST_EDGES;
 use crate::evaluate::{Comparison, PairedMean, Row};
 use crate::geometry::{Polygon, Rect};
-use crate::map::MAX_SVG_BYTES;
-use crate::perception::OBSTACLE_MEAN;
-use crate::plant::{BeadMotion, BlockOrientation, PositionerKind, ToolOrientation};
+use crate::magnetics::force::FARTHEST_M;
+use crate::map::{MAX_SVG_BYTES, WALL_HEIGHT_M};
+use crate::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
+use crate::plant::PositionerKind;
 use crate::scenario::{
-    AttractorLaw, ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, Parameters,
-    RlPolicy, SCRIPT_LIMIT, Scenario, Scripted, SwitchingLaw, When,
+    ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT,
+    Scenario, Scripted, When,
 };
 use crate::session::SPEED_MAX;
 use crate::trial::{EventKind, GOAL_RADIUS_M};
-
-const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/src/net/protocol.gen.ts");
 
 fn declaration<T: TS>(config: &Config) -> String {
     let docs = T::docs().unwrap_or_default();
@@ -37,6 +40,12 @@ fn constants() -> String {
         constant("MOST_DRIFT_N", MOST_DRIFT_N, "Strongest push."),
         constant("MOST_SECONDS", MOST_SECONDS, "Longest push, and longest blindness of the tracker."),
         constant("MOST_EDGES", MOST_EDGES, "Edges of a tree that are sent."),
+        constant("LEAST_FLOW_SPACING_M", FLOW_SPACING_M.start(), "Least spacing of a flow field."),
+        constant("MOST_FLOW_SPACING_M", FLOW_SPACING_M.end(), "Greatest spacing of a flow field."),
+        constant("FARTHEST_CAPTURE_M", FARTHEST_M, "A capture that ends here ends nowhere."),
+        constant("WALL_HEIGHT_M", WALL_HEIGHT_M, "Height of the walls."),
+        constant("CAMERA_PX", VIEW_PX, "Columns and rows of the camera image."),
+        constant("OBSERVATION_PX", OBSERVATION_SIZE_PX, "Columns and rows of the observation."),
         constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
     ]
     .concat()
@@ -51,6 +60,9 @@ fn generated() -> String {
     let parts = [
         "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n"
             .to_owned(),
+        "import type { Orientation, Parameters, ToolOrientation } from './parameters.gen';\n\
+         export type { Orientation, Parameters, ToolOrientation };\n"
+            .to_owned(),
         format!("export const PROTOCOL_VERSION = {PROTOCOL_VERSION};"),
         format!("export const BINARY_CAMERA_JPEG = {BINARY_CAMERA_JPEG};"),
         format!("export const BINARY_OBSERVATION = {BINARY_OBSERVATION};\n"),
@@ -59,13 +71,6 @@ fn generated() -> String {
         declaration::<Rect>(c),
         declaration::<ControllerName>(c),
         declaration::<PositionerKind>(c),
-        declaration::<BlockOrientation>(c),
-        declaration::<ToolOrientation>(c),
-        declaration::<BeadMotion>(c),
-        declaration::<SwitchingLaw>(c),
-        declaration::<AttractorLaw>(c),
-        declaration::<RlPolicy>(c),
-        declaration::<Parameters>(c),
         declaration::<Disturbance>(c),
         declaration::<When>(c),
         declaration::<Scripted>(c),
@@ -119,12 +124,18 @@ fn generated() -> String {
     parts.join("\n")
 }
 
+/// Writes a generated file when `FERRY_GENERATE` is set, and compares it otherwise.
+fn keep(path: &str, generated: &str) {
+    let whole = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    if std::env::var_os("FERRY_GENERATE").is_some() {
+        std::fs::create_dir_all(whole.parent().unwrap()).unwrap();
+        std::fs::write(&whole, generated).unwrap();
+    }
+    let found = std::fs::read_to_string(&whole).unwrap_or_default();
+    assert!(found == generated, "{path} is out of date; FERRY_GENERATE=1 cargo test --release protocol renews it");
+}
+
 #[test]
 fn the_pages_types_are_generated_from_these() {
-    let generated = generated();
-    if std::env::var_os("FERRY_GENERATE").is_some() {
-        std::fs::write(PATH, &generated).unwrap();
-    }
-    let found = std::fs::read_to_string(PATH).unwrap_or_default();
-    assert!(found == generated, "{PATH} is out of date; FERRY_GENERATE=1 cargo test --release protocol renews it");
+    keep("web/src/net/protocol.gen.ts", &generated());
 }

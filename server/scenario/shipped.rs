@@ -13,7 +13,8 @@ struct Files;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shipped {
-    /// Description.    pub about: String,
+    /// Description.
+    pub about: String,
     pub scenario: Scenario,
 }
 
@@ -23,7 +24,8 @@ pub enum ShippedError {
     /// No shipped scenario has this name.
     #[error("scenario: {name:?} does not exist; the shipped ones are {}", Shipped::names().join(", "))]
     Unknown {
-        /// The requested name.        name: String,
+        /// The requested name.
+        name: String,
     },
     /// A file could not be read.
     #[error("scenario: {path}: {reason}")]

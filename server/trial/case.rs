@@ -66,7 +66,8 @@ pub struct Expectation {
 pub struct CaseOutcome {
     /// Its last tick.
     pub tick: u64,
-    /// Phase at that tick.    pub phase: String,
+    /// Phase at that tick.
+    pub phase: String,
     /// Counters at that tick.
     pub counters: Counters,
     /// Inputs that were impossible because the trial took another course, and were skipped.
@@ -124,7 +125,8 @@ impl Case {
         (deliveries > 0).then_some(Self { about, scenario, map, inputs, expect: Some(expect) })
     }
 
-    /// The arena of the case's map.    ///
+    /// The arena of the case's map.
+    ///
     /// # Errors
     /// The map is invalid or cannot be found.
     pub fn arena(&self) -> Result<Arc<Arena>, MapError> {

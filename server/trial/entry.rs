@@ -8,7 +8,8 @@ use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
 use crate::map::{Map, MapError};
 use crate::scenario::Scenario;
 
-/// An entry of a log.#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// An entry of a log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Entry {
     /// The following entries belong to this trial.

@@ -48,7 +48,8 @@ pub enum LogError {
         /// What is wrong with it.
         what: String,
     },
-    /// It contains no complete frame.    #[error("log: it ends before its first trial")]
+    /// It contains no complete frame.
+    #[error("log: it ends before its first trial")]
     Empty,
     #[error("log: {0}")]
     Io(#[from] std::io::Error),
@@ -78,7 +79,8 @@ pub struct LogWriter<W> {
 }
 
 impl<W: Write> LogWriter<W> {
-    /// Writes the file header.    pub fn new(mut out: W) -> Result<Self, LogError> {
+    /// Writes the file header.
+    pub fn new(mut out: W) -> Result<Self, LogError> {
         out.write_all(MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
         Ok(Self { out, hash: u64::from(VERSION), map: None })
@@ -120,7 +122,8 @@ fn length_check(length: [u8; 4], seed: u64) -> [u8; 4] {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputLog {
-    /// The entries; the first one is a beginning.    pub entries: Vec<Entry>,
+    /// The entries; the first one is a beginning.
+    pub entries: Vec<Entry>,
     /// Size of an incomplete last frame.
     pub torn_bytes: usize,
 }

@@ -58,7 +58,8 @@ pub struct TickRecord {
     pub decision: Option<Decision>,
     /// The observation for it; `None` in a replay from logged decisions.
     pub sight: Option<Sight>,
-    /// Events of this tick.    pub events: Vec<Event>,
+    /// Events of this tick.
+    pub events: Vec<Event>,
     /// The state after the tick.
     pub moment: Moment,
     /// See [`super::TrialState::world_hash`].

@@ -25,7 +25,8 @@ pub trait Sink: Send {
     /// Writes everything that is pending and closes the sink.
     ///
     /// # Errors
-    /// Why not everything was kept.    fn finish(self: Box<Self>) -> Result<(), String>;
+    /// Why not everything was kept.
+    fn finish(self: Box<Self>) -> Result<(), String>;
 }
 
 /// A sink that discards everything.

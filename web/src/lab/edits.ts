@@ -1,7 +1,6 @@
 // Changes of the parameters on their way to the server: made in one place, shown in all.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
-import { GROUPS } from './parameterGroups';
 import { withFollowers } from './parameters';
 import type { ClientMessage, Parameters, SceneMessage } from '../net/protocol.gen';
 
@@ -69,7 +68,7 @@ export function createEdits(session: Session): Edits {
     edit: (change) => {
       const now = values();
       if (!now) return;
-      const whole = withFollowers(GROUPS, now, change);
+      const whole = withFollowers(now, change);
       setMoving({});
       setEdits({ ...edits(), ...whole });
       session.send({ type: 'configure', parameters: { ...now, ...whole } });

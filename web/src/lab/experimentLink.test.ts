@@ -9,7 +9,7 @@ import {
   linkText,
   loadMessage,
 } from './experimentLink';
-import { GROUPS } from './parameterGroups';
+import { FIELDS } from './parameters';
 import type { Disturbance, Parameters, Scripted, When } from '../net/protocol.gen';
 import { sceneOf, stateAt } from './testing';
 
@@ -65,7 +65,7 @@ function anyExperiment(chance: () => number): Experiment {
       () => ({ near: { x_m: some(), y_m: some(), within_m: some() } }),
     ])();
   const parameters: Partial<Record<keyof Parameters, unknown>> = {};
-  for (const field of GROUPS.flatMap(({ fields }) => fields)) {
+  for (const field of FIELDS) {
     if (chance() < 0.7) continue;
     const value =
       field.kind === 'number'

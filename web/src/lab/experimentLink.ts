@@ -2,8 +2,7 @@
 //
 // `#v=1&map=colon&controller=errt&seed=7&goal=-0.24,-0.27&threshold_m=0.08`: what is not named is at its default.
 
-import { CONTROLLER_LABELS } from './parameters';
-import { GROUPS } from './parameterGroups';
+import { CONTROLLER_LABELS, FIELDS as FORM_FIELDS } from './parameters';
 import {
   halves,
   readNumber,
@@ -148,7 +147,7 @@ function readParameter(
   if (typeof defaults[name] === 'boolean') {
     return { [name]: oneOf(name, text, ['true', 'false']) === 'true' };
   }
-  const field = GROUPS.flatMap(({ fields }) => fields).find((one) => one.name === name);
+  const field = FORM_FIELDS.find((one) => one.name === name);
   if (field?.kind !== 'choice') return { [name]: text };
   const choices = field.options.map(([option]) => option);
   return { [name]: oneOf(name, text, choices) };

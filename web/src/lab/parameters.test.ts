@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { GROUPS } from './parameterGroups';
 import {
+  FIELDS as fields,
   digits,
   type NumberField,
   shownMost,
@@ -11,7 +11,6 @@ import {
 import { sceneOf } from './testing';
 
 const { defaults } = sceneOf('posts');
-const fields = GROUPS.flatMap((group) => group.fields);
 const numbers = fields.filter((field): field is NumberField => field.kind === 'number');
 
 function field(name: string): NumberField {
@@ -62,7 +61,7 @@ describe('the form', () => {
 
   it('takes along what a change leaves no room for', () => {
     const follow = (change: Partial<typeof defaults>): Partial<typeof defaults> =>
-      withFollowers(GROUPS, defaults, change);
+      withFollowers(defaults, change);
     expect(follow({ threshold_m: 0.005 })).toEqual({ threshold_m: 0.005, fetch_radius_m: 0.005 });
     expect(follow({ errt_goal_probability: 0.75 }).errt_waypoint_probability).toBe(0.25);
     expect(follow({ errt_goal_probability: 0.3 })).toEqual({ errt_goal_probability: 0.3 });

@@ -1,5 +1,6 @@
-// How each parameter is shown and within which range it is asked. The server has the last word.
+// The form's fields, from the server's table, and how their values are shown and stored.
 
+import { GROUPS as GENERATED } from '../net/parameters.gen';
 import type { ControllerName, Parameters } from '../net/protocol.gen';
 
 /** Sub-controllers 2 as the page names them. */
@@ -29,8 +30,10 @@ export interface NumberField {
   readonly min: number;
   readonly max: number;
   readonly step: number;
-  /** What other parameters leave of the range, from above, in the stored unit. */
-  readonly atMost?: (parameters: Parameters) => number;
+  /** Whether it counts something. */
+  readonly whole: boolean;
+  /** How another parameter limits it from above: at most the other one, or both together at most 1. */
+  readonly bound?: { readonly kind: 'atMost' | 'remainder'; readonly other: NumberName };
 }
 
 export interface ChoiceField {
@@ -55,20 +58,26 @@ export interface Group {
   /** The controller that these are for, if for one alone. */
   readonly controller?: ControllerName;
   /** Whether it is open at first. */
-  readonly open?: boolean;
+  readonly open: boolean;
   readonly fields: readonly Field[];
 }
 
-/** A field for a number; its range and step are in the shown unit. */
-export function number(
-  name: NumberName,
-  label: string,
-  [min, max, step]: readonly [number, number, number],
-  unit: string,
-  scale: number,
-  help: string,
-): NumberField {
-  return { kind: 'number', name, label, help, unit, scale, min, max, step };
+export const GROUPS: readonly Group[] = GENERATED;
+
+export const FIELDS: readonly Field[] = GROUPS.flatMap((group) => group.fields);
+
+/** Least and greatest value in the stored unit. */
+export function storedRange(name: NumberName): readonly [number, number] {
+  const field = FIELDS.find((one) => one.name === name);
+  if (field?.kind !== 'number') throw new Error(`${name} is no number`);
+  return [field.min / field.scale, field.max / field.scale];
+}
+
+/** Greatest value that another parameter leaves, in the stored unit. */
+function boundOf({ bound }: NumberField, parameters: Parameters): number {
+  if (!bound) return Infinity;
+  const other = parameters[bound.other];
+  return bound.kind === 'atMost' ? other : 1 - other;
 }
 
 /** Digits after the point that `step` asks for. */
@@ -83,31 +92,27 @@ export function shownValue(field: NumberField, stored: number): number {
 
 /** Greatest value that may be shown now. */
 export function shownMost(field: NumberField, parameters: Parameters): number {
-  return field.atMost
-    ? Math.min(field.max, shownValue(field, field.atMost(parameters)))
-    : field.max;
+  return Math.min(field.max, shownValue(field, boundOf(field, parameters)));
 }
 
 /** From the shown unit to the stored one, inside the field's range. */
 export function storedValue(field: NumberField, shown: number, parameters: Parameters): number {
   const inside = Math.min(field.max, Math.max(field.min, shown));
-  // What counts is whole, whatever is typed.
-  const whole = field.scale === 1 && field.step === 1 ? Math.round(inside) : inside;
+  const whole = field.whole ? Math.round(inside) : inside;
   const stored = Number((whole / field.scale).toPrecision(12));
-  return field.atMost ? Math.min(stored, field.atMost(parameters)) : stored;
+  return Math.min(stored, boundOf(field, parameters));
 }
 
-/** `change`, and what it takes along: parameters that would be beyond what it leaves them. */
+/** `change`, and the parameters that it leaves no room for, lowered to their new limits. */
 export function withFollowers(
-  groups: readonly Group[],
   parameters: Parameters,
   change: Partial<Parameters>,
 ): Partial<Parameters> {
   const next = { ...parameters, ...change };
   const followers: Partial<Parameters> = {};
-  for (const field of groups.flatMap((group) => group.fields)) {
-    if (field.kind !== 'number' || !field.atMost) continue;
-    const most = field.atMost(next);
+  for (const field of FIELDS) {
+    if (field.kind !== 'number') continue;
+    const most = boundOf(field, next);
     if (next[field.name] > most) followers[field.name] = most;
   }
   return { ...change, ...followers };

@@ -1,5 +1,8 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { Orientation, Parameters, ToolOrientation } from './parameters.gen';
+export type { Orientation, Parameters, ToolOrientation };
+
 export const PROTOCOL_VERSION = 6;
 export const BINARY_CAMERA_JPEG = 1;
 export const BINARY_OBSERVATION = 2;
@@ -33,6 +36,24 @@ export const MOST_SECONDS = 60;
 
 /** Edges of a tree that are sent. */
 export const MOST_EDGES = 4000;
+
+/** Least spacing of a flow field. */
+export const LEAST_FLOW_SPACING_M = 0.005;
+
+/** Greatest spacing of a flow field. */
+export const MOST_FLOW_SPACING_M = 0.05;
+
+/** A capture that ends here ends nowhere. */
+export const FARTHEST_CAPTURE_M = 0.5;
+
+/** Height of the walls. */
+export const WALL_HEIGHT_M = 0.005;
+
+/** Columns and rows of the camera image. */
+export const CAMERA_PX = 480;
+
+/** Columns and rows of the observation. */
+export const OBSERVATION_PX = 84;
 
 /** Largest drawing of a map. */
 export const MAX_SVG_BYTES = 1048576;
@@ -83,207 +104,6 @@ export type ControllerName = "rl" | "errt" | "attractor";
  * Which of the two.
  */
 export type PositionerKind = "arm" | "planar_stage";
-
-/**
- * How the block, 50 × 25 × 10 mm and magnetised across a face, hangs on the tool.
- */
-export type Orientation = "A" | "B" | "C";
-
-/**
- * How the arm holds its flange.
- */
-export type ToolOrientation = "vertical" | "paper";
-
-/**
- * How the bead moves over the table.
- */
-export type BeadMotion = "sliding" | "rolling";
-
-/**
- * Which switching law runs.
- */
-export type SwitchingLaw = "hysteresis" | "literal";
-
-/**
- * Which attractor law runs.
- */
-export type AttractorLaw = "literal" | "improved";
-
-/**
- * Which trained policy runs.
- */
-export type RlPolicy = "auto" | "colon" | "general";
-
-/**
- * Everything an operator can tune. Ranges are in [`Parameters::check`].
- */
-export type Parameters = { 
-/**
- * How the block is turned.
- */
-block_orientation: Orientation, 
-/**
- * How the arm holds its flange; the planar stage is always vertical.
- */
-tool_orientation: ToolOrientation, 
-/**
- * Height of the block's lower face above the table, .09 to .2 m.
- */
-tool_height_m: number, 
-/**
- * How the bead moves over the table.
- */
-bead_motion: BeadMotion, 
-/**
- * Coulomb friction of the bead on the table, 0 to 1.
- */
-friction: number, 
-/**
- * Resistance to rolling in units of the normal load, 0 to .2; at the friction or above, the bead slides.
- */
-rolling_resistance: number, 
-/**
- * Viscous drag on the bead, 0 to .1 N·s/m.
- */
-drag_n_s_m: number, 
-/**
- * Height of the camera above the table, .1 to 1 m.
- */
-camera_height_m: number, 
-/**
- * Angle across the camera's image, .1 to 1.2 rad; the default, 36.87°, sees .20 m of table.
- */
-camera_field_of_view_rad: number, 
-/**
- * From the tool's axis to the camera along x, −.15 to .15 m.
- */
-camera_offset_x_m: number, 
-/**
- * The same along y.
- */
-camera_offset_y_m: number, 
-/**
- * How far the camera leans toward +x, −.4 to .4 rad.
- */
-camera_tilt_x_rad: number, 
-/**
- * The same toward +y.
- */
-camera_tilt_y_rad: number, 
-/**
- * Whether the magnet stands in the picture.
- */
-camera_sees_magnet: boolean, 
-/**
- * Gray at or below this is an obstacle, for blocks and map, 50 to 199: walls are 50 or darker, floor 200 or
- * lighter.
- */
-obstacle_level: number, 
-/**
- * Smallest side of a block of the quadtree, 1 to 240 px; the paper's figures have 50.
- */
-smallest_block_px: number, 
-/**
- * Threshold T of the switching law, .02 to .2 m.
- */
-threshold_m: number, 
-/**
- * Distance at which sub-controller 1 has fetched the bead, .002 m to `threshold_m`.
- */
-fetch_radius_m: number, 
-/**
- * Which switching law runs.
- */
-switching_law: SwitchingLaw, 
-/**
- * Tool speed while approaching, .02 to .25 m/s.
- */
-approach_speed_m_s: number, 
-/**
- * Tool speed while transporting, .01 to .079 m/s.
- */
-transport_speed_m_s: number, 
-/**
- * Standard deviation of the tracker's noise, 0 to .01 m.
- */
-tracker_noise_m: number, 
-/**
- * Latency of the tracker, 0 to 50 ticks of 8 ms.
- */
-tracker_latency_ticks: number, 
-/**
- * Share of the tracker's samples that are lost, 0 to .9.
- */
-tracker_dropout: number, 
-/**
- * Which trained policy runs.
- */
-rl_policy: RlPolicy, 
-/**
- * Whether the policy's best action gives way to the next best where its step comes near a wall in view; without,
- * such a step is refused and the arm holds.
- */
-rl_shield: boolean, 
-/**
- * Share of ERRT's extensions that go toward the goal, 0 to .9.
- */
-errt_goal_probability: number, 
-/**
- * Share that go toward a waypoint of an earlier way, 0 to .9; at most 1 with the one above.
- */
-errt_waypoint_probability: number, 
-/**
- * Waypoints that ERRT keeps, 0 to 1000; 0 is without.
- */
-errt_waypoints: number, 
-/**
- * Most that β, the weight of the cost from the root, grows to, 0 to .95; 0 is the plain nearest neighbour.
- */
-errt_beta_most: number, 
-/**
- * Longest edge of ERRT's tree, .005 to .1 m.
- */
-errt_step_m: number, 
-/**
- * Distance that ERRT's ways keep from walls where there is room, .004 to .03 m.
- */
-errt_clearance_m: number, 
-/**
- * Edges that ERRT tries at one control step at most, 10 to 20000; then the arm holds and it goes on at the next.
- */
-errt_nodes_per_step: number, 
-/**
- * Ways that ERRT plans before it follows the shortest, 1 to 20; the publication follows the first.
- */
-errt_ways: number, 
-/**
- * How many times a length through the unseen counts when ERRT compares ways, 1 to 10.
- */
-errt_unseen_weight: number, 
-/**
- * Whether ERRT's ways are cut short.
- */
-errt_shortcut: boolean, 
-/**
- * Which attractor law runs.
- */
-attractor_law: AttractorLaw, 
-/**
- * Feedback gain K, 1.05 to 10 (K = kI; stable above 1).
- */
-attractor_gain: number, 
-/**
- * Safety factor sf on the superellipse's half sides, 1 to 2.
- */
-attractor_safety_factor: number, 
-/**
- * Reactivity ρ of the modulation, .2 to 5.
- */
-attractor_reactivity: number, 
-/**
- * Distance kept from walls by the improved law, 0 to .03 m.
- */
-attractor_clearance_m: number, };
 
 /**
  * One disturbance.

@@ -1,25 +1,7 @@
 // Where the links of the UR5 are, from its joint angles; as server/robot/forward.rs.
 
 import { Matrix4 } from 'three';
-
-/**
- * Rows of the Denavit-Hartenberg table from the base to the flange, classic convention:
- * `[d_m, a_m, alpha_quarter_turns]`, of server/robot/ur5.rs.
- */
-const DH = [
-  [0.089159, 0, 1],
-  [0, -0.425, 0],
-  [0, -0.39225, 0],
-  [0.10915, 0, 1],
-  [0.09465, 0, -1],
-  [0.0823, 0, 0],
-] as const;
-
-/** Shoulder to elbow, elbow to wrist 1. */
-export const UPPER_ARM_M = 0.425;
-export const FOREARM_M = 0.39225;
-/** From wrist 1 to wrist 2, from there to wrist 3, from there to the flange. */
-export const WRIST_LENGTHS_M = [DH[3][0], DH[4][0], DH[5][0]] as const;
+import { DH } from '../net/arm.gen';
 
 const link = new Matrix4();
 

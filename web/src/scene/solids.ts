@@ -6,9 +6,11 @@ import {
   CylinderGeometry,
   Float32BufferAttribute,
   Group,
+  LatheGeometry,
   Matrix4,
   Mesh,
   Quaternion,
+  Vector2,
   Vector3,
   type Object3D,
 } from 'three';
@@ -16,6 +18,8 @@ import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import { ORDER, type PaintName, type Paints } from './paints';
 
 const ROUND = 28;
+/** Rows of a lid's dome. */
+const DOME = 6;
 
 export type Point = readonly [number, number, number];
 
@@ -46,6 +50,29 @@ export class Solids {
     const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along);
     const middle = vector(line.origin).addScaledVector(vector(line.along), (from_m + to_m) / 2);
     return this.add(name, geometry, new Matrix4().compose(middle, turn, new Vector3(1, 1, 1)));
+  }
+
+  /** A lid from its rim at the first place to its domed top at the second: half of the ball r⁴ + z⁴ = 1. */
+  lid(
+    name: PaintName,
+    line: Line,
+    [rim_m, top_m]: readonly [number, number],
+    radius_m: number,
+  ): this {
+    const length_m = Math.abs(top_m - rim_m);
+    const profile = Array.from({ length: DOME + 1 }, (_, i) => {
+      const angle = (Math.PI / 2) * (i / DOME);
+      const across = Math.sqrt(Math.max(0, Math.cos(angle)));
+      return new Vector2(radius_m * across, length_m * Math.sqrt(Math.sin(angle)));
+    });
+    // Lathes turn around y.
+    const turn = new Quaternion().setFromUnitVectors(
+      new Vector3(0, 1, 0),
+      vector(line.along).multiplyScalar(Math.sign(top_m - rim_m)),
+    );
+    const rim = vector(line.origin).addScaledVector(vector(line.along), rim_m);
+    const at = new Matrix4().compose(rim, turn, new Vector3(1, 1, 1));
+    return this.add(name, new LatheGeometry(profile, ROUND), at);
   }
 
   box(name: PaintName, center: Point, size: Point): this {

@@ -14,13 +14,12 @@ import {
   Vector2,
 } from 'three';
 import type { Palette } from '../ui/palette';
-import type { Polygon, Rect, SceneMessage } from '../net/protocol.gen';
+import { WALL_HEIGHT_M, type Polygon, type Rect, type SceneMessage } from '../net/protocol.gen';
 import { floorMargins } from '../plan/floorPicture';
 import { Numbers } from './floor';
 import type { Paints } from './paints';
 import { disposeGeometries } from './solids';
 
-export const WALL_M = 0.005;
 /** Of the table, around the numbers of the axes: a portal's rails lie there. */
 export const EDGE_M = 0.022;
 const THICKNESS_M = 0.018;
@@ -37,7 +36,7 @@ function wallGeometry(walls: readonly Polygon[]): ExtrudeGeometry {
     shape.holes = wall.holes.map((hole) => new Path(points(hole)));
     return shape;
   });
-  return new ExtrudeGeometry(shapes, { depth: WALL_M, bevelEnabled: false });
+  return new ExtrudeGeometry(shapes, { depth: WALL_HEIGHT_M, bevelEnabled: false });
 }
 
 /** The upper edges of walls and border, which tell their shape from afar. */
@@ -53,7 +52,7 @@ function edgeGeometry(walls: readonly Polygon[], border: Rect): BufferGeometry {
   for (const ring of [corners, ...walls.flatMap((wall) => [wall.exterior, ...wall.holes])]) {
     let before = ring.at(-1);
     for (const corner of ring) {
-      if (before) ends.push(...before, WALL_M, ...corner, WALL_M);
+      if (before) ends.push(...before, WALL_HEIGHT_M, ...corner, WALL_HEIGHT_M);
       before = corner;
     }
   }
@@ -70,7 +69,7 @@ function rimGeometry(rect: Rect, width_m: number): ExtrudeGeometry {
   ];
   const shape = new Shape(ring(width_m));
   shape.holes = [new Path(ring(0))];
-  return new ExtrudeGeometry([shape], { depth: WALL_M, bevelEnabled: false });
+  return new ExtrudeGeometry([shape], { depth: WALL_HEIGHT_M, bevelEnabled: false });
 }
 
 /** Of the table: under floor and numbers, and under the robot's foot where there is one. */

@@ -1,6 +1,7 @@
 // The magnet, and what holds it: the gripper's fingers on the arm, a portal on the planar stage.
 
 import { Group } from 'three';
+import { BLOCKS } from '../net/arm.gen';
 import type { Orientation, Rect } from '../net/protocol.gen';
 import { floorMargins } from '../plan/floorPicture';
 import type { Paints } from './paints';
@@ -14,18 +15,6 @@ export interface Block {
   readonly size_m: Point;
   /** The axis from the south pole to the north pole. */
   readonly along: 0 | 2;
-}
-
-/** The block of 50 × 25 × 10 mm as it hangs on the tool; as server/magnetics/force.rs. */
-export function blockOf(orientation: Orientation): Block {
-  switch (orientation) {
-    case 'A':
-      return { size_m: [0.05, 0.025, 0.01], along: 2 };
-    case 'B':
-      return { size_m: [0.01, 0.05, 0.025], along: 0 };
-    case 'C':
-      return { size_m: [0.05, 0.025, 0.01], along: 0 };
-  }
 }
 
 /** The halves at either pole, around the block's own middle above the tool point. */
@@ -129,7 +118,7 @@ export class Tool {
 
   /** On the planar stage over `portalOver`, else on the arm. */
   constructor(paints: Paints, orientation: Orientation, portalOver: Rect | undefined) {
-    const block = blockOf(orientation);
+    const block = BLOCKS[orientation];
     const halves = halvesOf(block);
     const solids = new Solids()
       .box('pole-north', halves.north_m, halves.size_m)

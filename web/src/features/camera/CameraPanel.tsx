@@ -3,12 +3,8 @@
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../../ui/format';
 import { blocksPath, patchPath } from '../../lab/homography';
-import { OBSTACLE_MEAN } from '../../net/protocol.gen';
+import { CAMERA_PX, OBSERVATION_PX, OBSTACLE_MEAN } from '../../net/protocol.gen';
 import type { Notices, Pictures } from '../../lab/slices';
-
-/** Side of the camera's image. */
-const CAMERA_PX = 480;
-const OBSERVATION_PX = 84;
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
 

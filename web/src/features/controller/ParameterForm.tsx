@@ -1,8 +1,7 @@
 // The parameters, bound both ways: edits go out whole, and what the server says is shown.
 
 import { For, Index, Show, createMemo, type JSX } from 'solid-js';
-import { GROUPS } from '../../lab/parameterGroups';
-import type { Group } from '../../lab/parameters';
+import { GROUPS, type Group } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';

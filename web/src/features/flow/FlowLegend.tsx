@@ -2,11 +2,11 @@
 
 import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
-import type { AttractorLaw, FlowField } from '../../net/protocol.gen';
+import type { FlowField, Parameters } from '../../net/protocol.gen';
 import type { Flow } from './drawFlow';
 
 /** What the dots are: the literal law remembers nothing, the improved one follows a contour on one side. */
-function trapWords(law: AttractorLaw): string {
+function trapWords(law: Parameters['attractor_law']): string {
   return law === 'literal'
     ? 'ends short of the goal: trapped'
     : 'ends short of the goal, unless a contour is followed on';
@@ -16,7 +16,7 @@ export function FlowLegend(props: {
   answer: Answer<FlowField>;
   flow: Flow | undefined;
   hasGoal: boolean;
-  law: AttractorLaw;
+  law: Parameters['attractor_law'];
 }): JSX.Element {
   return (
     <div class="map-legend flow" role="group" aria-label="Arrows and dots">

@@ -1,6 +1,8 @@
 // The attractor's flow field: what to ask for, how long its arrows are, where they end. Pure.
 
 import {
+  LEAST_FLOW_SPACING_M,
+  MOST_FLOW_SPACING_M,
   type FlowField,
   type FlowQuery,
   GOAL_RADIUS_M,
@@ -12,9 +14,6 @@ import { distance, type Vec2 } from '../../lab/geometry';
 import type { Arrow } from '../../plan/arrows';
 
 const PLACES_ACROSS = 40;
-/** The server's limits. */
-const LEAST_SPACING_M = 0.005;
-const MOST_SPACING_M = 0.05;
 /** Of the spacing: the longest arrow, which leaves a gap to the next. */
 const LONGEST = 0.85;
 /** Of the greatest speed: below it nothing moves. */
@@ -29,7 +28,7 @@ const MOST_STRIDES = 800;
 
 export function flowSpacingM(area: Rect): number {
   const side_m = Math.max(area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m);
-  return Math.min(MOST_SPACING_M, Math.max(LEAST_SPACING_M, side_m / PLACES_ACROSS));
+  return Math.min(MOST_FLOW_SPACING_M, Math.max(LEAST_FLOW_SPACING_M, side_m / PLACES_ACROSS));
 }
 
 export function flowQuery(scene: SceneMessage, seen: SeenMessage): FlowQuery {

@@ -1,11 +1,12 @@
 // The magnet and the bead: how it follows, and when it jumps.
 
 import { centimetres, fixed, millimetres } from '../../ui/format';
+import { storedRange } from '../../lab/parameters';
 import { DELIVERED, deliveryWords, type Lesson, TIME_RUNS } from './lesson';
 
-/** How much the lesson lowers the magnet at once, and the server's limit. */
+/** How much the lesson lowers the magnet at once, and the lowest height. */
 const LOWER_BY_M = 0.002;
-const LOWEST_M = 0.09;
+const [LOWEST_M] = storedRange('tool_height_m');
 
 export const MEET_THE_MAGNET: Lesson = {
   id: 'magnet',

@@ -1,8 +1,7 @@
 // Block, height and friction beside the curves that they bend: the same parameters as in the form.
 
 import { For, Show, type JSX } from 'solid-js';
-import { GROUPS } from '../../lab/parameterGroups';
-import type { Field } from '../../lab/parameters';
+import { FIELDS } from '../../lab/parameters';
 import type { Parameters, SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
@@ -14,17 +13,15 @@ const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [
   ['friction', 'Friction'],
 ];
 
-const FIELDS: readonly Field[] = LABELS.flatMap(([name, label]) =>
-  GROUPS.flatMap(({ fields }) => fields)
-    .filter((field) => field.name === name)
-    .map((field) => ({ ...field, label })),
+const SHOWN = LABELS.flatMap(([name, label]) =>
+  FIELDS.filter((field) => field.name === name).map((field) => ({ ...field, label })),
 );
 
 function Controls(props: { lab: Session & Trial; scene: SceneMessage }): JSX.Element {
   const form = createForm(props.lab, () => props.scene);
   return (
     <div class="magnet-controls" role="group" aria-label="Magnet and friction">
-      <For each={FIELDS}>{(field) => <FieldRow form={form} field={field} />}</For>
+      <For each={SHOWN}>{(field) => <FieldRow form={form} field={field} />}</For>
     </div>
   );
 }

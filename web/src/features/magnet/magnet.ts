@@ -1,12 +1,14 @@
 // What the magnet can do for the parameters in force: questions to the server, answers in words.
 
 import { fixed, millimetres } from '../../ui/format';
-import type {
-  Parameters,
-  PullCurve,
-  PullQuery,
-  ReachCurve,
-  ReachQuery,
+import { storedRange } from '../../lab/parameters';
+import {
+  FARTHEST_CAPTURE_M,
+  type Parameters,
+  type PullCurve,
+  type PullQuery,
+  type ReachCurve,
+  type ReachQuery,
 } from '../../net/protocol.gen';
 
 /** Where the bead lies beside the block: along one of its sides, or where it is now. */
@@ -18,9 +20,7 @@ export const SIDES = [
 export type Side = (typeof SIDES)[number][0];
 
 /** Heights that the form offers. */
-export const HEIGHTS_M = [0.09, 0.2] as const;
-/** Where the server's search for the end of the capture begins: an end there is none. */
-const FARTHEST_M = 0.5;
+export const HEIGHTS_M = storedRange('tool_height_m');
 /** An offset every 2 mm. */
 const OFFSETS = 251;
 /** A height every 2 mm. */
@@ -74,7 +74,7 @@ export function pullQuery(parameters: Parameters, direction_rad: number): PullQu
   return {
     ...common(parameters, direction_rad),
     lower_face_height_m: parameters.tool_height_m,
-    farthest_m: FARTHEST_M,
+    farthest_m: FARTHEST_CAPTURE_M,
     count: OFFSETS,
   };
 }
@@ -104,7 +104,7 @@ export function heldRatio(curve: PullCurve, friction: number): (number | null)[]
 
 /** Least end of the axis of offsets with the whole capture on it, and some room. */
 export function shownOffset(capture_m: PullCurve['capture_m']): number {
-  return SHOWN_M.find((end_m) => (capture_m?.[1] ?? 0) < 0.9 * end_m) ?? FARTHEST_M;
+  return SHOWN_M.find((end_m) => (capture_m?.[1] ?? 0) < 0.9 * end_m) ?? FARTHEST_CAPTURE_M;
 }
 
 export function captureWords(capture_m: PullCurve['capture_m']): string {
@@ -112,7 +112,7 @@ export function captureWords(capture_m: PullCurve['capture_m']): string {
   const [inner_m, outer_m] = capture_m;
   // Rounding must not say that a bead right below the magnet is dragged.
   const digits = inner_m > 0 && inner_m < 0.001 ? 1 : 0;
-  return outer_m >= FARTHEST_M
+  return outer_m >= FARTHEST_CAPTURE_M
     ? `from ${millimetres(inner_m, digits)} on`
     : `${fixed(inner_m * 1000, digits)} to ${millimetres(outer_m)}`;
 }

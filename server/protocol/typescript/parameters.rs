@@ -1,0 +1,108 @@
+//! `web/src/net/parameters.gen.ts`, from which the page makes its form, and `docs/parameters.md`.
+
+use serde_json::{Value, json};
+use ts_rs::Config;
+
+use super::{declaration, keep};
+use crate::plant::{BlockOrientation, ToolOrientation};
+use crate::scenario::{Bound, Group, Kind, Parameter, Parameters};
+
+fn members(group: Group) -> impl Iterator<Item = &'static Parameter> {
+    Parameters::ALL.iter().filter(move |parameter| parameter.group == group)
+}
+
+fn property(name: &str, value: impl Into<Value>) -> String {
+    format!("{name}: {}", value.into())
+}
+
+/// A whole number is written without a point.
+fn plain(value: f64) -> Value {
+    if value.fract() == 0.0 { json!(value as i64) } else { json!(value) }
+}
+
+fn field(parameter: &Parameter) -> String {
+    let Parameter { name, label, help, kind, .. } = *parameter;
+    let mut properties = vec![property("name", name), property("label", label)];
+    let kind = match kind {
+        Kind::Number(number) => {
+            let [least, most] = number.shown_range();
+            properties.extend([
+                property("unit", number.unit.shown),
+                property("scale", plain(number.unit.scale)),
+                property("min", plain(least)),
+                property("max", plain(most)),
+                property("step", plain(number.step)),
+                property("whole", number.whole),
+            ]);
+            properties.extend(number.bound.map(|bound| match bound {
+                Bound::AtMost(other) => format!("bound: {{ kind: 'atMost', other: '{other}' }}"),
+                Bound::Remainder(other) => format!("bound: {{ kind: 'remainder', other: '{other}' }}"),
+            }));
+            "number"
+        }
+        Kind::Flag => "flag",
+        Kind::Choice(options) => {
+            properties.push(property("options", json!(options)));
+            "choice"
+        }
+    };
+    format!("      {{\n        kind: '{kind}', {},\n        help: {},\n      }},\n", properties.join(", "), json!(help))
+}
+
+fn group(group: Group) -> String {
+    let mut head = property("title", group.title());
+    if let Some(controller) = group.controller() {
+        head += &format!(", {}", property("controller", controller.as_str()));
+    }
+    let fields: String = members(group).map(field).collect();
+    format!("  {{\n    {head}, open: {},\n    fields: [\n{fields}    ],\n  }},\n", group.is_open())
+}
+
+#[test]
+fn the_pages_form_is_generated_from_the_table() {
+    let config = &Config::new();
+    let types = [
+        declaration::<BlockOrientation>(config),
+        declaration::<ToolOrientation>(config),
+        declaration::<Parameters>(config),
+    ];
+    let groups: String = Group::ALL.into_iter().map(group).collect();
+    let text = format!(
+        "// Generated from server/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews \
+         it.\n\n{}\n/** The form's fields. Ranges and steps are in the shown unit: shown value = stored value × scale. \
+         */\nexport const GROUPS = [\n{groups}] as const;\n",
+        types.join("\n"),
+    );
+    keep("web/src/net/parameters.gen.ts", &text);
+}
+
+fn row(parameter: &Parameter, defaults: &Value) -> String {
+    let Parameter { name, label, help, kind, .. } = parameter;
+    let default = &defaults[*name];
+    let default = default.as_str().map_or_else(|| default.to_string(), str::to_owned);
+    let label = match kind {
+        Kind::Number(number) if !number.unit.shown.is_empty() => format!("{label}, {}", number.unit.shown),
+        _ => (*label).to_owned(),
+    };
+    format!("| `{name}` | {label} | {kind} | {default} | {help} |\n")
+}
+
+#[test]
+fn the_table_of_the_documentation_is_generated() {
+    let defaults = serde_json::to_value(Parameters::default()).unwrap();
+    let mut text = "# Parameters\n\n\
+        <!-- Generated from server/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` \
+        renews it. -->\n\n\
+        The same names are used in messages, in experiment links and in `ferry evaluate --set NAME=VALUE`. Ranges and \
+        defaults are in the unit of the name; the page may show another one.\n"
+        .to_owned();
+    for group in Group::ALL {
+        let used = group.controller().map(|_| "\nOnly this controller uses these.\n").unwrap_or_default();
+        text += &format!(
+            "\n## {}\n{used}\n| name | on the page | range | default | what it does |\n|---|---|---|---|---|\n",
+            group.title()
+        );
+        text.extend(members(group).map(|parameter| row(parameter, &defaults)));
+    }
+    keep("docs/parameters.md", &text);
+}

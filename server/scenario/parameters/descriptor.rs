@@ -1,0 +1,225 @@
+//! What is known of a parameter besides its value: names, unit, range, step, group.
+
+use std::f64::consts::PI;
+
+use crate::scenario::ControllerName;
+
+/// One parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name on the wire, in links and in `--set`.
+    pub name: &'static str,
+    /// Name on the page.
+    pub label: &'static str,
+    /// What it does, in one or two short sentences.
+    pub help: &'static str,
+    /// Where the page shows it.
+    pub group: Group,
+    /// What values it takes.
+    pub kind: Kind,
+}
+
+/// What values a parameter takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A number in a range.
+    Number(Number),
+    /// True or false.
+    Flag,
+    /// One of these; each with its label on the page.
+    Choice(&'static [(&'static str, &'static str)]),
+}
+
+/// The values of a parameter that is a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// Its unit.
+    pub unit: Unit,
+    /// Least and greatest value, in the unit on the wire.
+    pub range: [f64; 2],
+    /// Step of the page's slider, in the shown unit.
+    pub step: f64,
+    /// Whether it counts something.
+    pub whole: bool,
+    /// How another parameter limits it further.
+    pub bound: Option<Bound>,
+}
+
+/// How another parameter, named here, limits one from above.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// At most the other one.
+    AtMost(&'static str),
+    /// Both together at most 1.
+    Remainder(&'static str),
+}
+
+impl Bound {
+    /// Name of the other parameter.
+    pub fn other(self) -> &'static str {
+        match self {
+            Self::AtMost(other) | Self::Remainder(other) => other,
+        }
+    }
+
+    /// The limit, given the other parameter's value.
+    pub fn most(self, other: f64) -> f64 {
+        match self {
+            Self::AtMost(_) => other,
+            Self::Remainder(_) => 1.0 - other,
+        }
+    }
+}
+
+impl std::fmt::Display for Bound {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::AtMost(other) => write!(f, "at most {other}"),
+            Self::Remainder(other) => write!(f, "at most 1 together with {other}"),
+        }
+    }
+}
+
+/// A unit on the wire and on the page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// On the wire; empty for a plain number.
+    pub wire: &'static str,
+    /// On the page.
+    pub shown: &'static str,
+    /// Shown value = value on the wire × scale.
+    pub scale: f64,
+}
+
+impl Unit {
+    const fn new(wire: &'static str, shown: &'static str, scale: f64) -> Self {
+        Self { wire, shown, scale }
+    }
+}
+
+/// A number without unit.
+pub const PLAIN: Unit = Unit::new("", "", 1.0);
+/// A share, shown in percent.
+pub const PERCENT: Unit = Unit::new("", "%", 100.0);
+/// A length, shown in centimetres.
+pub const CM: Unit = Unit::new("m", "cm", 100.0);
+/// A length, shown in millimetres.
+pub const MM: Unit = Unit::new("m", "mm", 1000.0);
+/// A speed, shown in millimetres per second.
+pub const MM_S: Unit = Unit::new("m/s", "mm/s", 1000.0);
+/// An angle, shown in degrees.
+pub const DEGREES: Unit = Unit::new("rad", "°", 180.0 / PI);
+/// Viscous drag.
+pub const MN_S_M: Unit = Unit::new("N·s/m", "mN·s/m", 1000.0);
+/// Pixels of the camera image.
+pub const PX: Unit = Unit::new("px", "px", 1.0);
+/// Ticks of 8 ms.
+pub const TICKS: Unit = Unit::new("ticks", "ticks", 1.0);
+
+/// A number; the range in the unit on the wire, the step in the shown one.
+pub const fn number(unit: Unit, range: [f64; 2], step: f64) -> Kind {
+    Kind::Number(Number { unit, range, step, whole: false, bound: None })
+}
+
+/// The same, limited further by another parameter.
+pub const fn bounded(unit: Unit, range: [f64; 2], step: f64, bound: Bound) -> Kind {
+    Kind::Number(Number { unit, range, step, whole: false, bound: Some(bound) })
+}
+
+/// A whole number.
+pub const fn whole(unit: Unit, range: [f64; 2], step: f64) -> Kind {
+    Kind::Number(Number { unit, range, step, whole: true, bound: None })
+}
+
+impl Number {
+    /// The range in the shown unit, rounded inward to whole steps.
+    pub fn shown_range(&self) -> [f64; 2] {
+        let [least, most] = self.range.map(|value| value * self.unit.scale / self.step);
+        // Without the tolerance, 1.05 / 0.05 would be a little more than 21 steps.
+        [(least - 1e-9).ceil(), (most + 1e-9).floor()].map(|steps| rounded(steps * self.step))
+    }
+}
+
+/// To 12 digits, which removes what binary fractions add.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
+/// `0.09 to 0.2 m`.
+pub(super) fn range_text([least, most]: [f64; 2], unit: Unit) -> String {
+    let space = if unit.wire.is_empty() { "" } else { " " };
+    format!("{least} to {most}{space}{}", unit.wire)
+}
+
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => {
+                f.write_str(&range_text(number.range, number.unit))?;
+                number.bound.map_or(Ok(()), |bound| write!(f, ", {bound}"))
+            }
+            Self::Flag => f.write_str("true or false"),
+            Self::Choice(options) => {
+                let values: Vec<_> = options.iter().map(|(value, _)| *value).collect();
+                f.write_str(&values.join(", "))
+            }
+        }
+    }
+}
+
+/// A group of the page's form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Group {
+    Rl,
+    Errt,
+    Attractor,
+    Switching,
+    Speeds,
+    Camera,
+    MagnetAndBead,
+    Tracker,
+}
+
+impl Group {
+    /// In the form's order.
+    pub const ALL: [Self; 8] = [
+        Self::Rl,
+        Self::Errt,
+        Self::Attractor,
+        Self::Switching,
+        Self::Speeds,
+        Self::Camera,
+        Self::MagnetAndBead,
+        Self::Tracker,
+    ];
+
+    /// Its heading.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Rl => "RL",
+            Self::Errt => "ERRT",
+            Self::Attractor => "Attractor dynamics",
+            Self::Switching => "Switching",
+            Self::Speeds => "Speeds",
+            Self::Camera => "Camera",
+            Self::MagnetAndBead => "Magnet and bead",
+            Self::Tracker => "Tracker",
+        }
+    }
+
+    /// The controller that uses it, if only one does.
+    pub fn controller(self) -> Option<ControllerName> {
+        match self {
+            Self::Rl => Some(ControllerName::Rl),
+            Self::Errt => Some(ControllerName::Errt),
+            Self::Attractor => Some(ControllerName::Attractor),
+            _ => None,
+        }
+    }
+
+    /// Whether the page shows it open at first.
+    pub fn is_open(self) -> bool {
+        matches!(self, Self::Rl | Self::Switching)
+    }
+}
