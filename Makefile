@@ -1,11 +1,12 @@
 # `make run` serves the laboratory, `make test` runs every check, `make soak` leaves a page open for half an hour,
-# `make fuzz` feeds damaged files to what reads files, `make audit` asks what is known about what Ferry depends on.
+# `make fuzz` feeds damaged files to what reads files, `make audit` asks what is known about what Ferry depends on,
+# `make dist` writes an archive with the one file that Ferry needs to run.
 # All first install what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist soak fuzz audit system-run system-test rust web browser
 
 # Rerun's own tools, at the version of the crate, to check recordings with; schemathesis asks the server whether it keeps
 # to its description.
@@ -29,6 +30,25 @@ test: system-test $(TOOLS)
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
+
+# The archive holds one program, stripped, for Debian 12 and newer (x86-64): the page, the maps, the policies and Rerun's
+# viewer are in it. It may ask the system for no library but those below; a graphics driver is loaded at run time.
+VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p;T;q' Cargo.toml)
+DIST = target/dist/ferry-$(VERSION)-x86_64-linux
+LIBRARIES := libgcc_s.so.1 libm.so.6 libc.so.6 ld-linux-x86-64.so.2
+NEWEST_GLIBC := 2.36
+dist: system-run
+	cargo build --release --locked
+	rm -rf $(DIST) $(DIST).tar.gz && mkdir -p $(DIST)
+	strip -o $(DIST)/ferry target/release/ferry
+	cp LICENSE $(DIST)
+	@needed=$$(objdump -p $(DIST)/ferry | sed -n 's/ *NEEDED *//p' | grep -vxF "$$(printf '%s\n' $(LIBRARIES))" || true); \
+	[ -z "$$needed" ] || { echo "Ferry asks for libraries that a bare system lacks:" $$needed; exit 1; }
+	@glibc=$$(objdump -T $(DIST)/ferry | grep -o 'GLIBC_[0-9.]*' | cut -d_ -f2 | sort -Vu | tail -n 1); \
+	[ "$$(printf '%s\n' $$glibc $(NEWEST_GLIBC) | sort -V | tail -n 1)" = $(NEWEST_GLIBC) ] || \
+		{ echo "Ferry asks for glibc $$glibc; Debian 12 has $(NEWEST_GLIBC)"; exit 1; }
+	tar -C $(DIST)/.. --owner=0 --group=0 --numeric-owner --sort=name -cf - $(notdir $(DIST)) | gzip -9n > $(DIST).tar.gz
+	@ls -l $(DIST).tar.gz
 
 # Its budgets are strict: let nothing else run meanwhile. SOAK_MINUTES=4 has a shorter look.
 soak: system-test

@@ -18,11 +18,12 @@ const FLOORS: [&[&str]; 11] = [
 ];
 
 /// Crates that only some modules may name.
-const CONFINED: [(&str, &[&str]); 4] = [
+const CONFINED: [(&str, &[&str]); 5] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
     ("tokio", &["session", "http", "cli", "main"]),
-    ("rerun", &["recording"]),
+    ("re_sdk", &["recording"]),
+    ("re_sdk_types", &["recording"]),
 ];
 
 /// What would make a trial depend on anything but its scenario, seed and inputs.

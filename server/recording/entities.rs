@@ -6,14 +6,14 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use rerun::archetypes::{
+use re_sdk::log::ChunkBatcherConfig;
+use re_sdk::sink::SinkFlushError;
+use re_sdk::{AsComponents, RecordingStream};
+use re_sdk_types::archetypes::{
     BarChart, Boxes2D, Clear, EncodedImage, LineStrips2D, LineStrips3D, Points2D, Points3D, Scalars, SeriesLines,
     StateChange, TextLog,
 };
-use rerun::components::Color;
-use rerun::log::ChunkBatcherConfig;
-use rerun::sink::SinkFlushError;
-use rerun::{AsComponents, RecordingStream};
+use re_sdk_types::components::Color;
 
 use super::blueprint::blueprint;
 use super::samples::Samples;
@@ -70,7 +70,7 @@ impl Writer {
         name: &str,
         image_every: Duration,
     ) -> Result<Self, RecordingError> {
-        let stream = rerun::RecordingStreamBuilder::new("ferry")
+        let stream = re_sdk::RecordingStreamBuilder::new("ferry")
             .recording_id(recording)
             .batcher_config(ChunkBatcherConfig { flush_tick: FLUSH_EVERY, ..ChunkBatcherConfig::DEFAULT })
             .with_blueprint(blueprint())
