@@ -1,11 +1,12 @@
 # `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
-# `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses.
+# `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses,
+# `make dist` writes an archive with the program.
 # Each target first installs what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description.
@@ -29,6 +30,25 @@ test: system-test $(TOOLS)
 	mkdir -p test-output
 	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
+
+# An archive with one stripped program for Debian 12 or newer (x86-64). The page, the maps, the policies and Rerun's viewer
+# are embedded. It may need only the system libraries below; a graphics driver is loaded at run time.
+VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p;T;q' Cargo.toml)
+DIST = target/dist/ferry-$(VERSION)-x86_64-linux
+LIBRARIES := libgcc_s.so.1 libm.so.6 libc.so.6 ld-linux-x86-64.so.2
+NEWEST_GLIBC := 2.36
+dist: system-run
+	cargo build --release --locked
+	rm -rf $(DIST) $(DIST).tar.gz && mkdir -p $(DIST)
+	strip -o $(DIST)/ferry target/release/ferry
+	cp LICENSE $(DIST)
+	@needed=$$(objdump -p $(DIST)/ferry | sed -n 's/ *NEEDED *//p' | grep -vxF "$$(printf '%s\n' $(LIBRARIES))" || true); \
+	[ -z "$$needed" ] || { echo "Ferry needs libraries that a bare system lacks:" $$needed; exit 1; }
+	@glibc=$$(objdump -T $(DIST)/ferry | grep -o 'GLIBC_[0-9.]*' | cut -d_ -f2 | sort -Vu | tail -n 1); \
+	[ "$$(printf '%s\n' $$glibc $(NEWEST_GLIBC) | sort -V | tail -n 1)" = $(NEWEST_GLIBC) ] || \
+		{ echo "Ferry needs glibc $$glibc; Debian 12 has $(NEWEST_GLIBC)"; exit 1; }
+	tar -C $(DIST)/.. --owner=0 --group=0 --numeric-owner --sort=name -cf - $(notdir $(DIST)) | gzip -9n > $(DIST).tar.gz
+	@ls -l $(DIST).tar.gz
 
 # Its budgets are strict: run nothing else meanwhile. SOAK_MINUTES=4 is a shorter run.
 soak: system-test

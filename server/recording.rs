@@ -66,8 +66,8 @@ pub enum RecordingError {
     Rerun(String),
 }
 
-impl From<rerun::RecordingStreamError> for RecordingError {
-    fn from(error: rerun::RecordingStreamError) -> Self {
+impl From<re_sdk::RecordingStreamError> for RecordingError {
+    fn from(error: re_sdk::RecordingStreamError) -> Self {
         trouble(error)
     }
 }

@@ -18,17 +18,15 @@ const FLOORS: [&[&str]; 11] = [
 ];
 
 /// Crates that only some modules may name.
-const CONFINED: [(&str, &[&str]); 6] = [
+const CONFINED: [(&str, &[&str]); 7] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
     ("tokio", &["session", "http", "cli", "main"]),
-    ("rerun", &["recording"]),
+    ("re_sdk", &["recording"]),
+    ("re_sdk_types", &["recording"]),
     ("utoipa", &["protocol", "http"]),
     ("ts_rs", &["protocol"]),
 ];
-
-/// The parameters and their choices still describe themselves.
-const PARAMETERS: [&str; 4] = ["scenario/parameters.rs", "plant/bead.rs", "plant/positioner.rs", "magnetics/force.rs"];
 
 /// Lines of a file.
 const LINES_MOST: usize = 400;
@@ -107,8 +105,7 @@ fn no_file_is_long() {
 fn confined_crates_stay_where_they_belong() {
     for (path, module, text) in sources() {
         for (name, homes) in CONFINED {
-            let is_excused = matches!(name, "utoipa" | "ts_rs") && PARAMETERS.iter().any(|file| path.ends_with(file));
-            let used = !is_excused && !names_after(&text, &format!("{name}::")).is_empty();
+            let used = !names_after(&text, &format!("{name}::")).is_empty();
             assert!(!used || homes.contains(&module.as_str()), "{path:?} uses {name}");
         }
     }

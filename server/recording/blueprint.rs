@@ -1,7 +1,7 @@
 //! How a recording lies open in Rerun's viewer.
 
-use rerun::blueprint::components::PanelState;
-use rerun::blueprint::{
+use re_sdk::blueprint::components::PanelState;
+use re_sdk::blueprint::{
     BarChartView, Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial2DView, Spatial3DView,
     StateTimelineView, Tabs, TextLogView, TimePanel, TimeSeriesView, Vertical,
 };

@@ -1,6 +1,6 @@
 //! Colours, and the map's own units: millimetres with y down.
 
-use rerun::components::Color;
+use re_sdk_types::components::Color;
 
 use crate::geometry::Point2;
 

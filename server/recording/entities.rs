@@ -6,13 +6,13 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use rerun::archetypes::{
+use re_sdk::log::ChunkBatcherConfig;
+use re_sdk::sink::SinkFlushError;
+use re_sdk::{AsComponents, RecordingStream};
+use re_sdk_types::archetypes::{
     BarChart, Boxes2D, Clear, EncodedImage, LineStrips2D, LineStrips3D, Points2D, Points3D, Scalars, SeriesLines,
     StateChange, TextLog,
 };
-use rerun::log::ChunkBatcherConfig;
-use rerun::sink::SinkFlushError;
-use rerun::{AsComponents, RecordingStream};
 
 use super::blueprint::blueprint;
 use super::drawing::{GOAL, TREE, WALL, color, plan_mm};
@@ -63,7 +63,7 @@ impl Writer {
         name: &str,
         image_every: Duration,
     ) -> Result<Self, RecordingError> {
-        let stream = rerun::RecordingStreamBuilder::new("ferry")
+        let stream = re_sdk::RecordingStreamBuilder::new("ferry")
             .recording_id(recording)
             .batcher_config(ChunkBatcherConfig { flush_tick: FLUSH_EVERY, ..ChunkBatcherConfig::DEFAULT })
             .with_blueprint(blueprint())

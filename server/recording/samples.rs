@@ -1,7 +1,8 @@
 //! What is told many times a second, collected and written in columns: a tenth of what it costs row by row.
 
-use rerun::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
-use rerun::{RecordingStream, SerializedComponentColumn, TimeColumn};
+use re_sdk::log::TimeColumn;
+use re_sdk::{RecordingStream, SerializedComponentColumn};
+use re_sdk_types::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
 
 use super::drawing::{ARM, BEAD, TOOL, color, plan_mm};
 use super::{RecordingError, trouble};
