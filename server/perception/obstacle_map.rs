@@ -38,7 +38,7 @@ pub use queries::{Area, CellState, Unknown};
 /// Side of a cell, where the workspace is not too large for it.
 const CELL_M: f64 = 0.002;
 /// Most cells of a map, but for those that rounding up adds.
-const MOST_CELLS: f64 = (1 << 18) as f64;
+const MAX_CELLS: f64 = (1 << 18) as f64;
 /// Most cells along one side of a workspace that is long and narrow.
 const MOST_ALONG: usize = 4096;
 
@@ -99,7 +99,7 @@ pub struct Change {
 /// Columns and rows of the grid.
 fn shape(workspace: &Rect) -> (usize, usize) {
     let size = workspace.size_m();
-    let cell_m = CELL_M.max((size.x * size.y / MOST_CELLS).sqrt());
+    let cell_m = CELL_M.max((size.x * size.y / MAX_CELLS).sqrt());
     // A size that is a multiple of the cell but for rounding gets no cell more.
     let count = |side_m: f64| ((side_m / cell_m - 1e-6).ceil() as usize).clamp(1, MOST_ALONG);
     (count(size.x), count(size.y))
