@@ -14,7 +14,7 @@ use super::api::parse;
 use super::body::WholeBody;
 use super::problem::Problem;
 use super::refusals::{OutOfRange, Unavailable};
-use crate::control::limits::LEAST_MANIPULABILITY_M3;
+use crate::control::limits::MIN_MANIPULABILITY_M3;
 use crate::geometry::schema::{Numbers3, Numbers6, Rows3};
 use crate::geometry::{Isometry3, Matrix3, Vector3};
 use crate::magnetics::curves::{self, CurveError, PullCurve, PullQuery, ReachCurve, ReachQuery};
@@ -153,7 +153,7 @@ pub async fn workspace(
         };
         Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no_workspace", error.to_string()).field(field)
     })?;
-    Ok(Json(WorkspaceMap { map, least_m3: LEAST_MANIPULABILITY_M3 }))
+    Ok(Json(WorkspaceMap { map, least_m3: MIN_MANIPULABILITY_M3 }))
 }
 
 /// The pull on the bead over its offset from the block.

@@ -1,11 +1,11 @@
-//! Known obstacles as rectangles, and the clearance that a way keeps from them.
+//! Known obstacles as rectangles, and the clearance that a path keeps from them.
 //!
-//! The bead trails the tool and cuts corners, so an edge must stay `asked_m` away from every rectangle and from the
-//! workspace's border. Ends may lie nearer to a wall: after a fetch the tool stands wherever the bead was, even over a
-//! wall, and cells of the map make walls thicker. Around such an end the clearance asked for begins with the end's own
-//! and, from 6 mm on, grows by a quarter of the distance from the end, so that a way leaves a wall and does not follow
-//! it. A tool over a wall first gets off it: its way begins at the nearest place with the least clearance. All that, like
-//! the clearance itself, is ours and not the publication's, which plans for a point.
+//! The bead trails the tool and cuts corners. Therefore an edge must stay `asked_m` away from every rectangle and from
+//! the workspace's border. Start and goal may be closer to a wall: after a fetch the tool is where the bead was,
+//! possibly over a wall, and the map's cells make walls thicker. Near such an end the required clearance starts at the
+//! end's own distance and grows, beyond 6 mm, by a quarter of the distance from the end. So a path moves away from a
+//! wall and does not follow it. If the tool is over a wall, its path begins at the nearest point with the minimum
+//! clearance. None of this is from the publication, which plans for a point.
 
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
@@ -16,29 +16,30 @@ use super::reach::Grid;
 use crate::geometry::{Point2, Rect, Vector2};
 use crate::perception::ObstacleMap;
 
-/// Around an end it does not grow yet: walls of cells have steps, and beside one the distance does not grow evenly.
+/// The clearance does not grow within this distance of an end: walls of cells have steps, so the distance to them does
+/// not grow evenly.
 const GRACE_M: f64 = 0.006;
-/// How fast the clearance asked for grows farther from an end that has less.
+/// Growth of the required clearance per distance from an end that has less.
 pub(super) const GROWTH: f64 = 0.25;
-/// Around such an end, edges are judged in pieces of this length; each keeps what its nearer end asks for.
+/// Near such an end, edges are checked in pieces of this length; each must keep what its nearer end requires.
 pub(super) const PIECE_M: f64 = 0.0005;
-/// More than distances and positions can be off by.
+/// Upper bound of rounding errors in distances and positions.
 const ROUNDING_M: f64 = 1e-9;
 
-/// All obstacles that are known, arranged for fast questions about straight lines. What was never seen is free.
+/// All known obstacles, indexed for fast queries with straight lines. Unobserved places are free.
 #[derive(Clone, Debug)]
 pub struct Obstacles {
     version: u64,
     most_clearance_m: f64,
     workspace: Rect,
     rectangles: Vec<Rect>,
-    /// Its leaves are the rectangles.
+    /// The leaves are the rectangles.
     index: Bvh,
     grid: Grid,
 }
 
 impl Obstacles {
-    /// The obstacles of a map, to be asked for clearances up to `most_clearance_m`.
+    /// The obstacles of a map, for queries with clearances up to `most_clearance_m`.
     pub fn of(map: &ObstacleMap, most_clearance_m: f64) -> Self {
         let cells = map.partition().rectangles;
         let rectangles: Vec<Rect> = cells.iter().map(|cells| map.rect(cells)).collect();
@@ -53,22 +54,22 @@ impl Obstacles {
         }
     }
 
-    /// Version of the map they were taken from.
+    /// Version of the map that they were made from.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// Most clearance that may be asked for.
+    /// Largest clearance that a query may use.
     pub fn most_clearance_m(&self) -> f64 {
         self.most_clearance_m
     }
 
-    /// The workspace; its border is a wall.
+    /// The workspace. Its border counts as a wall.
     pub fn workspace(&self) -> &Rect {
         &self.workspace
     }
 
-    /// Disjoint, and as few as possible.
+    /// Disjoint rectangles, as few as possible.
     pub fn rectangles(&self) -> &[Rect] {
         &self.rectangles
     }
@@ -93,57 +94,58 @@ impl Obstacles {
         self.is_clear(from, middle, clearance) && self.is_clear(middle, to, clearance)
     }
 
-    /// Whether a straight line stays `distance_m` from every rectangle and from the border.
+    /// Whether a straight line stays `distance_m` away from every rectangle and from the border.
     fn keeps(&self, from: Point2<f64>, to: Point2<f64>, distance_m: f64) -> bool {
         let segment = Segment::new(from, to);
         let is_near = |node: &BvhNode| segment.is_nearer(node, distance_m);
         self.border_m(from).min(self.border_m(to)) >= distance_m && self.index.leaves(is_near).next().is_none()
     }
 
-    /// Distance to the nearest rectangle or to the border; 0 over a wall and outside of the workspace.
+    /// Distance to the nearest rectangle or to the border; 0 over a wall and outside the workspace.
     pub fn distance_m(&self, point: Point2<f64>) -> f64 {
         let to_rectangle_m = |rect| rect_distance_m(point, mins(rect), maxs(rect));
         self.rectangles.iter().map(to_rectangle_m).fold(self.border_m(point).max(0.0), f64::min)
     }
 
-    /// Distance to the border, negative outside.
+    /// Distance to the border; negative outside.
     fn border_m(&self, point: Point2<f64>) -> f64 {
         let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = self.workspace;
         (point.x - x_min_m).min(x_max_m - point.x).min(point.y - y_min_m).min(y_max_m - point.y)
     }
 }
 
-/// How far a way stays from walls.
+/// The distance that a path keeps from walls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clearance {
-    /// Away from its ends, or everywhere if they lie far enough from walls.
+    /// Required distance away from the ends; everywhere if both ends are far enough from walls.
     pub asked_m: f64,
     /// Start and goal.
     pub ends: [End; 2],
 }
 
-/// Where a way begins or ends.
+/// Start or goal of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct End {
     /// In `base`.
     pub point: Point2<f64>,
-    /// [`Obstacles::distance_m`] there; more than 0.
+    /// [`Obstacles::distance_m`] at the point; more than 0.
     pub distance_m: f64,
 }
 
 impl End {
-    /// The place itself; `None` if it is in a wall, or nowhere.
+    /// An end exactly at `point`; `None` if it is in a wall or not finite.
     pub(super) fn at(point: Point2<f64>, obstacles: &Obstacles) -> Option<Self> {
         let distance_m = obstacles.distance_m(point) - ROUNDING_M;
         (distance_m > 0.0).then_some(Self { point, distance_m })
     }
 
-    /// What is asked for so far away from it, on its account.
+    /// The clearance that this end allows at the distance `away_m` from it.
     fn required_m(&self, away_m: f64) -> f64 {
         self.distance_m + GROWTH * (away_m - GRACE_M).max(0.0)
     }
 
-    /// Where a way from a place begins: there, or where a tool over a wall gets off it.
+    /// The start of a path from `point`: there or, for a tool over a wall, at the nearest point with
+    /// `least_clearance_m`.
     pub(super) fn near(point: Point2<f64>, obstacles: &Obstacles, least_clearance_m: f64) -> Option<Self> {
         let is_place = point.coords.iter().all(|m| m.is_finite());
         let way_out = || obstacles.grid.nearest(point, least_clearance_m).filter(|_| is_place);
@@ -152,21 +154,21 @@ impl End {
 }
 
 impl Clearance {
-    /// What is asked for at a point. Edges near an end are judged in pieces of half a millimetre, so that up to an
-    /// eighth of a millimetre less may be kept there.
+    /// Required distance at a point. Near an end, edges are checked in pieces of .5 mm, so up to .125 mm less may be
+    /// kept there.
     pub fn required_m(&self, point: Point2<f64>) -> f64 {
         let [start_m, goal_m] = self.ends.map(|end| end.required_m((point - end.point).norm()));
         self.asked_m.min(start_m).min(goal_m)
     }
 
-    /// The same, all of it less by so much, but nowhere less than to touch no wall.
+    /// The same clearance reduced by `by_m`, but still without touching walls.
     pub(super) fn less(&self, by_m: f64) -> Self {
         let less_m = |m: f64| (m - by_m).max(ROUNDING_M);
         let ends = self.ends.map(|end| End { distance_m: less_m(end.distance_m), ..end });
         Self { asked_m: less_m(self.asked_m), ends }
     }
 
-    /// Bounds for what is asked for anywhere on a straight line; equal when all of it asks for the same.
+    /// Lower and upper bound of the requirement on a straight line; equal if it is the same everywhere on the line.
     fn required_along_m(&self, from: Point2<f64>, to: Point2<f64>) -> [f64; 2] {
         if self.ends.iter().all(|end| end.distance_m >= self.asked_m) {
             return [self.asked_m; 2];
@@ -178,11 +180,11 @@ impl Clearance {
     }
 }
 
-/// A straight line, ready to be compared with many boxes.
+/// A straight line, prepared for comparison with many boxes.
 struct Segment {
     from: Point2<f64>,
     along: Vector2<f64>,
-    /// Unit vector across it; none for a point.
+    /// Unit vector across the line; `None` if it is a point.
     normal: Option<Vector2<f64>>,
 }
 
@@ -198,11 +200,12 @@ impl Segment {
         (point - self.from - self.along * share.clamp(0.0, 1.0)).norm()
     }
 
-    /// Whether a rectangle meets the line or is nearer than `distance_m`; of several rectangles, whether one may be.
+    /// Whether a rectangle meets the line or is nearer than `distance_m`. For an inner node of the index: whether one of
+    /// its rectangles may be.
     fn is_nearer(&self, node: &BvhNode, distance_m: f64) -> bool {
         let (from, to) = (self.from, self.from + self.along);
         let (mins, maxs) = (node.mins(), node.maxs());
-        // The gap between the two along an axis is never more than their distance.
+        // The gap between the two along an axis is at most their distance.
         let gap_m = |a: f64, b: f64, min: f64, max: f64| (min - a.max(b)).max(a.min(b) - max);
         let apart_m = gap_m(from.x, to.x, mins.x, maxs.x).max(gap_m(from.y, to.y, mins.y, maxs.y));
         if apart_m >= distance_m {
@@ -216,11 +219,11 @@ impl Segment {
         if across_m >= distance_m {
             return false;
         }
-        // No axis parts them: they meet. A node of the index that holds several rectangles is looked at no closer.
+        // No axis separates them: they meet. Inner nodes of the index are not examined more closely.
         if !node.is_leaf() || apart_m.max(across_m) <= 0.0 {
             return true;
         }
-        // Two convex shapes apart are nearest at a corner of one of them.
+        // Two disjoint convex shapes are nearest at a corner of one of them.
         let corners = [(mins.x, mins.y), (maxs.x, mins.y), (mins.x, maxs.y), (maxs.x, maxs.y)];
         rect_distance_m(from, mins, maxs) < distance_m
             || rect_distance_m(to, mins, maxs) < distance_m
