@@ -54,8 +54,9 @@ impl Limits {
         Ok(found)
     }
 
-    /// Moves the tool's reference for one servo period from `from_m` toward `wanted_m`. The horizontal speed is at most the
-    /// larger of the two limits, the vertical speed at most [`LIFT_SPEED_M_S`], and [`Self::position`] checks the result.
+    /// Moves the tool's reference for one servo period from `from_m` toward `wanted_m`. The horizontal speed is at most
+    /// the larger of the two limits and the vertical speed at most [`LIFT_SPEED_M_S`]. [`Self::position`] checks the
+    /// result.
     pub fn advance(
         &self,
         from_m: Point3<f64>,

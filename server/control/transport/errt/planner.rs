@@ -32,8 +32,8 @@ pub struct PlannerParameters {
     pub beta_most: f64,
     /// β grows by this if a path is shorter than the last one to the same goal; otherwise it falls by this.
     pub beta_step: f64,
-    /// Not from the publication: β also falls by a step after this many attempts of one search. In a winding channel the
-    /// right node's cost is many times its distance, and with a large β only nodes near the root would grow.
+    /// Not from the publication: β also falls by a step after this many attempts of one search. In a winding channel
+    /// the right node's cost is many times its distance, and with a large β only nodes near the root would grow.
     pub beta_patience: usize,
     /// Longest edge of the tree.
     pub step_m: f64,

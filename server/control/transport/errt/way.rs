@@ -53,7 +53,8 @@ impl Way {
         self.place(along_m).1
     }
 
-    /// The path's point nearest to `point`, not before `from_m`: its distance along the path, and its distance to `point`.
+    /// The path's point nearest to `point`, not before `from_m`: its distance along the path, and its distance to
+    /// `point`.
     pub fn nearest(&self, point: Point2<f64>, from_m: f64) -> (f64, f64) {
         let mut start_m = 0.0;
         let mut best = (from_m, (self.at(from_m) - point).norm());
