@@ -1,5 +1,5 @@
-//! One learner: the networks, their optimiser, and one update (paper, §III; Hessel et al. 2018, "Rainbow"; Dabney et al.
-//! 2018, "Implicit Quantile Networks").
+//! One learner: the networks, their optimiser, and one update (paper, §III; Hessel et al. 2018, "Rainbow"; Dabney et
+//! al. 2018, "Implicit Quantile Networks").
 
 use candle_core::{D, Device, Result, Tensor, Var};
 use rand::{RngExt, SeedableRng};

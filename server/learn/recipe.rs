@@ -110,8 +110,8 @@ pub struct RecipeError {
 }
 
 impl Recipe {
-    /// The paper's reward and fusion: ±1 at the ends and 0 between, both channels into the trunk, three-step returns, the
-    /// episodes' own goals, no exploration except the noisy layers, weights without averaging.
+    /// The paper's reward and fusion: ±1 at the ends and 0 between, both channels into the trunk, three-step returns,
+    /// the episodes' own goals, no exploration except the noisy layers, weights without averaging.
     pub fn paper() -> Self {
         let architecture = Architecture { fusion: Fusion::Early, ..Architecture::default() };
         Self {

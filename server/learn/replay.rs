@@ -96,7 +96,8 @@ pub struct Draw {
 }
 
 impl Replay {
-    /// An empty ring for `capacity` transitions, rounded down to whole steps of all lanes. `exponent` 0 draws uniformly.
+    /// An empty ring for `capacity` transitions, rounded down to whole steps of all lanes. `exponent` 0 draws
+    /// uniformly.
     pub fn new(capacity: usize, lanes: usize, exponent: f64) -> Self {
         let capacity = (capacity / lanes).max(1) * lanes;
         let priorities = SumTree::new(capacity);
@@ -125,8 +126,8 @@ impl Replay {
         self.head = (self.head + 1) % self.capacity;
     }
 
-    /// Draws `count` transitions, one from each of `count` equal parts of the total priority (Schaul et al. 2016, appendix
-    /// B.2.1), with importance weights (N·P)^−β divided by their maximum.
+    /// Draws `count` transitions, one from each of `count` equal parts of the total priority (Schaul et al. 2016,
+    /// appendix B.2.1), with importance weights (N·P)^−β divided by their maximum.
     pub fn draw(&self, count: usize, importance: f64, rng: &mut impl Rng) -> Draw {
         let (total, stored) = (self.priorities.total(), self.len() as f64);
         let part = total / count as f64;
@@ -146,8 +147,8 @@ impl Replay {
         self.priorities.set(index, loss.powf(self.exponent));
     }
 
-    /// The following steps of the same episode, including the one at `index`, at most `count`; fewer if the episode or the
-    /// ring ends.
+    /// The following steps of the same episode, including the one at `index`, at most `count`; fewer if the episode or
+    /// the ring ends.
     pub fn following(&self, index: usize, count: usize) -> impl Iterator<Item = &Transition> {
         let mut at = Some(index);
         let mut left = count;

@@ -108,9 +108,9 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Reads the sweep from `folder`, or takes a new one and writes it there. The file name is a hash of everything that
-    /// determines the images. A damaged file or one of another version is replaced. A sweep that cannot be written is
-    /// only logged.
+    /// Reads the sweep from `folder`, or takes a new one and writes it there. The file name is a hash of everything
+    /// that determines the images. A damaged file or one of another version is replaced. A sweep that cannot be written
+    /// is only logged.
     ///
     /// # Errors
     /// [`CameraError`].

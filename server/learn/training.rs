@@ -167,7 +167,8 @@ impl State {
         self.memory.updates >= self.recipe.updates
     }
 
-    /// Runs until all updates are done or `watch` returns false. `watch` is called at the end of each point of the curve.
+    /// Runs until all updates are done or `watch` returns false. `watch` is called at the end of each point of the
+    /// curve.
     ///
     /// # Errors
     /// [`TrainingError`].
@@ -269,8 +270,8 @@ impl State {
         Ok(Policy::to_bytes(&manifest, &weights.collect::<Vec<_>>())?)
     }
 
-    /// Saves the run and `spent_s`, the seconds that it took so far. Writes to a temporary name first, so that no reader
-    /// finds half a file.
+    /// Saves the run and `spent_s`, the seconds that it took so far. Writes to a temporary name first, so that no
+    /// reader finds half a file.
     ///
     /// # Errors
     /// [`TrainingError::Io`].

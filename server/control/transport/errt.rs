@@ -13,8 +13,8 @@
 //! or a reason where it is defined.
 //!
 //! Unobserved places count as free: a path may lead through them. When they are observed, the path is either confirmed
-//! or planned again. So the tool explores unobserved places when the goal is behind them. A goal that is walled off even
-//! with all unobserved places free stays walled off.
+//! or planned again. So the tool explores unobserved places when the goal is behind them. A goal that is walled off
+//! even with all unobserved places free stays walled off.
 
 mod cache;
 mod clearance;

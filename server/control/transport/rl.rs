@@ -1,8 +1,8 @@
 //! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis per image, greedy.
 //!
-//! In training the tool was only at the centres of the sweep's cells. So the tool first goes to a nearby cell that keeps
-//! training's distance from walls, and then from cell to cell. Between two cells no image is judged: a slow tool needs
-//! several control steps for one action.
+//! In training the tool was only at the centres of the sweep's cells. So the tool first goes to a nearby cell that
+//! keeps training's distance from walls, and then from cell to cell. Between two cells no image is judged: a slow tool
+//! needs several control steps for one action.
 
 use serde::{Deserialize, Serialize};
 

@@ -29,7 +29,8 @@ pub(super) enum Basis {
 }
 
 impl Superellipse {
-    /// Encloses a patch: half sides times 2^(1/4), so that the corners touch, times the safety factor, plus a clearance.
+    /// Encloses a patch: half sides times 2^(1/4), so that the corners touch, times the safety factor, plus a
+    /// clearance.
     pub fn around(patch: &Patch, safety_factor: f64, clearance_m: f64) -> Self {
         let enclosing = 2f64.powf(1.0 / EXPONENT) * safety_factor;
         Self {

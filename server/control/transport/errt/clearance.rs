@@ -200,8 +200,8 @@ impl Segment {
         (point - self.from - self.along * share.clamp(0.0, 1.0)).norm()
     }
 
-    /// Whether a rectangle meets the line or is nearer than `distance_m`. For an inner node of the index: whether one of
-    /// its rectangles may be.
+    /// Whether a rectangle meets the line or is nearer than `distance_m`. For an inner node of the index: whether one
+    /// of its rectangles may be.
     fn is_nearer(&self, node: &BvhNode, distance_m: f64) -> bool {
         let (from, to) = (self.from, self.from + self.along);
         let (mins, maxs) = (node.mins(), node.maxs());
