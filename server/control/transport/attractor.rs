@@ -194,10 +194,10 @@ impl Transport for Attractor {
             let blocked = input.percept.obstacle_on_step(input.tool_m, target_m).is_some();
             let beside =
                 patches.first().is_some_and(|p| (p.nearest_m - input.tool_m).norm() < 0.5 * clearance_m(parameters));
-            if let (true, Some(way)) = (beside || input.percept.obstacle(), mask.way_off(input.tool_m)) {
+            if let (true, Some(direction)) = (beside || input.percept.obstacle(), mask.exit_direction(input.tool_m)) {
                 // After a fetch the tool may be over or close to a wall that the bead leans on. There a superellipse's
                 // normal is meaningless: leave the wall first.
-                target_m = input.tool_m + way * reach_m;
+                target_m = input.tool_m + direction * reach_m;
             } else if let (true, Some(side)) = (blocked, self.contour) {
                 self.contour = Some(side.opposite());
                 target_m = self.flow(input);
