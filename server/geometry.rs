@@ -1,7 +1,7 @@
-//! Frames, poses, plane shapes, shared by every floor above.
+//! Frames, poses and plane shapes, shared by all other modules.
 //!
-//! Everything is given in the UR5's `base` frame unless a name says otherwise: x right, y away from
-//! the user is negative, z up, origin on the table under joint 1. Metres and radians.
+//! Everything is in the UR5's `base` frame unless a name says otherwise: x right, +y away from the user,
+//! z up, origin on the table under joint 1. Metres and radians.
 
 pub mod schema;
 
@@ -45,7 +45,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Whether `point` lies inside or on the border.
+    /// Whether `point` is inside or on the border.
     pub fn contains(&self, point: Point2<f64>) -> bool {
         (self.x_min_m..=self.x_max_m).contains(&point.x) && (self.y_min_m..=self.y_max_m).contains(&point.y)
     }
@@ -55,7 +55,6 @@ impl Rect {
         Vector2::new(self.x_max_m - self.x_min_m, self.y_max_m - self.y_min_m)
     }
 
-    /// The middle.
     pub fn center_m(&self) -> Point2<f64> {
         Point2::new(0.5 * (self.x_min_m + self.x_max_m), 0.5 * (self.y_min_m + self.y_max_m))
     }

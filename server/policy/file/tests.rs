@@ -175,7 +175,7 @@ fn a_manifest_that_does_not_fit_is_refused_with_the_reason() {
 #[test]
 fn a_header_that_claims_to_be_large_is_refused_before_it_is_looked_at() {
     let mut bytes = file_of(&plain(), &kept());
-    for claimed in [HEADER_MOST + 1, 100 << 30, u64::MAX] {
+    for claimed in [MAX_HEADER_BYTES + 1, 100 << 30, u64::MAX] {
         bytes[..8].copy_from_slice(&claimed.to_le_bytes());
         let error = Policy::from_bytes(&bytes).unwrap_err();
         assert!(matches!(error, PolicyError::Header { bytes } if bytes == claimed), "{error}");
@@ -191,14 +191,14 @@ fn a_file_too_large_is_refused_unread() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("large");
     // Holes: more than the memory of this machine could be read.
-    for bytes in [BYTES_MOST + 1, 1 << 42] {
+    for bytes in [MAX_BYTES + 1, 1 << 42] {
         std::fs::File::create(&path).unwrap().set_len(bytes).unwrap();
         match Policy::open(&path) {
             Err(PolicyError::TooLarge { bytes: found }) => assert_eq!(found, bytes),
             other => panic!("{other:?}"),
         }
     }
-    std::fs::File::create(&path).unwrap().set_len(BYTES_MOST).unwrap();
+    std::fs::File::create(&path).unwrap().set_len(MAX_BYTES).unwrap();
     assert!(matches!(Policy::open(&path), Err(PolicyError::Format(_))), "read, and nothing in it");
     let missing = Policy::open(&folder.path().join("none")).unwrap_err().to_string();
     assert!(missing.contains("none"), "{missing}");
