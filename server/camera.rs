@@ -203,7 +203,7 @@ struct Renderers {
 
 impl Renderers {
     fn new(gpu: &Arc<Gpu>, stage: &Stage, view_px: u32) -> Result<Self, CameraError> {
-        let gpu = gpu.living()?;
+        let gpu = gpu.current()?;
         check_size(view_px, view_px, gpu.max_px())?;
         let view = view::ViewRenderer::new(&gpu, stage, view_px)?;
         Ok(Self { gpu, view, scene: None })

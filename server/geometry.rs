@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 /// `exterior` runs counter-clockwise and each hole clockwise; no ring repeats its first point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
 pub struct Polygon {
-    /// Outer ring, `[x_m, y_m]` a vertex.
+    /// Outer ring, `[x_m, y_m]` per vertex.
     #[schema(value_type = Vec<Numbers2>)]
     pub exterior: Vec<[f64; 2]>,
     /// Inner rings.
@@ -34,13 +34,13 @@ impl Polygon {
 /// An axis-aligned rectangle, in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ts_rs::TS, utoipa::ToSchema)]
 pub struct Rect {
-    /// Least x.
+    /// Smallest x.
     pub x_min_m: f64,
-    /// Greatest x.
+    /// Largest x.
     pub x_max_m: f64,
-    /// Least y.
+    /// Smallest y.
     pub y_min_m: f64,
-    /// Greatest y.
+    /// Largest y.
     pub y_max_m: f64,
 }
 

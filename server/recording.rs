@@ -174,7 +174,7 @@ impl Recorder {
             .spawn(move || {
                 // A panic here stops the recording, visibly, but not the trial.
                 if catch_unwind(AssertUnwindSafe(|| write_all(keeper, &inbox, &seen))).is_err() {
-                    note(Err(trouble("its thread panicked; see the log")), &seen);
+                    note(Err(trouble("its thread failed; see the log")), &seen);
                 }
             })
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;

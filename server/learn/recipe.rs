@@ -100,13 +100,13 @@ impl Default for Recipe {
 
 /// A number of the recipe is out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field} is {value}, it must be {least} to {most}")]
+#[error("{field} is {value}, it must be {min} to {max}")]
 pub struct RecipeError {
     /// Name of the wrong field.
     pub field: &'static str,
     pub value: f64,
-    pub least: f64,
-    pub most: f64,
+    pub min: f64,
+    pub max: f64,
 }
 
 impl Recipe {
@@ -165,9 +165,9 @@ impl Recipe {
             ("warm_up", self.warm_up as f64, self.images as f64, 1e6),
             ("updates", self.updates as f64, 1.0, 1e8),
         ];
-        for (field, value, least, most) in ranges {
-            if !(least..=most).contains(&value) {
-                return Err(RecipeError { field, value, least, most });
+        for (field, value, min, max) in ranges {
+            if !(min..=max).contains(&value) {
+                return Err(RecipeError { field, value, min, max });
             }
         }
         Ok(())

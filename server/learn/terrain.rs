@@ -151,8 +151,8 @@ pub fn places(workspace: &Rect, goal_m: Point2<f64>, tool_m: Point2<f64>) -> [f3
 fn distances(next: &[[Option<u16>; 4]]) -> Vec<u16> {
     let cells = next.len();
     let mut before = vec![Vec::new(); cells];
-    for (cell, ways) in next.iter().enumerate() {
-        for &to in ways.iter().flatten() {
+    for (cell, after_actions) in next.iter().enumerate() {
+        for &to in after_actions.iter().flatten() {
             before[usize::from(to)].push(cell);
         }
     }

@@ -293,7 +293,7 @@ impl State {
     pub fn read(path: &Path, recipe: &Recipe, seed: u64, terrains: &[Terrain]) -> Result<(Self, f64), TrainingError> {
         let bytes = std::fs::read(path).map_err(|error| TrainingError::Io { path: path.to_owned(), error })?;
         let refuse = |reason: &str| TrainingError::Checkpoint { path: path.to_owned(), reason: reason.to_owned() };
-        let (hash, bytes) = bytes.split_at_checked(8).ok_or_else(|| refuse("it is truncated"))?;
+        let (hash, bytes) = bytes.split_at_checked(8).ok_or_else(|| refuse("it is damaged"))?;
         if xxhash_rust::xxh3::xxh3_64(bytes).to_le_bytes() != hash {
             return Err(refuse("it is damaged or edited"));
         }

@@ -62,8 +62,8 @@ impl FreeSpace {
                 // If the distance is too small, the side of the wall does not matter.
                 let inside = distance_m < self.clearance_m || map.is_free(center);
                 let spare_m = if inside { distance_m } else { -distance_m } - self.clearance_m;
-                let alike = 1 + ((spare_m.abs() - ROUNDING_M) / CELL_M).max(0.0) as usize;
-                let end = (column + alike).min(self.columns);
+                let equal = 1 + ((spare_m.abs() - ROUNDING_M) / CELL_M).max(0.0) as usize;
+                let end = (column + equal).min(self.columns);
                 cells[column..end].fill(spare_m >= 0.0);
                 column = end;
             }

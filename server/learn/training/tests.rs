@@ -96,7 +96,7 @@ fn a_checkpoint_that_does_not_fit_is_refused_with_the_reason() {
     let whole = std::fs::read(&path).unwrap();
     for length in [0, 7, 8, 100, whole.len() / 2, whole.len() - 1] {
         std::fs::write(&path, &whole[..length]).unwrap();
-        assert!(refusal(&recipe, 3, &terrains).contains("torn"), "{length} bytes");
+        assert!(refusal(&recipe, 3, &terrains).contains("damaged"), "{length} bytes");
     }
     for at in [0, 8, 20, whole.len() / 2, whole.len() - 1] {
         let mut edited = whole.clone();
