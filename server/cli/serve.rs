@@ -74,7 +74,7 @@ fn check_folder(data: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(data)
         .and_then(|()| std::fs::write(&probe, []))
         .and_then(|()| std::fs::remove_file(&probe))
-        .with_context(|| format!("--data {}: the folder is not writable", data.display()))
+        .with_context(|| format!("--data {}: the folder cannot be written to", data.display()))
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {

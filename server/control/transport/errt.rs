@@ -8,9 +8,9 @@
 //!
 //! Not from the publication: obstacles are rectangles with a clearance, which is smaller near an end that is close to a
 //! wall ([`Clearance`]). A flood fill decides beforehand whether a path exists and which clearance it can keep. The
-//! straight line from start to goal is tried first. Empty slots of the cache replace random states. Samples are drawn
-//! where the clearance is kept. β also falls while a search takes long. Found paths are shortened. Each has a parameter
-//! or a reason where it is defined.
+//! straight line from start to goal is tried first. The cache starts with empty slots, not with random states. Samples
+//! are drawn where the clearance is kept. β also falls while a search takes long. Found paths are shortened. Each has a
+//! parameter or a reason where it is defined.
 //!
 //! Unobserved places count as free: a path may lead through them. When they are observed, the path is either confirmed
 //! or planned again. So the tool explores unobserved places when the goal is behind them. A goal that is walled off
