@@ -27,7 +27,7 @@ pub struct Arguments {
     /// repeated
     #[arg(long, value_name = "URL")]
     origin: Vec<http::Origin>,
-    /// Largest number of sessions
+    /// Largest number of simultaneous sessions
     #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=256))]
     sessions: u16,
     /// Pause a session without viewers after this time; it may then be closed if another needs its place

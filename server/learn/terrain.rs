@@ -108,7 +108,7 @@ impl Terrain {
         self.next[usize::from(cell)][action]
     }
 
-    /// Length of the shortest path in steps; [`UNREACHABLE`] without a path.
+    /// Length of the shortest path in steps; `u16::MAX` without a path.
     pub fn distance(&self, from: u16, to: u16) -> u16 {
         self.distance[usize::from(from) * self.cells() + usize::from(to)]
     }
