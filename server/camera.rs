@@ -1,30 +1,29 @@
-//! The camera: from a state of the world to an image, without a window.
+//! Draws images of a world state, without a window.
 //!
-//! Two pictures are drawn from the same state. [`Camera::capture`] is what the controllers see: a
-//! pinhole above the tool that looks straight down on dark walls and a bright floor, drawn so that
-//! every pixel keeps the brightness contract below. [`Camera::scene`] is for people: the arm over
-//! the maze, with light and shadows. Nothing else in the crate knows the graphics library, and this
-//! module knows neither physics nor controllers.
+//! Two kinds of image are drawn from the same state. [`Camera::capture`] draws the controllers' view: a pinhole
+//! camera above the tool that looks straight down at dark walls and a bright floor. [`Camera::scene`] draws the arm
+//! above the maze with light and shadows, for people. No other module uses the graphics library. This module does
+//! not depend on physics or controllers.
 //!
-//! Brightness contract of the controllers' view, gray by Rec. 601: floor ≥ 200 with shadows
-//! included, walls ≤ 50 (tops and sides), everything outside the workspace ≤ 50, bead ≥ 200. No
-//! goal and no arm are in it, and the magnet (gray 165, neither) only where the mount asks for it.
+//! Brightness contract of the controllers' view, gray by Rec. 601: floor ≥ 200 including shadows, walls ≤ 50 (tops
+//! and sides), everything outside the workspace ≤ 50, bead ≥ 200. The goal and the arm are not drawn. The magnet
+//! (gray 165, neither floor nor wall) is drawn only if the mount has `sees_magnet`.
 //!
 //! | part | what it does |
 //! |---|---|
-//! | `error` | [`CameraError`], everything that can go wrong |
-//! | `gpu` | finds an adapter, opens the device, turns what it says into errors |
-//! | `target` | colour, depth and readback memory of one picture size |
+//! | `error` | [`CameraError`] |
+//! | `gpu` | finds an adapter, opens the device, turns device errors into [`CameraError`] |
+//! | `target` | colour, depth and readback memory for one image size |
 //! | `mesh`, `geometry_buffers` | triangles, and their copies on the device |
 //! | `stage` | walls and floor as triangles for the controllers' view |
 //! | `diorama` | walls, floor and table for people |
 //! | `robot` | the robot as simple solids, for the page too |
 //! | `arm` | robot, gripper and magnet, where they are now |
 //! | `optics` | projections |
-//! | `pipeline` | what the drawing passes have in common |
+//! | `pipeline` | code that all render passes share |
 //! | `view`, `scene` | the two renderers |
 //!
-//! Metres in `base` and `f64` at the border; `f32` only on the device.
+//! The interface uses metres in the frame `base` and `f64`; only data on the device is `f32`.
 
 mod arm;
 mod diorama;
@@ -59,39 +58,38 @@ use crate::image::{CameraFrame, CameraMount, Picture};
 pub use error::CameraError;
 pub use gpu::{AdapterChoice, Gpu};
 
-/// Radius of the bead.
 pub const BEAD_RADIUS_M: f64 = 0.0025;
 
-/// Largest width or height of an image that is drawn, whatever the adapter allows: beyond it a
-/// single request could claim gigabytes.
-pub const MOST_PX: u32 = 4096;
+/// Largest width or height of an image. Larger images are refused even if the adapter allows them, because one
+/// request could allocate gigabytes.
+pub const MAX_PX: u32 = 4096;
 
 /// Columns and rows of the controllers' view (specification §3).
 pub const VIEW_PX: u32 = 480;
 
-/// Largest height and offset of a camera that is accepted, and how far from its tool it may see table.
-const MOST_M: f64 = 10.0;
+/// Limit of the camera's height, of its offset, and of the distance from the tool to any table point in view.
+const MAX_M: f64 = 10.0;
 
-/// How much work goes into pictures for people. The controllers' view is the same at either.
+/// Rendering quality of images for people. It does not affect the controllers' view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quality {
-    /// Hard edges and shadows, for adapters that render on the processor.
+    /// Hard edges and hard shadows, for adapters that render on the CPU.
     Economy,
-    /// Four samples a pixel and soft shadows.
+    /// Four samples per pixel and soft shadows.
     Fine,
 }
 
-/// Refuses a mount that no image can be made with, over walls of `wall_height_m`.
+/// Checks that an image can be taken with this mount above walls of height `wall_height_m`.
 ///
 /// # Errors
 /// [`CameraError::Parameter`], [`CameraError::BelowWalls`] or [`CameraError::Horizon`].
 pub fn check_mount(mount: &CameraMount, wall_height_m: f64) -> Result<(), CameraError> {
     let CameraMount { height_m, offset_m, tilt_rad, field_of_view_rad, .. } = *mount;
     let upright = |tilt_rad: f64| tilt_rad.abs() < std::f64::consts::FRAC_PI_2;
-    let near = |offset_m: f64| offset_m.abs() <= MOST_M;
+    let near = |offset_m: f64| offset_m.abs() <= MAX_M;
     let fields = [
-        ("height_m", height_m, height_m > 0.0 && height_m <= MOST_M, "above 0 and at most 10 m"),
+        ("height_m", height_m, height_m > 0.0 && height_m <= MAX_M, "above 0 and at most 10 m"),
         ("offset_m[0]", offset_m[0], near(offset_m[0]), "at most 10 m to either side"),
         ("offset_m[1]", offset_m[1], near(offset_m[1]), "at most 10 m to either side"),
         ("tilt_rad[0]", tilt_rad[0], upright(tilt_rad[0]), "less than a right angle to either side"),
@@ -110,47 +108,44 @@ pub fn check_mount(mount: &CameraMount, wall_height_m: f64) -> Result<(), Camera
         return Err(CameraError::BelowWalls { height_m, wall_height_m });
     }
     let seen = mount.over(Point2::origin()).table_corners_m();
-    match seen.filter(|corners| corners.iter().all(|corner| corner.coords.norm() <= MOST_M)) {
+    match seen.filter(|corners| corners.iter().all(|corner| corner.coords.norm() <= MAX_M)) {
         Some(_) => Ok(()),
         None => Err(CameraError::Horizon { tilt_rad, field_of_view_rad }),
     }
 }
 
-/// The static geometry. Walls are prisms on these polygons; in the controllers' view everything
-/// outside the workspace is wall besides.
+/// The static scene. Walls are prisms on these polygons. In the controllers' view, everything outside the
+/// workspace is also drawn as wall.
 #[derive(Clone, Copy, Debug)]
 pub struct StaticScene<'a> {
-    /// Where the bead may be.
+    /// The area where the bead may be.
     pub workspace: &'a Rect,
     /// Ground plan of the walls.
     pub walls: &'a [Polygon],
-    /// Height of the walls above the table.
+    /// Height above the table.
     pub wall_height_m: f64,
 }
 
-/// What moves.
+/// The moving parts of a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject {
-    /// Tick of the state, copied into the frame.
+    /// Copied into the frame.
     pub tick: u64,
-    /// Tool point, the centre of the block's lower face.
+    /// Tool point: the centre of the block's lower face.
     pub tool_m: [f64; 3],
-    /// Centre of the bead.
     pub bead_m: [f64; 3],
-    /// The goal on the table; only [`Camera::scene`] shows it.
+    /// The goal on the table; not drawn in the controllers' view.
     pub goal_m: Option<[f64; 2]>,
-    /// `base_from_link` for the Denavit–Hartenberg frames 1 to 6, the last is the flange; none where
-    /// there is no arm.
+    /// `base_from_link` for the Denavit–Hartenberg frames 1 to 6; the last is the flange. `None` for the planar
+    /// stage, which has no arm.
     pub link_frames: Option<[Isometry3<f64>; 6]>,
-    /// Edges of the magnet along x, y and z of `base`.
+    /// Edge lengths of the magnet along x, y and z of `base`.
     pub block_size_m: [f64; 3],
-    /// How the controllers' camera sits on the tool.
     pub mount: CameraMount,
 }
 
 impl Subject {
-    /// Refuses a state that holds anything but finite numbers: on the device they would turn into a
-    /// picture that looks right.
+    /// Refuses a state with numbers that are not finite. The device would draw them as a plausible image.
     fn check(&self) -> Result<(), CameraError> {
         let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
         let frames_finite = self.link_frames.iter().flatten().all(|base_from_link| {
@@ -170,59 +165,56 @@ impl Subject {
     }
 }
 
-/// Anything that yields the controllers' view of a state. Recorded frames can stand in for a camera.
+/// A source of the controllers' view of a state: a [`Camera`], or recorded frames.
 pub trait Eye {
-    /// The controllers' view of `subject`.
-    ///
     /// # Errors
-    /// Whatever kept the image from being taken; the eye stays usable unless the error is
-    /// [`CameraError::DeviceLost`].
+    /// If the image cannot be taken. The source stays usable unless the error is [`CameraError::DeviceLost`].
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError>;
 }
 
-/// Draws one stage. Cameras share a [`Gpu`]; each keeps its own geometry and image memory. When the device
-/// is lost, as when its driver restarts, the camera goes on with the one that takes its place.
+/// Draws one static scene. Cameras share a [`Gpu`]; each has its own geometry and image memory. If the device is
+/// lost, for example because its driver restarts, the camera continues on the replacement device.
 #[derive(Debug)]
 pub struct Camera {
     workspace: Rect,
     walls: Vec<Polygon>,
     wall_height_m: f64,
     view_px: u32,
-    /// Asked for; otherwise what the adapter can afford.
+    /// `None`: the adapter's default, [`Gpu::quality`].
     quality: Option<Quality>,
     renderers: Renderers,
 }
 
-/// From where a picture for people is taken.
+/// Viewpoint of an image for people.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Viewpoint {
-    /// The user's side of the table, in perspective.
+    /// From the user's side of the table, in perspective.
     User,
-    /// Straight above, parallel.
+    /// From straight above, in parallel projection.
     Above,
 }
 
-/// All that is lost with a device.
+/// Everything that is lost together with the device.
 #[derive(Debug)]
 struct Renderers {
     gpu: Arc<Gpu>,
     view: view::ViewRenderer,
-    /// Made when it is first asked for: sessions and trials never do.
+    /// Created at first use: sessions and trials do not need it.
     scene: Option<scene::SceneRenderer>,
 }
 
 impl Renderers {
     fn new(gpu: &Arc<Gpu>, static_scene: &StaticScene, view_px: u32) -> Result<Self, CameraError> {
-        let gpu = gpu.living()?;
-        check_size(view_px, view_px, gpu.most_px())?;
+        let gpu = gpu.current()?;
+        check_size(view_px, view_px, gpu.max_px())?;
         let view = view::ViewRenderer::new(&gpu, static_scene, view_px)?;
         Ok(Self { gpu, view, scene: None })
     }
 }
 
 impl Camera {
-    /// Prepares to draw `stage`, the controllers' view with `view_px` columns and rows; later changes of
-    /// the stage need a new camera.
+    /// Prepares to draw `stage`. The controllers' view gets `view_px` columns and rows. If the static scene changes,
+    /// a new camera is needed.
     ///
     /// # Errors
     /// [`CameraError::Size`] or [`CameraError::StaticScene`] for bad input, [`CameraError::Rejected`] or
@@ -239,7 +231,7 @@ impl Camera {
         })
     }
 
-    /// The same camera at a quality of its own, whatever its adapter can afford.
+    /// Overrides the adapter's default quality.
     #[must_use]
     pub fn with_quality(mut self, quality: Quality) -> Self {
         self.quality = Some(quality);
@@ -247,13 +239,12 @@ impl Camera {
         self
     }
 
-    /// The controllers' view, square: image up is +y, and the centre of pixel (u, v) of W × W is the place
+    /// The controllers' view, a square image with +y up. The centre of pixel (u, v) of a W × W image is the point
     /// (2u + 1 − W, W − 2v − 1)/W of the frame's pinhole.
     ///
     /// # Errors
-    /// [`CameraError::Subject`] for a state that is not finite, those of [`check_mount`],
-    /// [`CameraError::Rejected`], [`CameraError::Readback`] or [`CameraError::DeviceLost`] when the device
-    /// fails.
+    /// [`CameraError::Subject`] if the state is not finite, the errors of [`check_mount`], and
+    /// [`CameraError::Rejected`], [`CameraError::Readback`] or [`CameraError::DeviceLost`] if the device fails.
     pub fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         subject.check()?;
         check_mount(&subject.mount, self.wall_height_m)?;
@@ -263,17 +254,16 @@ impl Camera {
     /// The whole table with arm, magnet, walls, bead and goal, in perspective from the user's side.
     ///
     /// # Errors
-    /// As [`Camera::capture`], and [`CameraError::Size`] for an image without pixels or one beyond
-    /// [`MOST_PX`].
+    /// Those of [`Camera::capture`], and [`CameraError::Size`] if a side is 0 or more than [`MAX_PX`].
     pub fn scene(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<Picture, CameraError> {
         self.for_people(subject, Viewpoint::User, width_px, height_px)
     }
 
-    /// The workspace from straight above, +y up, without perspective: walls, block, bead and goal, but no
-    /// arm, which would hide them.
+    /// The workspace from straight above, +y up, in parallel projection: walls, block, bead and goal. The arm is not
+    /// drawn because it would cover them.
     ///
     /// # Errors
-    /// As [`Camera::scene`].
+    /// Those of [`Camera::scene`].
     pub fn plan(&mut self, subject: &Subject, width_px: u32, height_px: u32) -> Result<Picture, CameraError> {
         self.for_people(subject, Viewpoint::Above, width_px, height_px)
     }
@@ -286,7 +276,7 @@ impl Camera {
         height_px: u32,
     ) -> Result<Picture, CameraError> {
         subject.check()?;
-        check_size(width_px, height_px, self.renderers.gpu.most_px())?;
+        check_size(width_px, height_px, self.renderers.gpu.max_px())?;
         self.draw(|Self { workspace, walls, wall_height_m, quality, renderers, .. }| {
             let Renderers { gpu, scene, .. } = renderers;
             let scene = match scene {
@@ -300,7 +290,7 @@ impl Camera {
         })
     }
 
-    /// Draws, and draws once more on another device if this one is lost.
+    /// Draws an image. If the device is lost, opens another one and tries once more.
     fn draw<T>(&mut self, mut picture: impl FnMut(&mut Self) -> Result<T, CameraError>) -> Result<T, CameraError> {
         match picture(self) {
             Err(CameraError::DeviceLost { reason }) => {
@@ -326,11 +316,11 @@ impl Eye for Camera {
     }
 }
 
-/// Refuses an image without pixels, or with a side beyond `most_px`.
-fn check_size(width_px: u32, height_px: u32, most_px: u32) -> Result<(), CameraError> {
-    let allowed = 1..=most_px;
+/// Refuses an image with a side of 0 or of more than `max_px` pixels.
+fn check_size(width_px: u32, height_px: u32, max_px: u32) -> Result<(), CameraError> {
+    let allowed = 1..=max_px;
     if allowed.contains(&width_px) && allowed.contains(&height_px) {
         return Ok(());
     }
-    Err(CameraError::Size { width_px, height_px, most_px })
+    Err(CameraError::Size { width_px, height_px, max_px })
 }

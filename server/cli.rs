@@ -1,4 +1,4 @@
-//! Commands, assembled from the floors below.
+//! The command line.
 
 mod evaluate;
 mod map;
@@ -36,13 +36,13 @@ enum Command {
     Serve(serve::Arguments),
     /// Repeat the paper's experiment: random trials, counted
     Evaluate(evaluate::Arguments),
-    /// Render one frame to a PNG file, headless
+    /// Render one image to a PNG file, headless
     Render(render::Arguments),
-    /// Check a map and print what it is
+    /// Check a map and print its properties
     Map(map::Arguments),
     /// Run an input log again and compare every hash
     Replay(replay::Arguments),
-    /// Take one camera image a centimetre of a map, as training looks at them
+    /// Take a camera image of a map every centimetre, for training
     Sweep(sweep::Arguments),
     /// Print a new token, for `ferry serve --token-file`
     Token,
@@ -50,7 +50,7 @@ enum Command {
     Train(train::Arguments),
 }
 
-/// Parses the arguments and runs the command; clap's own exits (help, usage) come back as codes.
+/// Parses the arguments and runs the command. Help, version and usage errors are printed by clap and returned as codes.
 pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode> {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
@@ -75,7 +75,8 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
     }
 }
 
-/// Logs to standard error what `FERRY_LOG` asks for, as text or, with `FERRY_LOG_FORMAT=json`, as one object a line.
+/// Logs to standard error, filtered by `FERRY_LOG`, as text or, with `FERRY_LOG_FORMAT=json`, as one JSON object per
+/// line.
 fn begin_logging() -> anyhow::Result<()> {
     let filter = match std::env::var("FERRY_LOG") {
         Ok(filter) => filter.parse().with_context(|| format!("FERRY_LOG is {filter:?}"))?,
@@ -85,12 +86,12 @@ fn begin_logging() -> anyhow::Result<()> {
     match std::env::var("FERRY_LOG_FORMAT").as_deref() {
         Ok("json") => logging.json().init(),
         Ok("text") | Err(_) => logging.init(),
-        Ok(other) => anyhow::bail!("FERRY_LOG_FORMAT is {other:?}, it must be text or json"),
+        Ok(other) => anyhow::bail!("FERRY_LOG_FORMAT is {other:?}: must be text or json"),
     }
     Ok(())
 }
 
-/// Opens the graphics adapter; `FERRY_ADAPTER` (auto, vulkan, gl) overrides the choice.
+/// Opens the graphics adapter chosen by `FERRY_ADAPTER` (auto, vulkan, gl).
 fn open_gpu() -> Result<Arc<Gpu>, CameraError> {
     let choice = match std::env::var("FERRY_ADAPTER") {
         Ok(name) => name.parse::<AdapterChoice>()?,
@@ -99,18 +100,19 @@ fn open_gpu() -> Result<Arc<Gpu>, CameraError> {
     Gpu::open(choice)
 }
 
-/// A value with some of its fields changed by `NAME=VALUE`; a dot leads into a field's own fields.
+/// A copy of a value with fields changed by `NAME=VALUE`; dots in a name select nested fields.
 fn with_changes<T: Serialize + DeserializeOwned>(value: &T, changes: &[String]) -> anyhow::Result<T> {
     let mut values = serde_json::to_value(value)?;
     for change in changes {
-        let (name, text) = change.split_once('=').with_context(|| format!("--set {change}: it must be NAME=VALUE"))?;
-        // Numbers and flags are JSON; anything else is the name of a choice.
+        let (name, text) =
+            change.split_once('=').with_context(|| format!("--set {change}: must have the form NAME=VALUE"))?;
+        // Numbers and flags are JSON; anything else is the name of a variant.
         let new = serde_json::from_str(text).unwrap_or_else(|_| text.into());
         let (within, last) = name.rsplit_once('.').unwrap_or(("", name));
         let pointer =
             within.split('.').filter(|part| !part.is_empty()).map(|part| format!("/{part}")).collect::<String>();
         let object = values.pointer_mut(&pointer).and_then(serde_json::Value::as_object_mut);
-        object.with_context(|| format!("--set {change}: there is no {within:?}"))?.insert(last.to_owned(), new);
+        object.with_context(|| format!("--set {change}: there is no field {within:?}"))?.insert(last.to_owned(), new);
     }
     serde_path_to_error::deserialize(values).context("--set")
 }
@@ -127,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_and_fields_of_fields_are_set_and_no_others() {
+    fn sets_fields_and_nested_fields_only() {
         assert_eq!(changed(&[]).unwrap(), Recipe::default());
         let architecture = Architecture { fusion: Fusion::Early, dueling: false, ..Architecture::default() };
         let expected = Recipe { architecture, n_step: 3, discount: 0.99, timeout_fails: true, ..Recipe::default() };
@@ -139,17 +141,17 @@ mod tests {
             "timeout_fails=true",
             "discount=0.99",
         ];
-        // The later of two is meant; .5 is no JSON, but replaced before anyone reads it.
+        // The later of two values counts. `.5` is not JSON, but is replaced before it is parsed.
         assert_eq!(changed(&changes).unwrap(), expected);
     }
 
     #[test]
-    fn what_cannot_be_set_is_refused_by_name() {
+    fn refuses_unknown_fields_by_name() {
         for (change, parts) in [
             ("wings=2", &["unknown field `wings`"][..]),
             ("architecture.wings=2", &["architecture", "unknown field `wings`"]),
-            ("wings.length=2", &["--set wings.length=2", "there is no \"wings\""]),
-            ("n_step.length=2", &["--set n_step.length=2", "there is no \"n_step\""]),
+            ("wings.length=2", &["--set wings.length=2", "there is no field \"wings\""]),
+            ("n_step.length=2", &["--set n_step.length=2", "there is no field \"n_step\""]),
             ("discount=high", &["discount", "\"high\"", "expected f64"]),
             ("n_step=-1", &["n_step", "`-1`"]),
             ("n_step=2.5", &["n_step", "`2.5`"]),

@@ -1,40 +1,38 @@
-//! Files of others, read only if they are no larger than what they should hold.
+//! Reads untrusted files up to a size limit.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Why a file was not read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// The disk, or no such file.
+    /// The file does not exist or could not be read.
     #[error(transparent)]
     Io(#[from] std::io::Error),
-    /// Larger than what it should hold can be.
-    #[error("it has {bytes} bytes, the limit is {most}")]
+    /// Larger than the limit.
+    #[error("it has {bytes} bytes, the limit is {max}")]
     TooLarge {
-        /// Bytes of the file, as far as is known.
+        /// Size of the file, as far as it is known.
         bytes: u64,
-        /// The limit.
-        most: u64,
+        max: u64,
     },
 }
 
-/// The bytes of a file; nothing of one over `most` bytes is kept.
+/// The bytes of a file of at max `max` bytes.
 ///
 /// # Errors
 /// [`ReadError`].
-pub fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, ReadError> {
+pub fn read_at_most(path: &Path, max: u64) -> Result<Vec<u8>, ReadError> {
     let file = File::open(path)?;
     let bytes = file.metadata()?.len();
-    if bytes > most {
-        return Err(ReadError::TooLarge { bytes, most });
+    if bytes > max {
+        return Err(ReadError::TooLarge { bytes, max });
     }
-    // A device or a pipe says nothing of its length, and a file may grow.
+    // A device or a pipe does not report its length, and a file may grow.
     let mut read = Vec::with_capacity(bytes as usize);
-    file.take(most + 1).read_to_end(&mut read)?;
+    file.take(max + 1).read_to_end(&mut read)?;
     match read.len() as u64 {
-        bytes if bytes > most => Err(ReadError::TooLarge { bytes, most }),
+        bytes if bytes > max => Err(ReadError::TooLarge { bytes, max }),
         _ => Ok(read),
     }
 }
@@ -44,21 +42,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_too_large_is_refused_unread() {
+    fn refuses_a_large_file_without_reading_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         let read = || read_at_most(&path, 4);
         assert!(matches!(read(), Err(ReadError::Io(_))));
         std::fs::write(&path, "four").unwrap();
         assert_eq!(read().unwrap(), b"four");
-        // Holes: more than the memory of this machine could be read.
+        // A sparse file: larger than the memory of the machine.
         File::create(&path).unwrap().set_len(1 << 42).unwrap();
-        assert!(matches!(read(), Err(ReadError::TooLarge { bytes, most: 4 }) if bytes == 1 << 42));
+        assert!(matches!(read(), Err(ReadError::TooLarge { bytes, max: 4 }) if bytes == 1 << 42));
     }
 
     #[cfg(unix)]
     #[test]
-    fn a_device_that_never_ends_is_refused_too() {
+    fn refuses_an_endless_device() {
         let error = read_at_most(Path::new("/dev/zero"), 1 << 20).unwrap_err();
         assert!(matches!(error, ReadError::TooLarge { .. }), "{error}");
     }

@@ -1,7 +1,7 @@
-//! Frames, poses, plane shapes, shared by every floor above.
+//! Frames, poses and plane shapes, shared by all other modules.
 //!
-//! Everything is given in the UR5's `base` frame unless a name says otherwise: x right, y away from
-//! the user is negative, z up, origin on the table under joint 1. Metres and radians.
+//! Everything is in the UR5's `base` frame unless a name says otherwise: x right, +y away from the user,
+//! z up, origin on the table under joint 1. Metres and radians.
 
 pub use nalgebra::{
     Isometry3, Matrix3, Matrix6, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3, Vector6,
@@ -29,18 +29,18 @@ impl Polygon {
 /// An axis-aligned rectangle, in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rect {
-    /// Least x.
+    /// Smallest x.
     pub x_min_m: f64,
-    /// Greatest x.
+    /// Largest x.
     pub x_max_m: f64,
-    /// Least y.
+    /// Smallest y.
     pub y_min_m: f64,
-    /// Greatest y.
+    /// Largest y.
     pub y_max_m: f64,
 }
 
 impl Rect {
-    /// Whether `point` lies inside or on the border.
+    /// Whether `point` is inside or on the border.
     pub fn contains(&self, point: Point2<f64>) -> bool {
         (self.x_min_m..=self.x_max_m).contains(&point.x) && (self.y_min_m..=self.y_max_m).contains(&point.y)
     }
@@ -50,7 +50,6 @@ impl Rect {
         Vector2::new(self.x_max_m - self.x_min_m, self.y_max_m - self.y_min_m)
     }
 
-    /// The middle.
     pub fn center_m(&self) -> Point2<f64> {
         Point2::new(0.5 * (self.x_min_m + self.x_max_m), 0.5 * (self.y_min_m + self.y_max_m))
     }

@@ -1,4 +1,4 @@
-//! Pictures, camera frames and gray images, and their encodings; and the pinhole that takes them.
+//! Images, camera frames and gray images, their encodings, and the pinhole camera model.
 
 mod pinhole;
 
@@ -6,25 +6,23 @@ use serde::{Deserialize, Serialize};
 
 pub use pinhole::{CameraMount, Pinhole};
 
-/// A picture of RGBA8 pixels.
+/// An image of RGBA8 pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Picture {
     /// Columns.
     pub width_px: u32,
     /// Rows.
     pub height_px: u32,
-    /// Row-major RGBA, four bytes a pixel, the top row first.
+    /// Row-major RGBA, four bytes per pixel, top row first.
     pub rgba: Vec<u8>,
 }
 
-/// What the controllers' camera returns: a square picture with the moment and place it was taken.
+/// An image of the controllers' camera (square), with its time and camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraFrame {
-    /// The picture.
     pub picture: Picture,
     /// Tick at which it was taken.
     pub tick: u64,
-    /// The camera.
     pub pinhole: Pinhole,
 }
 
@@ -35,17 +33,17 @@ pub struct GrayImage {
     pub width_px: usize,
     /// Rows.
     pub height_px: usize,
-    /// Row-major, the top row first.
+    /// Row-major, top row first.
     pub pixels: Vec<u8>,
 }
 
 /// Why an image could not be encoded.
 #[derive(Debug, thiserror::Error)]
 pub enum EncodeError {
-    /// The PNG encoder refused.
+    /// Error of the PNG encoder.
     #[error("png: {0}")]
     Png(#[from] png::EncodingError),
-    /// The JPEG encoder refused.
+    /// Error of the JPEG encoder.
     #[error("jpeg: {0}")]
     Jpeg(#[from] jpeg_encoder::EncodingError),
 }
@@ -65,12 +63,12 @@ impl Picture {
         GrayImage { width_px: self.width_px as usize, height_px: self.height_px as usize, pixels }
     }
 
-    /// The picture as a PNG file.
+    /// Encodes the image as PNG.
     pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
         encode_png(self.width_px, self.height_px, png::ColorType::Rgba, &self.rgba)
     }
 
-    /// The picture as a JPEG file; `quality` from 1 to 100.
+    /// Encodes the image as JPEG; `quality` from 1 to 100.
     pub fn to_jpeg(&self, quality: u8) -> Result<Vec<u8>, EncodeError> {
         let mut out = Vec::with_capacity(64 * 1024);
         jpeg_encoder::Encoder::new(&mut out, quality).encode(
@@ -84,7 +82,7 @@ impl Picture {
 }
 
 impl GrayImage {
-    /// The image as a gray PNG file.
+    /// Encodes the image as gray PNG.
     pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
         encode_png(self.width_px as u32, self.height_px as u32, png::ColorType::Grayscale, &self.pixels)
     }

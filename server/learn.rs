@@ -1,4 +1,4 @@
-//! Learning from what the camera sees: training's environment over a sweep of images, and Rainbow-IQN.
+//! Training of the policy: an environment over a sweep of images, and Rainbow-IQN.
 
 mod adam;
 mod atlas;

@@ -1,6 +1,6 @@
-//! Maps: an SVG drawing becomes walls, and the space between them.
+//! Maps: converts an SVG drawing into walls and free space.
 //!
-//! A [`Map`] knows geometry only. Controllers never see it: they see camera images.
+//! A [`Map`] is geometry only. Controllers have no access to it; they only see camera images.
 
 mod library;
 mod outline;
@@ -22,10 +22,9 @@ pub use library::{ADDED_MAPS, Library, is_added};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
 
-/// Height of every wall's prism above the table.
+/// Height of every wall above the table.
 pub const WALL_HEIGHT_M: f64 = 0.005;
 
-/// Largest map file that is read.
 pub const MAX_SVG_BYTES: usize = 1 << 20;
 
 #[derive(rust_embed::RustEmbed)]
@@ -56,7 +55,7 @@ impl std::fmt::Debug for Map {
 }
 
 impl Map {
-    /// Names of the maps that come with Ferry, sorted.
+    /// Names of the shipped maps, sorted.
     pub fn shipped_names() -> Vec<String> {
         let mut names: Vec<String> = Shipped::iter()
             .filter_map(|file: Cow<'static, str>| file.strip_suffix(".svg").map(str::to_owned))
@@ -65,14 +64,13 @@ impl Map {
         names
     }
 
-    /// A map that comes with Ferry.
     pub fn shipped(name: &str) -> Result<Self, MapError> {
         let file = Shipped::get(&format!("{name}.svg")).ok_or_else(|| MapError::Unknown { name: name.to_owned() })?;
         let text = std::str::from_utf8(&file.data).map_err(|e| MapError::Svg(e.to_string()))?;
         Self::from_svg(name, text)
     }
 
-    /// A shipped map by name, or a file when `name_or_path` ends in `.svg`.
+    /// A shipped map by name, or a file if `name_or_path` ends in `.svg`.
     pub fn open(name_or_path: &str) -> Result<Self, MapError> {
         if !name_or_path.ends_with(".svg") {
             return Self::shipped(name_or_path);
@@ -87,9 +85,9 @@ impl Map {
         Self::from_svg(&name, &text)
     }
 
-    /// Reads an SVG (specification §3): user units are millimetres, `x_m = x/1000`, `y_m = −y/1000`,
-    /// the `viewBox` is the workspace, filled shapes and strokes are walls. What cannot become a wall, or would
-    /// cost too much to load, is refused by name; what was repaired is in [`Self::repairs`].
+    /// Reads an SVG (specification §3): user units are millimetres, `x_m = x/1000`, `y_m = −y/1000`, the `viewBox` is
+    /// the workspace, filled shapes and strokes are walls. Elements that cannot become walls, or that would cost too
+    /// much to load, are refused with an error that names them. Repairs are listed in [`Self::repairs`].
     pub fn from_svg(name: &str, text: &str) -> Result<Self, MapError> {
         let drawing = svg::read(text)?;
         Ok(Self {
@@ -104,53 +102,53 @@ impl Map {
         })
     }
 
-    /// Name, for people.
+    /// Display name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The viewBox; its border is a wall.
+    /// The viewBox. Its border is a wall.
     pub fn workspace(&self) -> &Rect {
         &self.workspace
     }
 
-    /// Walls inside the workspace, disjoint.
+    /// Disjoint walls inside the workspace.
     pub fn walls(&self) -> &[Polygon] {
         &self.walls
     }
 
-    /// Free space: the workspace without its walls, disjoint.
+    /// Disjoint free space: the workspace without its walls.
     pub fn free(&self) -> &[Polygon] {
         &self.free
     }
 
-    /// What is no wall as drawn, and was made one, or left out, in the drawing's order.
+    /// Elements that had to be changed or left out, in the drawing's order.
     pub fn repairs(&self) -> &[Repair] {
         &self.repairs
     }
 
-    /// Whether it is drawn for the planar stage instead of the arm: its root has
+    /// Whether the map is drawn for the planar stage instead of the arm: its root has
     /// `data-positioner="planar-stage"`.
     pub fn is_for_stage(&self) -> bool {
         self.for_stage
     }
 
-    /// The file it was read from.
+    /// The text of the SVG file.
     pub fn svg(&self) -> &str {
         &self.svg
     }
 
-    /// Nearest point of any wall's outline, the workspace's border included.
+    /// Nearest point of any wall's outline, including the workspace's border.
     pub fn nearest_wall_point(&self, point: Point2<f64>) -> Point2<f64> {
         self.outline.nearest(point)
     }
 
-    /// [`Self::nearest_wall_point`] if it is no farther than `radius_m`; several times as fast where it is.
+    /// [`Self::nearest_wall_point`] if it is within `radius_m`; several times faster if so.
     pub fn nearest_wall_point_within(&self, point: Point2<f64>, radius_m: f64) -> Option<Point2<f64>> {
         self.outline.nearest_within(point, radius_m)
     }
 
-    /// Whether a point lies in free space (even–odd rule over its outline).
+    /// Whether a point is in free space (even–odd rule over its outline).
     pub fn is_free(&self, point: Point2<f64>) -> bool {
         self.outline.contains(point)
     }
@@ -161,12 +159,12 @@ impl Map {
         if self.is_free(point) { distance } else { -distance }
     }
 
-    /// Whether a disc of radius `clearance_m` passes along the straight line from `from` to `to`.
+    /// Whether a disc of radius `clearance_m` can move along the straight line from `from` to `to`.
     pub fn line_is_clear(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64) -> bool {
         let span: Vector2<f64> = to - from;
         let length_m = span.norm();
         let mut along_m = 0.0;
-        // Sphere tracing: the clearance at a point is how far one may go without looking again.
+        // Sphere tracing: the clearance at a point is a safe step length.
         loop {
             let fraction = if length_m > 0.0 { along_m / length_m } else { 0.0 };
             let margin_m = self.clearance_m(from + span * fraction) - clearance_m;

@@ -1,4 +1,4 @@
-//! What is seen in a camera frame: gray image, obstacle test, observation, obstacles near the tool.
+//! Evaluation of camera frames: gray image, obstacle test, observation, obstacles near the tool.
 
 mod dark;
 mod observation;
@@ -27,18 +27,19 @@ pub const TEST_PATCH_PX: i64 = 15;
 /// A mean below this is an obstacle (paper, §IV-A).
 pub const OBSTACLE_MEAN: f64 = 150.0;
 
-/// A pixel's place on the table and back, for an image taken from straight above, +y up.
+/// Conversion between pixels and table points, for an image taken from straight above, +y up.
 ///
-/// Wall tops, 5 mm nearer to the camera, seem up to 1.7 % farther from the camera's foot than they are.
+/// Wall tops are 5 mm closer to the camera and therefore appear up to 1.7 % farther from the camera's foot than they
+/// are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Calibration {
-    /// Point of the table in the middle of the image.
+    /// Table point at the image centre.
     pub center_m: Point2<f64>,
-    /// Metres of table a pixel.
+    /// Metres on the table per pixel.
     pub m_per_px: f64,
     /// Columns and rows.
     pub size_px: usize,
-    /// Point of the table below the camera.
+    /// Table point below the camera.
     pub foot_m: Point2<f64>,
 }
 
@@ -56,7 +57,7 @@ impl Calibration {
         (half + offset.x, half - offset.y)
     }
 
-    /// Whether a point is in the image.
+    /// Whether a table point is in the image.
     pub fn sees(&self, point: Point2<f64>) -> bool {
         let half_m = 0.5 * self.size_px as f64 * self.m_per_px;
         let offset = point - self.center_m;
@@ -64,20 +65,20 @@ impl Calibration {
     }
 }
 
-/// One frame, understood.
+/// One evaluated frame.
 #[derive(Clone, Debug)]
 pub struct Percept {
-    /// Gray by Rec. 601, seen from straight above: the frame's own for a camera that looks straight down,
-    /// rectified for a tilted one.
+    /// Gray by Rec. 601, seen from straight above: the frame's own image for a camera that looks straight down,
+    /// rectified for a tilted camera.
     pub gray: GrayImage,
-    /// Where its pixels lie.
+    /// Positions of the pixels on the table.
     pub calibration: Calibration,
-    /// Mean of the 15×15 pixels around the tool, which the default camera has in the middle.
+    /// Mean of the 15×15 pixels around the tool, which is at the image centre of the default camera.
     pub center_mean: f64,
 }
 
 impl Percept {
-    /// Looks at a frame that was taken with the tool at `tool_m`.
+    /// Evaluates a frame that was taken with the tool at `tool_m`.
     pub fn of(frame: &CameraFrame, tool_m: Point2<f64>) -> Self {
         let (gray, calibration) = rectify::from_above(frame.picture.to_gray(), &frame.pinhole);
         let mut percept = Self { gray, calibration, center_mean: 0.0 };
@@ -85,7 +86,7 @@ impl Percept {
         percept
     }
 
-    /// The part of the table that [`Self::patch_mean`] looks at around a point.
+    /// The table area that [`Self::patch_mean`] covers around a point.
     pub fn patch(&self, point: Point2<f64>) -> Rect {
         let (column, row) = self.calibration.image_from_table(point);
         let corner_px = |at: f64| at.floor() - (TEST_PATCH_PX / 2) as f64;
@@ -105,7 +106,7 @@ impl Percept {
         self.center_mean < OBSTACLE_MEAN
     }
 
-    /// Mean of the 15×15 pixels around a table point; what is out of view counts as wall.
+    /// Mean of the 15×15 pixels around a table point. Pixels out of view count as wall.
     pub fn patch_mean(&self, point: Point2<f64>) -> f64 {
         let (column, row) = self.calibration.image_from_table(point);
         let half = TEST_PATCH_PX / 2;
@@ -120,7 +121,7 @@ impl Percept {
         sum as f64 / (TEST_PATCH_PX * TEST_PATCH_PX) as f64
     }
 
-    /// Whether anything dark is seen on the straight line between two places; what is out of view is not seen.
+    /// Whether a dark pixel is on the straight line between two places. Pixels out of view are ignored.
     pub fn wall_between(&self, from: Point2<f64>, to: Point2<f64>) -> bool {
         let count = ((to - from).norm() / (0.5 * self.calibration.m_per_px)).ceil().max(1.0) as usize;
         (0..=count).any(|i| {
@@ -131,14 +132,14 @@ impl Percept {
         })
     }
 
-    /// Distance from a table point to the nearest wall in view; `None` where none is seen within `most_m`. What is out
-    /// of view counts as wall.
-    pub fn wall_distance_m(&self, point: Point2<f64>, most_m: f64) -> Option<f64> {
+    /// Distance from a table point to the nearest wall in view; `None` if it is more than `max_m`. Pixels out of view
+    /// count as wall.
+    pub fn wall_distance_m(&self, point: Point2<f64>, max_m: f64) -> Option<f64> {
         let (column, row) = self.calibration.image_from_table(point);
         let (m_per_px, size) = (self.calibration.m_per_px, self.gray.width_px as i64);
-        let reach = (most_m / m_per_px).ceil() as i64;
+        let reach = (max_m / m_per_px).ceil() as i64;
         let (middle_column, middle_row) = (column.floor() as i64, row.floor() as i64);
-        let mut nearest_m = most_m;
+        let mut nearest_m = max_m;
         let mut found = false;
         for r in middle_row - reach..=middle_row + reach {
             for c in middle_column - reach..=middle_column + reach {
@@ -155,11 +156,11 @@ impl Percept {
         found.then_some(nearest_m)
     }
 
-    /// The obstacle test along a whole step, so that walls thinner than the step count
-    /// (specification §3): the place that fails, or `None` if the way is free.
+    /// The obstacle test along a whole step, so that walls thinner than the step are detected (specification §3).
+    /// Returns the first place that fails; `None` if the step is free.
     ///
-    /// A tool that already stands over a wall, as after a fetch, may leave it: while the patch is dark
-    /// from the start on, it must not get darker.
+    /// A tool that is already over a wall, as after a fetch, may leave it: while the patch is dark from the start on,
+    /// it must not get darker.
     pub fn obstacle_on_step(&self, from: Point2<f64>, to: Point2<f64>) -> Option<Point2<f64>> {
         let span = to - from;
         let spacing_m = TEST_PATCH_PX as f64 / 2.0 * self.calibration.m_per_px;
@@ -202,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn calibration_goes_there_and_back() {
+    fn calibration_is_invertible() {
         let center_m = Point2::new(0.1, -0.3);
         let calibration = Calibration { center_m, m_per_px: 0.2 / 480.0, size_px: 480, foot_m: center_m };
         let upper_left = calibration.table_from_image(0.0, 0.0);
@@ -212,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn the_obstacle_test_is_the_mean_of_the_middle() {
+    fn the_obstacle_test_uses_the_mean_of_the_centre() {
         let center = Point2::new(0.0, -0.3);
         assert!(!Percept::of(&frame(center, |_| false), center).obstacle());
         assert!(Percept::of(&frame(center, |p| (p - center).norm() < 0.004), center).obstacle());
@@ -220,18 +221,18 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_wall_is_as_far_as_it_is() {
+    fn the_distance_to_the_nearest_wall_is_exact() {
         let center = Point2::new(0.0, -0.3);
         let percept = Percept::of(&frame(center, |p| p.x > 0.013), center);
         let distance_m = |x_m: f64| percept.wall_distance_m(center + Vector2::new(x_m, 0.0), 0.02);
         assert!((distance_m(0.0).unwrap() - 0.013).abs() < 0.0005);
         assert!((distance_m(-0.005).unwrap() - 0.018).abs() < 0.0005);
         assert_eq!(distance_m(-0.01), None);
-        assert!((distance_m(-0.085).unwrap() - 0.015).abs() < 0.0005, "the image's edge");
+        assert!((distance_m(-0.085).unwrap() - 0.015).abs() < 0.0005, "the edge of the image");
     }
 
     #[test]
-    fn a_wall_between_two_places_is_seen_however_thin() {
+    fn a_thin_wall_between_two_places_is_detected() {
         let center = Point2::new(0.0, -0.3);
         let thin = Percept::of(&frame(center, |p| (p.x - 0.01).abs() < 0.0005), center);
         assert!(thin.wall_between(center, center + Vector2::new(0.02, 0.003)));
@@ -240,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thin_wall_across_the_step_is_seen_and_leaving_a_wall_is_allowed() {
+    fn detects_a_thin_wall_across_a_step_and_allows_leaving_a_wall() {
         let center = Point2::new(0.0, -0.3);
         let to = center + Vector2::new(0.02, 0.0);
         let thin = Percept::of(&frame(center, |p| (p.x - 0.01).abs() < 0.002), center);

@@ -16,7 +16,7 @@ use crate::perception::{OBSERVATION_SIZE_PX, Observation};
 pub use file::{Manifest, PolicyError};
 pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, Noise, TensorSpec};
 
-/// Quantile fractions at acting (Dabney et al. 2018, K = 32).
+/// Number of quantile fractions for acting (Dabney et al. 2018, K = 32).
 pub const ACTING_FRACTIONS: usize = 32;
 
 /// One step of the tool along an axis of the table (paper, §IV-A).
@@ -33,15 +33,15 @@ pub enum Action {
 }
 
 impl Action {
-    /// All, in the order of the network's outputs.
+    /// All actions, in the order of the network's outputs.
     pub const ALL: [Self; 4] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY];
 
-    /// Place in [`Self::ALL`].
+    /// Index in [`Self::ALL`].
     pub fn index(self) -> usize {
         self as usize
     }
 
-    /// Columns and rows of the lattice that it goes.
+    /// Columns and rows that the tool moves on the lattice.
     pub fn offset(self) -> (isize, isize) {
         match self {
             Self::PlusX => (1, 0),
@@ -58,20 +58,20 @@ impl Action {
     }
 }
 
-/// What the network makes of an observation.
+/// The network's result for an observation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
-    /// `[4][K]`: the return's quantiles of each action, at the fractions (k + ½) / K.
+    /// `[4][K]`: quantiles of each action's return, at the fractions (k + ½) / K.
     pub quantiles: [Vec<f32>; 4],
 }
 
 impl Judgement {
-    /// Mean of the quantiles: the action's value.
+    /// Mean of each action's quantiles: the action's value.
     pub fn values(&self) -> [f32; 4] {
         self.quantiles.each_ref().map(|row| row.iter().sum::<f32>() / row.len() as f32)
     }
 
-    /// Actions, the best first; of equal values, the first of [`Action::ALL`].
+    /// Actions, best first. Equal values keep the order of [`Action::ALL`].
     pub fn ranking(&self) -> [Action; 4] {
         let values = self.values();
         let mut order = [0, 1, 2, 3];
@@ -80,12 +80,12 @@ impl Judgement {
     }
 }
 
-/// A trained network with its manifest; does not change and is shared.
+/// A trained network with its manifest; immutable and shared.
 #[derive(Clone, Debug)]
 pub struct Policy {
     manifest: Manifest,
     network: Arc<Network>,
-    /// Of the bytes it was read from.
+    /// Hash of the file's bytes.
     hash: u64,
 }
 
@@ -96,33 +96,32 @@ impl PartialEq for Policy {
 }
 
 impl Policy {
-    /// Where it comes from and what it fits.
+    /// Origin and requirements of the policy.
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
     }
 
-    /// The network over its weights.
     pub fn network(&self) -> &Network {
         &self.network
     }
 
-    /// Hash of the file that it was read from.
+    /// Hash of the policy's file.
     pub fn hash(&self) -> u64 {
         self.hash
     }
 
-    /// The return's quantiles of all four actions, without exploration.
+    /// Quantiles of the return for all four actions, without exploration.
     ///
     /// # Errors
-    /// [`PolicyError::Network`], which only a network that [`Policy`] should have refused gives.
+    /// [`PolicyError::Network`], only if [`Policy`] has accepted an invalid network.
     pub fn judge(&self, observation: &Observation) -> Result<Judgement, PolicyError> {
         fault_point!("inference");
         let features = self.features(&[&observation.bytes])?;
         Ok(self.judge_from(&features, &[observation.places()])?.remove(0))
     }
 
-    /// What the trunk makes of images: `[B]` observations of 2×84×84 bytes → `[B, 128]`. With late fusion the places
-    /// on channel 1 do not matter.
+    /// Output of the trunk: `[B]` observations of 2×84×84 bytes → `[B, 128]`. With late fusion the places on channel 1
+    /// are not used.
     ///
     /// # Errors
     /// [`PolicyError::Network`].
@@ -149,14 +148,14 @@ impl Policy {
     }
 }
 
-/// The middles of `count` equal parts of [0, 1], for each of a batch: `[B, K]`.
+/// The centres of `count` equal parts of [0, 1], for each entry of a batch: `[B, K]`.
 pub fn acting_fractions(batch: usize, count: usize) -> candle_core::Result<Tensor> {
     let one = (0..count).map(|k| (k as f32 + 0.5) / count as f32);
     Tensor::from_iter(one, &Device::Cpu)?.unsqueeze(0)?.repeat((batch, 1))
 }
 
-/// Images for a trunk of `channels` channels, `[B, 84, 84, channels]` from 0 to 1, of observations' bytes `[2][84][84]`;
-/// with one channel, the second may be missing.
+/// Images for a trunk with `channels` channels, `[B, 84, 84, channels]` from 0 to 1, from the bytes `[2][84][84]` of
+/// observations. With one channel, the second channel of the bytes may be missing.
 pub fn images<'a>(observations: impl Iterator<Item = &'a [u8]>, channels: usize) -> candle_core::Result<Tensor> {
     const AREA: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
     let mut values = Vec::new();

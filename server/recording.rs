@@ -1,8 +1,8 @@
-//! Recordings: a session, or an evaluated episode, as two files a part, written off the thread that runs it. Rerun's
-//! (`.rrd`) is to be looked at, the input log (`.ferry`) to be run again.
+//! Recordings: a session or an evaluated episode as two files per part, written by a separate thread. Rerun's file
+//! (`.rrd`) is for viewing, the input log (`.ferry`) for replay.
 //!
-//! A session that goes on for long is kept in parts: Rerun holds the index of an open file in memory, and old parts
-//! can be let go. Each part can be opened, and replayed, alone.
+//! A long session is split into parts, because Rerun keeps the index of an open file in memory, and so that old parts
+//! can be deleted. Each part can be opened and replayed separately.
 
 mod archive;
 mod blueprint;
@@ -28,40 +28,39 @@ use crate::trial::{
 pub use archive::{Archive, Listed, Retention};
 use part::{Keeper, Naming};
 
-/// Messages that may wait for the disk: half a minute of a session, some seconds where it runs fast.
+/// Length of the queue to the disk: half a minute of a session in real time, a few seconds when it runs fast.
 const QUEUE: usize = 4096;
-/// Sights that may wait: each holds a camera frame of a megabyte.
+/// Largest number of queued sights: each contains a camera frame of one megabyte.
 const SIGHTS: usize = 16;
 /// Moments are logged at 25 Hz of simulated time; events and control steps always.
 const TICKS_A_SAMPLE: u64 = 5;
-/// Messages are taken from the queue this often at most.
+/// Smallest interval at which messages are taken from the queue.
 const GATHER: Duration = Duration::from_millis(20);
-/// After a tick was lost, so many more are let go between two offers to begin again.
+/// After a lost tick, this many more are dropped between two requests for a new beginning.
 const LOST_TICKS_AN_OFFER: u64 = 64;
 
-/// Why a recording could not begin or go on.
+/// Why a recording could not begin or continue.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
-    /// A file or folder cannot be made, read or written.
+    /// A file or folder cannot be created, read or written.
     #[error("recording: {path}: {error}", path = path.display())]
     Io {
-        /// The path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         error: std::io::Error,
     },
     /// The disk is nearly full.
-    #[error("recording: the disk has {left_mb} MB left, less than {least_mb}")]
+    #[error("recording: the disk has {left_mb} MB left, the minimum is {min_mb}")]
     Full {
-        /// What is left.
+        /// Remaining space.
         left_mb: u64,
-        /// What is asked for.
-        least_mb: u64,
+        /// Required space.
+        min_mb: u64,
     },
-    /// The input log.
+    /// Error of the input log.
     #[error("recording: {0}")]
     Log(#[from] LogError),
-    /// Rerun refused.
+    /// Error of Rerun.
     #[error("recording: {0}")]
     Rerun(String),
 }
@@ -72,44 +71,44 @@ impl From<re_sdk::RecordingStreamError> for RecordingError {
     }
 }
 
-/// Rerun's, or an encoder's, in its own words.
+/// An error of Rerun or of an encoder.
 fn trouble(error: impl std::fmt::Display) -> RecordingError {
     RecordingError::Rerun(error.to_string())
 }
 
-/// How a recording is kept.
+/// Settings of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Whether whoever runs the trial waits for a slow disk; otherwise ticks are lost, counted, and shown.
+    /// Whether the trial waits for a slow disk. Otherwise ticks are lost; they are counted and shown.
     pub waits: bool,
-    /// A part that is this old is followed by the next.
+    /// Length of a part.
     pub part: Duration,
-    /// Images come no closer together than this.
+    /// Smallest interval between images.
     pub image_every: Duration,
-    /// Recording stops when the disk has less room than this.
-    pub least_room_bytes: u64,
+    /// Recording stops if the disk has less free space.
+    pub min_free_bytes: u64,
 }
 
 impl Options {
-    /// For a session: it never waits, and runs for hours, perhaps many times as fast as time.
+    /// For a session: it never waits, and can run for hours and many times faster than real time.
     pub const LIVE: Self = Self {
         waits: false,
         part: Duration::from_secs(600),
         image_every: Duration::from_millis(100),
-        least_room_bytes: 64 << 20,
+        min_free_bytes: 64 << 20,
     };
-    /// For an episode: it is kept whole.
+    /// For an episode: it is recorded completely.
     pub const EPISODE: Self = Self { waits: true, part: Duration::MAX, image_every: Duration::ZERO, ..Self::LIVE };
 }
 
-/// What the recording's thread is told.
+/// A message to the recording's thread.
 enum Message {
     Begin(Box<Opening>),
-    Tick(Box<Told>),
+    Tick(Box<TickMessage>),
     Note(Event),
 }
 
-/// A trial that begins, or goes on.
+/// A trial that begins or continues.
 struct Opening {
     arena: Arc<Arena>,
     scenario: Scenario,
@@ -118,44 +117,44 @@ struct Opening {
     goal_m: Option<Point2<f64>>,
 }
 
-/// A tick.
-struct Told {
+/// A tick of the trial.
+struct TickMessage {
     logged: LoggedTick,
     sample: Option<Sample>,
 }
 
-/// A moment to be looked at.
+/// A moment for the viewer.
 struct Sample {
     moment: Moment,
     events: Vec<Event>,
-    /// Of a control step.
+    /// Only for control steps.
     sight: Option<Sight>,
 }
 
-/// What both threads see.
+/// State shared by both threads.
 #[derive(Default)]
 struct Shared {
-    /// Why nothing more is written; set once.
+    /// Why recording has stopped; set once.
     stopped: OnceLock<String>,
-    /// The part is old enough: the next wants to begin.
+    /// The part is old enough: the next one should begin.
     part_is_over: AtomicBool,
-    /// Sights that wait in the queue.
+    /// Number of sights in the queue.
     sights: AtomicUsize,
 }
 
-/// Writes one session or episode. Dropping it closes the files.
+/// Records one session or episode. Dropping it closes the files.
 pub struct Recorder {
     queue: Option<SyncSender<Message>>,
     thread: Option<JoinHandle<()>>,
     shared: Arc<Shared>,
     waits: bool,
-    /// A tick was lost: those that follow make no sense in an input log until it is told where the trial stands.
+    /// A tick was lost. Later ticks are useless in an input log until it contains a new state of the trial.
     gap: bool,
     lost_ticks: u64,
 }
 
 impl Recorder {
-    /// Records a session among others.
+    /// Records a session in the shared archive.
     pub fn in_archive(archive: &Arc<Archive>, session: &str, options: Options) -> Result<Self, RecordingError> {
         Self::start(Naming::Archive { archive: archive.clone(), session: session.to_owned() }, options)
     }
@@ -174,16 +173,16 @@ impl Recorder {
         let thread = std::thread::Builder::new()
             .name(name)
             .spawn(move || {
-                // A fault in here stops the recording, visibly, and never what is recorded.
+                // A panic here stops the recording, visibly, but not the trial.
                 if catch_unwind(AssertUnwindSafe(|| write_all(keeper, &inbox, &seen))).is_err() {
-                    note(Err(trouble("its thread failed; the log has more")), &seen);
+                    note(Err(trouble("its thread failed; see the log")), &seen);
                 }
             })
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;
         Ok(Self { queue: Some(queue), thread: Some(thread), shared, waits: options.waits, gap: false, lost_ticks: 0 })
     }
 
-    /// Whether the message went, or nobody will ever want it.
+    /// False only if the queue is full. A message to a stopped recording counts as sent.
     fn push(&self, message: Message) -> bool {
         let Some(queue) = &self.queue else { return true };
         if self.waits {
@@ -192,7 +191,7 @@ impl Recorder {
         !matches!(queue.try_send(message), Err(TrySendError::Full(_)))
     }
 
-    /// A sight, if not too many wait already.
+    /// A copy of the sight, unless too many are queued.
     fn admit(&self, sight: Option<&Sight>) -> Option<Sight> {
         let sight = sight?;
         if !self.waits && self.shared.sights.load(Ordering::Relaxed) >= SIGHTS {
@@ -227,7 +226,7 @@ impl Sink for Recorder {
             sight: self.admit(record.sight.as_ref()),
         });
         let holds_sight = sample.as_ref().is_some_and(|sample| sample.sight.is_some());
-        self.gap = !self.push(Message::Tick(Box::new(Told { logged: LoggedTick::from(record), sample })));
+        self.gap = !self.push(Message::Tick(Box::new(TickMessage { logged: LoggedTick::from(record), sample })));
         if self.gap {
             self.lost_ticks += 1;
             self.shared.sights.fetch_sub(usize::from(holds_sight), Ordering::Relaxed);
@@ -235,7 +234,7 @@ impl Sink for Recorder {
     }
 
     fn note(&mut self, event: &Event) {
-        // Shown to viewers in any case; what is lost here is a line of text.
+        // Viewers see the event in any case; only a line of text may be lost.
         let _ = self.push(Message::Note(event.clone()));
     }
 
@@ -251,7 +250,7 @@ impl Sink for Recorder {
         match (self.shared.stopped.get(), self.lost_ticks) {
             (Some(reason), _) => reason.clone(),
             (None, 0) => "recording".to_owned(),
-            (None, lost) => format!("recording, {lost} ticks lost: the disk is slow"),
+            (None, lost) => format!("recording, {lost} ticks lost: the disk is too slow"),
         }
     }
 
@@ -265,11 +264,11 @@ impl Sink for Recorder {
 }
 
 impl Recorder {
-    /// Waits until all is written.
+    /// Waits until everything is written.
     fn close(&mut self) {
         self.queue = None;
         if let Some(thread) = self.thread.take() {
-            // It catches its own panics.
+            // The thread catches its own panics.
             let _ = thread.join();
         }
     }
@@ -281,8 +280,8 @@ impl Drop for Recorder {
     }
 }
 
-/// Writes until the queue's other end is gone, or something cannot be written. What comes soon after a message is
-/// taken together: to wake for every tick would cost a fast trial more than the writing.
+/// Writes until the sender is dropped or an error occurs. Messages that arrive shortly after each other are handled
+/// together: waking for every tick would cost a fast trial more than the writing.
 fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
     loop {
         match inbox.recv_timeout(keeper.wait()) {
@@ -302,8 +301,8 @@ fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
 }
 
 fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {
-    if let Message::Tick(told) = &message
-        && told.sample.as_ref().is_some_and(|sample| sample.sight.is_some())
+    if let Message::Tick(tick) = &message
+        && tick.sample.as_ref().is_some_and(|sample| sample.sight.is_some())
     {
         shared.sights.fetch_sub(1, Ordering::Relaxed);
     }
@@ -313,7 +312,7 @@ fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {
     }
 }
 
-/// After the first failure nothing more is written.
+/// Records the first failure; nothing more is written after it.
 fn note(done: Result<(), RecordingError>, shared: &Shared) {
     if let Err(error) = done {
         tracing::error!(%error, "recording stopped");

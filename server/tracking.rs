@@ -1,4 +1,4 @@
-//! The optical tracker: what the controllers are told of the bead's position (paper, §II).
+//! The optical tracker: the controllers' measurement of the bead's position (paper, §II).
 
 use std::collections::VecDeque;
 
@@ -12,18 +12,18 @@ use crate::robot::ur5::SERVO_PERIOD_S;
 /// Time constant of the velocity filter.
 const VELOCITY_FILTER_S: f64 = 0.1;
 
-/// How good the tracker is.
+/// Quality of the tracker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackerParameters {
     /// Standard deviation of each coordinate.
     pub noise_m: f64,
-    /// Age of each sample when it arrives.
+    /// Age of a sample when it arrives.
     pub latency_ticks: u32,
-    /// Share of samples that never arrive.
+    /// Share of samples that are lost.
     pub dropout: f64,
 }
 
-/// What the tracker last said.
+/// The tracker's last output.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Position, as measured.
@@ -34,7 +34,7 @@ pub struct Estimate {
     pub age_ticks: u32,
 }
 
-/// State of the tracker: samples under way, and the last estimate.
+/// State of the tracker: samples in transit, and the last estimate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tracker {
     under_way: VecDeque<Option<Point2<f64>>>,
@@ -42,19 +42,18 @@ pub struct Tracker {
 }
 
 impl Tracker {
-    /// A tracker that has just seen the bead at rest.
+    /// A tracker whose last sample is the bead at rest.
     pub fn at(position_m: Point2<f64>) -> Self {
         let estimate = Estimate { position_m, velocity_m_s: Vector2::zeros(), age_ticks: 0 };
         Self { under_way: VecDeque::new(), estimate }
     }
 
-    /// The last estimate.
     pub fn estimate(&self) -> Estimate {
         self.estimate
     }
 
-    /// Takes one sample a tick. Draws the same number of random values whatever the parameters, so
-    /// that a change of noise does not change anything else in the trial.
+    /// Takes one sample per tick. The number of random draws does not depend on the parameters, so that changing the
+    /// noise does not change anything else in the trial.
     pub fn sample(&mut self, truth_m: Point2<f64>, parameters: &TrackerParameters, rng: &mut impl Rng) {
         let noise = Vector2::new(rng.sample(StandardNormal), rng.sample(StandardNormal)) * parameters.noise_m;
         let lost = rng.random::<f64>() < parameters.dropout;
@@ -106,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_arrives_after_its_latency_and_velocity_settles_on_the_truth() {
+    fn a_sample_arrives_after_its_latency_and_velocity_converges() {
         let parameters = TrackerParameters { noise_m: 0.0, ..PARAMETERS };
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         let mut tracker = Tracker::at(Point2::origin());

@@ -167,8 +167,8 @@ fn parts_follow_each_other_without_a_gap_and_each_replays_alone() {
 fn without_room_a_recording_does_not_begin_and_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
-    let options = Options { least_room_bytes: u64::MAX, ..Options::LIVE };
+    let options = Options { min_free_bytes: u64::MAX, ..Options::LIVE };
     let error = Recorder::in_archive(&archive, "main", options).err().expect("no disk has so much").to_string();
-    assert!(error.contains("MB left, less than 17592186044415"), "{error}");
+    assert!(error.contains("MB left, the minimum is 17592186044415"), "{error}");
     assert!(archive.list().unwrap().is_empty());
 }

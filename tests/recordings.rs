@@ -79,7 +79,7 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
         let replayed = ferry().arg("replay").args(options).arg(&log).output().unwrap();
         let told = String::from_utf8_lossy(&replayed.stdout);
         assert!(replayed.status.success(), "{}", String::from_utf8_lossy(&replayed.stderr));
-        assert!(told.contains("600 ticks (4.8 s) of 2 trials are as they were"), "{told}");
+        assert!(told.contains("600 ticks (4.8 s) of 2 trials replayed"), "{told}");
     }
 }
 

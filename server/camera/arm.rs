@@ -1,4 +1,7 @@
-//! The robot, its gripper and the magnet as solids. Only the scene shows them.
+//! The robot, its gripper and the magnet as solids, for the scene.
+//!
+//! Joint frames come from the state. The housings between them follow the real arm, whose upper arm and forearm run
+//! beside the joints' common plane.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -18,17 +21,17 @@ const PAD: Color = [34, 36, 42, 255];
 const MAGNET: Color = [228, 225, 214, 255];
 
 /// Longest gripper that is drawn, for a stage whose tool is not on the arm.
-const MOST_GRIPPER_M: f64 = 0.30;
+const MAX_GRIPPER_M: f64 = 0.30;
 
-/// Length of the planar stage's column that is drawn.
+/// Drawn length of the planar stage's column.
 const COLUMN_M: f64 = 0.3;
 
-/// Parts that [`parts`] can return at most.
-pub(super) const MOST_PARTS: u64 = 96;
+/// Upper limit of the number of [`parts`].
+pub(super) const MAX_PARTS: u64 = 96;
 
 /// The solids of robot, gripper and block, in any order.
 pub(super) fn parts(subject: &Subject) -> Vec<Part> {
-    let mut parts = Vec::with_capacity(MOST_PARTS as usize);
+    let mut parts = Vec::with_capacity(MAX_PARTS as usize);
     match &subject.link_frames {
         Some(frames) => {
             robot(&mut parts, frames);
@@ -57,13 +60,12 @@ fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
     }
 }
 
-/// The magnet.
 pub(super) fn block(subject: &Subject) -> Part {
     let size = Vector3::from(subject.block_size_m);
     cuboid(Point3::from(subject.tool_m) + Vector3::z() * (0.5 * size.z), size, MAGNET)
 }
 
-/// What holds the block where there is no arm: a column of the planar stage.
+/// The planar stage's column, which holds the block if there is no arm.
 fn column(parts: &mut Vec<Part>, subject: &Subject) {
     let block_top_m = Point3::from(subject.tool_m) + Vector3::z() * subject.block_size_m[2];
     let upright = Line { origin: block_top_m, along: Vector3::z() };
@@ -73,16 +75,16 @@ fn column(parts: &mut Vec<Part>, subject: &Subject) {
     lid(parts, upright, [COLUMN_M, COLUMN_M + 0.01], 0.014, LID);
 }
 
-/// From the flange to the block, whose edges are along `base`, so that the fingers
-/// are too: they hold it across its narrower side.
+/// From the flange to the block. The edges of block and fingers are along `base`; the fingers hold the block across
+/// its narrower side.
 fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry3<f64>) {
     let tool = Point3::from(subject.tool_m);
     let size = Vector3::from(subject.block_size_m);
     let block_top = tool + Vector3::z() * size.z;
     let flange = Point3::from(base_from_flange.translation.vector);
     let along = base_from_flange.rotation * Vector3::z();
-    let length_m = along.dot(&(block_top - flange)).clamp(0.0, MOST_GRIPPER_M);
-    // Shares of the way down.
+    let length_m = along.dot(&(block_top - flange)).clamp(0.0, MAX_GRIPPER_M);
+    // Places are shares of the length.
     let line = Line { origin: flange, along: along * length_m };
     tube(parts, line, [0.0, 0.08], 0.0375, SEAM);
     tube(parts, line, [0.08, 0.12], 0.035, FINGER);
@@ -98,7 +100,7 @@ fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry
     let (finger_m, pad_m) = (0.011, 0.004);
     let knuckles = solid(size[across] + 2.0 * (finger_m + pad_m) + 0.010, 0.032, 0.15 * length_m);
     parts.push(cuboid(line.at(0.57), knuckles, FINGER));
-    // Fingers reach from the knuckles down to the block's lower edge, with a pad on its side.
+    // Fingers reach from the knuckles down to the block's lower edge, with a pad on the inside.
     let finger = solid(finger_m, 0.018, 0.38 * length_m + 0.8 * size.z);
     let pad = solid(pad_m, 0.021, size.z + 0.012);
     for side in [-0.5, 0.5] {
@@ -111,7 +113,7 @@ fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry
     }
 }
 
-/// What round solids are strung on; places on it are multiples of `along`.
+/// The axis of round solids; places on it are multiples of `along`.
 #[derive(Clone, Copy)]
 struct Line {
     origin: Point3<f64>,
@@ -129,12 +131,12 @@ fn tube(parts: &mut Vec<Part>, line: Line, places: [f64; 2], radius_m: f64, colo
     parts.extend(round(Solid::Cylinder, line, places, radius_m, color));
 }
 
-/// A lid whose rim is at the first place and whose top is at the second.
+/// A lid with its rim at the first place and its top at the second.
 fn lid(parts: &mut Vec<Part>, line: Line, places: [f64; 2], radius_m: f64, color: Color) {
     parts.extend(round(Solid::Disc, line, places, radius_m, color));
 }
 
-/// Nothing where the places coincide.
+/// `None` if the places coincide.
 fn round(solid: Solid, line: Line, [from, to]: [f64; 2], radius_m: f64, color: Color) -> Option<Part> {
     let along = line.along * (to - from);
     if along.norm() < 1e-9 {
@@ -152,7 +154,7 @@ fn round(solid: Solid, line: Line, [from, to]: [f64; 2], radius_m: f64, color: C
     Some(Part { solid, base_from_solid, color })
 }
 
-/// An upright box around `center`.
+/// An axis-aligned box around `center`.
 fn cuboid(center: Point3<f64>, size: Vector3<f64>, color: Color) -> Part {
     let mut base_from_solid = Matrix4::new_nonuniform_scaling(&size);
     base_from_solid.set_column(3, &Vector4::new(center.x, center.y, center.z, 1.0));

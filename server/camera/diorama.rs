@@ -1,4 +1,4 @@
-//! The stage for people, as triangles: the maze as tissue in a tray, on a table that carries the robot too.
+//! The static scene for people: the maze as tissue in a tray, on the table that also carries the robot.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -7,7 +7,7 @@ use super::static_scene::{SHADOW_LIFT_M, border, flat, floor};
 use super::{BEAD_RADIUS_M, StaticScene};
 use crate::geometry::{Point3, Polygon, Rect, Vector3};
 
-/// Colours before light.
+/// Colours before lighting.
 mod colors {
     use super::Color;
 
@@ -22,7 +22,7 @@ mod colors {
         edge: [192, 70, 74, 255],
         top: [228, 136, 124, 255],
     };
-    /// The tray that the tissue lies in, seen from the tissue.
+    /// The side of the tray that faces the tissue.
     pub const TRAY_INSIDE: Walls = Walls {
         ground: FLOOR,
         floor: [238, 206, 194, 255],
@@ -32,54 +32,53 @@ mod colors {
         edge: [214, 219, 226, 255],
         top: [214, 219, 226, 255],
     };
-    /// The tray seen from the table.
+    /// The side of the tray that faces the table.
     pub const TRAY_OUTSIDE: Walls =
         Walls { ground: TABLE_TOP, floor: [146, 157, 172, 255], foot: [124, 134, 148, 255], ..TRAY_INSIDE };
     pub const TABLE_TOP: Color = [168, 180, 196, 255];
     pub const TABLE_SIDE: Color = [124, 134, 148, 255];
 
-    /// Colours of a wall and of the floor beside it, in the order in which one climbs it.
+    /// Colours of a wall and of the floor beside it, from the floor up.
     pub struct Walls {
-        /// The floor, out of the wall's reach.
+        /// The floor away from the wall.
         pub ground: Color,
         /// The floor where the fillet begins.
         pub floor: Color,
         pub foot: Color,
         pub side: Color,
         pub lip: Color,
-        /// Right behind the lip: the gut's own wall, seen in section.
+        /// Directly behind the lip: the cut through the gut's wall.
         pub edge: Color,
         pub top: Color,
     }
 }
 
-/// Width of the border that the scene shows instead.
+/// Width of the tray's border.
 const BORDER_M: f64 = 0.008;
-/// Margin of the scene's table.
+/// Margin of the table around everything it carries.
 const TABLE_MARGIN_M: f64 = 0.020;
-/// Radius of its corners.
+/// Radius of the table's corners.
 const TABLE_CORNER_M: f64 = 0.015;
-/// Room for the robot's foot.
+/// Half the side of the table area for the robot's foot.
 const FOOT_M: f64 = 0.09;
 /// Width of the lip along a wall's upper edge.
 const LIP_M: f64 = 0.0022;
-/// How far from a wall the floor darkens.
+/// Distance from a wall within which the floor darkens.
 const BLUSH_M: f64 = 0.014;
 /// Width of the band behind the lip.
 const BAND_M: f64 = 0.011;
-/// Edges of walls that are shorter are left out of what is drawn along them.
+/// Shorter wall edges are skipped in everything that is drawn along edges.
 const SHORTEST_EDGE_M: f64 = 1e-4;
-/// Least spacing of the lattice that shows how thick walls are, and how many cells it has along a side at most.
-const LEAST_CELL_M: f64 = 0.001;
-const MOST_CELLS: f64 = 2000.0;
-/// Cosine of the turn at which a corner of a wall is sharp.
+/// Smallest spacing of the [`GroundPlan`] grid, and its largest number of cells along a side.
+const MIN_CELL_M: f64 = 0.001;
+const MAX_CELLS: f64 = 2000.0;
+/// Cosine of the turn from which a wall corner counts as sharp.
 const SHARP_COSINE: f64 = 0.7;
-/// Thickness of the table.
 pub(super) const TABLE_THICKNESS_M: f64 = 0.020;
-/// The table's top lies this much lower than the floor, which would else flicker in it.
+/// The table's top is this much lower than the floor; at the same height the two would flicker.
 const TABLE_GAP_M: f64 = 0.001;
 
-/// The stage for people: floor and walls in a tray, on a table that carries the robot too.
+/// Floor and walls in a tray, on a table that also carries the robot.
 pub(super) fn mesh(static_scene: &StaticScene) -> Mesh {
     let mut mesh = Mesh::default();
     floor(&mut mesh, static_scene.workspace, colors::FLOOR);
@@ -87,11 +86,11 @@ pub(super) fn mesh(static_scene: &StaticScene) -> Mesh {
     let ground_plan = GroundPlan::of(static_scene);
     for wall in static_scene.walls {
         flat(&mut mesh, wall, Vector3::z() * height_m, colors::TISSUE.top);
-        // The tray covers what touches it.
+        // The tray covers walls that touch it.
         let free = |[start, end]: &[Corner; 2]| !on_edge(static_scene.workspace, start.at_m, end.at_m);
         for edge in wall.rings().flat_map(smooth_edges).filter(free) {
             let [start_m, end_m] = edge.map(|corner| ground_plan.inside_m(corner.at_m, -corner.outward, BAND_M));
-            // From the end of a fold to its root the band must not widen so fast that it leaves the fold.
+            // From the end of a fold to its root, the band must not widen so fast that it leaves the fold.
             let bands_m = [start_m.min(1.5 * end_m), end_m.min(1.5 * start_m)];
             strips(&mut mesh, edge, bands_m.map(|band_m| profile(&colors::TISSUE, height_m, band_m)));
         }
@@ -132,7 +131,6 @@ pub(super) fn table(workspace: &Rect) -> Rect {
     grown(&around, TABLE_MARGIN_M)
 }
 
-/// A rectangle with a margin.
 fn grown(area: &Rect, margin_m: f64) -> Rect {
     Rect {
         x_min_m: area.x_min_m - margin_m,
@@ -142,7 +140,7 @@ fn grown(area: &Rect, margin_m: f64) -> Rect {
     }
 }
 
-/// A rectangle whose corners are rounded, counter-clockwise.
+/// A rectangle with rounded corners, counter-clockwise.
 fn rounded_corners(area: &Rect) -> Vec<[f64; 2]> {
     let inner = grown(area, -TABLE_CORNER_M);
     let corners = [
@@ -169,25 +167,25 @@ fn on_edge(workspace: &Rect, start: Point3<f64>, end: Point3<f64>) -> bool {
         || [y_min_m, y_max_m].iter().any(|y_m| on(*y_m, start.y, end.y))
 }
 
-/// A line along a wall, seen across.
+/// A point of a wall's cross section; it becomes a line along the wall.
 #[derive(Clone, Copy)]
 struct Rib {
     /// Outward from the wall's edge.
     aside_m: f64,
     up_m: f64,
-    /// The normal's elevation, in eighths of a turn.
+    /// Elevation of the normal, in eighths of a turn.
     eighths: u8,
     color: Color,
 }
 
-/// A wall across: a fillet at its foot, in which the bead fits, a lip along its upper edge and a band behind it.
-/// Where strips of different edges cross, the higher shows: the one of the nearer edge.
+/// The cross section of a wall: a fillet at its foot that fits the bead, a lip along the upper edge and a band behind
+/// it. Where strips of different edges cross, the higher one is visible; it belongs to the nearer edge.
 fn profile(colors: &colors::Walls, height_m: f64, band_m: f64) -> [Rib; 9] {
     let fillet_m = BEAD_RADIUS_M.min(0.5 * height_m);
     let lip_m = LIP_M.min(band_m);
     let rib = |aside_m, up_m, eighths, color| Rib { aside_m, up_m, eighths, color };
     [
-        // Falls away from the wall by the height of a hair.
+        // A very small slope away from the wall.
         rib(BLUSH_M, SHADOW_LIFT_M, 2, colors.ground),
         rib(fillet_m, 8.0 * SHADOW_LIFT_M, 2, colors.floor),
         rib(0.3 * fillet_m, 0.3 * fillet_m, 1, colors.foot),
@@ -200,7 +198,7 @@ fn profile(colors: &colors::Walls, height_m: f64, band_m: f64) -> [Rib; 9] {
     ]
 }
 
-/// Joins the ribs at both ends of an edge.
+/// Connects the ribs at both ends of an edge.
 fn strips<const COUNT: usize>(mesh: &mut Mesh, corners: [Corner; 2], ribs: [[Rib; COUNT]; 2]) {
     let first = mesh.vertices.len() as u32;
     for (corner, ribs) in corners.iter().zip(ribs) {
@@ -216,12 +214,12 @@ fn strips<const COUNT: usize>(mesh: &mut Mesh, corners: [Corner; 2], ribs: [[Rib
     }
 }
 
-/// Which places are in a wall, on a lattice: to see how thick walls are then costs no more than their corners.
+/// A grid of the cells that are inside walls. It makes the thickness of walls cheap to look up.
 struct GroundPlan {
     workspace: Rect,
     cell_m: f64,
     columns: usize,
-    /// Row by row from the least y.
+    /// Row by row, from the smallest y.
     in_wall: Vec<bool>,
 }
 
@@ -229,10 +227,10 @@ impl GroundPlan {
     fn of(static_scene: &StaticScene) -> Self {
         let workspace = *static_scene.workspace;
         let size_m = workspace.size_m();
-        let cell_m = LEAST_CELL_M.max(size_m.max() / MOST_CELLS);
+        let cell_m = MIN_CELL_M.max(size_m.max() / MAX_CELLS);
         let [columns, rows] = [size_m.x, size_m.y].map(|side_m| (side_m / cell_m) as usize + 1);
         let mut in_wall = vec![false; columns * rows];
-        // Each edge that crosses a row turns in to out, for all cells whose middle is right of it.
+        // An edge that crosses a row toggles inside and outside for all cells whose centre is right of it.
         for ring in static_scene.walls.iter().flat_map(Polygon::rings) {
             for (&[x0, y0], &[x1, y1]) in ring.iter().zip(ring.iter().cycle().skip(1)) {
                 let row_at = |y_m: f64| ((y_m - workspace.y_min_m) / cell_m).clamp(0.0, rows as f64) as usize;
@@ -258,15 +256,15 @@ impl GroundPlan {
         Self { workspace, cell_m, columns, in_wall }
     }
 
-    /// How far from `start` along `inward` it is wall, at most `most_m`; half of it if it ends.
-    fn inside_m(&self, start: Point3<f64>, inward: Vector3<f64>, most_m: f64) -> f64 {
-        let steps = (most_m / self.cell_m) as usize;
+    /// Thickness of the wall from `start` along `inward`, at most `max_m`; half of it if the wall ends before.
+    fn inside_m(&self, start: Point3<f64>, inward: Vector3<f64>, max_m: f64) -> f64 {
+        let steps = (max_m / self.cell_m) as usize;
         // The first cell may lie across the edge.
         let ends = (2..=steps).find(|step| !self.is_wall(start + inward * (self.cell_m * *step as f64)));
-        ends.map_or(most_m, |step| 0.5 * self.cell_m * step as f64)
+        ends.map_or(max_m, |step| 0.5 * self.cell_m * step as f64)
     }
 
-    /// Outside the workspace it is not: there is the tray.
+    /// False outside the workspace, where the tray is.
     fn is_wall(&self, at_m: Point3<f64>) -> bool {
         let cell = |along_m: f64| (along_m >= 0.0).then_some((along_m / self.cell_m) as usize);
         let column = cell(at_m.x - self.workspace.x_min_m).filter(|column| *column < self.columns);
@@ -281,16 +279,16 @@ impl GroundPlan {
 struct Corner {
     /// On the table.
     at_m: Point3<f64>,
-    /// Where the corner is when both its edges have moved outward by one.
+    /// The displacement of the corner when both of its edges move outward by 1 m.
     outward: Vector3<f64>,
-    /// Between those of both edges where the wall bends softly, this edge's own at a sharp corner.
+    /// At a soft bend, the mean of both edges' normals; at a sharp corner, the normal of this edge.
     normal: Vector3<f64>,
 }
 
 /// Both ends of every edge of a ring.
 fn smooth_edges(ring: &[[f64; 2]]) -> Vec<[Corner; 2]> {
     let mut points: Vec<Point3<f64>> = ring.iter().map(|[x, y]| Point3::new(*x, *y, 0.0)).collect();
-    // The shortest edges have no direction to speak of.
+    // Very short edges have no reliable direction.
     points.dedup_by(|next, kept| (*next - *kept).norm() < SHORTEST_EDGE_M);
     let count = points.len();
     let normals: Vec<Vector3<f64>> = (0..count)
@@ -302,7 +300,7 @@ fn smooth_edges(ring: &[[f64; 2]]) -> Vec<[Corner; 2]> {
     let corner = |at: usize, edge: usize| {
         let (before, after) = (normals[(at + count - 1) % count], normals[at]);
         let (sum, cosine) = (before + after, before.dot(&after));
-        // At a spike the corner would move far away.
+        // The limit prevents very long offsets at spikes.
         let outward = sum / (1.0 + cosine).max(0.5);
         let normal = if cosine > SHARP_COSINE { sum.normalize() } else { normals[edge] };
         Corner { at_m: points[at], outward, normal }

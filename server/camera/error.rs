@@ -1,6 +1,5 @@
-//! Everything that can go wrong between a state and its image.
+//! Errors of the camera.
 
-/// Why no image could be taken.
 #[derive(Debug, thiserror::Error)]
 pub enum CameraError {
     /// No driver offers an adapter, not even one that renders on the CPU.
@@ -9,43 +8,40 @@ pub enum CameraError {
          mesa-vulkan-drivers has one that needs no GPU ({reason})"
     )]
     NoAdapter {
-        /// What each backend answered.
+        /// The answer of each backend.
         reason: String,
     },
-    /// The adapter was found but would not open.
-    #[error("the graphics adapter {adapter} did not open: {reason}")]
+    #[error("the graphics adapter {adapter} could not be opened: {reason}")]
     DeviceRefused {
-        /// The adapter's name.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
-    /// No such [`AdapterChoice`](super::AdapterChoice).
-    #[error("unknown adapter choice {given:?}: it must be auto, vulkan or gl")]
+    #[error("unknown adapter {given:?}: must be auto, vulkan or gl")]
     UnknownAdapter {
-        /// The text that was parsed.
+        /// The parsed text.
         given: String,
     },
-    /// A camera parameter is absurd.
-    #[error("camera {name} is {value}: it must be {expected}")]
+    /// A camera parameter is out of range.
+    #[error("camera {name} is {value}: must be {expected}")]
     Parameter {
-        /// The field of [`CameraMount`](crate::image::CameraMount).
+        /// Field of [`CameraMount`](crate::image::CameraMount).
         name: &'static str,
-        /// Its value.
         value: f64,
-        /// What would be accepted.
+        /// The accepted range.
         expected: &'static str,
     },
-    /// The camera would sit inside or below the walls.
-    #[error("camera height {height_m} m is not above the walls, which are {wall_height_m} m high")]
+    /// The camera would be inside or below the walls.
+    #[error("camera height_m is {height_m}: must be more than the wall height {wall_height_m}")]
     BelowWalls {
-        /// Height of the camera above the table.
+        /// Above the table.
         height_m: f64,
-        /// Height of the walls.
         wall_height_m: f64,
     },
-    /// The camera would see the horizon, or table so far off that nothing can be made out.
-    #[error("camera tilt {tilt_rad:?} rad with field_of_view_rad {field_of_view_rad}: it would see the horizon")]
+    /// The camera would see the horizon, or table points too far away.
+    #[error(
+        "camera tilt_rad {tilt_rad:?} with field_of_view_rad {field_of_view_rad}: the camera would see the horizon"
+    )]
     Horizon {
         /// Tilt toward +x and +y.
         tilt_rad: [f64; 2],
@@ -53,45 +49,44 @@ pub enum CameraError {
         field_of_view_rad: f64,
     },
     /// The image has no pixels, or too many.
-    #[error("an image of {width_px} x {height_px} pixels: each side must be 1 to {most_px}")]
+    #[error("image size {width_px} x {height_px} pixels: each side must be 1 to {max_px}")]
     Size {
-        /// Columns asked for.
+        /// Requested columns.
         width_px: u32,
-        /// Rows asked for.
+        /// Requested rows.
         height_px: u32,
         /// Largest side that this adapter and this crate allow.
-        most_px: u32,
+        max_px: u32,
     },
     /// The static geometry cannot be drawn.
     #[error("the stage cannot be drawn: {what}")]
     StaticScene {
-        /// Which number is wrong, and its value.
+        /// The wrong value and its name.
         what: String,
     },
     /// The state cannot be drawn.
     #[error("the state cannot be drawn: {what} is not finite")]
     Subject {
-        /// The field of [`Subject`](super::Subject).
+        /// Field of [`Subject`](super::Subject).
         what: &'static str,
     },
-    /// The device refused to build or to draw something.
+    /// The device refused an operation.
     #[error("the graphics device refused {what}: {reason}")]
     Rejected {
-        /// What was being done.
+        /// The operation.
         what: &'static str,
-        /// The library's words.
+        /// The library's message.
         reason: String,
     },
-    /// The finished image could not be read.
     #[error("the image could not be read back: {reason}")]
     Readback {
-        /// The library's words.
+        /// The library's message.
         reason: String,
     },
-    /// The device is gone for good; a new [`Gpu`](super::Gpu) and new cameras are needed.
+    /// The device is lost; a new [`Gpu`](super::Gpu) and new cameras are needed.
     #[error("the graphics device was lost: {reason}")]
     DeviceLost {
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
 }

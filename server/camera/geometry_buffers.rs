@@ -1,4 +1,4 @@
-//! Triangles on the device, and where copies of each solid are placed in a frame.
+//! Triangles on the device, and the placement of solids in a frame.
 
 use std::ops::Range;
 
@@ -9,10 +9,10 @@ use wgpu::util::DeviceExt;
 use super::gpu::Gpu;
 use super::mesh::{Color, Mesh};
 
-/// What can be drawn: the meshes of a renderer, in this order.
+/// The meshes of a renderer, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Solid {
-    /// Everything that stands still.
+    /// All static parts.
     StaticScene,
     Sphere,
     Disc,
@@ -21,19 +21,19 @@ pub(super) enum Solid {
     Cylinder,
 }
 
-/// One copy of a solid.
+/// One placed copy of a solid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub solid: Solid,
-    /// Affine, from the solid's unit frame to `base`. May stretch, but only along the solid's own
-    /// axes and a round solid equally across, else its normals would lie.
+    /// Affine, from the solid's unit frame to `base`. It may scale only along the solid's own axes, and round solids
+    /// equally across; otherwise the normals would be wrong.
     pub base_from_solid: Matrix4<f64>,
     /// Multiplies the solid's colour.
     pub color: Color,
 }
 
 impl Part {
-    /// The stage, which is in `base` already.
+    /// The static scene, which is already in `base`.
     pub const fn static_scene(base_from_solid: Matrix4<f64>) -> Self {
         Self { solid: Solid::StaticScene, base_from_solid, color: [255; 4] }
     }
@@ -73,20 +73,20 @@ pub(super) struct Batch {
     instances: Range<u32>,
 }
 
-/// All meshes of a renderer in one pair of buffers, and the instances of the present frame.
+/// All meshes of a renderer in one pair of buffers, and the instances of the current frame.
 #[derive(Debug)]
 pub(super) struct GeometryBuffers {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
-    /// The part of `indices` that is each mesh.
+    /// The range of `indices` of each mesh.
     meshes: Vec<Range<u32>>,
     instances: wgpu::Buffer,
 }
 
 impl GeometryBuffers {
-    /// Uploads `meshes`, one for each [`Solid`] in its order; a renderer that uses only the first
-    /// few passes only those. No frame may place more than `most_parts`.
-    pub fn new(gpu: &Gpu, meshes: &[Mesh], most_parts: u64) -> Self {
+    /// Uploads `meshes`, one for each [`Solid`] in order. A renderer that uses only the first few passes only those.
+    /// A frame may place at most `max_parts`.
+    pub fn new(gpu: &Gpu, meshes: &[Mesh], max_parts: u64) -> Self {
         let mut all = Mesh::default();
         let mut ranges = Vec::with_capacity(meshes.len());
         for mesh in meshes {
@@ -105,14 +105,14 @@ impl GeometryBuffers {
             meshes: ranges,
             instances: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("instances"),
-                size: most_parts * size_of::<Instance>() as u64,
+                size: max_parts * size_of::<Instance>() as u64,
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
         }
     }
 
-    /// Places `parts` for the frame that is submitted next. Equal solids in a row are drawn at once.
+    /// Places `parts` for the next submitted frame. Consecutive equal solids are drawn together.
     pub fn place(&self, gpu: &Gpu, parts: &[Part]) -> Vec<Batch> {
         let instances: Vec<Instance> = parts.iter().map(Instance::from).collect();
         gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
@@ -126,7 +126,7 @@ impl GeometryBuffers {
         batches
     }
 
-    /// Draws what [`Self::place`] returned, in its order.
+    /// Draws batches of [`Self::place`], in order.
     pub fn draw(&self, pass: &mut wgpu::RenderPass, batches: &[Batch]) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_vertex_buffer(1, self.instances.slice(..));

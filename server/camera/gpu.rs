@@ -1,14 +1,14 @@
-//! The device that draws: found once, shared by every camera.
+//! The graphics device: opened once, shared by every camera.
 
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::{CameraError, MOST_PX, Quality};
+use super::{CameraError, MAX_PX, Quality};
 
-/// Which drivers may be used.
+/// Which graphics drivers may be used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AdapterChoice {
-    /// The fastest adapter of any driver; one that renders on the CPU if there is no other.
+    /// The fastest adapter of any driver. An adapter that renders on the CPU is used only if there is no other.
     #[default]
     Auto,
     /// Vulkan only.
@@ -31,7 +31,7 @@ impl AdapterChoice {
 impl FromStr for AdapterChoice {
     type Err = CameraError;
 
-    /// `auto`, `vulkan` or `gl`, in any case.
+    /// `auto`, `vulkan` or `gl`, case-insensitive.
     fn from_str(text: &str) -> Result<Self, CameraError> {
         match text.to_ascii_lowercase().as_str() {
             "auto" => Ok(Self::Auto),
@@ -42,7 +42,7 @@ impl FromStr for AdapterChoice {
     }
 }
 
-/// An open graphics device. Shared between sessions: each call on it is safe from any thread.
+/// An open graphics device, shared between sessions. All calls are safe from any thread.
 #[derive(Debug)]
 pub struct Gpu {
     pub(super) device: wgpu::Device,
@@ -50,18 +50,17 @@ pub struct Gpu {
     adapter_name: String,
     quality: Quality,
     choice: AdapterChoice,
-    /// Opened by whoever first finds this device lost; locked by every camera that does.
+    /// Opened by the first camera that finds this device lost, and used by all others.
     successor: Mutex<Option<Arc<Self>>>,
-    /// Set once, by the driver, from whichever thread is talking to the device.
+    /// The driver's message. Set once by the driver, from any thread that uses the device.
     lost: Arc<OnceLock<String>>,
 }
 
 impl Gpu {
-    /// Opens the best adapter that `choice` allows. Takes a moment; blocks.
+    /// Opens the best adapter that `choice` allows. Blocks for a moment.
     ///
     /// # Errors
-    /// [`CameraError::NoAdapter`] where there is no driver, [`CameraError::DeviceRefused`] where
-    /// there is one that fails.
+    /// [`CameraError::NoAdapter`] if there is no driver, [`CameraError::DeviceRefused`] if a driver exists but fails.
     pub fn open(choice: AdapterChoice) -> Result<Arc<Self>, CameraError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = choice.backends();
@@ -75,7 +74,7 @@ impl Gpu {
         let info = adapter.get_info();
         let adapter_name = format!("{} ({:?})", info.name, info.backend);
         let quality = if info.device_type == wgpu::DeviceType::Cpu { Quality::Economy } else { Quality::Fine };
-        // Nothing beyond the WebGL 2 limits is used, so that every driver will do.
+        // Nothing beyond the WebGL 2 limits is used, so that every driver is sufficient.
         let required_limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("camera"),
@@ -88,13 +87,13 @@ impl Gpu {
         let lost = Arc::new(OnceLock::new());
         let flag = Arc::clone(&lost);
         device.set_device_lost_callback(move |reason, message| {
-            // Only the first loss is news.
+            // Only the first loss is recorded.
             let _ = flag.set(format!("{reason:?}: {message}"));
         });
         Ok(Arc::new(Self { device, queue, adapter_name, quality, choice, successor: Mutex::default(), lost }))
     }
 
-    /// A second device of the same kind, for work that must not hold this one up.
+    /// A second device of the same kind, for work that must not delay this one.
     ///
     /// # Errors
     /// Those of [`Gpu::open`].
@@ -102,12 +101,12 @@ impl Gpu {
         Self::open(self.choice)
     }
 
-    /// This device, or the one that has taken its place since it was lost: a driver that restarts takes
-    /// every device with it, and all cameras then share one new one. Blocks while it is opened.
+    /// This device or, if it is lost, its replacement. A driver that restarts loses all its devices; all cameras then
+    /// share one new device. Blocks while it is opened.
     ///
     /// # Errors
     /// Those of [`Gpu::open`].
-    pub fn living(self: &Arc<Self>) -> Result<Arc<Self>, CameraError> {
+    pub fn current(self: &Arc<Self>) -> Result<Arc<Self>, CameraError> {
         let mut gpu = Arc::clone(self);
         while gpu.check_alive().is_err() {
             let next = {
@@ -122,28 +121,27 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Gives the device up, as a driver does that restarts: whoever draws on it goes on with another.
+    /// Destroys the device, as a restarting driver does. Cameras that use it continue on a new one.
     pub fn destroy(&self) {
         self.device.destroy();
     }
 
-    /// Name of the adapter and of its driver's interface, such as
-    /// `llvmpipe (LLVM 19.1.7, 256 bits) (Vulkan)`.
+    /// Name of the adapter and of its driver interface, for example `llvmpipe (LLVM 19.1.7, 256 bits) (Vulkan)`.
     pub fn adapter_name(&self) -> &str {
         &self.adapter_name
     }
 
-    /// What the adapter can afford.
+    /// The default quality for this adapter.
     pub fn quality(&self) -> Quality {
         self.quality
     }
 
-    /// Largest side of an image.
-    pub(super) fn most_px(&self) -> u32 {
-        self.device.limits().max_texture_dimension_2d.min(MOST_PX)
+    /// Largest side of an image, in pixels.
+    pub(super) fn max_px(&self) -> u32 {
+        self.device.limits().max_texture_dimension_2d.min(MAX_PX)
     }
 
-    /// Fails when the device is gone.
+    /// Fails if the device is lost.
     pub(super) fn check_alive(&self) -> Result<(), CameraError> {
         match self.lost.get() {
             Some(reason) => Err(CameraError::DeviceLost { reason: reason.clone() }),
@@ -151,15 +149,14 @@ impl Gpu {
         }
     }
 
-    /// [`Self::check_alive`] after asking the device for news, without which it does not say that it is lost.
+    /// [`Self::check_alive`] after polling the device. Without a poll the device does not report its loss.
     pub(super) fn check_lost(&self) -> Result<(), CameraError> {
-        // A device that cannot be asked is lost, and has said so.
+        // If the poll fails, the device is lost and has already reported it.
         let _ = self.device.poll(wgpu::PollType::Poll);
         self.check_alive()
     }
 
-    /// Does `work`, and turns what the device says against it into an error. Without this the
-    /// library would panic.
+    /// Runs `work` and returns errors that the device reports as [`CameraError`]. Without this the library would panic.
     pub(super) fn checked<T>(&self, what: &'static str, work: impl FnOnce() -> T) -> Result<T, CameraError> {
         use wgpu::ErrorFilter;
         self.check_alive()?;
@@ -167,10 +164,10 @@ impl Gpu {
         let internal = self.device.push_error_scope(ErrorFilter::Internal);
         let validation = self.device.push_error_scope(ErrorFilter::Validation);
         let done = work();
-        // Scopes nest, the innermost is popped first.
-        let said = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
+        // Scopes nest: the innermost is popped first.
+        let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
         self.check_alive()?;
-        let Some(error) = said.into_iter().flatten().next() else { return Ok(done) };
+        let Some(error) = errors.into_iter().flatten().next() else { return Ok(done) };
         self.check_lost()?;
         Err(CameraError::Rejected { what, reason: error.to_string() })
     }
@@ -181,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn choices_parse_and_others_are_named() {
+    fn parses_choices_and_names_unknown_ones() {
         assert_eq!("auto".parse::<AdapterChoice>().unwrap(), AdapterChoice::Auto);
         assert_eq!("GL".parse::<AdapterChoice>().unwrap(), AdapterChoice::Gl);
         let error = "cuda".parse::<AdapterChoice>().unwrap_err();
@@ -189,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_driver_names_the_remedy() {
+    fn a_missing_driver_error_names_the_package_to_install() {
         let error = CameraError::NoAdapter { reason: "none".into() };
         assert!(error.to_string().contains("mesa-vulkan-drivers"));
     }
@@ -204,20 +201,20 @@ mod tests {
     }
 
     #[test]
-    fn a_lost_device_has_one_successor() {
+    fn a_lost_device_has_one_replacement() {
         let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
-        assert!(Arc::ptr_eq(&gpu.living().unwrap(), &gpu));
+        assert!(Arc::ptr_eq(&gpu.current().unwrap(), &gpu));
         gpu.device.destroy();
         let _ = gpu.device.poll(wgpu::PollType::Poll);
-        let next = gpu.living().unwrap();
-        assert!(!Arc::ptr_eq(&next, &gpu) && Arc::ptr_eq(&next, &gpu.living().unwrap()));
+        let next = gpu.current().unwrap();
+        assert!(!Arc::ptr_eq(&next, &gpu) && Arc::ptr_eq(&next, &gpu.current().unwrap()));
         next.device.destroy();
         let _ = next.device.poll(wgpu::PollType::Poll);
-        assert!(gpu.living().unwrap().check_alive().is_ok());
+        assert!(gpu.current().unwrap().check_alive().is_ok());
     }
 
     #[test]
-    fn a_refused_request_is_an_error_and_no_panic() {
+    fn a_refused_request_is_an_error_and_not_a_panic() {
         let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
         let error = gpu
             .checked("a shader", || {

@@ -1,4 +1,4 @@
-//! Triangles, and the solids that everything is built of.
+//! Triangle meshes, and the basic solids.
 
 use std::f64::consts::TAU;
 
@@ -6,16 +6,16 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::geometry::{Point3, Vector3};
 
-/// Red, green, blue as in an image file, and how the scene lights it: 255 lit, 0 shining by itself.
+/// Red, green, blue as in an image file; alpha is how the scene lights it: 255 fully lit, 0 emissive.
 pub(super) type Color = [u8; 4];
 
-/// A corner, as both shaders read it.
+/// A vertex, as both shaders read it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(super) struct Vertex {
-    /// In `base` for the stage, in the solid's own unit frame otherwise.
+    /// In `base` for the static scene, otherwise in the solid's unit frame.
     pub position_m: [f32; 3],
-    /// Outward, of length 1.
+    /// Outward unit vector.
     pub normal: [f32; 3],
     pub color: Color,
 }
@@ -29,16 +29,15 @@ impl Vertex {
     };
 }
 
-/// Indexed triangles.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
     pub vertices: Vec<Vertex>,
-    /// Three a triangle, into `vertices`.
+    /// Indices into `vertices`, three per triangle.
     pub indices: Vec<u32>,
 }
 
 impl Mesh {
-    /// Adds a corner and returns its index.
+    /// Adds a vertex and returns its index.
     pub fn vertex(&mut self, position: Point3<f64>, normal: Vector3<f64>, color: Color) -> u32 {
         self.vertices.push(Vertex {
             position_m: position.coords.cast::<f32>().into(),
@@ -48,13 +47,13 @@ impl Mesh {
         (self.vertices.len() - 1) as u32
     }
 
-    /// Adds a flat quadrilateral; corners in order around it.
+    /// Adds a flat quadrilateral; `corners` go around it in order.
     pub fn quad(&mut self, corners: [Point3<f64>; 4], normal: Vector3<f64>, color: Color) {
         let [a, b, c, d] = corners.map(|corner| self.vertex(corner, normal, color));
         self.indices.extend([a, b, c, a, c, d]);
     }
 
-    /// Adds an upright box between two opposite corners.
+    /// Adds an axis-aligned box between two opposite corners.
     pub fn cuboid(&mut self, low: Point3<f64>, high: Point3<f64>, color: Color) {
         let size = high - low;
         for axis in 0..3 {
@@ -75,8 +74,7 @@ impl Mesh {
         }
     }
 
-    /// Adds a grid of `rows × columns` cells whose corners `at(row, column)` yields with their
-    /// normals.
+    /// Adds a grid of `rows × columns` cells. `at(row, column)` returns a corner and its normal.
     fn grid(&mut self, rows: u32, columns: u32, color: Color, at: impl Fn(u32, u32) -> (Point3<f64>, Vector3<f64>)) {
         let first = self.vertices.len() as u32;
         for row in 0..=rows {
@@ -96,7 +94,7 @@ impl Mesh {
     }
 }
 
-/// Around a circle: the point at step `step` of `steps`.
+/// The unit vector at step `step` of `steps` around a circle in the xy plane.
 fn around(step: u32, steps: u32) -> Vector3<f64> {
     let angle = TAU * f64::from(step) / f64::from(steps);
     Vector3::new(angle.cos(), angle.sin(), 0.0)
@@ -141,7 +139,7 @@ pub(super) fn unit_cylinder(columns: u32) -> Mesh {
     mesh
 }
 
-/// A lid of radius 1 from z = 0 to its slightly domed top at z = 1: half of the ball r⁴ + z⁴ = 1.
+/// A lid of radius 1 from z = 0 to its slightly domed top at z = 1: half of the superellipsoid r⁴ + z⁴ = 1.
 pub(super) fn unit_lid(columns: u32) -> Mesh {
     let rows = 6;
     let mut mesh = Mesh::default();
@@ -193,8 +191,8 @@ mod tests {
                 assert!(outward > 0.0, "{name}: {vertex:?}");
             }
             assert!(mesh.indices.len().is_multiple_of(3));
-            let most = *mesh.indices.iter().max().unwrap() as usize;
-            assert!(most < mesh.vertices.len(), "{name}");
+            let max = *mesh.indices.iter().max().unwrap() as usize;
+            assert!(max < mesh.vertices.len(), "{name}");
         }
     }
 }

@@ -5,15 +5,15 @@ use nalgebra::{Matrix4, Vector4};
 use crate::geometry::{Point3, Rect, Vector2, Vector3};
 use crate::image::Pinhole;
 
-/// Share of the camera's height above the table that is closer than it can see.
+/// Near plane, as a share of the camera's height above the table.
 const NEAR: f64 = 0.02;
-/// How far beyond the table the controllers' camera sees.
+/// Distance of the far plane behind the farthest table point in view of the controllers' camera.
 const BEYOND_M: f64 = 0.05;
 
-/// Corrections of the picture's middle; each shrinks the error several times.
+/// Iterations that centre the image; each shrinks the error several times.
 const CENTERING_ROUNDS: usize = 8;
 
-/// A camera that sees only table: [`super::check_mount`] has passed it.
+/// Projection of a camera that sees only the table, as checked by [`super::check_mount`].
 pub(super) fn pinhole(camera: &Pinhole) -> Matrix4<f64> {
     let [right, up, forward] = camera.axes();
     let center = camera.center_m();
@@ -32,19 +32,19 @@ pub(super) fn pinhole(camera: &Pinhole) -> Matrix4<f64> {
     Matrix4::from_fn(|row, column| rows[row][column])
 }
 
-/// A fixed view.
+/// Projection and position of a fixed scene camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Projection {
     pub clip_from_base: Matrix4<f64>,
-    /// Homogeneous: for a parallel view the fourth is 0, and the rest the direction to the eye.
+    /// Homogeneous: in a parallel view the fourth component is 0 and the rest is the direction to the camera.
     pub eye_m: Vector4<f64>,
 }
 
-/// Heights that the view from above holds, and depths below the table.
+/// Height above the table, and depth below it, that the parallel view covers.
 const ABOVE_M: f64 = 1.0;
 
-/// Looks straight down at `area` with `margin_m` around it, +y up, without perspective; a picture of
-/// another `aspect` (width over height) shows more of the longer side.
+/// Looks straight down at `area` with `margin_m` around it, +y up, in parallel projection. If the image's `aspect`
+/// (width over height) differs from the area's, the longer side shows more.
 pub(super) fn parallel_down(area: &Rect, margin_m: f64, aspect: f64) -> Projection {
     let size_m = area.size_m() + Vector2::repeat(2.0 * margin_m);
     let half_y_m = 0.5 * size_m.y.max(size_m.x / aspect);
@@ -59,9 +59,9 @@ pub(super) fn parallel_down(area: &Rect, margin_m: f64, aspect: f64) -> Projecti
     Projection { clip_from_base, eye_m: Vector4::z() }
 }
 
-/// Looks from direction `toward_eye` at the middle of `bounds`, just far enough away that all of
-/// them are in a picture of `aspect` (width over height) whose shorter side spans
-/// `field_of_view_rad`, and of which they leave the share `margin` free on every side.
+/// Looks from direction `toward_eye` at the middle of `bounds`, from the smallest distance at which all of them are
+/// inside an image of `aspect` (width over height). `field_of_view_rad` spans the image's shorter side; the share
+/// `margin` stays free on every side.
 pub(super) fn perspective_around(
     bounds: &[Point3<f64>],
     toward_eye: Vector3<f64>,
@@ -76,14 +76,14 @@ pub(super) fn perspective_around(
     let filled = [tangent_x, tangent_y].map(|tangent| (1.0 - 2.0 * margin) * tangent);
     let mut distance = distance_to_hold(bounds, middle, [right, up, back], filled);
     for _ in 0..CENTERING_ROUNDS {
-        // What is near looks larger, so the middle of the picture is not the middle of the bounds.
+        // Near points appear larger, so the middle of the image is not the middle of the bounds.
         for axis in [right, up] {
             let seen = bounds.iter().map(|point| {
                 let p = point - middle;
                 axis.dot(&p) / (distance - back.dot(&p))
             });
-            let (least, most) = seen.fold((f64::MAX, f64::MIN), |(least, most), at| (least.min(at), most.max(at)));
-            middle += axis * (0.5 * (least + most) * distance);
+            let (min, max) = seen.fold((f64::MAX, f64::MIN), |(min, max), at| (min.min(at), max.max(at)));
+            middle += axis * (0.5 * (min + max) * distance);
         }
         distance = distance_to_hold(bounds, middle, [right, up, back], filled);
     }
@@ -103,7 +103,7 @@ pub(super) fn perspective_around(
     Projection { clip_from_base: Matrix4::from_fn(|row, column| rows[row][column]), eye_m: eye_m.to_homogeneous() }
 }
 
-/// How far from `middle` the eye must be to have all `bounds` within the tangents to the right and up.
+/// Distance of the camera from `middle` at which all `bounds` are within the tangents to the right and up.
 fn distance_to_hold(
     bounds: &[Point3<f64>],
     middle: Point3<f64>,
@@ -118,7 +118,7 @@ fn distance_to_hold(
     needed.fold(f64::MIN, f64::max)
 }
 
-/// A parallel projection along the light that holds all `bounds`, for the shadow map.
+/// A parallel projection along the light that contains all `bounds`, for the shadow map.
 pub(super) fn parallel_around(bounds: &[Point3<f64>], toward_light: Vector3<f64>) -> Matrix4<f64> {
     let (middle, radius) = ball_around(bounds);
     let [right, up, back] = axes(toward_light);
@@ -135,14 +135,14 @@ pub(super) fn parallel_around(bounds: &[Point3<f64>], toward_light: Vector3<f64>
     Matrix4::from_fn(|row, column| rows[row][column])
 }
 
-/// Right, up and back of somebody who looks against `toward_eye`, which must not be vertical.
+/// Right, up and back vectors of a camera that looks against `toward_eye`, which must not be vertical.
 fn axes(toward_eye: Vector3<f64>) -> [Vector3<f64>; 3] {
     let back = toward_eye.normalize();
     let right = Vector3::z().cross(&back).normalize();
     [right, back.cross(&right), back]
 }
 
-/// A ball that holds all points: the middle of their bounding box and the largest distance from it.
+/// A ball that contains all points: the middle of their bounding box and the largest distance from it.
 fn ball_around(points: &[Point3<f64>]) -> (Point3<f64>, f64) {
     let mut low = points[0];
     let mut high = points[0];
@@ -167,14 +167,14 @@ mod tests {
         let ndc = |x, y, z| clip_from_base.transform_point(&Point3::new(x, y, z));
         assert!((ndc(0.2, -0.3, 0.0).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-5);
         assert!((ndc(0.1, -0.2, 0.0).xy() - nalgebra::point![0.0, 1.0]).norm() < 1e-5);
-        // Half-way up to the camera everything is twice as large.
+        // Half-way up to the camera everything appears twice as large.
         assert!((ndc(0.15, -0.3, 0.15).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-5);
         assert!(ndc(0.1, -0.3, 0.01).z < ndc(0.1, -0.3, 0.0).z);
         assert!((ndc(0.1, -0.3, 0.3 - 0.006).z).abs() < 1e-12);
     }
 
     #[test]
-    fn a_tilted_pinhole_projects_as_its_description_says() {
+    fn a_tilted_pinhole_projects_like_image_from_point() {
         let mount = CameraMount { tilt_rad: [0.2, -0.3], offset_m: [0.05, 0.1], ..CameraMount::default() };
         let camera = mount.over(Point2::new(0.1, -0.3));
         let clip_from_base = pinhole(&camera);
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn all_bounds_are_in_the_picture_whatever_its_shape() {
+    fn all_bounds_are_in_the_picture_at_any_aspect() {
         let bounds = [Point3::new(-0.3, -0.54, 0.0), Point3::new(0.28, -0.21, 0.0), Point3::new(0.0, 0.0, 0.6)];
         for aspect in [0.4, 1.0, 16.0 / 9.0] {
             let toward_eye = Vector3::new(0.4, -1.0, 0.8);
@@ -199,17 +199,17 @@ mod tests {
             let mut touches = false;
             for point in &bounds {
                 let ndc = view.clip_from_base.transform_point(point);
-                let most = ndc.x.abs().max(ndc.y.abs());
-                assert!(most <= 0.9 + 1e-9, "{aspect}: {ndc}");
+                let max = ndc.x.abs().max(ndc.y.abs());
+                assert!(max <= 0.9 + 1e-9, "{aspect}: {ndc}");
                 assert!((0.0..1.0).contains(&ndc.z));
-                touches |= most > 0.9 - 1e-9;
+                touches |= max > 0.9 - 1e-9;
             }
             assert!(touches, "the picture is larger than needed at {aspect}");
         }
     }
 
     #[test]
-    fn the_plan_holds_its_area_at_one_scale() {
+    fn the_plan_contains_its_area_at_one_scale() {
         let area = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
         for aspect in [0.4, 1.0, 16.0 / 9.0] {
             let plan = parallel_down(&area, 0.01, aspect);
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shadow_map_holds_its_bounds() {
+    fn the_shadow_map_contains_its_bounds() {
         let bounds = [Point3::new(-0.3, -0.5, 0.0), Point3::new(0.3, 0.1, 0.6)];
         let clip_from_base = parallel_around(&bounds, Vector3::new(-0.4, -0.3, 1.0));
         for point in &bounds {

@@ -1,24 +1,24 @@
-//! What the drawing passes have in common.
+//! Code that all render passes share.
 
 use super::geometry_buffers::Instance;
 use super::gpu::Gpu;
 use super::mesh::Vertex;
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT};
 
-/// How one pass differs from the others.
+/// The differences between passes.
 pub(super) struct Pass<'a> {
     pub module: &'a wgpu::ShaderModule,
     /// Entry point of the vertex stage; also the label.
     pub vertex: &'a str,
-    /// Entry point of the fragment stage; none where only depth is drawn.
+    /// Entry point of the fragment stage; `None` if only depth is drawn.
     pub fragment: Option<&'a str>,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
     pub depth_bias: wgpu::DepthBiasState,
 }
 
-/// A pipeline over [`Vertex`] and [`Instance`] with depth test, whose bindings are those that its
-/// shader uses. Faces show from both sides: nothing depends on how a triangle is wound.
+/// A pipeline over [`Vertex`] and [`Instance`] with depth test. The bindings are derived from the shader. Both sides
+/// of a triangle are drawn, so the winding does not matter.
 pub(super) fn pipeline(gpu: &Gpu, pass: &Pass) -> wgpu::RenderPipeline {
     let targets = [Some(COLOR_FORMAT.into())];
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -50,7 +50,6 @@ pub(super) fn pipeline(gpu: &Gpu, pass: &Pass) -> wgpu::RenderPipeline {
     })
 }
 
-/// Compiles a shader.
 pub(super) fn module(gpu: &Gpu, label: &str, source: &str) -> wgpu::ShaderModule {
     gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
@@ -58,7 +57,6 @@ pub(super) fn module(gpu: &Gpu, label: &str, source: &str) -> wgpu::ShaderModule
     })
 }
 
-/// A buffer for uniforms of type `T`.
 pub(super) fn uniforms<T>(gpu: &Gpu, label: &str) -> wgpu::Buffer {
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
@@ -68,7 +66,7 @@ pub(super) fn uniforms<T>(gpu: &Gpu, label: &str) -> wgpu::Buffer {
     })
 }
 
-/// Binds `resources` to a pipeline's group 0, numbered from 0.
+/// Binds `resources` to group 0 of a pipeline, numbered from 0.
 pub(super) fn bind(gpu: &Gpu, pipeline: &wgpu::RenderPipeline, resources: &[wgpu::BindingResource]) -> wgpu::BindGroup {
     let entries: Vec<_> = (0..)
         .zip(resources)

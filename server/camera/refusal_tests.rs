@@ -1,10 +1,10 @@
-//! Bad input is refused by name, and leaves the camera usable.
+//! Bad input is refused with an error that names the field, and the camera stays usable.
 
 use super::test_support::{WORKSPACE, block, gpu, posts, static_scene, subject};
 use super::*;
 
 #[test]
-fn absurd_requests_are_refused_by_name() {
+fn refuses_bad_requests_and_names_the_field() {
     let gpu = gpu();
     let walls = posts();
     let open = |view_px| Camera::new(gpu.clone(), &static_scene(&walls), view_px);
@@ -48,11 +48,11 @@ fn absurd_requests_are_refused_by_name() {
         let error = camera.capture(&Subject { mount, ..state }).map(|_| ()).unwrap_err();
         assert!(matches!(error, CameraError::Horizon { .. }), "{mount:?}: {error}");
     }
-    assert!(camera.capture(&state).is_ok(), "a refusal left the camera unusable");
+    assert!(camera.capture(&state).is_ok(), "the camera is unusable after a refusal");
 }
 
 #[test]
-fn odd_stages_are_refused_or_drawn() {
+fn refuses_bad_static_scenes_and_draws_empty_walls() {
     let gpu = gpu();
     let open = |static_scene: &StaticScene| Camera::new(gpu.clone(), static_scene, VIEW_PX);
     let bad = [block(f64::NAN, 0.0, 0.1, 0.1)];
@@ -62,7 +62,7 @@ fn odd_stages_are_refused_or_drawn() {
     assert!(matches!(open(&flat), Err(CameraError::StaticScene { .. })));
     let no_height = StaticScene { wall_height_m: 0.0, ..static_scene(&[]) };
     assert!(matches!(open(&no_height), Err(CameraError::StaticScene { .. })));
-    // Nothing to draw is nothing wrong.
+    // Walls without area are not an error.
     let hollow = [Polygon { exterior: vec![], holes: vec![] }, block(0.0, 0.0, 0.0, 0.0)];
     let state = subject([0.0, -0.37, 0.1], [0.0, -0.37, 0.0025]);
     assert!(open(&static_scene(&hollow)).unwrap().capture(&state).is_ok());

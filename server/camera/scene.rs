@@ -1,6 +1,6 @@
-//! Pictures for people: the whole table in perspective or from above, with one light and its shadows.
+//! Images for people: the whole table in perspective or from above, with one light and shadows.
 //!
-//! Only what moves throws shadows; the walls are so low that theirs are painted on the stage.
+//! Only moving parts cast shadows. The walls are low; their shadows are part of the mesh.
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::Matrix4;
@@ -16,38 +16,38 @@ use crate::image::Picture;
 
 pub(super) const SHADER: &str = include_str!("../../shaders/scene.wgsl");
 
-/// From the middle of the table toward the eye: from the user's side, above, a little to the right.
+/// From the middle of the table toward the scene camera: from the user's side, above, a little to the right.
 const TOWARD_EYE: [f64; 3] = [0.36, -1.0, 0.78];
-/// Across the shorter side of the picture.
+/// Across the shorter side of the image.
 const FIELD_OF_VIEW_RAD: f64 = 0.95;
-/// From the middle of the table toward the light: over the user's left shoulder.
+/// From the middle of the table toward the light, which is above the user's left shoulder.
 const TOWARD_LIGHT: [f64; 3] = [-0.24, -0.70, 1.0];
-/// Over this the elbow mostly stays, and below this height.
+/// The elbow is usually inside this area, and below `ELBOW_TOP_M`.
 const ELBOW: Rect = Rect { x_min_m: -0.16, x_max_m: 0.16, y_min_m: -0.10, y_max_m: 0.08 };
 const ELBOW_TOP_M: f64 = 0.56;
-/// Within this the wrists mostly stay.
+/// The wrists are usually inside this area.
 const WRISTS: Rect = Rect { x_min_m: -0.42, x_max_m: 0.42, y_min_m: -0.45, y_max_m: -0.10 };
-/// They, and what else holds the tool, stay mostly below this.
+/// Usual upper limit of the wrists and of everything else that holds the tool.
 const WRISTS_TOP_M: f64 = 0.40;
-/// Share of the picture's height and width that is left free all around.
+/// Free share of the image's height and width on every side.
 const MARGIN: f64 = 0.03;
-/// Around the workspace in the plan: the border, and a little table.
+/// Margin around the workspace in the plan view: the border and a little of the table.
 const PLAN_MARGIN_M: f64 = 0.015;
 
-/// Shining colours, which say where something is rather than what it looks like.
+/// Emissive colours: they mark positions rather than show real materials.
 const BEAD: Color = [255, 196, 20, 255];
 const BEAD_HALO: Color = [244, 140, 0, 0];
 const GOAL: Color = [24, 150, 84, 0];
-/// Radius of the goal ring: the paper's distance at which the goal is reached.
+/// Radius of the goal ring: in the paper, the goal is reached within this distance.
 const GOAL_RADIUS_M: f64 = 0.02;
-/// Radius of the ring that helps to find the bead, which is a few pixels large.
+/// Radius of the ring around the bead, which is itself only a few pixels large.
 const HALO_RADIUS_M: f64 = 0.010;
-/// Rings lie this much above the floor.
+/// Height of rings above the floor.
 const RING_LIFT_M: f64 = 4e-4;
-/// Inner radius of a ring for an outer radius of 1.
+/// Inner radius of a ring, relative to its outer radius.
 const RING_INNER: f64 = 0.7;
 
-/// Uniforms of `scene.wgsl`, laid out as there.
+/// Uniforms of `scene.wgsl`, with the same layout.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Scene {
@@ -55,13 +55,14 @@ pub(super) struct Scene {
     pub clip_from_base: [[f32; 4]; 4],
     /// Column-major; to the shadow map's clip space.
     pub light_from_base: [[f32; 4]; 4],
-    /// A direction of length 1: the fourth is 0.
+    /// Unit vector; the fourth component is 0.
     pub toward_light: [f32; 4],
-    /// Homogeneous: the fourth is 0 for a parallel view, and the rest then the direction to the eye.
+    /// Homogeneous position of the scene camera. In a parallel view the fourth component is 0 and the rest is the
+    /// direction to the camera.
     pub eye_m: [f32; 4],
 }
 
-/// What a quality costs.
+/// The rendering cost of a [`Quality`].
 struct Effort {
     samples: u32,
     shadow_px: u32,
@@ -78,10 +79,10 @@ impl Quality {
     }
 }
 
-/// Draws the scene of one stage.
+/// Draws images of one static scene for people.
 #[derive(Debug)]
 pub(super) struct SceneRenderer {
-    /// What must be in the picture.
+    /// Points that must be inside the image.
     bounds: Vec<Point3<f64>>,
     workspace: Rect,
     light_from_base: Matrix4<f64>,
@@ -90,17 +91,17 @@ pub(super) struct SceneRenderer {
     backdrop: wgpu::RenderPipeline,
     shadow: wgpu::RenderPipeline,
     shadow_bindings: wgpu::BindGroup,
-    /// Made anew each frame.
+    /// Redrawn for each frame.
     shadow_map: wgpu::TextureView,
     uniforms: wgpu::Buffer,
     geometry: GeometryBuffers,
     samples: u32,
-    /// Of the last size asked for.
+    /// For the most recent image size.
     target: Option<Target>,
 }
 
 impl SceneRenderer {
-    /// `stage` has been checked.
+    /// `stage` must already be checked.
     pub fn new(gpu: &Gpu, static_scene: &StaticScene, quality: Quality) -> Result<Self, CameraError> {
         gpu.checked("the scene", || Self::build(gpu, static_scene, quality))
     }
@@ -124,7 +125,7 @@ impl SceneRenderer {
                 vertex: "shadow",
                 fragment: None,
                 samples: 1,
-                // Surfaces at a slant to the light must not shade themselves.
+                // Prevents surfaces at an angle to the light from shading themselves.
                 depth_bias: wgpu::DepthBiasState { constant: 2, slope_scale: 2.0, clamp: 0.0 },
             },
         );
@@ -153,7 +154,7 @@ impl SceneRenderer {
             wgpu::BindingResource::TextureView(&shadow_map),
             wgpu::BindingResource::Sampler(&sampler),
         ];
-        // One mesh for each solid, in the order of `Solid`. Discs are thick here: the lids of the joints.
+        // One mesh per solid, in the order of `Solid`. The disc mesh is thick here: it is the lid of a joint.
         let meshes = [
             diorama::mesh(static_scene),
             mesh::unit_sphere(24),
@@ -173,14 +174,14 @@ impl SceneRenderer {
             backdrop,
             shadow,
             shadow_map,
-            geometry: GeometryBuffers::new(gpu, &meshes, arm::MOST_PARTS + 8),
+            geometry: GeometryBuffers::new(gpu, &meshes, arm::MAX_PARTS + 8),
             uniforms,
             samples,
             target: None,
         }
     }
 
-    fn throw_shadows(&self, encoder: &mut wgpu::CommandEncoder, batches: &[Batch]) {
+    fn cast_shadows(&self, encoder: &mut wgpu::CommandEncoder, batches: &[Batch]) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow map"),
             color_attachments: &[],
@@ -196,7 +197,7 @@ impl SceneRenderer {
         self.geometry.draw(&mut pass, batches);
     }
 
-    /// `subject` and the size have been checked.
+    /// `subject` and the size must already be checked.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -205,7 +206,7 @@ impl SceneRenderer {
         width_px: u32,
         height_px: u32,
     ) -> Result<Picture, CameraError> {
-        // The old size is given back before the new one is asked for.
+        // The old target is freed before one of a new size is allocated.
         let target = match self.target.take() {
             Some(kept) if (kept.width_px, kept.height_px) == (width_px, height_px) => kept,
             _ => Target::new(gpu, width_px, height_px, self.samples)?,
@@ -227,14 +228,14 @@ impl SceneRenderer {
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
             let batches = self.geometry.place(gpu, &parts(subject, viewpoint));
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            // The first batch is the stage, which throws no shadows; the last is the backdrop.
+            // The first batch is the static scene, which casts no shadows; the last is the backdrop.
             let backdrop = batches.len() - 1;
-            self.throw_shadows(&mut encoder, &batches[1..backdrop]);
+            self.cast_shadows(&mut encoder, &batches[1..backdrop]);
             let mut pass = target.begin(&mut encoder, [0.0; 4]);
             pass.set_pipeline(&self.picture);
             pass.set_bind_group(0, &self.picture_bindings, &[]);
             self.geometry.draw(&mut pass, &batches[..backdrop]);
-            // Last, so that it costs nothing where something covers it.
+            // Drawn last, so that covered pixels cost nothing.
             pass.set_pipeline(&self.backdrop);
             self.geometry.draw(&mut pass, &batches[backdrop..]);
             drop(pass);
@@ -250,7 +251,6 @@ fn toward_light() -> Vector3<f64> {
     Vector3::from(TOWARD_LIGHT).normalize()
 }
 
-/// An empty shadow map.
 fn shadow_map(gpu: &Gpu, side_px: u32) -> wgpu::TextureView {
     let map = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("shadow map"),
@@ -265,8 +265,8 @@ fn shadow_map(gpu: &Gpu, side_px: u32) -> wgpu::TextureView {
     map.create_view(&Default::default())
 }
 
-/// Everything in the picture, equal solids side by side; the stage first and the backdrop last, which
-/// throw no shadows.
+/// All parts of the image, with equal solids next to each other. The static scene is first and the backdrop last;
+/// neither casts shadows.
 fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
     let [bead_x_m, bead_y_m, _] = subject.bead_m;
     let mut parts = match viewpoint {
@@ -286,7 +286,6 @@ fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
     parts
 }
 
-/// A flat ring on the floor.
 fn ring([x_m, y_m]: [f64; 2], radius_m: f64, color: Color) -> Part {
     let at_m = Vector3::new(x_m, y_m, RING_LIFT_M);
     Part {
@@ -296,7 +295,7 @@ fn ring([x_m, y_m]: [f64; 2], radius_m: f64, color: Color) -> Part {
     }
 }
 
-/// Corners of what the picture must hold: the table, the tool over all of it, and the arm.
+/// Points that must be inside the image: corners of the table, of the tool's area and of the arm's space.
 fn bounds(workspace: &Rect) -> Vec<Point3<f64>> {
     let table = diorama::table(workspace);
     let areas =

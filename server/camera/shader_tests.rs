@@ -1,5 +1,5 @@
-//! Shaders parse, and Rust's structs lie in memory as theirs do: asked of the shader compiler, not
-//! copied by hand.
+//! The shaders are valid, and the memory layout of the Rust structs matches theirs. The layout is read from the
+//! shader compiler.
 
 use std::mem::offset_of;
 
@@ -41,7 +41,7 @@ fn every_shader_is_valid_without_extensions() {
 }
 
 #[test]
-fn uniforms_lie_as_the_shaders_read_them() {
+fn uniform_layouts_match_the_shaders() {
     let members = vec![("clip_from_base".into(), offset_of!(View, clip_from_base))];
     assert_eq!(layout(&parse(view::SHADER), "View"), (size_of::<View>(), members));
     let members = vec![
@@ -67,7 +67,7 @@ fn vertex_inputs_match_the_buffers() {
             }
             let corner = &module.types[entry.function.arguments[0].ty].inner;
             let TypeInner::Struct { members, .. } = corner else {
-                panic!("{} takes no struct", entry.name);
+                panic!("{} does not take a struct", entry.name);
             };
             for member in members {
                 let Some(Binding::Location { location, .. }) = member.binding else {
@@ -79,7 +79,7 @@ fn vertex_inputs_match_the_buffers() {
                     .find(|attribute| attribute.shader_location == location)
                     .unwrap_or_else(|| panic!("no attribute {location}"));
                 let TypeInner::Vector { size, scalar } = module.types[member.ty].inner else {
-                    panic!("{:?} is no vector", member.name);
+                    panic!("{:?} is not a vector", member.name);
                 };
                 assert_eq!(scalar.kind, ScalarKind::Float);
                 let components = match attribute.format {

@@ -1,4 +1,4 @@
-//! Walls and floor as triangles; the controllers' view of them.
+//! Walls and floor as triangles for the controllers' view.
 
 use earcut::Earcut;
 
@@ -6,40 +6,38 @@ use super::mesh::{Color, Mesh};
 use super::{CameraError, StaticScene};
 use crate::geometry::{Point3, Polygon, Rect, Vector3};
 
-/// Highest wall that is accepted.
-const MOST_WALL_M: f64 = 1.0;
+const MAX_WALL_M: f64 = 1.0;
 
-/// Colours of the controllers' view. Their Rec. 601 gray keeps the brightness contract: the floor
-/// and the bead stay at 200 or more, walls at 50 or less, whatever shades them.
+/// Colours of the controllers' view. Their Rec. 601 gray meets the brightness contract under any shading: floor and
+/// bead are at least 200, walls at most 50.
 pub(super) mod controllers {
     use super::Color;
 
     /// Gray 240.
     pub const FLOOR: Color = [238, 241, 240, 255];
-    /// The floor where a wall or the bead keeps the light off: gray 212.
+    /// Floor in the shadow of a wall or of the bead: gray 212.
     pub const SHADOW: Color = [208, 213, 216, 255];
-    /// Gray 43; also what is drawn where there is nothing at all.
+    /// Gray 43; also the background.
     pub const WALL_TOP: Color = [62, 34, 40, 255];
     /// Sides that face the light: gray 33.
     pub const WALL_SIDE_LIT: Color = [48, 26, 32, 255];
-    /// Sides that do not: gray 18.
+    /// Sides that face away from the light: gray 18.
     pub const WALL_SIDE_DARK: Color = [28, 13, 18, 255];
-    /// Gray 226, 206 at its darkest by [`BEAD_SHADE`].
+    /// Gray 226; 206 at its darkest, with [`BEAD_SHADE`].
     pub const BEAD: Color = [255, 232, 120, 255];
-    /// Gray 165, between wall and floor: what it hides is neither.
+    /// Gray 165, between wall and floor: what the magnet hides is neither.
     pub const MAGNET: Color = [160, 167, 168, 255];
-    /// Darkest share of the bead's colour.
+    /// Smallest factor on the bead's colour.
     pub const BEAD_SHADE: f64 = 0.91;
 }
 
-/// Metres that a shadow in the controllers' view moves in x and y for each metre of height: light
-/// from the upper left.
+/// Shadow offset in x and y per metre of height in the controllers' view: light comes from the upper left.
 pub(super) const SHADOW_PER_HEIGHT: [f64; 2] = [0.55, -0.65];
-/// Flat things on the floor are drawn this much above it, to lie on it and not in it. Where one meets a
-/// wall's foot, the foot seems up to a fiftieth of a pixel aside for it.
+/// Height above the floor at which flat shapes are drawn, so that they do not flicker. It shifts a wall's foot in
+/// the image by at most a fiftieth of a pixel.
 pub(super) const SHADOW_LIFT_M: f64 = 2e-5;
 
-/// How far the wall outside the workspace reaches; farther away the background is as dark.
+/// Width of the wall outside the workspace; beyond it the background is equally dark.
 const OUTSIDE_M: f64 = 2.0;
 
 /// Refuses geometry that cannot be drawn.
@@ -50,20 +48,20 @@ pub(super) fn check(static_scene: &StaticScene) -> Result<(), CameraError> {
     if !finite || x_min_m >= x_max_m || y_min_m >= y_max_m {
         return refuse(format!("workspace x {x_min_m} to {x_max_m} m, y {y_min_m} to {y_max_m} m"));
     }
-    if !(static_scene.wall_height_m > 0.0 && static_scene.wall_height_m <= MOST_WALL_M) {
+    if !(static_scene.wall_height_m > 0.0 && static_scene.wall_height_m <= MAX_WALL_M) {
         let height_m = static_scene.wall_height_m;
         return refuse(format!("wall height {height_m} m: it must be above 0 and at most 1 m"));
     }
     for (number, wall) in static_scene.walls.iter().enumerate() {
         let odd = |point: &&[f64; 2]| !point.iter().all(|coordinate| coordinate.is_finite());
         if let Some(point) = wall.rings().flatten().find(odd) {
-            return refuse(format!("wall {number} has a corner at {point:?}"));
+            return refuse(format!("wall {number} has a corner that is not finite: {point:?}"));
         }
     }
     Ok(())
 }
 
-/// The stage for controllers: floor, shadows and walls, all outside being wall.
+/// The mesh of the controllers' view: floor, shadows and walls. Everything outside the workspace is wall.
 pub(super) fn controllers_mesh(static_scene: &StaticScene) -> Mesh {
     let mut mesh = Mesh::default();
     floor(&mut mesh, static_scene.workspace, controllers::FLOOR);
@@ -87,7 +85,7 @@ pub(super) fn controllers_mesh(static_scene: &StaticScene) -> Mesh {
     mesh
 }
 
-/// The frame of `width_m` around a rectangle.
+/// A frame of width `width_m` around a rectangle.
 pub(super) fn border(inner: &Rect, width_m: f64) -> Polygon {
     let (west, east) = (inner.x_min_m, inner.x_max_m);
     let (south, north) = (inner.y_min_m, inner.y_max_m);
@@ -109,12 +107,12 @@ pub(super) fn floor(mesh: &mut Mesh, workspace: &Rect, color: Color) {
     mesh.quad(corners, Vector3::z(), color);
 }
 
-/// Top and sides of a wall. `side` colours a side by its outward normal.
+/// Top and sides of a wall. `side` returns the colour of a side for its outward normal.
 fn prism(mesh: &mut Mesh, wall: &Polygon, height_m: f64, top: Color, side: impl Fn(Vector3<f64>) -> Color) {
     flat(mesh, wall, Vector3::z() * height_m, top);
     for (start, end) in edges(wall) {
         let along = end - start;
-        // The wall is on the left of its rings, so outward is to the right.
+        // A wall is on the left of its rings, so outward is to the right.
         let normal = Vector3::new(along.y, -along.x, 0.0);
         if let Some(normal) = normal.try_normalize(0.0) {
             let up = Vector3::z() * height_m;
@@ -123,8 +121,8 @@ fn prism(mesh: &mut Mesh, wall: &Polygon, height_m: f64, top: Color, side: impl 
     }
 }
 
-/// The floor that a wall keeps the light off: its top, moved away from the light, and all that the
-/// top's edges sweep on the way. Areas overlap, which is harmless: they have one flat colour.
+/// The shadow of a wall on the floor: its top, moved away from the light, and the area between it and the wall.
+/// The areas overlap, which is harmless because all have the same flat colour.
 fn shadow(mesh: &mut Mesh, wall: &Polygon, height_m: f64) {
     let [away_x, away_y] = SHADOW_PER_HEIGHT;
     let lift = Vector3::z() * SHADOW_LIFT_M;
@@ -136,7 +134,7 @@ fn shadow(mesh: &mut Mesh, wall: &Polygon, height_m: f64) {
     }
 }
 
-/// The polygon itself, facing up, moved by `offset` from z = 0.
+/// The polygon, facing up, moved by `offset` from z = 0.
 pub(super) fn flat(mesh: &mut Mesh, wall: &Polygon, offset: Vector3<f64>, color: Color) {
     let mut points: Vec<[f64; 2]> = Vec::new();
     let mut holes: Vec<u32> = Vec::new();
@@ -155,7 +153,7 @@ pub(super) fn flat(mesh: &mut Mesh, wall: &Polygon, offset: Vector3<f64>, color:
     mesh.indices.extend(triangles.iter().map(|at| first + at));
 }
 
-/// Every edge of every ring, at z = 0, with the wall on its left.
+/// All edges of all rings at z = 0, with the wall on their left.
 fn edges(wall: &Polygon) -> impl Iterator<Item = (Point3<f64>, Point3<f64>)> {
     wall.rings().flat_map(|ring| {
         let next = ring.iter().cycle().skip(1);

@@ -1,4 +1,4 @@
-//! The memory of one picture size: colour, depth and the buffer it is read back through.
+//! Memory for one image size: colour, depth and the readback buffer.
 
 use std::sync::mpsc;
 use std::time::Duration;
@@ -6,32 +6,31 @@ use std::time::Duration;
 use super::CameraError;
 use super::gpu::Gpu;
 
-/// Plain 8-bit values: what the shader writes is what the image holds, no hidden gamma.
+/// Linear 8-bit values: the image holds what the shader writes, without gamma correction.
 pub(super) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// Depth of both views and of the shadow map.
+/// Depth format of both views and of the shadow map.
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Bytes of a pixel.
 const PIXEL_BYTES: u32 = 4;
-/// A picture takes milliseconds; a device that needs this long is stuck.
+/// An image takes milliseconds; a device that needs this long is stuck.
 const READ_TIMEOUT: Duration = Duration::from_secs(20);
 
-/// Textures to draw into, and a way out of them. Made once a size and used for every frame.
+/// Textures to draw into and a buffer to read them back. Created once per size and used for every frame.
 #[derive(Debug)]
 pub(super) struct Target {
     pub width_px: u32,
     pub height_px: u32,
     color: wgpu::Texture,
     color_view: wgpu::TextureView,
-    /// Where several samples a pixel are drawn, before they are averaged into `color`.
+    /// Multisampled texture, averaged into `color`.
     samples_view: Option<wgpu::TextureView>,
     depth_view: wgpu::TextureView,
     readback: wgpu::Buffer,
-    /// Bytes from one row of `readback` to the next; copies want a multiple of 256.
+    /// Bytes from one row of `readback` to the next; copies require a multiple of 256.
     row_bytes: u32,
 }
 
 impl Target {
-    /// `samples` a pixel: 1 keeps edges hard, 4 smooths them.
+    /// `samples` per pixel: 1 keeps edges hard, 4 smooths them.
     pub fn new(gpu: &Gpu, width_px: u32, height_px: u32, samples: u32) -> Result<Self, CameraError> {
         gpu.checked("image memory", || Self::build(gpu, width_px, height_px, samples))
     }
@@ -72,7 +71,7 @@ impl Target {
         }
     }
 
-    /// Begins the pass that fills the picture, starting from `background` (RGBA, 0 to 1).
+    /// Begins the pass that fills the image, cleared to `background` (RGBA, 0 to 1).
     pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, background: [f64; 4]) -> wgpu::RenderPass<'a> {
         let [r, g, b, a] = background;
         let (view, resolve_target, store) = match &self.samples_view {
@@ -96,8 +95,8 @@ impl Target {
         })
     }
 
-    /// Adds the copy to `encoder`, submits it and waits for the picture: row-major RGBA, the top
-    /// row first, `width · height · 4` bytes.
+    /// Adds the copy to `encoder`, submits it and waits for the image: row-major RGBA, top row first,
+    /// `width · height · 4` bytes.
     pub fn finish(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, CameraError> {
         encoder.copy_texture_to_buffer(
             self.color.as_image_copy(),
@@ -115,7 +114,7 @@ impl Target {
         let submission = gpu.checked("a frame", || {
             let submission = gpu.queue.submit([encoder.finish()]);
             self.readback.map_async(wgpu::MapMode::Read, .., move |result| {
-                // Nobody listens any more only if waiting failed, which is reported there.
+                // The receiver is dropped only if the wait failed, which is reported there.
                 let _ = sender.send(result);
             });
             submission
@@ -125,11 +124,11 @@ impl Target {
         gpu.check_alive()?;
         let mapped = waited
             .map_err(|error| error.to_string())
-            // Another camera's wait on the same device may be the one that runs this callback, a little later.
+            // Another camera that waits on the same device may run this callback, a little later.
             .and_then(|_| receiver.recv_timeout(READ_TIMEOUT).map_err(|error| error.to_string()))
             .and_then(|result| result.map_err(|error| error.to_string()))
             .and_then(|()| self.copy_out().map_err(|error| error.to_string()));
-        // Also takes back a mapping that is still under way, so that the next frame can be asked for.
+        // Also cancels a mapping that is still pending, so that the next frame can be requested.
         self.readback.unmap();
         mapped.or_else(|reason| {
             gpu.check_lost()?;

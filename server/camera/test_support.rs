@@ -1,4 +1,4 @@
-//! What the tests draw: a post, a row of posts, and the arm above them.
+//! Fixtures: a post, a row of posts, and the arm above them.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use nalgebra::{Translation3, UnitQuaternion};
 pub const WORKSPACE: Rect = Rect { x_min_m: -0.30, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 pub const WALL_HEIGHT_M: f64 = 0.005;
 
-/// A device of any kind; the tests fail without one.
+/// Any device; the tests fail without one.
 pub fn gpu() -> Arc<Gpu> {
     Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter")
 }
@@ -49,7 +49,7 @@ pub fn posts() -> Vec<Polygon> {
     walls
 }
 
-/// The arm with its tool straight down at `tool_m`, 10 cm or so above the table.
+/// The arm with its tool pointing straight down at `tool_m`, about 10 cm above the table.
 pub fn subject(tool_m: [f64; 3], bead_m: [f64; 3]) -> Subject {
     let flange_m = Vector3::from(tool_m) + Vector3::z() * 0.18;
     Subject {
@@ -80,7 +80,7 @@ fn forward(joints_rad: [f64; 6]) -> [Isometry3<f64>; 6] {
     })
 }
 
-/// Joints with the flange at `p` facing down and the elbow up: the closed form for rotation rows
+/// Joint angles with the flange at `p` facing down and the elbow up: the closed form for rotation rows
 /// (0, −1, 0), (−1, 0, 0), (0, 0, −1).
 fn tool_down(p: Vector3<f64>) -> [f64; 6] {
     let [d1, _, _, d4, d5, d6] = D;
@@ -109,9 +109,9 @@ fn tool_down(p: Vector3<f64>) -> [f64; 6] {
                 let frames = forward(joints);
                 let miss = (frames[5].translation.vector - p).norm()
                     + (frames[5].rotation * Vector3::z() + Vector3::z()).norm();
-                // The elbow up looks like a robot.
+                // Prefer the solution with the elbow up.
                 let height = frames[1].translation.z - 100.0 * miss;
-                if best.is_none_or(|(_, most)| height > most) {
+                if best.is_none_or(|(_, max)| height > max) {
                     best = Some((joints, height));
                 }
             }

@@ -1,11 +1,11 @@
-//! The promises of the module, checked on a real adapter.
+//! The guarantees of the module, checked on a real adapter.
 
 use super::test_support::{WALL_HEIGHT_M, WORKSPACE, block, gpu, posts, static_scene, subject};
 use super::*;
 use crate::geometry::Point2;
 use crate::image::GrayImage;
 
-/// Where a pixel's ray meets the plane at `z_m`.
+/// The point where a pixel's ray meets the plane at height `z_m`.
 fn ground(frame: &CameraFrame, column: u32, row: u32, z_m: f64) -> Point2<f64> {
     let [x_m, y_m, height_m] = frame.pinhole.position_m;
     let pixel_m = 0.2 / 480.0;
@@ -22,11 +22,11 @@ fn pixels(gray: &GrayImage) -> impl Iterator<Item = (u32, u32, u8)> {
 }
 
 #[test]
-fn a_post_covers_the_pixels_that_geometry_says() {
+fn a_post_covers_the_pixels_computed_from_geometry() {
     let (x0, y0, x1, y1) = (-0.02, -0.40, 0.03, -0.36);
     let walls = [block(x0, y0, x1, y1)];
     let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
-    // A pinhole sees a prism as the hull of its foot and its top.
+    // A pinhole camera sees a prism as the hull of its foot and its top.
     let covered = |frame: &CameraFrame, column, row| {
         (0..=20).any(|step| {
             let at = ground(frame, column, row, WALL_HEIGHT_M * f64::from(step) / 20.0);
@@ -50,9 +50,8 @@ fn a_post_covers_the_pixels_that_geometry_says() {
 }
 
 #[test]
-fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
-    // The camera stands over the edge of a wall: the top's edge, seen from right above, is where
-    // the foot is.
+fn an_edge_lies_between_the_pixels_given_by_the_pinhole_model() {
+    // The camera is above the edge of a wall: seen from straight above, the top edge and the bottom edge coincide.
     let pixel_m = 0.2 / 480.0;
     let walls = [block(0.0, -0.45, 0.05, -0.30)];
     let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
@@ -62,16 +61,16 @@ fn an_edge_lies_between_the_pixels_that_the_pinhole_says() {
         let row = &gray.pixels[240 * 480..241 * 480];
         assert_eq!(row.iter().position(|level| *level <= 50), Some(first_dark), "{shift_px}");
     }
-    // +y is up: the wall ends at y = −.30, above the middle.
+    // +y is up: the wall ends at y = −.30, above the image centre.
     let gray = camera.capture(&subject([0.025, -0.37, 0.1], [0.2, -0.5, 0.0025])).unwrap().picture.to_gray();
     let level = |row: usize| gray.pixels[row * 480 + 240];
-    // .07 m · .3 / .295 above the middle, in pixels: the top is closer to the camera.
+    // In pixels, .07 m · .3 / .295 above the image centre: the top is closer to the camera.
     let top_px = 240.0 - 0.07 * (0.3 / 0.295) / pixel_m;
     assert!(level(top_px.floor() as usize - 1) >= 200 && level(top_px.ceil() as usize + 1) <= 50);
 }
 
 #[test]
-fn every_pixel_keeps_the_brightness_contract() {
+fn every_pixel_meets_the_brightness_contract() {
     let walls = posts();
     let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     let poses = [
@@ -95,8 +94,8 @@ fn every_pixel_keeps_the_brightness_contract() {
                 assert!(level <= 50, "gray {level} outside at {on_floor}");
             }
         }
-        assert!(bright > 1000, "no floor in sight from {x_m}, {y_m}");
-        // The bead, where its centre is seen.
+        assert!(bright > 1000, "no floor in view from {x_m}, {y_m}");
+        // The bead, at the pixel of its centre.
         let closer = 0.3 / (0.3 - bead_m[2]);
         let pixel = |offset_m: f64| (240.0 + offset_m * closer * 480.0 / 0.2) as usize;
         let (column, row) = (pixel(bead_m[0] - x_m), pixel(y_m - bead_m[1]));
@@ -108,7 +107,7 @@ fn every_pixel_keeps_the_brightness_contract() {
 }
 
 #[test]
-fn controllers_see_neither_goal_nor_magnet_nor_arm() {
+fn controllers_do_not_see_goal_magnet_or_arm() {
     let walls = posts();
     let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     let seen = subject([0.17, -0.30, 0.1], [0.15, -0.32, 0.0025]);
@@ -140,7 +139,7 @@ fn the_same_state_gives_the_same_bytes() {
 }
 
 #[test]
-fn a_camera_goes_on_when_its_device_is_lost() {
+fn a_camera_continues_when_its_device_is_lost() {
     let walls = posts();
     let gpu = gpu();
     let mut camera = Camera::new(gpu.clone(), &static_scene(&walls), VIEW_PX).unwrap();
@@ -149,7 +148,7 @@ fn a_camera_goes_on_when_its_device_is_lost() {
     gpu.destroy();
     assert!(camera.capture(&state).unwrap() == frame);
     assert!(camera.scene(&state, 320, 180).unwrap() == scene);
-    // The next camera too, although it is given the lost device.
+    // A new camera works too, although it receives the lost device.
     let mut next = Camera::new(gpu, &static_scene(&walls), VIEW_PX).unwrap();
     assert!(next.capture(&state).unwrap() == frame);
 }

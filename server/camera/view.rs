@@ -1,4 +1,4 @@
-//! The controllers' view: one pass of flat colours, with shadows that were baked into the stage.
+//! The controllers' view: one pass with flat colours; shadows are part of the mesh.
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::{Matrix4, Vector3};
@@ -15,12 +15,12 @@ use crate::image::{CameraFrame, Picture};
 
 pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
 
-/// Samples a pixel: one, so that no pixel is a mixture of wall and floor.
+/// One sample per pixel, so that no pixel is a mixture of wall and floor.
 const SAMPLES: u32 = 1;
-/// Stage, the bead, its shadow, and the magnet where it is seen.
-const MOST_PARTS: u64 = 4;
+/// Static scene, bead, bead shadow, and the magnet if it is visible.
+const MAX_PARTS: u64 = 4;
 
-/// Uniforms of `view.wgsl`, laid out as there.
+/// Uniforms of `view.wgsl`, with the same layout.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct View {
@@ -28,7 +28,7 @@ pub(super) struct View {
     pub clip_from_base: [[f32; 4]; 4],
 }
 
-/// Draws the controllers' view of one stage.
+/// Draws the controllers' view of one static scene.
 #[derive(Debug)]
 pub(super) struct ViewRenderer {
     size_px: u32,
@@ -40,7 +40,7 @@ pub(super) struct ViewRenderer {
 }
 
 impl ViewRenderer {
-    /// `stage` and the size have been checked.
+    /// `stage` and the size must already be checked.
     pub fn new(gpu: &Gpu, static_scene: &StaticScene, size_px: u32) -> Result<Self, CameraError> {
         let target = Target::new(gpu, size_px, size_px, SAMPLES)?;
         gpu.checked("the controllers' view", || {
@@ -64,13 +64,13 @@ impl ViewRenderer {
                 pipeline,
                 uniforms,
                 bindings,
-                geometry: GeometryBuffers::new(gpu, &meshes, MOST_PARTS),
+                geometry: GeometryBuffers::new(gpu, &meshes, MAX_PARTS),
                 target,
             }
         })
     }
 
-    /// `subject` has been checked.
+    /// `subject` must already be checked.
     pub fn draw(&mut self, gpu: &Gpu, subject: &Subject) -> Result<CameraFrame, CameraError> {
         let [x_m, y_m, _] = subject.tool_m;
         let pinhole = subject.mount.over(Point2::new(x_m, y_m));
@@ -93,7 +93,7 @@ impl ViewRenderer {
     }
 }
 
-/// Wall: nothing is outside.
+/// The colour of walls: everything outside the drawn geometry counts as wall.
 fn background() -> [f64; 4] {
     controllers::WALL_TOP.map(|level| f64::from(level) / 255.0)
 }
@@ -104,7 +104,7 @@ fn parts(subject: &Subject) -> Vec<Part> {
     let shadow_m = Vector3::new(
         bead_m.x + away_x * bead_m.z,
         bead_m.y + away_y * bead_m.z,
-        // Above the walls' shadows, or else the two would fight.
+        // Above the walls' shadows; at the same height the two would flicker.
         2.0 * SHADOW_LIFT_M,
     );
     let round = |solid, at_m: Vector3<f64>, color| Part {
@@ -123,7 +123,7 @@ fn parts(subject: &Subject) -> Vec<Part> {
     parts
 }
 
-/// A ball whose shading is painted on: it never turns in the light.
+/// A ball with its shading baked into the vertex colours. The light never moves relative to it.
 fn shaded_bead() -> Mesh {
     let [away_x, away_y] = SHADOW_PER_HEIGHT;
     let toward_light = Vector3::new(-away_x, -away_y, 1.0).normalize();
@@ -135,7 +135,8 @@ fn shaded_bead() -> Mesh {
     ball
 }
 
-/// The bead's colour where its normal meets the light at this cosine: a highlight where it faces it.
+/// The bead's colour where `cosine` is the cosine between its normal and the light. A surface that faces the light
+/// gets a highlight.
 fn bead_color(cosine: f64) -> Color {
     let shade = controllers::BEAD_SHADE + (1.0 - controllers::BEAD_SHADE) * cosine.max(0.0);
     let shine = cosine.max(0.0).powi(12);

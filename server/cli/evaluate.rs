@@ -18,7 +18,6 @@ use crate::recording::Recorder;
 use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Arena, Nowhere, Sink};
 
-/// Arguments of `ferry evaluate`.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Maps by name, or paths of SVGs, separated by commas
@@ -27,37 +26,37 @@ pub struct Arguments {
     /// Controllers, separated by commas
     #[arg(long, value_delimiter = ',', default_value = "attractor")]
     controller: Vec<ControllerName>,
-    /// Scripted disturbances a trial; several numbers, separated by commas, are as many rows
+    /// Scripted disturbances per trial; several numbers, separated by commas, give several rows
     #[arg(long, value_delimiter = ',', default_value = "0")]
     disturbances: Vec<u32>,
-    /// Trials a row
+    /// Trials per row
     #[arg(long, default_value_t = 30)]
     episodes: u32,
-    /// Seed of the trials: the same starts, goals and pushes for every controller
+    /// Seed of the trials: all controllers get the same starts, goals and pushes
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// This trial of each row alone, as the list of failures numbers them
+    /// Run only this trial of each row, numbered as in the list of failures
     #[arg(long, value_name = "INDEX")]
     episode: Option<u32>,
-    /// A parameter that is not to have its default, as in attractor_law=literal; may be repeated
+    /// Set a parameter, for example attractor_law=literal; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// A policy's file, in place of the shipped ones
+    /// A policy's file, instead of the shipped ones
     #[arg(long)]
     policy: Option<PathBuf>,
     /// Record every trial to this folder: .rrd for Rerun, .ferry for `ferry replay`
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
-    /// Print one JSON object and nothing else
+    /// Print only one JSON object
     #[arg(long)]
     json: bool,
-    /// Write the rows to this file
+    /// Write the rows to this CSV file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write rows, differences, failures and figures to this file, which needs no other
+    /// Write rows, differences, failures and figures to this self-contained HTML file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Address of the page that the report's links open
+    /// Address of the page for the links in the report
     #[arg(long, value_name = "ADDRESS", default_value = "http://127.0.0.1:8080")]
     page: String,
 }
@@ -65,7 +64,7 @@ pub struct Arguments {
 pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let experiments = experiments(arguments)?;
     check_distinct(&experiments)?;
-    // Before anything runs: what cannot be written is said now.
+    // Before anything runs, so that an error is reported early.
     for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
         std::fs::write(path, "").with_context(|| path.display().to_string())?;
     }
@@ -94,7 +93,7 @@ pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A row each, the controllers of a map side by side.
+/// One experiment per row, with the controllers of a map next to each other.
 fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
     let parameters = Parameters::default().with(&arguments.set).context("--set")?;
     let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
@@ -121,21 +120,21 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
     Ok(experiments)
 }
 
-/// Cells of one name would be taken for the same trials.
+/// Two cells with the same name would count as the same trials.
 fn check_distinct(experiments: &[Experiment]) -> anyhow::Result<()> {
     for (index, one) in experiments.iter().enumerate() {
         let Cell { controller, map, disturbances } = &one.cell;
         let is_twice = experiments[..index].iter().any(|other| other.cell == one.cell);
         anyhow::ensure!(
             !is_twice,
-            "{} on {map} with {disturbances} disturbances is asked for twice; maps of one file name count as one",
+            "{} on {map} with {disturbances} disturbances is requested twice; maps with the same file name count as one",
             controller.as_str()
         );
     }
     Ok(())
 }
 
-/// Runs what is asked for, on all cores, behind a bar.
+/// Runs the experiments on all cores, with a progress bar.
 fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Vec<Episode>>> {
     let trials = match arguments.episode {
         Some(_) => experiments.len() as u64,
@@ -206,7 +205,7 @@ fn rows_table(rows: &[Row]) -> Table {
         "error mm",
         "in x, y",
         "max x, y",
-        "way/shortest",
+        "path/shortest",
         "steps",
         "switches",
         "ms/step p50 p99",
@@ -243,7 +242,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
         "delivered, points",
         "steps",
         "error mm",
-        "way/shortest",
+        "path/shortest",
     ];
     let mut table = table(&head, 2);
     let signed = |mean: f64, [low, high]: [f64; 2], scale: f64, digits: usize| {
@@ -268,7 +267,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
     table
 }
 
-/// Each failure, why, and how to see it again.
+/// Prints each failure with its reason and a link to replay it.
 fn print_failures(failures: &[Failure], page: &str) {
     for failure in failures {
         println!(

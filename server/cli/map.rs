@@ -7,10 +7,9 @@ use crate::map::{FreeSpace, Map};
 use crate::plant::BEAD_RADIUS_M;
 use crate::scenario::CLEARANCE_M;
 
-/// A drawing of one mistake made everywhere is not worth a screen of lines.
+/// Limit of printed repairs: one mistake is often repeated everywhere in a drawing.
 const SHOWN_REPAIRS: usize = 20;
 
-/// Arguments of `ferry map`.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The path of an SVG, or a shipped map's name
@@ -36,7 +35,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     for (what, clearance_m) in [("bead", BEAD_RADIUS_M), ("trials", CLEARANCE_M)] {
         let space = FreeSpace::new(&map, clearance_m);
         println!(
-            "{what:<10} {:.1} cm² free with {:.1} mm to the walls, in {} connected part(s)",
+            "{what:<10} {:.1} cm² free with {:.1} mm clearance, in {} connected part(s)",
             space.area_m2() * 1e4,
             clearance_m * 1e3,
             space.components()

@@ -13,13 +13,12 @@ use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::ne
 use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Arena, Case, Tally};
 
-/// Arguments of `ferry render`.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// A map's name, or the path of an SVG
     #[arg(long, default_value = "posts")]
     map: String,
-    /// Where tool and bead are, in metres
+    /// Position of tool and bead, in metres
     #[arg(
         long,
         value_name = "X,Y",
@@ -28,16 +27,17 @@ pub struct Arguments {
         required_unless_present = "scenario"
     )]
     at: Option<Point2<f64>>,
-    /// Runs a scenario to its end and draws its course as an SVG: a shipped one's name, or the path of a JSON file
+    /// Run a scenario to its end and draw its trajectory as an SVG: the name of a shipped one, or the path of a JSON
+    /// file
     #[arg(long, conflicts_with_all = ["at", "map", "view"])]
     scenario: Option<String>,
-    /// Another sub-controller 2 than the scenario's
+    /// Use this sub-controller 2 instead of the scenario's
     #[arg(long, requires = "scenario")]
     controller: Option<ControllerName>,
-    /// A parameter that is not to be the scenario's, as in attractor_law=literal; may be repeated
+    /// Set a parameter of the scenario, for example attractor_law=literal; may be repeated
     #[arg(long, requires = "scenario", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// What the controllers see, the whole scene, or the workspace from above
+    /// The controllers' view, the whole scene, or the workspace from above
     #[arg(long, value_enum, default_value = "camera")]
     view: View,
     /// File to write: PNG, or SVG for a scenario
@@ -53,21 +53,21 @@ enum View {
 }
 
 fn parse_point(text: &str) -> Result<Point2<f64>, String> {
-    let (x, y) = text.split_once(',').ok_or("it must be X,Y in metres, as in -0.1,-0.33")?;
+    let (x, y) = text.split_once(',').ok_or("must be X,Y in metres, for example -0.1,-0.33")?;
     let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("{part:?} is not a number"));
     Ok(Point2::new(number(x)?, number(y)?))
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     match (&arguments.scenario, arguments.at) {
-        (Some(name), _) => course(name, arguments),
+        (Some(name), _) => trajectory(name, arguments),
         (None, Some(at)) => frame(at, arguments),
         (None, None) => anyhow::bail!("--at or --scenario is needed"),
     }
 }
 
-/// Runs a scenario, with what is done in it, draws it, and prints what became of it beside the paper's figures.
-fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
+/// Runs a scenario with its inputs, draws it, and prints the result with the paper's figures.
+fn trajectory(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut case = Case::open(name)?;
     let scenario = &mut case.scenario;
     scenario.controller = arguments.controller.unwrap_or(scenario.controller);
@@ -84,10 +84,10 @@ fn course(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     std::fs::write(&arguments.out, trace.to_svg()?).with_context(|| arguments.out.display().to_string())?;
     println!("{name}: {}, {} steps, {} switches", outcome.phase, outcome.counters.steps, outcome.counters.switches);
     for (tick, error) in &outcome.refused {
-        println!("not done at tick {tick}: {error}");
+        println!("refused at tick {tick}: {error}");
     }
     let (mean_m, [x_m, y_m]) = (tally.mean_m(), tally.max_m());
-    println!("tracking error: mean {mean_m:.3} m (paper .02), most {x_m:.3} in x (.08), {y_m:.3} in y (.09)");
+    println!("tracking error: mean {mean_m:.3} m (paper .02), maximum {x_m:.3} in x (.08), {y_m:.3} in y (.09)");
     Ok(if outcome.meets(&case) { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
@@ -98,8 +98,8 @@ fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let home = Positioner::home(PositionerKind::of(&arena.map), tool_m);
     let limits = arena.limits(&parameters);
     let positioner = limits.position(tool_m, &home).context("--at")?;
-    // The tool may hang over a wall; the bead then lies beside it.
-    let bead = nearest_fit(&arena.map, at).context("--at: there is no room for the bead within 5 cm")?;
+    // The tool may be over a wall; the bead is then placed beside it.
+    let bead = nearest_fit(&arena.map, at).context("--at: no space for the bead within 5 cm")?;
     let subject = Subject {
         tick: 0,
         tool_m: tool_m.coords.into(),

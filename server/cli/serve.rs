@@ -11,43 +11,43 @@ use tokio::sync::watch;
 use crate::http;
 use crate::recording::Retention;
 
-/// Arguments of `ferry serve`.
 #[derive(clap::Args, Clone)]
 pub struct Arguments {
     /// Address to listen on; port 0 picks a free one
     #[arg(long, default_value = "127.0.0.1:8080")]
     bind: SocketAddr,
-    /// What others must show to get in, 64 hexadecimal digits (`ferry token` makes one). Everybody on this machine can
-    /// read a command line: rather use --token-file or FERRY_TOKEN
+    /// Access token that clients must send, 64 hexadecimal digits (`ferry token` makes one). Other users of this
+    /// machine can read a command line: prefer --token-file or FERRY_TOKEN
     #[arg(long, env = "FERRY_TOKEN", hide_env_values = true, value_parser = secret)]
     token: Option<Secret>,
-    /// File that holds the token and nothing else
+    /// File that contains only the token
     #[arg(long, value_name = "FILE", conflicts_with = "token")]
     token_file: Option<PathBuf>,
-    /// Under which address browsers ask, besides that of --bind, as https://lab.example.org; may be given again
+    /// Additional address that browsers use, besides that of --bind, for example https://lab.example.org; may be
+    /// repeated
     #[arg(long, value_name = "URL")]
     origin: Vec<http::Origin>,
-    /// Sessions at once
+    /// Largest number of simultaneous sessions
     #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=256))]
     sessions: u16,
-    /// A session that nobody has looked at for so long stands still, and makes way when another needs its place
+    /// Pause a session without viewers after this time; it may then be closed if another needs its place
     #[arg(long, value_name = "MINUTES", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     park_after: u32,
-    /// Folder of the recordings and of uploaded maps
+    /// Folder for recordings and uploaded maps
     #[arg(long, default_value = "data")]
     data: PathBuf,
-    /// Recordings that are kept; a session writes one in ten minutes
-    #[arg(long, value_name = "COUNT", default_value_t = Retention::default().most)]
+    /// Largest number of kept recordings; a session writes one every ten minutes
+    #[arg(long, value_name = "COUNT", default_value_t = Retention::default().max_parts)]
     keep: usize,
-    /// Megabytes of recordings that are kept
-    #[arg(long, value_name = "MB", default_value_t = Retention::default().most_bytes >> 20)]
+    /// Largest total size of kept recordings, in megabytes
+    #[arg(long, value_name = "MB", default_value_t = Retention::default().max_bytes >> 20)]
     keep_mb: u64,
     /// Open the page in the default browser
     #[arg(long)]
     open: bool,
 }
 
-/// A token as it was given; it is checked later, since clap would print what it refuses.
+/// An unchecked token. It is checked later, because clap would print a refused value.
 #[derive(Clone)]
 struct Secret(String);
 
@@ -55,7 +55,7 @@ fn secret(text: &str) -> Result<Secret, std::convert::Infallible> {
     Ok(Secret(text.to_owned()))
 }
 
-/// The token, from wherever it was given.
+/// The token from the options, if one is set.
 fn token(arguments: &Arguments) -> anyhow::Result<Option<http::Token>> {
     let (text, from) = match (&arguments.token, &arguments.token_file) {
         (Some(Secret(text)), _) => (text.clone(), "--token".to_owned()),
@@ -68,19 +68,19 @@ fn token(arguments: &Arguments) -> anyhow::Result<Option<http::Token>> {
     Ok(Some(text.parse().context(from)?))
 }
 
-/// A folder that can be written to, found out before anything begins.
+/// Checks early that the folder can be written to.
 fn check_folder(data: &Path) -> anyhow::Result<()> {
     let probe = data.join(".ferry-probe");
     std::fs::create_dir_all(data)
         .and_then(|()| std::fs::write(&probe, []))
         .and_then(|()| std::fs::remove_file(&probe))
-        .with_context(|| format!("--data {}: it cannot be written to", data.display()))
+        .with_context(|| format!("--data {}: the folder cannot be written to", data.display()))
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(serve(arguments));
-    // What still works something out for nobody must not keep the process.
+    // Unfinished background work must not keep the process alive.
     runtime.shutdown_background();
     served?;
     Ok(ExitCode::SUCCESS)
@@ -91,12 +91,12 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
     let listener = http::listen(arguments.bind).await?;
     let address = listener.local_addr()?;
     let access = http::Access::new(address, token, &arguments.origin)?;
-    // Only now: who may not serve here leaves no folder behind.
+    // Only after the checks above, so that a refused start leaves no folder behind.
     check_folder(&arguments.data)?;
     let gpu = super::open_gpu()?;
     tracing::info!(adapter = gpu.adapter_name(), "rendering");
     let (stop, stopping) = watch::channel(false);
-    let retention = Retention { most: arguments.keep, most_bytes: arguments.keep_mb.saturating_mul(1 << 20) };
+    let retention = Retention { max_parts: arguments.keep, max_bytes: arguments.keep_mb.saturating_mul(1 << 20) };
     let settings = http::Settings {
         data: arguments.data.clone(),
         retention,
@@ -111,8 +111,8 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
         tracing::warn!(%error, "the browser could not be opened");
     }
     tokio::spawn(async move {
-        asked_to_stop().await;
-        // The server may have ended by itself.
+        stop_requested().await;
+        // The server may already have ended.
         let _ = stop.send(true);
     });
     http::serve(listener, server).await?;
@@ -120,7 +120,7 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
 }
 
 /// Waits for Ctrl-C or SIGTERM.
-async fn asked_to_stop() {
+async fn stop_requested() {
     #[cfg(unix)]
     {
         use tokio::signal::unix::{SignalKind, signal};

@@ -9,13 +9,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::learn::sweep::{STEP_M, Sweep, cells};
 use crate::trial::Arena;
 
-/// Arguments of `ferry sweep`.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// A map's name, or the path of an SVG
     #[arg(long, default_value = "colon")]
     map: String,
-    /// Folder that sweeps are kept in
+    /// Folder for image sweeps
     #[arg(long, default_value = "data/sweeps")]
     out: PathBuf,
 }
@@ -32,7 +31,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     bar.finish_and_clear();
     let obstacles = sweep.obstacle.iter().filter(|&&obstacle| obstacle).count();
     println!("map        {}", arena.map.name());
-    println!("images     {} × {}, one a centimetre, {obstacles} of them over a wall", sweep.columns, sweep.rows);
+    println!("images     {} × {}, one per centimetre, {obstacles} of them over a wall", sweep.columns, sweep.rows);
     match taken {
         0 => println!("kept       in {}", arguments.out.display()),
         _ => println!("taken      in {:.1} s, for {}", started.elapsed().as_secs_f64(), arguments.out.display()),

@@ -11,52 +11,50 @@ use crate::learn::sweep::{STEP_M, Sweep};
 use crate::learn::{Curve, Marks, Recipe, State, Terrain};
 use crate::trial::Arena;
 
-/// Between two checkpoints.
 const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
-/// Seed of the last examination: no run trains with it.
+/// Seed of the final examination; no run trains with it.
 const EXAMINATION_SEED: u64 = 0x00FE_77E5;
 
-/// Arguments of `ferry train`.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Maps to learn on, separated by commas: names, or paths of SVGs
+    /// Maps for training, separated by commas: names, or paths of SVGs
     #[arg(long, value_delimiter = ',', default_value = "colon")]
     map: Vec<String>,
-    /// Maps that are only for the last examination
+    /// Maps used only in the final examination
     #[arg(long, value_delimiter = ',')]
     unseen: Vec<String>,
-    /// The policy's file; checkpoint and curve lie beside it
+    /// The policy's file; checkpoint and curve are written beside it
     #[arg(long, default_value = "data/policies/colon.safetensors")]
     out: PathBuf,
-    /// Seed of the run, or of the first of some rounds
+    /// Seed of the run, or of the first round
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Go on from the checkpoint beside the file
+    /// Resume from the checkpoint beside the file
     #[arg(long)]
     resume: bool,
-    /// Runs with seeds one after another, for the paper's learning figure
+    /// Number of runs with consecutive seeds, for the paper's learning figure
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100))]
     rounds: u64,
-    /// The paper's own reward, fusion and returns
+    /// The paper's reward, fusion and returns
     #[arg(long)]
     paper: bool,
-    /// A number of the recipe that is not to have its default, as in n_step=3 or architecture.dueling=false
+    /// Set a number of the recipe, for example n_step=3 or architecture.dueling=false
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Random starts and goals of the last examination
+    /// Random starts and goals of the final examination
     #[arg(long, default_value_t = 2000)]
     episodes: u32,
-    /// Folder that image sweeps are kept in
+    /// Folder for image sweeps
     #[arg(long, default_value = "data/sweeps")]
     sweeps: PathBuf,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    // Candle's own threads wait by spinning, for operations that are not worth it, and take the cores from the others.
-    // SAFETY: a command's first act; no other thread runs yet that could read the environment.
+    // Candle's own threads wait by spinning, even for small operations, and take cores from the others.
+    // SAFETY: this is the command's first action; no other thread runs yet that could read the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
-    // Inside of the pool, sharing work out costs no change of threads. The pool is the one that lasts: threads that end
-    // while the process does would meet the graphics driver's own clearing up.
+    // Inside the pool, parallel work needs no thread switch. The global pool is used because it lasts: threads that end
+    // together with the process would conflict with the graphics driver's cleanup.
     rayon::scope(|_| train(arguments))
 }
 
@@ -64,7 +62,7 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let recipe = if arguments.paper { Recipe::paper() } else { Recipe::default() };
     let recipe: Recipe = super::with_changes(&recipe, &arguments.set)?;
     recipe.check().context("--set")?;
-    ensure!(!arguments.map.is_empty(), "--map: name at least one map");
+    ensure!(!arguments.map.is_empty(), "--map: at least one map is needed");
     let terrains = open(&arguments.map, &recipe, &arguments.sweeps)?;
     let unseen = open(&arguments.unseen, &recipe, &arguments.sweeps)?;
     if let Some(folder) = arguments.out.parent() {
@@ -85,7 +83,7 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// One run from its first step, or from its checkpoint, to its last examination.
+/// One run from its first step, or from its checkpoint, to its final examination.
 fn round(
     arguments: &Arguments,
     recipe: &Recipe,
@@ -137,7 +135,7 @@ fn round(
         state.episodes,
         curve.spent_s() / 60.0
     );
-    for (name, group) in [("trained on", terrains), ("never seen", unseen)] {
+    for (name, group) in [("trained on", terrains), ("unseen    ", unseen)] {
         for terrain in group {
             let marks = state.examine(std::slice::from_ref(terrain), arguments.episodes, EXAMINATION_SEED)?;
             println!("{name}  {}: {}", terrain.name(), describe(&marks));
@@ -167,7 +165,7 @@ fn message(state: &State, steps_per_s: f64, updates_per_s: f64) -> String {
 fn describe(marks: &Marks) -> String {
     let [low, high] = crate::evaluate::wilson95(marks.reached, marks.episodes);
     format!(
-        "{}/{} reached ({:.2} % to {:.2} %), {} collided, {} out of steps, {:.1} steps where {:.1} are the least",
+        "{}/{} reached ({:.2} % to {:.2} %), {} collided, {} out of steps, {:.1} steps, {:.1} on the shortest path",
         marks.reached,
         marks.episodes,
         100.0 * low,
@@ -193,11 +191,11 @@ fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<
     Ok(terrains)
 }
 
-/// Git revision of the working tree, marked when it has changes; outside of one, the program's version.
+/// Git revision of the working tree, marked if it has changes; outside a repository, the program's version.
 fn revision() -> String {
     let git = std::process::Command::new("git").args(["describe", "--always", "--dirty", "--exclude=*"]).output();
     match git {
-        Ok(said) if said.status.success() => String::from_utf8_lossy(&said.stdout).trim().to_owned(),
+        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).trim().to_owned(),
         _ => concat!("version ", env!("CARGO_PKG_VERSION")).to_owned(),
     }
 }

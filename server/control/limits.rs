@@ -1,4 +1,4 @@
-//! The one last gate: whatever asks for a tool position, controller or operator, passes here.
+//! The final check of every requested tool position, from controllers and from the operator.
 
 use super::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Point3, Rect};
@@ -7,28 +7,27 @@ use crate::plant::{Positioner, TOOL_LENGTH_M, ToolOrientation};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::robot::{self, jacobian};
 
-/// Poses with less manipulability are kept away from.
-pub const LEAST_MANIPULABILITY_M3: f64 = 2e-3;
+/// Poses with less manipulability are refused.
+pub const MIN_MANIPULABILITY_M3: f64 = 2e-3;
 
-/// The tool rises and sinks no faster.
+/// Largest vertical speed of the tool.
 pub const LIFT_SPEED_M_S: f64 = 0.05;
 
 /// The limits of one trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
-    /// The tool stays in here.
+    /// The tool must stay inside.
     pub workspace: Rect,
-    /// Fastest tool of a transport step.
+    /// Largest tool speed of a transport step.
     pub speed_m_s: f64,
-    /// Fastest tool of a flight to the bead.
+    /// Largest tool speed of a flight to the bead.
     pub flight_speed_m_s: f64,
-    /// How the arm holds its flange.
     pub tool_orientation: ToolOrientation,
 }
 
 impl Limits {
-    /// Checks a tool position: finite, in the workspace and, with an arm, in reach and not singular;
-    /// returns the positioner there, of the seed's kind and on the branch nearest to it.
+    /// Checks that a tool position is finite, inside the workspace and, with an arm, reachable and not singular.
+    /// Returns the positioner's state there: the same kind as `seed`, on the solution branch nearest to it.
     pub fn position(&self, tool_m: Point3<f64>, seed: &Positioner) -> Result<Positioner, Refusal> {
         let (x_m, y_m) = (tool_m.x, tool_m.y);
         if !(x_m.is_finite() && y_m.is_finite()) {
@@ -41,7 +40,7 @@ impl Limits {
             let reach = robot::reach(tool_m.z + TOOL_LENGTH_M);
             let distance_m = tool_m.xy().coords.norm();
             match reach {
-                // The tilted tool's reach is another, by some millimetres.
+                // The reach with a tilted tool differs by a few millimetres.
                 Some((min_m, max_m)) if !(min_m..=max_m).contains(&distance_m) => {
                     Refusal::OutOfReach { distance_m, min_m, max_m }
                 }
@@ -49,28 +48,31 @@ impl Limits {
             }
         })?;
         let manipulability_m3 = found.joints_rad().map_or(f64::INFINITY, |joints| jacobian::manipulability(&joints));
-        if manipulability_m3 < LEAST_MANIPULABILITY_M3 {
-            return Err(Refusal::Singular { manipulability_m3, least_m3: LEAST_MANIPULABILITY_M3 });
+        if manipulability_m3 < MIN_MANIPULABILITY_M3 {
+            return Err(Refusal::Singular { manipulability_m3, least_m3: MIN_MANIPULABILITY_M3 });
         }
         Ok(found)
     }
 
-    /// One servo period of the tool's reference, from `from_m` towards `wanted_m`: whoever asks, controller or operator,
-    /// it moves no faster than the faster limit in the plane and [`LIFT_SPEED_M_S`] up and down, and only to where
-    /// [`Self::position`] lets it.
+    /// Moves the tool's reference for one servo period from `from_m` toward `wanted_m`. The horizontal speed is at most
+    /// the larger of the two limits and the vertical speed at most [`LIFT_SPEED_M_S`]. [`Self::position`] checks the
+    /// result.
     pub fn advance(
         &self,
         from_m: Point3<f64>,
         wanted_m: Point3<f64>,
         seed: &Positioner,
     ) -> Result<(Point3<f64>, Positioner), Refusal> {
-        let way = wanted_m.xy() - from_m.xy();
-        let most_m = self.speed_m_s.max(self.flight_speed_m_s) * SERVO_PERIOD_S;
-        // What is within the limit stays as it is, to the bit.
-        let place_m =
-            if way.norm() > most_m * (1.0 + 1e-9) { from_m.xy() + way.cap_magnitude(most_m) } else { wanted_m.xy() };
-        let most_rise_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
-        let rise_m = (wanted_m.z - from_m.z).clamp(-most_rise_m, most_rise_m);
+        let offset = wanted_m.xy() - from_m.xy();
+        let max_m = self.speed_m_s.max(self.flight_speed_m_s) * SERVO_PERIOD_S;
+        // A target within the limit is kept exactly, without rounding.
+        let place_m = if offset.norm() > max_m * (1.0 + 1e-9) {
+            from_m.xy() + offset.cap_magnitude(max_m)
+        } else {
+            wanted_m.xy()
+        };
+        let max_rise_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
+        let rise_m = (wanted_m.z - from_m.z).clamp(-max_rise_m, max_rise_m);
         let next_m = Point3::new(place_m.x, place_m.y, from_m.z + rise_m);
         Ok((next_m, self.position(next_m, seed)?))
     }
@@ -98,7 +100,7 @@ impl Limits {
         }
     }
 
-    /// The nearest point to `wanted` inside the workspace, for a flight that must not leave it.
+    /// The point of the workspace nearest to `wanted`, for a flight that must stay inside.
     pub fn keep_in(&self, wanted: Point2<f64>) -> Point2<f64> {
         let w = &self.workspace;
         Point2::new(wanted.x.clamp(w.x_min_m, w.x_max_m), wanted.y.clamp(w.y_min_m, w.y_max_m))
@@ -122,18 +124,18 @@ mod tests {
     }
 
     #[test]
-    fn a_position_is_refused_for_the_right_reason() {
+    fn refused_positions_name_the_right_reason() {
         assert!(position(0.1, -0.4).is_ok());
         assert!(matches!(position(f64::NAN, -0.4), Err(Refusal::NotFinite { .. })));
         assert!(matches!(position(0.5, -0.4), Err(Refusal::OutsideWorkspace { .. })));
         assert!(matches!(position(0.0, -1.1), Err(Refusal::OutOfReach { .. })));
         assert!(matches!(position(0.0, -0.06), Err(Refusal::OutOfReach { .. })));
-        let (_, most_m) = robot::reach(0.1 + TOOL_LENGTH_M).unwrap();
-        assert!(matches!(position(0.0, 1e-6 - most_m), Err(Refusal::Singular { .. })));
+        let (_, max_m) = robot::reach(0.1 + TOOL_LENGTH_M).unwrap();
+        assert!(matches!(position(0.0, 1e-6 - max_m), Err(Refusal::Singular { .. })));
     }
 
     #[test]
-    fn the_stage_goes_where_the_arm_does_not() {
+    fn the_planar_stage_reaches_positions_that_the_arm_does_not() {
         let stage = Positioner::PlanarStage(Point3::new(0.0, -0.3, 0.1));
         let at = |y_m: f64| limits().position(Point3::new(0.0, y_m, 0.1), &stage);
         assert!(at(-1.1).is_ok() && at(-0.06).is_ok());
@@ -141,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn the_reference_advances_no_faster_than_it_may_and_never_out() {
+    fn the_reference_keeps_its_speed_limit_and_stays_inside() {
         let seed = limits().position(Point3::new(0.0, -0.3, 0.1), &HOME).unwrap();
         let from = Point3::new(0.0, -0.3, 0.1);
         let near = Point3::new(0.001, -0.3, 0.1);
@@ -156,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_is_refused_when_too_fast_or_into_a_wall() {
+    fn refuses_steps_that_are_too_fast_or_into_a_wall() {
         let tool = Point3::new(0.0, -0.3, 0.1);
         let wall = crate::perception::test_frame(tool.xy(), |p| p.x > 0.015);
         let percept = Percept::of(&wall, tool.xy());

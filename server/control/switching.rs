@@ -1,16 +1,15 @@
-//! The switching law: which sub-controller has the arm (paper, equation 1; specification §4).
+//! The switching law: which sub-controller moves the arm (paper, equation 1; specification §4).
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
 use crate::scenario::{Parameters, SwitchingLaw};
 
-/// The active sub-controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     /// Sub-controller 1 fetches the bead.
     Approach,
-    /// Sub-controller 2 carries it.
+    /// Sub-controller 2 carries the bead.
     Transport,
 }
 
@@ -24,21 +23,20 @@ impl Mode {
     }
 }
 
-/// What the law decided, and by how much.
+/// The law's decision and the values behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
-    /// Active from now on.
     pub mode: Mode,
-    /// Whether it was another one before.
+    /// Whether the mode differs from the previous one.
     pub switched: bool,
-    /// e: distance from tool to tracked bead in the plane.
+    /// e: distance from the tool to the tracked bead in the plane.
     pub error_m: f64,
-    /// The threshold that e was held against.
+    /// The threshold for e.
     pub threshold_m: f64,
 }
 
 impl Decision {
-    /// One plain sentence.
+    /// One plain sentence for the event log.
     pub fn reason(&self) -> String {
         let (e_mm, limit_mm) = (self.error_m * 1e3, self.threshold_m * 1e3);
         match (self.mode, self.switched) {
@@ -53,10 +51,11 @@ impl Decision {
     }
 }
 
-/// Decides. SL = ½(3 + sgn(T − e)) with sgn(0) = +1; with hysteresis, sub-controller 1 keeps the arm
-/// until e is within the fetch radius, because the literal law ends the fetch T away from the bead,
-/// where the pull hardly beats friction, and chatters; and until no wall is seen between the two, or the
-/// tool would carry on along the other side of a fold than the bead.
+/// Decides the mode. SL = ½(3 + sgn(T − e)) with sgn(0) = +1.
+///
+/// With hysteresis, sub-controller 1 keeps the arm until e is within the fetch radius and no wall is seen between
+/// tool and bead. The literal law ends the fetch at distance T, where the pull hardly exceeds friction, and switches
+/// back and forth. With a wall between them, the tool would move along the wrong side of a fold.
 pub fn decide(
     mode: Mode,
     tool_m: Point2<f64>,
@@ -90,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fetch_does_not_end_behind_a_wall_but_a_wall_loses_no_bead() {
+    fn a_fetch_does_not_end_behind_a_wall_but_a_wall_does_not_end_a_transport() {
         let parameters = Parameters::default();
         let at = |mode| decide(mode, Point2::origin(), Point2::new(0.005, 0.0), &parameters, || true);
         assert_eq!(at(Mode::Approach).mode, Mode::Approach);
@@ -99,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn with_hysteresis_a_fetch_ends_at_one_centimetre_only() {
+    fn with_hysteresis_a_fetch_ends_within_one_centimetre() {
         use SwitchingLaw::Hysteresis;
         assert_eq!(at(Mode::Approach, 0.05, Hysteresis), Mode::Approach);
         assert_eq!(at(Mode::Transport, 0.05, Hysteresis), Mode::Transport);

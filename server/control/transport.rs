@@ -1,4 +1,4 @@
-//! Sub-controller 2: carries the bead to the goal, seeing only the camera.
+//! Sub-controller 2: carries the bead to the goal, using only the camera.
 
 pub mod attractor;
 pub mod errt;
@@ -13,78 +13,73 @@ use crate::perception::{ObstacleMap, Percept};
 use crate::policy::Policy;
 use crate::scenario::{ControllerName, Parameters};
 
-/// All that a transport may know at a control step.
+/// Everything that a transport may use at a control step.
 #[derive(Clone, Copy, Debug)]
 pub struct TransportInput<'a> {
-    /// The frame just taken.
+    /// The current frame.
     pub percept: &'a Percept,
-    /// All that the camera has shown up to now.
+    /// The obstacle map of all frames so far.
     pub known: &'a ObstacleMap,
-    /// Tool, in the plane.
+    /// Tool position in the plane.
     pub tool_m: Point2<f64>,
-    /// Goal.
     pub goal_m: Point2<f64>,
-    /// Parameters in force.
     pub parameters: &'a Parameters,
-    /// The policy in use; only [`rl::Rl`] asks for one.
+    /// The loaded policy; only [`rl::Rl`] needs one.
     pub policy: Option<&'a Policy>,
 }
 
-/// What keeps a transport from its goal, for the page and for the table of failures.
+/// Why a transport makes no progress, for the page and for the table of failures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Trouble {
-    /// The flow stands still where it should not: a saddle, or a sink that is not the goal.
+    /// The flow vanishes at a place that is not the goal: a saddle or another sink.
     Saddle,
-    /// The tool moves, but gets nowhere.
+    /// The tool moves, but makes no progress.
     Circling,
-    /// The tool is inside of what it takes for an obstacle.
+    /// The tool is inside a sensed obstacle.
     InsideObstacle,
-    /// The step that is wanted is refused, again and again.
+    /// The wanted step is refused repeatedly.
     Refused,
-    /// No way was found yet.
+    /// No path was found yet.
     Searching,
-    /// No way leads to the goal.
+    /// No path to the goal exists.
     WalledOff,
 }
 
 impl std::fmt::Display for Trouble {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Saddle => "trapped where the flow stands still",
+            Self::Saddle => "trapped where the flow vanishes",
             Self::Circling => "moving without getting nearer",
             Self::InsideObstacle => "inside an obstacle",
-            Self::Refused => "standing before a step that is refused",
-            Self::Searching => "no way found yet",
+            Self::Refused => "blocked: the wanted step is refused",
+            Self::Searching => "no path found yet",
             Self::WalledOff => "walled off",
         })
     }
 }
 
-/// One way to carry the bead.
+/// A method that carries the bead.
 pub trait Transport {
-    /// Forgets what belongs to the last leg: the goal moved or the bead was fetched anew.
+    /// Forgets the state of the last leg: the goal was moved, or the bead was fetched again.
     fn start_leg(&mut self);
 
-    /// The next step, or why there is none.
+    /// The next step, or why no step is taken.
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal>;
 
-    /// What kept it from its goal at the last step, if anything did.
+    /// Why the last step made no progress; `None` if it did.
     fn trouble(&self) -> Option<Trouble>;
 }
 
-/// A transport with its memory, so that a snapshot can hold it.
+/// A transport with its memory, so that a snapshot can contain it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Carrier {
-    /// Rainbow-IQN.
     Rl(Box<rl::Rl>),
-    /// ERRT.
     Errt(Box<errt::Errt>),
-    /// Attractor dynamics.
     Attractor(attractor::Attractor),
 }
 
 impl Carrier {
-    /// A fresh transport of this name; what it draws at random comes from the seed.
+    /// A new transport of this kind. All its randomness comes from `seed`.
     pub fn new(name: ControllerName, seed: u64) -> Self {
         match name {
             ControllerName::Rl => Self::Rl(Box::default()),
@@ -102,7 +97,6 @@ impl Carrier {
         }
     }
 
-    /// The transport inside.
     pub fn transport(&mut self) -> &mut dyn Transport {
         match self {
             Self::Rl(rl) => rl.as_mut(),

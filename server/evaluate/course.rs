@@ -37,7 +37,7 @@ impl Course {
     /// `None` with almost no progress. `space` is the free space of the bead.
     pub(super) fn ratio(&self, space: &FreeSpace, goal: Point2<f64>) -> Option<f64> {
         let left_m = |from: Point2<f64>| {
-            let way = space.taut_way(from, goal)?;
+            let way = space.taut_path(from, goal)?;
             Some(way.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>())
         };
         let mut progress_m = 0.0;

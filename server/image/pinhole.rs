@@ -1,28 +1,28 @@
-//! A camera over the table: where it looks, and which place of the table a place of its image shows.
+//! A camera above the table: its pose, and the conversion between image and table.
 
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// How a camera sits on the tool. It keeps upright in `base`, however the tool is turned.
+/// Pose of a camera relative to the tool. Its orientation in `base` does not depend on the tool's rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraMount {
     /// Optical centre above the table.
     pub height_m: f64,
     /// From the tool's axis to the optical centre, along x and y of `base`.
     pub offset_m: [f64; 2],
-    /// How far the optical axis leans from straight down toward +x and +y: it runs along
+    /// Tilt of the optical axis from straight down toward +x and +y. Its direction is
     /// (tan `tilt_rad[0]`, tan `tilt_rad[1]`, −1).
     pub tilt_rad: [f64; 2],
     /// Angle across the square image.
     pub field_of_view_rad: f64,
-    /// Whether the magnet stands in the picture, as it would before a real camera.
+    /// Whether the magnet is visible in the image, as in front of a real camera.
     pub sees_magnet: bool,
 }
 
 impl Default for CameraMount {
     /// Specification §3: .30 m above the table, over the tool, straight down, .20 m of table across.
     fn default() -> Self {
-        // 36.87°, a round number that sees .20 m to a micrometre.
+        // 36.87°, a round number that gives .20 m to a micrometre.
         let field_of_view_rad = 0.643_502_895_21;
         Self { height_m: 0.30, offset_m: [0.0; 2], tilt_rad: [0.0; 2], field_of_view_rad, sees_magnet: false }
     }
@@ -37,8 +37,8 @@ impl CameraMount {
     }
 }
 
-/// A pinhole camera with a square image, +y up. Places in the image are given as right and up from its
-/// middle, 1 at the rim.
+/// A pinhole camera with a square image, +y up. Positions in the image are relative to its centre, right and up, with 1
+/// at the edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pinhole {
     /// Optical centre in `base`.
@@ -68,12 +68,12 @@ impl Pinhole {
         Point3::from(self.position_m)
     }
 
-    /// The point of the table below the optical centre, from which wall tops seem to lean away.
+    /// The table point below the optical centre; wall tops appear displaced away from it.
     pub fn foot_m(&self) -> Point2<f64> {
         self.center_m().xy()
     }
 
-    /// Place of a point in the image; `None` behind the camera.
+    /// Position of a point in the image; `None` behind the camera.
     pub fn image_from_point(&self, point_m: Point3<f64>) -> Option<Vector2<f64>> {
         let [right, up, forward] = self.axes();
         let ray = point_m - self.center_m();
@@ -100,7 +100,8 @@ impl Pinhole {
         (ray.z < 0.0).then(|| self.foot_m() + ray.xy() * per_metre)
     }
 
-    /// The table seen, counter-clockwise from the lower left of the image; `None` where the horizon is in view.
+    /// Corners of the table area in view, counter-clockwise from the lower left of the image; `None` if the horizon is
+    /// in view.
     pub fn table_corners_m(&self) -> Option<[Point2<f64>; 4]> {
         let corner = |x, y| self.table_from_image(Vector2::new(x, y));
         Some([corner(-1.0, -1.0)?, corner(1.0, -1.0)?, corner(1.0, 1.0)?, corner(-1.0, 1.0)?])
@@ -113,7 +114,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn the_default_sees_twenty_centimetres_of_table_below_the_tool() {
+    fn the_default_camera_sees_20_cm_of_table_below_the_tool() {
         let mount = CameraMount::default();
         let corners = mount.over(Point2::new(0.05, -0.3)).table_corners_m().unwrap();
         let expected = [(-0.05, -0.4), (0.15, -0.4), (0.15, -0.2), (-0.05, -0.2)];
@@ -123,13 +124,13 @@ mod tests {
     }
 
     #[test]
-    fn a_tilted_camera_looks_where_its_angles_say() {
+    fn a_tilted_camera_points_along_its_tilt() {
         let mount = CameraMount { offset_m: [0.08, -0.02], tilt_rad: [-0.2, 0.1], ..CameraMount::default() };
         let camera = mount.over(Point2::new(0.1, -0.3));
         let middle = camera.table_from_image(Vector2::zeros()).unwrap();
         let expected = Point2::new(0.18 - 0.3 * 0.2_f64.tan(), -0.32 + 0.3 * 0.1_f64.tan());
         assert!((middle - expected).norm() < 1e-15);
-        // Up in the image is +y and right is +x, without a twist.
+        // Up in the image is +y and right is +x, without rotation.
         let above = camera.table_from_image(Vector2::new(0.0, 0.5)).unwrap() - middle;
         let beside = camera.table_from_image(Vector2::new(0.5, 0.0)).unwrap() - middle;
         assert!(above.y > 0.0 && beside.x > 0.0 && camera.axes()[0].y == 0.0);
@@ -141,7 +142,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn image_and_table_are_each_others_inverse(
+        fn image_and_table_conversions_are_inverse(
             tilt_rad in prop::array::uniform2(-0.4..0.4), field_of_view_rad in 0.05..1.2,
             (x, y) in (-1.0..1.0, -1.0..1.0), height_m in 0.1..1.0,
         ) {

@@ -1,11 +1,11 @@
-//! Adam (Kingma & Ba 2015) over plain arrays, so that its moments can be kept; with the gradient cut to a length and
-//! the average of the weights taken in the same pass.
+//! Adam (Kingma & Ba 2015) over plain arrays, so that its moments can be saved. Gradient clipping and weight averaging
+//! are done in the same pass.
 
 use serde::{Deserialize, Serialize};
 
 const BETA1: f32 = 0.9;
 const BETA2: f32 = 0.999;
-/// Keeps steps finite where gradients vanish.
+/// Keeps steps finite when gradients vanish.
 const EPSILON: f32 = 1e-8;
 
 /// Moments of all weights.
@@ -17,13 +17,14 @@ pub struct Adam {
 }
 
 impl Adam {
-    /// Moments of zero for weights of these lengths.
+    /// Zero moments for weights of these lengths.
     pub fn new(lengths: impl Iterator<Item = usize>) -> Self {
         let first: Vec<Vec<f32>> = lengths.map(|length| vec![0.0; length]).collect();
         Self { second: first.clone(), first, steps: 0 }
     }
 
-    /// Moves the weights against their gradients, which are cut to `gradient_most` in all; returns their length before.
+    /// Moves the weights against the gradients, which are clipped to the total norm `gradient_most`. Returns the norm
+    /// before clipping.
     pub fn step(
         &mut self,
         weights: &mut [Vec<f32>],
@@ -54,7 +55,7 @@ impl Adam {
 mod tests {
     use super::*;
 
-    /// Three steps on f(w) = w₀² + 10·w₁² from (1, −2), learning rate .1, computed apart in double precision.
+    /// Three steps on f(w) = w₀² + 10·w₁² from (1, −2), learning rate .1; computed separately in double precision.
     #[test]
     fn steps_agree_with_the_publication() {
         let mut adam = Adam::new([2].into_iter());
@@ -80,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn long_gradients_are_cut() {
+    fn long_gradients_are_clipped() {
         let mut weights = vec![vec![0.0f32; 2]];
         let mut adam = Adam::new([2].into_iter());
         assert_eq!(adam.step(&mut weights, &[vec![30.0, 40.0]], 0.1, 10.0), 50.0);

@@ -1,4 +1,4 @@
-//! What a policy thinks of every place of a map: its value map and its greedy action there.
+//! A policy's value map and greedy action at every place of a map.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,50 +13,49 @@ use crate::geometry::{Point2, Rect};
 use crate::policy::{Fusion, Judgement, Policy, PolicyError};
 use crate::trial::Arena;
 
-/// Most places looked at, twice those of the paper's table: a picture of each takes milliseconds.
-const PLACES_MOST: usize = 4000;
+/// Largest number of places, twice that of the paper's table: an image of each takes milliseconds.
+const MAX_PLACES: usize = 4000;
 /// Places judged at once: each has 32 fractions of 128 features.
 const BATCH: usize = 256;
 
-/// A map seen from everywhere, once and for all goals.
+/// The images of one map, for all goals.
 pub struct Atlas {
     workspace: Rect,
     spacing_m: f64,
     centers_m: Vec<Point2<f64>>,
-    seen: Seen,
+    seen: Stored,
     policy: Arc<Policy>,
 }
 
-/// What is kept of the images over the places.
-enum Seen {
-    /// `[places, 128]`, whatever the goal.
+/// What is stored for each place.
+enum Stored {
+    /// `[places, 128]`, independent of the goal.
     Features(Tensor),
     /// `[84 · 84]` each: with early fusion, features depend on the goal.
     Images(Vec<Vec<u8>>),
 }
 
-/// Why there is no atlas.
 #[derive(Debug, thiserror::Error)]
 pub enum AtlasError {
-    /// No images.
+    /// The images could not be taken.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// Nowhere to be.
-    #[error("map: {map:?} has no place that keeps {clearance_m} m from the walls, as the policy does")]
+    /// The tool can be nowhere.
+    #[error("map: {map:?} has no place that keeps {clearance_m} m from the walls, as the policy requires")]
     NoRoom {
-        /// Name of the map.
         map: String,
         /// Distance that the policy keeps.
         clearance_m: f64,
     },
-    /// No answer.
+    /// The policy could not judge the images.
     #[error(transparent)]
     Policy(#[from] PolicyError),
 }
 
 impl Atlas {
-    /// Looks at a map with the default camera, from every centimetre or, where that is too many, in the least multiple
-    /// of half a centimetre; the images are kept in `folder`. Takes seconds the first time, on a large map a minute.
+    /// Takes the images of a map with the default camera, every centimetre or, if that gives too many, at the smallest
+    /// sufficient multiple of half a centimetre. The images are kept in `folder`. The first call takes seconds, on a
+    /// large map a minute.
     ///
     /// # Errors
     /// [`AtlasError`].
@@ -73,15 +72,14 @@ impl Atlas {
         let seen = match policy.manifest().architecture.fusion {
             Fusion::Late => {
                 let views: Vec<&[u8]> = images().collect();
-                Seen::Features(features_of_all(policy.network(), &views).map_err(PolicyError::from)?)
+                Stored::Features(features_of_all(policy.network(), &views).map_err(PolicyError::from)?)
             }
-            Fusion::Early => Seen::Images(images().map(<[u8]>::to_vec).collect()),
+            Fusion::Early => Stored::Images(images().map(<[u8]>::to_vec).collect()),
         };
         let at = |&cell: &usize| center(&workspace, spacing_m, cell % sweep.columns, cell / sweep.columns);
         Ok(Self { workspace, spacing_m, centers_m: free.iter().map(at).collect(), seen, policy })
     }
 
-    /// The policy that it is of.
     pub fn policy(&self) -> &Arc<Policy> {
         &self.policy
     }
@@ -91,8 +89,7 @@ impl Atlas {
         self.spacing_m
     }
 
-    /// Each place that keeps the policy's distance from the walls, and what the policy makes of standing there on the
-    /// way to a goal.
+    /// The places that keep the policy's distance from walls, with the policy's judgement of the tool there for a goal.
     ///
     /// # Errors
     /// [`AtlasError::Policy`].
@@ -103,8 +100,8 @@ impl Atlas {
             let places: Vec<[f32; 4]> =
                 centers_m.iter().map(|&center_m| places(&self.workspace, goal_m, center_m)).collect();
             let features = match &self.seen {
-                Seen::Features(features) => features.narrow(0, begin, places.len()),
-                Seen::Images(images) => {
+                Stored::Features(features) => features.narrow(0, begin, places.len()),
+                Stored::Images(images) => {
                     let views: Vec<&[u8]> = images[begin..][..places.len()].iter().map(Vec::as_slice).collect();
                     features_of(self.policy.network(), &views, &places)
                 }
@@ -119,7 +116,7 @@ impl Atlas {
 fn spacing_m(arena: &Arena) -> f64 {
     let fits = |&spacing_m: &f64| {
         let (columns, rows) = cells(arena, spacing_m);
-        columns * rows <= PLACES_MOST
+        columns * rows <= MAX_PLACES
     };
     (2..).map(|halves| 0.5 * STEP_M * f64::from(halves)).find(fits).expect("a map has bounds")
 }
@@ -129,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_large_map_is_looked_at_from_fewer_places() {
+    fn a_large_map_has_coarser_places() {
         let spacing_of = |map: &str| spacing_m(&Arena::open(map).unwrap());
         assert_eq!(spacing_of("colon"), STEP_M);
         assert_eq!(spacing_of("attractor-example"), 0.025);

@@ -7,18 +7,16 @@ use plotters::prelude::*;
 
 use super::training::{Point, Spread};
 
-/// The curve of one run, with the time that each point came at.
+/// The curve of one run, with the time of each point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// The points.
     pub points: Vec<Point>,
-    /// Seconds that the run had taken at its last points; the first ones of a resumed run have none.
+    /// Seconds of the run at each of the last points; the points before a resume have no time.
     times_s: Vec<f64>,
-    /// Seconds before it was resumed.
+    /// Seconds of the run before it was resumed.
     before_s: f64,
 }
 
-/// Why there is no figure.
 #[derive(Debug, thiserror::Error)]
 #[error("figure: {0}")]
 pub struct FigureError(String);
@@ -26,22 +24,22 @@ pub struct FigureError(String);
 const SIZE_PX: (u32, u32) = (760, 560);
 
 impl Curve {
-    /// Of a run that had taken some seconds before.
+    /// The curve of a resumed run that had taken `before_s` seconds.
     pub fn resumed(before_s: f64) -> Self {
         Self { before_s, ..Self::default() }
     }
 
-    /// A point came, so many seconds after the run began or was resumed.
+    /// Records the time of a new point, in seconds since the run began or was resumed.
     pub fn time(&mut self, elapsed_s: f64) {
         self.times_s.push(self.before_s + elapsed_s);
     }
 
-    /// Seconds of the run in all.
+    /// Total seconds of the run.
     pub fn spent_s(&self) -> f64 {
         self.times_s.last().copied().unwrap_or(self.before_s)
     }
 
-    /// One line a point; `ARCHITECTURE.md` says what each column is.
+    /// One line per point. `ARCHITECTURE.md` describes the columns.
     pub fn csv(&self) -> String {
         let mut text = String::from(
             "update,steps,episodes,elapsed_s,reward_mean,reward_deviation,loss_mean,loss_deviation,gradient_mean,\
@@ -77,10 +75,10 @@ impl Curve {
         text
     }
 
-    /// Mean and deviation over some runs, as SVG: the reward of the episodes above, the loss below.
+    /// Mean and deviation over runs as SVG: episode rewards in the upper plot, losses in the lower one.
     ///
     /// # Errors
-    /// [`FigureError`] when the drawing fails.
+    /// [`FigureError`] if the drawing fails.
     pub fn figure(curves: &[Self]) -> Result<String, FigureError> {
         let mut text = String::new();
         draw(curves, &mut text).map_err(|error| FigureError(error.to_string()))?;
@@ -95,7 +93,7 @@ fn band(curves: &[Curve], get: impl Fn(&Point) -> Spread) -> Vec<(f64, f64, f64)
         let values: Vec<f64> = curves.iter().filter_map(|curve| get(&curve.points[index]).mean()).collect();
         let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
         let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len().max(1) as f64;
-        // Of one round there is no deviation between rounds: the one between its episodes is shown.
+        // A single round has no deviation between rounds: the deviation between its episodes is shown.
         let deviation = match curves {
             [only] => get(&only.points[index]).deviation().unwrap_or(0.0),
             _ => variance.sqrt(),
@@ -119,7 +117,7 @@ fn draw(curves: &[Curve], text: &mut String) -> Result<(), Box<dyn std::error::E
         ("Loss", band(curves, |point| point.loss), RGBColor(214, 39, 40)),
     ];
     for (panel, (title, line, color)) in panels.iter().zip(lines) {
-        let most_x = line.last().map_or(1.0, |&(x, _, _)| x);
+        let max_x = line.last().map_or(1.0, |&(x, _, _)| x);
         let low = line.iter().map(|&(_, mean, deviation)| mean - deviation).fold(f64::INFINITY, f64::min);
         let high = line.iter().map(|&(_, mean, deviation)| mean + deviation).fold(f64::NEG_INFINITY, f64::max);
         let (low, high) = if low < high { (low, high) } else { (0.0, 1.0) };
@@ -130,7 +128,7 @@ fn draw(curves: &[Curve], text: &mut String) -> Result<(), Box<dyn std::error::E
             .caption(format!("{title}: mean and deviation {spread}, {rounds}"), ("sans-serif", 16))
             .x_label_area_size(32)
             .y_label_area_size(56)
-            .build_cartesian_2d(0.0..most_x, low - margin..high + margin)?;
+            .build_cartesian_2d(0.0..max_x, low - margin..high + margin)?;
         let whole = |update: &f64| format!("{update:.0}");
         let mut mesh = chart.configure_mesh();
         mesh.light_line_style(WHITE).x_label_formatter(&whole).x_desc("updates").y_desc(title).draw()?;
@@ -177,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_has_a_line_a_point_and_a_column_a_name() {
+    fn the_table_has_one_line_per_point_and_one_name_per_column() {
         let curve = curve(1);
         let text = curve.csv();
         let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
@@ -189,8 +187,8 @@ mod tests {
         };
         assert_eq!(column("update"), ["100", "200", "300", "400"]);
         assert_eq!(column("elapsed_s"), ["", "", "25.0", "30.0"]);
-        assert_eq!(column("reward_mean"), ["1.200000", "", "1.400000", "1.500000"], "of no episode there is none");
-        assert_eq!(column("reward_deviation")[0], "0.816497", "of three numbers one apart");
+        assert_eq!(column("reward_mean"), ["1.200000", "", "1.400000", "1.500000"], "empty without episodes");
+        assert_eq!(column("reward_deviation")[0], "0.816497", "for three numbers with a spacing of 1");
         assert_eq!(column("ended"), ["3", "0", "3", "3"]);
         assert_eq!(column("examined_reached"), ["", "", "", "150"]);
         assert_eq!(column("examined_episodes"), ["", "", "", "200"]);

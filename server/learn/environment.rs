@@ -1,5 +1,5 @@
-//! Training's environment (specification §7): the tool steps from cell to cell of a [`Terrain`], without bead, arm or
-//! camera; those are in the terrain's tables.
+//! Training's environment (specification §7): the tool steps from cell to cell of a [`Terrain`]. Bead, arm and camera
+//! are not simulated; their effects are in the terrain's tables.
 
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
@@ -12,20 +12,19 @@ use crate::trial::{GOAL_RADIUS_M, LEG_STEP_LIMIT};
 /// A place anywhere in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Goal {
-    /// The cell.
     pub cell: u16,
-    /// From its middle, −127 to 127 for half a cell.
+    /// Offset from the cell's centre; −127 to 127 spans the cell.
     pub offset: [i8; 2],
 }
 
 impl Goal {
-    /// Anywhere in a cell.
+    /// A random place in a cell.
     pub fn in_cell(cell: u16, rng: &mut impl Rng) -> Self {
         let mut draw = || rng.random_range(-127..=127);
         Self { cell, offset: [draw(), draw()] }
     }
 
-    /// Anywhere that can be reached from a cell.
+    /// A random place that can be reached from a cell.
     pub fn anywhere(terrain: &Terrain, from: u16, rng: &mut impl Rng) -> Self {
         loop {
             let cell = rng.random_range(0..terrain.cells()) as u16;
@@ -35,33 +34,32 @@ impl Goal {
         }
     }
 
-    /// On the table.
+    /// Position on the table.
     pub fn place_m(self, terrain: &Terrain) -> Point2<f64> {
         let [x, y] = self.offset.map(|offset| f64::from(offset) / 127.0 * GOAL_JITTER_M);
         terrain.center_m(self.cell) + Vector2::new(x, y)
     }
 
-    /// Whether the tool over a cell is within 2 cm.
+    /// Whether the goal is within 2 cm of the centre of `cell`.
     pub fn is_reached_from(self, terrain: &Terrain, cell: u16) -> bool {
         (terrain.center_m(cell) - self.place_m(terrain)).norm() <= GOAL_RADIUS_M
     }
 }
 
-/// What a step is worth.
+/// The result of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// Reward.
     pub reward: f32,
-    /// Whether nothing comes after.
+    /// Whether the episode ends for the learner.
     pub terminal: bool,
 }
 
 impl Recipe {
-    /// A step from one cell to another, or to the end of the episode, on the way to a goal.
+    /// The result of a step from one cell to another, or to the end of the episode, for a goal.
     pub fn outcome(&self, terrain: &Terrain, from: u16, to: Option<u16>, goal: Goal) -> Outcome {
         let Some(to) = to else { return Outcome { reward: -1.0, terminal: true } };
         let progress = match [from, to].map(|cell| terrain.distance(cell, goal.cell)) {
-            // Some steps have no way back. What they lose is told as a step, not as a number for "never".
+            // From some cells no path leads back. Such a step counts as a loss of one step, not of an infinite number.
             [UNREACHABLE, UNREACHABLE] => 0.0,
             [_, UNREACHABLE] => -1.0,
             [before, after] => f64::from(before) - f64::from(after),
@@ -72,34 +70,32 @@ impl Recipe {
     }
 }
 
-/// How an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ending {
     /// Within 2 cm of the goal.
     Reached,
-    /// The obstacle test, a wall too near, or no joint angles.
+    /// The obstacle test is positive, a wall is too close, or there are no joint angles.
     Collided,
     /// More than 150 steps.
     TimedOut,
 }
 
-/// One episode under way.
+/// One episode in progress.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Episode {
-    /// Which terrain.
+    /// Index of the terrain.
     pub terrain: u8,
-    /// Where the tool is.
+    /// Cell of the tool.
     pub cell: u16,
-    /// Where it should go.
     pub goal: Goal,
-    /// Steps up to now.
+    /// Steps so far.
     pub steps: u32,
-    /// Rewards up to now, undiscounted.
+    /// Sum of rewards so far, undiscounted.
     pub total: f32,
 }
 
 impl Episode {
-    /// A random start and goal that is not reached yet.
+    /// A random start, and a random goal that is not reached yet.
     pub fn start(terrains: &[Terrain], rng: &mut impl Rng) -> Self {
         let index = rng.random_range(0..terrains.len());
         let terrain = &terrains[index];
@@ -112,13 +108,13 @@ impl Episode {
         }
     }
 
-    /// What the observation's second channel says.
+    /// Content of the observation's second channel.
     pub fn places(&self, terrains: &[Terrain]) -> [f32; 4] {
         let terrain = &terrains[usize::from(self.terrain)];
         terrain.places(self.goal.place_m(terrain), self.cell)
     }
 
-    /// Takes a step; where it leads, and how the episode ended if it did.
+    /// Takes a step. Returns the new cell, and the ending if the episode ends.
     pub fn step(&mut self, terrains: &[Terrain], action: usize, recipe: &Recipe) -> (Option<u16>, Option<Ending>) {
         let terrain = &terrains[usize::from(self.terrain)];
         let to = terrain.step(self.cell, action);
@@ -147,7 +143,7 @@ mod tests {
     use crate::learn::terrain::tests::{corridor, two_rooms};
 
     #[test]
-    fn a_step_is_worth_what_the_specification_says() {
+    fn rewards_match_the_specification() {
         let terrain = two_rooms();
         let goal = Goal { cell: 0, offset: [0, 0] };
         let paper = Recipe { progress_reward: 0.0, ..Recipe::default() };
@@ -155,17 +151,17 @@ mod tests {
         assert_eq!(paper.outcome(&terrain, 2, None, goal), Outcome { reward: -1.0, terminal: true });
         let there = (0..26).find(|&cell| terrain.step(2, 2) == Some(cell));
         assert_eq!(paper.outcome(&terrain, 2, there, goal), Outcome { reward: 0.0, terminal: false });
-        assert_eq!(paper.outcome(&terrain, 3, Some(2), goal), Outcome { reward: 1.0, terminal: true }, "2 cm off");
+        assert_eq!(paper.outcome(&terrain, 3, Some(2), goal), Outcome { reward: 1.0, terminal: true }, "2 cm away");
         let off = Goal { cell: 0, offset: [-1, 0] };
-        assert!(!paper.outcome(&terrain, 3, Some(2), off).terminal, "a little more than 2 cm off");
+        assert!(!paper.outcome(&terrain, 3, Some(2), off).terminal, "slightly more than 2 cm away");
         let shaped = Recipe { step_penalty: 0.02, ..Recipe::default() };
         let away = shaped.outcome(&terrain, 2, there, goal);
         assert!((away.reward + 0.12).abs() < 1e-6 && !away.terminal, "{away:?}");
     }
 
     #[test]
-    fn a_step_with_no_way_back_loses_one_step() {
-        // Six cells; from the fourth none leads back to the third.
+    fn a_step_without_a_path_back_loses_one_step() {
+        // Six cells; no step leads from the fourth back to the third.
         let terrain = corridor(&[1, 3, 3, 1, 3, 2]).unwrap();
         let goal = Goal { cell: 0, offset: [-127, 0] };
         assert_eq!((terrain.distance(2, 0), terrain.distance(3, 0)), (2, UNREACHABLE));
@@ -176,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn an_episode_ends_in_each_of_the_three_ways() {
+    fn an_episode_ends_by_goal_collision_or_timeout() {
         let terrains = [two_rooms()];
         let recipe = Recipe::default();
         let goal = Goal { cell: 25, offset: [0, 0] };
@@ -187,7 +183,7 @@ mod tests {
         let endings: Vec<_> = back_and_forth.collect();
         assert_eq!(endings[..149], [None; 149]);
         assert_eq!(endings[149], Some(Ending::TimedOut));
-        // Also with the steps spent: within 2 cm counts first.
+        // Even with no steps left, reaching the goal counts first.
         let mut episode = Episode { cell: 0, goal: Goal { cell: 2, offset: [0, 0] }, ..episode };
         assert!(matches!(episode.step(&terrains, 0, &recipe), (Some(1), Some(Ending::Reached))));
     }

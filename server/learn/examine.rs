@@ -1,4 +1,4 @@
-//! Examination: what a network is worth, acting greedily on random starts and goals.
+//! Examination: the success of a network that acts greedily on random starts and goals.
 
 use candle_core::{Device, Result, Tensor};
 use rand::SeedableRng;
@@ -13,13 +13,12 @@ use crate::policy::{ACTING_FRACTIONS, Fusion, Network, acting_fractions};
 
 /// Episodes that are stepped together.
 const TOGETHER: usize = 250;
-/// Training draws from other streams of its seed.
+/// Random stream of examinations; training uses other streams of its seed.
 const STREAM: u64 = 1 << 40;
 
-/// How many episodes ended in which way.
+/// Counts of episode endings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Marks {
-    /// Episodes.
     pub episodes: u32,
     /// Within 2 cm of the goal.
     pub reached: u32,
@@ -27,14 +26,15 @@ pub struct Marks {
     pub collided: u32,
     /// Out of steps.
     pub timed_out: u32,
-    /// Steps of those that reached their goal.
+    /// Steps of the episodes that reached their goal.
     pub steps: u32,
-    /// Least steps that these could have taken to the goal's cell, at which they are within 2 cm earlier.
+    /// Length of the shortest paths of these episodes to the goal's cell. Episodes end within 2 cm, so `steps` can be
+    /// smaller.
     pub least_steps: u32,
 }
 
 impl Marks {
-    /// Share that reached the goal.
+    /// Share of episodes that reached the goal.
     pub fn success(&self) -> f64 {
         f64::from(self.reached) / f64::from(self.episodes.max(1))
     }
@@ -43,7 +43,7 @@ impl Marks {
 /// Maps cells and places to actions.
 pub type Act<'a> = dyn FnMut(&[(u8, u16)], &[[f32; 4]]) -> Result<Vec<u32>> + 'a;
 
-/// Where the chosen action of each episode leads, by the tables.
+/// Examines a function that chooses actions. Steps follow the terrains' tables.
 pub fn examine_by(recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u64, act: &mut Act<'_>) -> Result<Marks> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
@@ -76,7 +76,7 @@ pub fn examine_by(recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u6
     Ok(marks)
 }
 
-/// The same for a network, greedy and without noise.
+/// Examines a network, greedy and without noise.
 pub fn examine(network: &Network, recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u64) -> Result<Marks> {
     let cache: Vec<Tensor> = match network.architecture().fusion {
         Fusion::Late => {

@@ -1,5 +1,5 @@
-//! One learner: the networks, their optimiser, and one update (paper, §III; Hessel et al. 2018, "Rainbow"; Dabney et al.
-//! 2018, "Implicit Quantile Networks").
+//! One learner: the networks, their optimiser, and one update (paper, §III; Hessel et al. 2018, "Rainbow"; Dabney et
+//! al. 2018, "Implicit Quantile Networks").
 
 use candle_core::{D, Device, Result, Tensor, Var};
 use rand::{RngExt, SeedableRng};
@@ -19,51 +19,50 @@ use crate::trial::LEG_STEP_LIMIT;
 /// All weights, in the order of [`Architecture::tensors`].
 pub type Weights = Vec<Vec<f32>>;
 
-/// Cells whose features are made at once: their columns stay in the cache.
+/// Cells whose features are computed together, so that their columns stay in the CPU cache.
 const CHUNK: usize = 32;
 
-/// What a learner must remember.
+/// The learner's state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
-    /// The network that learns.
+    /// The network that is trained.
     pub online: Weights,
-    /// Its older copy, which judges.
+    /// Its older copy, which gives the targets.
     pub target: Weights,
-    /// The average that is evaluated and shipped.
+    /// The averaged weights, which are evaluated and shipped.
     pub average: Weights,
     /// Moments of the optimiser.
     pub adam: Adam,
-    /// Updates done.
+    /// Number of updates so far.
     pub updates: u64,
-    /// Everything that is drawn.
+    /// Source of all random draws.
     pub rng: ChaCha8Rng,
 }
 
-/// What one update says of itself.
+/// Measurements of one update.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Mean loss of the images, before importance weights.
     pub loss: f64,
-    /// Length of the gradient before it is cut.
+    /// Norm of the gradient before clipping.
     pub gradient: f64,
 }
 
-/// The learner.
 pub struct Learner<'a> {
     recipe: &'a Recipe,
     terrains: &'a [Terrain],
     memory: Memory,
     variables: Vec<Var>,
-    /// Over the variables.
+    /// Uses the variables.
     online: Network,
-    /// Over the same numbers, without a tape.
+    /// Uses the same numbers without recording gradients.
     frozen: Network,
     target: Network,
-    /// Features of all cells by the target network, a terrain each; empty with early fusion.
+    /// Features of all cells by the target network, one tensor per terrain; empty with early fusion.
     cache: Vec<Tensor>,
 }
 
-/// A network over given weights.
+/// A network with the given weights.
 pub fn network(architecture: Architecture, weights: &Weights) -> Result<Network> {
     let specs = architecture.tensors();
     Network::new(architecture, |name| {
@@ -73,7 +72,7 @@ pub fn network(architecture: Architecture, weights: &Weights) -> Result<Network>
 }
 
 fn position(specs: &[TensorSpec], name: &str) -> usize {
-    specs.iter().position(|spec| spec.name == name).expect("a network asks for its own tensors")
+    specs.iter().position(|spec| spec.name == name).expect("the tensor belongs to the network")
 }
 
 /// Features of many views, each `[84 · 84]`: `[B, 128]`; late fusion only.
@@ -82,7 +81,7 @@ pub fn features_of_all(network: &Network, views: &[&[u8]]) -> Result<Tensor> {
     Tensor::cat(&chunks.collect::<Result<Vec<_>>>()?, 0)
 }
 
-/// Features of some views, each `[84 · 84]`: `[B, 128]`; with early fusion each for its places.
+/// Features of views, each `[84 · 84]`: `[B, 128]`. With early fusion, `places` belong to the views.
 pub fn features_of(network: &Network, views: &[&[u8]], places: &[[f32; 4]]) -> Result<Tensor> {
     match network.architecture().fusion {
         Fusion::Late => network.features(&images(views.iter().copied(), 1)?),
@@ -102,7 +101,7 @@ fn observation(view: &[u8], places: [f32; 4]) -> Vec<u8> {
     view.iter().copied().chain(second).collect()
 }
 
-/// The `[B, G, N, 4]` values of one action for each of `[B · G]`: `[B, G, N]`.
+/// Selects one action for each of `[B · G]` from the `[B, G, N, 4]` values: `[B, G, N]`.
 fn of_actions(values: &Tensor, actions: &[u32]) -> Result<Tensor> {
     let (batch, goals, _, _) = values.dims4()?;
     let chosen = actions.iter().flat_map(|&action| (0..4).map(move |index| f32::from(u8::from(index == action))));
@@ -110,16 +109,16 @@ fn of_actions(values: &Tensor, actions: &[u32]) -> Result<Tensor> {
     values.broadcast_mul(&chosen)?.sum(D::Minus1)
 }
 
-/// The best action of each of `[B · G]` by the mean over the fractions.
+/// The best action of each of `[B · G]`, by the mean over the fractions.
 pub fn best(quantiles: &Tensor) -> Result<Vec<u32>> {
     quantiles.mean(2)?.argmax(D::Minus1)?.flatten_all()?.to_vec1()
 }
 
-/// One sampled transition with all that it is learned for.
+/// A sampled transition with the goals it is learned for.
 struct Sample {
     cell: (u8, u16),
     action: u32,
-    /// Where the return is continued from.
+    /// Terrain and cell from which the return is bootstrapped.
     beyond: (u8, u16),
     goals: Vec<Aim>,
 }
@@ -128,14 +127,14 @@ struct Sample {
 struct Aim {
     places: [f32; 4],
     places_beyond: [f32; 4],
-    /// Discounted rewards up to there.
+    /// Discounted rewards up to the bootstrap cell.
     reward: f32,
-    /// γⁿ, or 0 where nothing comes after.
+    /// γⁿ, or 0 if the return ends there.
     discount: f32,
 }
 
 impl Memory {
-    /// First weights and an optimiser at rest.
+    /// Initial weights and optimiser state.
     pub fn new(recipe: &Recipe, seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let specs = recipe.architecture.tensors();
@@ -146,10 +145,10 @@ impl Memory {
 }
 
 impl<'a> Learner<'a> {
-    /// A learner that goes on from what it remembers.
+    /// A learner that continues from its state.
     ///
     /// # Errors
-    /// Of candle, when the weights have other shapes than the recipe's network.
+    /// Of candle, if the weights do not have the shapes of the recipe's network.
     pub fn new(recipe: &'a Recipe, terrains: &'a [Terrain], memory: Memory) -> Result<Self> {
         let architecture = recipe.architecture;
         let specs = architecture.tensors();
@@ -168,12 +167,10 @@ impl<'a> Learner<'a> {
         Ok(learner)
     }
 
-    /// What it must remember.
     pub fn memory(&self) -> &Memory {
         &self.memory
     }
 
-    /// The generator of everything drawn.
     pub fn rng(&mut self) -> &mut ChaCha8Rng {
         &mut self.memory.rng
     }
@@ -186,7 +183,7 @@ impl<'a> Learner<'a> {
         Ok(())
     }
 
-    /// What the noisy network does in some places on the way to some goals: `[B]` actions.
+    /// The noisy network's actions `[B]` for cells and places.
     ///
     /// # Errors
     /// Of candle.
@@ -199,7 +196,7 @@ impl<'a> Learner<'a> {
         best(&self.frozen.quantiles(&features, &places, &fractions, noise.as_ref())?)
     }
 
-    /// Learns from one draw of the replay and sets its losses.
+    /// Learns from one draw of the replay and updates the draw's losses.
     ///
     /// # Errors
     /// Of candle.
@@ -248,7 +245,7 @@ impl<'a> Learner<'a> {
         Ok(Report { loss, gradient })
     }
 
-    /// One step of the optimiser, of the average and, when it is due, of the target.
+    /// One step of the optimiser, of the average and, if it is due, of the target network.
     fn descend(&mut self, gradients: &Weights) -> Result<f64> {
         let recipe = self.recipe;
         let memory = &mut self.memory;
@@ -274,7 +271,7 @@ impl<'a> Learner<'a> {
         Ok(length)
     }
 
-    /// What the samples' returns should be, `[B · G, N']`.
+    /// Target values of the samples' returns, `[B · G, N']`.
     fn targets(&mut self, samples: &[Sample]) -> Result<Tensor> {
         let recipe = self.recipe;
         let (batch, goals) = (samples.len(), samples[0].goals.len());
@@ -321,7 +318,7 @@ impl<'a> Learner<'a> {
         let first = *replay.get(index);
         let terrain = &self.terrains[usize::from(first.terrain)];
         let path: Vec<Transition> = replay.following(index, recipe.n_step).copied().collect();
-        let last = path.last().expect("a path begins with its first step");
+        let last = path.last().expect("a path has at least its first step");
         let beyond = last.next.unwrap_or(last.cell);
         let goals = (0..recipe.goals).map(|_| {
             let (goal, is_own) = self.choose_goal(replay, index, terrain);
@@ -338,7 +335,7 @@ impl<'a> Learner<'a> {
         }
     }
 
-    /// Rewards along a path on the way to a goal, discounted, and the discount of what comes after.
+    /// Discounted rewards along a path for a goal, and the discount of the value after it.
     fn step_return(&self, terrain: &Terrain, path: &[Transition], goal: Goal, is_own: bool) -> (f32, f32) {
         let (mut reward, mut discount) = (0.0, 1.0f32);
         for step in path {
@@ -353,7 +350,7 @@ impl<'a> Learner<'a> {
         (reward, discount)
     }
 
-    /// A goal to learn a transition for, and whether it is the episode's own.
+    /// A goal for learning a transition, and whether it is the episode's own goal.
     fn choose_goal(&mut self, replay: &Replay, index: usize, terrain: &Terrain) -> (Goal, bool) {
         let recipe = self.recipe;
         let first = replay.get(index);

@@ -2,7 +2,7 @@
 
 use candle_core::{D, Result, Tensor};
 
-/// Where the Huber loss turns from a parabola to a line.
+/// Where the Huber loss changes from a parabola to a line.
 const KAPPA: f64 = 1.0;
 
 /// Loss of each sample: quantiles `[B, N]` at fractions `[B, N]`, targets `[B, M]` → `[B]`.
@@ -31,7 +31,7 @@ pub fn huber_mean(values: &Tensor, targets: &Tensor) -> Result<Tensor> {
 fn huber(delta: &Tensor) -> Result<Tensor> {
     let size = delta.abs()?;
     let inner = size.clamp(0.0, KAPPA)?;
-    // κ|δ| − ½κ² beyond and ½δ² within are both inner·(|δ| − ½ inner).
+    // κ|δ| − ½κ² beyond κ and ½δ² within κ both equal inner·(|δ| − ½ inner).
     &inner * (size - (&inner * 0.5)?)?
 }
 
@@ -53,12 +53,12 @@ mod tests {
         }
     }
 
-    // The expected numbers are of PyTorch in double precision: loops over samples, quantiles and targets written
-    // from equation 3 of Dabney et al. 2018, and its automatic differentiation.
+    // The expected numbers are from PyTorch in double precision: loops over samples, quantiles and targets written from
+    // equation 3 of Dabney et al. 2018, and automatic differentiation.
 
     #[test]
-    fn the_quantile_loss_and_its_gradient_are_those_of_the_publication() {
-        // δ goes from −3.7 to 7.1, eight of the 24 within ±κ.
+    fn the_quantile_loss_and_its_gradient_match_the_publication() {
+        // δ ranges from −3.7 to 7.1; eight of the 24 are within ±κ.
         let quantiles = var(&[[0.1, -0.7, 2.4], [1.25, 0.0, -3.1]]);
         let fractions = var(&[[0.15, 0.5, 0.93], [0.62, 0.04, 0.31]]);
         let targets = var(&[[0.6, -1.3, 1.85, 0.25], [-0.2, 0.95, 4.0, -2.05]]);
@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plain_loss_and_its_gradient_are_hubers() {
+    fn the_plain_loss_and_its_gradient_match_huber() {
         let values = var(&[[0.3, -1.2], [2.0, 0.5]]);
         let targets = var(&[[0.9, 0.4], [-0.5, 0.1]]);
         let losses = huber_mean(&values, &targets).unwrap();

@@ -1,67 +1,66 @@
-//! Everything about a training run that can be chosen. The defaults are what Ferry ships; each part of Rainbow-IQN and
-//! each deviation from the paper is a switch.
+//! All settings of a training run. The defaults are those of the shipped policies. Each part of Rainbow-IQN and each
+//! deviation from the paper can be switched.
 
 use serde::{Deserialize, Serialize};
 
 use crate::policy::{Architecture, Fusion};
 
-/// A training run before its first update.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Recipe {
     /// Parts of the network.
     pub architecture: Architecture,
-    /// Double Q-learning (van Hasselt et al. 2016): the network that learns chooses, its older copy judges.
+    /// Double Q-learning (van Hasselt et al. 2016): the trained network chooses, the target network judges.
     pub double: bool,
     /// Prioritised replay (Schaul et al. 2016); 0 is uniform.
     pub priority_exponent: f64,
-    /// Importance weights' exponent β at the start; it rises to 1.
+    /// Initial exponent β of the importance weights; it rises to 1.
     pub importance_start: f64,
     /// Steps of a return, 1 to 20; Rainbow has 3.
     pub n_step: usize,
-    /// Discount of a step.
+    /// Discount per step.
     pub discount: f64,
-    /// Reward for a step nearer by geodesic distance; the paper has none.
+    /// Reward per step of geodesic distance gained; the paper has none.
     pub progress_reward: f64,
-    /// Taken off at each step.
+    /// Subtracted at each step.
     pub step_penalty: f64,
-    /// Whether an episode that ran out of steps is a failure for the learner too (the paper), or goes on beyond.
+    /// Whether a timeout counts as a failure for the learner (as in the paper), or the return continues beyond it.
     pub timeout_fails: bool,
-    /// Wall distance in the image below which an episode ends; 0 is the paper.
+    /// Wall distance in the image below which an episode ends; 0 as in the paper.
     pub clearance_m: f64,
-    /// Images of an update.
+    /// Images per update.
     pub images: usize,
-    /// Goals that each image is learned for.
+    /// Goals for which each image is learned.
     pub goals: usize,
     /// Share of these goals that are drawn anywhere.
     pub uniform_goals: f64,
-    /// Share that the episode came by later (Andrychowicz et al. 2017).
+    /// Share of these goals that the episode reached later (Andrychowicz et al. 2017).
     pub future_goals: f64,
-    /// Share of actions that are drawn anywhere, beside the noisy layers.
+    /// Share of random actions, in addition to the noisy layers.
     pub exploration: f64,
-    /// Decay of the average of the weights that is evaluated and shipped; 0 is without.
+    /// Decay of the averaged weights, which are evaluated and shipped; 0 disables averaging.
     pub averaging: f64,
     /// Quantile fractions N and N' of the loss.
     pub fractions: usize,
-    /// Quantile fractions K that actions are chosen by in training.
+    /// Quantile fractions K for choosing actions in training.
     pub choosing_fractions: usize,
     /// Learning rate of Adam (Kingma & Ba 2015) in the first half.
     pub learning_rate: f64,
     /// Learning rate at the end; it falls in the second half.
     pub learning_rate_end: f64,
-    /// Gradients longer than this are cut to it.
+    /// Largest norm of a gradient; longer ones are clipped.
     pub gradient_most: f64,
     /// Updates between copies to the target network.
     pub target_period: u64,
-    /// Episodes at once.
+    /// Episodes in parallel.
     pub lanes: usize,
-    /// Updates for each step of all lanes.
+    /// Updates per step of all lanes.
     pub updates_per_step: usize,
-    /// Transitions that are kept.
+    /// Size of the replay, in transitions.
     pub capacity: usize,
     /// Transitions before the first update.
     pub warm_up: usize,
-    /// Updates in all.
+    /// Total number of updates.
     pub updates: u64,
 }
 
@@ -99,23 +98,20 @@ impl Default for Recipe {
     }
 }
 
-/// A number of the recipe that is out of range.
+/// A number of the recipe is out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field} is {value}, it must be {least} to {most}")]
+#[error("{field} is {value}, it must be {min} to {max}")]
 pub struct RecipeError {
-    /// The field at fault.
+    /// Name of the wrong field.
     pub field: &'static str,
-    /// Its value.
     pub value: f64,
-    /// Least value allowed.
-    pub least: f64,
-    /// Greatest value allowed.
-    pub most: f64,
+    pub min: f64,
+    pub max: f64,
 }
 
 impl Recipe {
-    /// The paper's own reward and fusion: ±1 at the ends and nothing between, both channels into the trunk, three-step
-    /// returns, goals that the episode had, nothing beside the noisy layers, weights as they are.
+    /// The paper's reward and fusion: ±1 at the ends and 0 between, both channels into the trunk, three-step returns,
+    /// the episodes' own goals, no exploration except the noisy layers, weights without averaging.
     pub fn paper() -> Self {
         let architecture = Architecture { fusion: Fusion::Early, ..Architecture::default() };
         Self {
@@ -136,13 +132,13 @@ impl Recipe {
         }
     }
 
-    /// Checks every range; the first field at fault is named.
+    /// Checks every range; the error names the first wrong field.
     ///
     /// # Errors
     /// [`RecipeError`].
     pub fn check(&self) -> Result<(), RecipeError> {
-        // Early fusion makes features for one goal.
-        let goals_most = if self.architecture.fusion == Fusion::Early { 1.0 } else { 256.0 };
+        // Early fusion computes features for one goal.
+        let max_goals = if self.architecture.fusion == Fusion::Early { 1.0 } else { 256.0 };
         let ranges = [
             ("priority_exponent", self.priority_exponent, 0.0, 1.0),
             ("importance_start", self.importance_start, 0.0, 1.0),
@@ -152,7 +148,7 @@ impl Recipe {
             ("step_penalty", self.step_penalty, 0.0, 1.0),
             ("clearance_m", self.clearance_m, 0.0, 0.02),
             ("images", self.images as f64, 1.0, 1024.0),
-            ("goals", self.goals as f64, 1.0, goals_most),
+            ("goals", self.goals as f64, 1.0, max_goals),
             ("uniform_goals", self.uniform_goals, 0.0, 1.0),
             ("future_goals", self.future_goals, 0.0, 1.0 - self.uniform_goals),
             ("exploration", self.exploration, 0.0, 1.0),
@@ -169,9 +165,9 @@ impl Recipe {
             ("warm_up", self.warm_up as f64, self.images as f64, 1e6),
             ("updates", self.updates as f64, 1.0, 1e8),
         ];
-        for (field, value, least, most) in ranges {
-            if !(least..=most).contains(&value) {
-                return Err(RecipeError { field, value, least, most });
+        for (field, value, min, max) in ranges {
+            if !(min..=max).contains(&value) {
+                return Err(RecipeError { field, value, min, max });
             }
         }
         Ok(())
@@ -183,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_recipes_are_in_range_and_what_is_not_is_named() {
+    fn accepts_both_recipes_and_names_fields_out_of_range() {
         Recipe::default().check().unwrap();
         Recipe::paper().check().unwrap();
         let bad = Recipe { discount: f64::NAN, ..Recipe::default() };

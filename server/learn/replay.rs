@@ -1,35 +1,35 @@
-//! Prioritised replay (Schaul et al. 2016): a ring of transitions and a sum tree over their priorities. A transition
-//! holds cells, not images: the sweep has those.
+//! Prioritised replay (Schaul et al. 2016): a ring of transitions and a sum tree of their priorities. Transitions hold
+//! cell numbers; the images are in the sweep.
 
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
 use super::environment::{Ending, Goal};
 
-/// Priorities whose sums over ranges are known, so that an index is found by its share of the sum in log₂ n steps.
+/// Priorities with partial sums. Finds an index by its share of the total in log₂ n steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SumTree {
-    /// A full binary tree, the root at 1, the leaves in the second half.
+    /// A full binary tree: root at index 1, leaves in the second half.
     sums: Vec<f64>,
 }
 
 impl SumTree {
-    /// A tree of zeros with room for `capacity` leaves.
+    /// All zeros, for `capacity` leaves.
     pub fn new(capacity: usize) -> Self {
         Self { sums: vec![0.0; 2 * capacity.next_power_of_two()] }
     }
 
-    /// Sum of all.
+    /// Sum of all leaves.
     pub fn total(&self) -> f64 {
         self.sums[1]
     }
 
-    /// One leaf.
+    /// The value of a leaf.
     pub fn get(&self, index: usize) -> f64 {
         self.sums[self.sums.len() / 2 + index]
     }
 
-    /// Sets one leaf. Sums are made from the leaves, not by differences, so that they do not drift.
+    /// Sets a leaf. Sums are recomputed from the leaves, not by differences, so that they do not drift.
     pub fn set(&mut self, index: usize, value: f64) {
         let mut node = self.sums.len() / 2 + index;
         self.sums[node] = value;
@@ -39,12 +39,12 @@ impl SumTree {
         }
     }
 
-    /// The leaf in which the running sum passes `mass`, from 0 to the total; never a leaf of zero.
+    /// The leaf where the running sum passes `mass`, 0 to the total; never a leaf of zero.
     pub fn find(&self, mut mass: f64) -> usize {
         let mut node = 1;
         while node < self.sums.len() / 2 {
             let left = 2 * node;
-            // Rounding may leave a little more than the right side has: what has nothing is never entered.
+            // After rounding, `mass` may slightly exceed the right side's sum. A side of zero is never entered.
             node = if mass < self.sums[left] || self.sums[left + 1] == 0.0 {
                 left
             } else {
@@ -59,67 +59,64 @@ impl SumTree {
 /// One step of one episode.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Transition {
-    /// Which terrain.
+    /// Index of the terrain.
     pub terrain: u8,
-    /// Where the tool was.
+    /// Cell of the tool before the step.
     pub cell: u16,
-    /// What it did.
     pub action: u8,
-    /// Where it came to; `None` where that ended the episode.
+    /// Cell after the step; `None` if the step ended the episode in a wall.
     pub next: Option<u16>,
-    /// Where it should have gone.
+    /// The episode's goal.
     pub goal: Goal,
-    /// How the episode ended with this step, if it did.
+    /// How the episode ended, if it ended with this step.
     pub ending: Option<Ending>,
 }
 
-/// The ring. Lanes write in turn, so the next step of an episode lies `lanes` further.
+/// The ring. Lanes write in turn, so an episode's next step is `lanes` entries later.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replay {
     lanes: usize,
     capacity: usize,
     exponent: f64,
     transitions: Vec<Transition>,
-    /// Where the next one goes.
+    /// Index of the next write.
     head: usize,
     priorities: SumTree,
-    /// What new transitions begin with, so that each is looked at soon.
+    /// Priority of new transitions, so that each is drawn soon.
     largest: f64,
 }
 
-/// What was drawn.
+/// The result of a draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
-    /// Places in the ring.
+    /// Indices into the ring.
     pub indices: Vec<usize>,
     /// Importance weights, at most 1.
     pub weights: Vec<f32>,
 }
 
 impl Replay {
-    /// An empty ring for `capacity` transitions, rounded down to whole steps of all lanes; `exponent` 0 draws evenly.
+    /// An empty ring for `capacity` transitions, rounded down to whole steps of all lanes. `exponent` 0 draws
+    /// uniformly.
     pub fn new(capacity: usize, lanes: usize, exponent: f64) -> Self {
         let capacity = (capacity / lanes).max(1) * lanes;
         let priorities = SumTree::new(capacity);
         Self { lanes, capacity, exponent, transitions: Vec::new(), head: 0, priorities, largest: 1.0 }
     }
 
-    /// How many there are.
     pub fn len(&self) -> usize {
         self.transitions.len()
     }
 
-    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.transitions.is_empty()
     }
 
-    /// One of them.
     pub fn get(&self, index: usize) -> &Transition {
         &self.transitions[index]
     }
 
-    /// Adds one; the oldest goes when there is no room.
+    /// Adds a transition. The oldest one is overwritten if the ring is full.
     pub fn push(&mut self, transition: Transition) {
         match self.transitions.get_mut(self.head) {
             Some(slot) => *slot = transition,
@@ -129,8 +126,8 @@ impl Replay {
         self.head = (self.head + 1) % self.capacity;
     }
 
-    /// Draws `count`, one from each of as many equal parts of the sum (Schaul et al. 2016, appendix B.2.1), with
-    /// importance weights (N·P)^−β over their largest.
+    /// Draws `count` transitions, one from each of `count` equal parts of the total priority (Schaul et al. 2016,
+    /// appendix B.2.1), with importance weights (N·P)^−β divided by their maximum.
     pub fn draw(&self, count: usize, importance: f64, rng: &mut impl Rng) -> Draw {
         let (total, stored) = (self.priorities.total(), self.len() as f64);
         let part = total / count as f64;
@@ -142,16 +139,16 @@ impl Replay {
         Draw { indices, weights: weights.iter().map(|weight| (weight / largest) as f32).collect() }
     }
 
-    /// Sets what a transition's loss was.
+    /// Sets the priority of a transition from its loss.
     pub fn set_loss(&mut self, index: usize, loss: f64) {
-        // What is learned to the last bit is still looked at now and then.
+        // A transition with zero loss is still drawn occasionally.
         let loss = loss.max(1e-6);
         self.largest = self.largest.max(loss);
         self.priorities.set(index, loss.powf(self.exponent));
     }
 
-    /// The steps of the same episode from one on, itself included, at most `count`; fewer where it ends or where the
-    /// ring does.
+    /// The following steps of the same episode, including the one at `index`, at most `count`; fewer if the episode or
+    /// the ring ends.
     pub fn following(&self, index: usize, count: usize) -> impl Iterator<Item = &Transition> {
         let mut at = Some(index);
         let mut left = count;
@@ -160,7 +157,7 @@ impl Replay {
             left -= 1;
             let transition = &self.transitions[here];
             let next = (here + self.lanes) % self.capacity;
-            // Between an index and the head lie younger ones only.
+            // All entries between an index and the head are younger.
             let age = (self.head + self.capacity - here - 1) % self.capacity;
             let has_next = transition.ending.is_none() && age >= self.lanes && next < self.transitions.len();
             at = has_next.then_some(next);
@@ -182,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn leaves_are_drawn_as_often_as_their_priority_says() {
+    fn leaves_are_drawn_in_proportion_to_their_priority() {
         let mut tree = SumTree::new(10);
         let priorities = [0.0, 1.0, 5.0, 0.0, 2.5, 0.5, 0.0, 8.0, 3.0, 0.0];
         for (index, &priority) in priorities.iter().enumerate() {
@@ -196,7 +193,7 @@ mod tests {
         for _ in 0..draws {
             counts[tree.find(rng.random::<f64>() * tree.total())] += 1;
         }
-        // χ² with 5 degrees of freedom passes 20.5 by chance once in a thousand seeds.
+        // χ² with 5 degrees of freedom exceeds 20.5 by chance for one in a thousand seeds.
         let chi2: f64 = priorities
             .iter()
             .zip(counts)
@@ -207,7 +204,7 @@ mod tests {
             })
             .sum();
         assert!(chi2 < 20.5, "χ² = {chi2}, {counts:?}");
-        assert_eq!(tree.find(tree.total()), 8, "rounding at the end meets no empty leaf");
+        assert_eq!(tree.find(tree.total()), 8, "rounding at the end does not reach an empty leaf");
     }
 
     #[test]
@@ -219,7 +216,7 @@ mod tests {
         for index in 0..50 {
             replay.set_loss(index, if index < 10 { 4.0 } else { 1.0 });
         }
-        // Priorities 2 and 1: 20 of 60 parts go to the first ten.
+        // Priorities 2 and 1: 20 of 60 parts belong to the first ten.
         let mut rng = ChaCha8Rng::seed_from_u64(6);
         let mut first = 0;
         for _ in 0..1000 {
@@ -235,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn an_episode_is_followed_along_its_lane_to_its_end_and_not_beyond_the_newest() {
+    fn follows_an_episode_in_its_lane_to_its_end_or_the_newest_step() {
         let mut replay = Replay::new(8, 2, 0.0);
         let cells = |replay: &Replay, index, count| {
             replay.following(index, count).map(|transition| transition.cell).collect::<Vec<_>>()
@@ -251,9 +248,9 @@ mod tests {
             replay.push(transition(10 + step, None));
             replay.push(transition(20 + step, None));
         }
-        // The ring has wrapped: the first steps are gone, 14 and 24 lie in their slots.
+        // The ring has wrapped: 14 and 24 have replaced the first steps.
         assert_eq!(cells(&replay, 2, 9), [11, 12]);
         assert_eq!(cells(&replay, 3, 9), [21, 22, 23, 24]);
-        assert_eq!(cells(&replay, 1, 9), [24], "the newest has none after it");
+        assert_eq!(cells(&replay, 1, 9), [24], "no step follows the newest");
     }
 }

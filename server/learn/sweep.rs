@@ -1,5 +1,5 @@
-//! What the camera sees from every place of a map (paper, §IV-A), taken by the very path that a live trial's images
-//! take, and kept on disk.
+//! The camera's images from every place of a map (paper, §IV-A), taken by the same code as a live trial's images and
+//! kept on disk.
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
@@ -19,18 +19,18 @@ use crate::policy::Action;
 use crate::scenario::Parameters;
 use crate::trial::Arena;
 
-/// A step of the policy, and the distance between two places for training (paper, §IV-A).
+/// Step of the policy, and distance between two places in training (paper, §IV-A).
 pub const STEP_M: f64 = 0.01;
-/// Bytes of one image.
+/// Bytes per image.
 pub const IMAGE_BYTES: usize = OBSERVATION_SIZE_PX * OBSERVATION_SIZE_PX;
-/// Raised when the same map gives other images: new colours, another observation, another layout of the file.
+/// Must be increased when the same map gives different images: new colours, another observation, another file layout.
 const VERSION: u32 = 3;
-/// Sweeps kept in a folder; one has some thirteen megabytes.
+/// Largest number of sweeps in a folder; one has about 13 MB.
 const KEPT: usize = 32;
-/// A sweep has no bead: it lies where no camera sees it.
+/// A sweep has no bead: it is placed out of view.
 const OUT_OF_SIGHT_M: f64 = 100.0;
 
-/// One image for each cell of the workspace, taken over its centre.
+/// One image for each cell of the workspace, taken above the cell's centre.
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     /// Side of a cell.
@@ -39,14 +39,14 @@ pub struct Sweep {
     pub columns: usize,
     /// Cells along y.
     pub rows: usize,
-    /// Whether the obstacle test is true there; row by row from the lower left, as all here.
+    /// Whether the obstacle test is positive; row by row from the lower left, like all fields here.
     pub obstacle: Vec<bool>,
-    /// Which steps of a centimetre the last gate admits from there ([`Limits::step`]), by the image seen there: bit
-    /// `i` for `Action::ALL[i]`.
+    /// Steps of 1 cm that [`Limits::step`] admits from the cell, judged by the cell's image: bit `i` for
+    /// `Action::ALL[i]`.
     ///
     /// [`Limits::step`]: crate::control::limits::Limits::step
     pub steps: Vec<u8>,
-    /// Distance from the tool to the nearest wall in the image, in tenths of a millimetre, 255 where it is more.
+    /// Distance from the tool to the nearest wall in the image, in tenths of a millimetre; 255 if it is more.
     pub wall_distance: Vec<u8>,
     /// `[rows · columns][84][84]`, flat: channel 0 of the observation.
     pub images: Vec<u8>,
@@ -59,7 +59,7 @@ impl std::fmt::Debug for Sweep {
 }
 
 impl Sweep {
-    /// Takes all images on all cores, one every `spacing_m`; `progress` is called after each.
+    /// Takes all images on all CPU cores, one every `spacing_m`. Calls `progress` after each.
     ///
     /// # Errors
     /// [`CameraError`].
@@ -81,7 +81,7 @@ impl Sweep {
                     };
                     (0..columns)
                         .map(|column| {
-                            let view = look(arena, camera, center(arena.map.workspace(), spacing_m, column, row))?;
+                            let view = take_view(arena, camera, center(arena.map.workspace(), spacing_m, column, row))?;
                             progress();
                             Ok(view)
                         })
@@ -108,9 +108,9 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// The sweep kept in `folder`, or a new one, which is then kept. What is kept is found by a hash of all
-    /// that makes the images; a file that is torn or of another version is made anew. What cannot be kept is seen anew
-    /// the next time.
+    /// Reads the sweep from `folder`, or takes a new one and writes it there. The file name is a hash of everything
+    /// that determines the images. A damaged file or one of another version is replaced. A sweep that cannot be written
+    /// is only logged.
     ///
     /// # Errors
     /// [`CameraError`].
@@ -127,14 +127,14 @@ impl Sweep {
         }
         let sweep = Self::take(arena, gpu, spacing_m, progress)?;
         prune(folder);
-        // What was seen is as good without being kept.
+        // The sweep is usable even if it cannot be kept.
         if let Err(error) = sweep.write(folder, &path) {
             tracing::warn!(%error, path = %path.display(), "sweep not kept");
         }
         Ok(sweep)
     }
 
-    /// The image over a cell.
+    /// The image above a cell.
     pub fn image(&self, cell: usize) -> &[u8] {
         &self.images[cell * IMAGE_BYTES..(cell + 1) * IMAGE_BYTES]
     }
@@ -145,7 +145,7 @@ impl Sweep {
         (0..self.columns * self.rows).filter(|&cell| !self.obstacle[cell] && keeps(cell)).collect()
     }
 
-    /// Under another name first, so that nobody ever finds half a file.
+    /// Writes to a temporary name first, so that no reader finds half a file.
     fn write(&self, folder: &Path, path: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         let part = path.with_extension("part");
@@ -158,7 +158,7 @@ impl Sweep {
     }
 }
 
-/// Makes room for one more: the oldest go. Who cannot look into the folder keeps what is there.
+/// Makes room for one more sweep by removing the oldest. Does nothing if the folder cannot be read.
 fn prune(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let is_sweep = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "sweep" || ending == "part");
@@ -172,7 +172,7 @@ fn prune(folder: &Path) {
     }
 }
 
-/// A kept sweep, if it is whole.
+/// A sweep from a file; `None` if it is damaged or has another version or shape.
 fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
     let mut bytes = Vec::new();
     BufReader::new(File::open(path).ok()?).read_to_end(&mut bytes).ok()?;
@@ -187,7 +187,7 @@ fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
     (fits && (sweep.columns, sweep.rows) == (columns, rows)).then_some(sweep)
 }
 
-/// Hash of the map's drawing, the camera, the places and this module's version: equal hashes, equal images.
+/// Hash of the map's drawing, the camera, the places and this module's version. Equal hashes mean equal images.
 fn content_hash(arena: &Arena, spacing_m: f64) -> u64 {
     let CameraMount {
         height_m,
@@ -213,13 +213,13 @@ pub fn cells(arena: &Arena, spacing_m: f64) -> (usize, usize) {
     (count(size_m.x), count(size_m.y))
 }
 
-/// Middle of a cell.
+/// Centre of a cell.
 pub fn center(workspace: &Rect, spacing_m: f64, column: usize, row: usize) -> Point2<f64> {
     let along = |index: usize| (index as f64 + 0.5) * spacing_m;
     Point2::new(workspace.x_min_m + along(column), workspace.y_min_m + along(row))
 }
 
-/// What one image says.
+/// The results from one image.
 struct View {
     obstacle: bool,
     steps: u8,
@@ -227,7 +227,7 @@ struct View {
     image: Vec<u8>,
 }
 
-fn look(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<View, CameraError> {
+fn take_view(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<View, CameraError> {
     let parameters = Parameters::default();
     let tool_m = Point3::new(tool.x, tool.y, parameters.tool_height_m);
     let subject = Subject {
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sweep_is_what_a_live_camera_sees_and_is_taken_once() {
+    fn a_sweep_matches_a_live_camera_and_is_taken_once() {
         let (arena, gpu) = (arena(), Gpu::open(AdapterChoice::Auto).unwrap());
         let folder = tempfile::tempdir().unwrap();
         let taken = AtomicU32::new(0);
@@ -282,30 +282,30 @@ mod tests {
         let mut camera = arena.camera(&gpu).unwrap();
         for (column, row) in [(0, 0), (5, 5), (11, 9)] {
             let tool = center(arena.map.workspace(), STEP_M, column, row);
-            let view = look(&arena, &mut camera, tool).unwrap();
+            let view = take_view(&arena, &mut camera, tool).unwrap();
             let cell = row * 12 + column;
             assert_eq!((sweep.obstacle[cell], sweep.image(cell)), (view.obstacle, view.image.as_slice()));
             assert_eq!((sweep.steps[cell], sweep.wall_distance[cell]), (view.steps, view.wall_distance));
             assert_eq!(view.obstacle, !arena.map.is_free(tool));
         }
-        // At a border no step leads out; left of the wall, none leads in.
+        // At a border no step leads out; left of the wall, none leads into it.
         assert_eq!(sweep.steps[0] & 0b1010, 0);
         assert_eq!(sweep.steps[5 * 12 + 3] & 0b0001, 0);
         assert_ne!(sweep.steps[5 * 12 + 2] & 0b0001, 0);
         let near = sweep.wall_distance[5 * 12 + 3];
-        // To the middle of the wall's first pixel, of some .4 mm.
+        // To the middle of the wall's first pixel, which is about .4 mm wide.
         assert!((48..=55).contains(&near), "the wall begins 5 mm beside it: {near}");
         assert_eq!(open(), sweep);
-        assert_eq!(taken.load(Ordering::Relaxed), 120, "read from the disk");
+        assert_eq!(taken.load(Ordering::Relaxed), 120, "read from disk");
 
-        // A torn file is no sweep.
+        // A damaged file is not used.
         let path = std::fs::read_dir(folder.path()).unwrap().next().unwrap().unwrap().path();
         let bytes = std::fs::read(&path).unwrap();
         std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
         assert_eq!(open(), sweep);
-        assert_eq!(taken.load(Ordering::Relaxed), 240, "taken anew");
+        assert_eq!(taken.load(Ordering::Relaxed), 240, "taken again");
 
-        // Fewer places are other images.
+        // A coarser sweep has different images.
         let coarse = Sweep::open(&arena, &gpu, folder.path(), 0.025, &progress).unwrap();
         assert_eq!((coarse.columns, coarse.rows, taken.load(Ordering::Relaxed)), (4, 4, 256));
         let corner = arena.map.workspace();

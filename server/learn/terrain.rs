@@ -1,4 +1,4 @@
-//! A map as training knows it: a graph of the cells where the tool may be, with the image over each.
+//! A map for training: a graph of the cells where the tool may be, with the image above each.
 
 use std::collections::VecDeque;
 
@@ -9,10 +9,10 @@ use crate::trial::GOAL_RADIUS_M;
 
 use super::sweep::{IMAGE_BYTES, STEP_M, Sweep, center};
 
-/// No way leads there.
+/// Distance without a path.
 pub const UNREACHABLE: u16 = u16::MAX;
 
-/// Cells where an episode goes on, numbered from 0, and where each action leads.
+/// Cells where an episode can continue, numbered from 0, and the result of each action.
 pub struct Terrain {
     name: String,
     workspace: Rect,
@@ -24,25 +24,24 @@ pub struct Terrain {
     images: Vec<u8>,
 }
 
-/// Too few cells to learn on, or none that leads anywhere.
+/// Too few cells for learning, or no path between distant cells.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "map: {map:?} has {cells} cells that keep {clearance_m} m from the walls; training needs 2 to {}, and among them a \
-     way to one more than {GOAL_RADIUS_M} m off",
+    "map: {map:?} has {cells} cells that keep {clearance_m} m from the walls; training needs 2 to {}, and a \
+     path between two that are more than {GOAL_RADIUS_M} m apart",
     UNREACHABLE
 )]
 pub struct TerrainError {
-    /// Name of the map.
     pub map: String,
-    /// Cells that it has.
+    /// Number of cells.
     pub cells: usize,
-    /// Distance they keep.
+    /// Required distance from walls.
     pub clearance_m: f64,
 }
 
 impl Terrain {
-    /// The cells of a sweep whose image is free of obstacles and keeps `clearance_m` (0 is the paper), and the steps
-    /// among them that the last gate admits.
+    /// The cells of a sweep whose image is free of obstacles and keeps `clearance_m` (0 as in the paper), and the steps
+    /// between them that the limits admit.
     ///
     /// # Errors
     /// [`TerrainError`].
@@ -77,54 +76,54 @@ impl Terrain {
             next,
             images: free.iter().flat_map(|&cell| sweep.image(cell)).copied().collect(),
         };
-        if terrain.has_a_way() { Ok(terrain) } else { Err(refusal()) }
+        if terrain.has_path() { Ok(terrain) } else { Err(refusal()) }
     }
 
-    /// Whether some cell can be reached that is not reached from the start: else no episode begins.
-    fn has_a_way(&self) -> bool {
+    /// Whether a path exists between two cells whose goal is not already reached at the start; without one, no episode
+    /// could begin.
+    fn has_path(&self) -> bool {
         let cells = 0..self.cells() as u16;
-        let is_way = |from: u16, to: u16| {
+        let leads = |from: u16, to: u16| {
             self.distance(from, to) != UNREACHABLE && (self.center_m(from) - self.center_m(to)).norm() > GOAL_RADIUS_M
         };
-        cells.clone().any(|from| cells.clone().any(|to| is_way(from, to)))
+        cells.clone().any(|from| cells.clone().any(|to| leads(from, to)))
     }
 
-    /// Name of the map.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     pub fn cells(&self) -> usize {
         self.next.len()
     }
 
-    /// Middle of a cell.
+    /// Centre of a cell.
     pub fn center_m(&self, cell: u16) -> Point2<f64> {
         self.centers_m[usize::from(cell)]
     }
 
-    /// Where a step leads, `None` where it ends the episode.
+    /// The cell after a step; `None` if the step ends the episode.
     pub fn step(&self, cell: u16, action: usize) -> Option<u16> {
         self.next[usize::from(cell)][action]
     }
 
-    /// Least number of steps, `u16::MAX` where there is no way.
+    /// Length of the shortest path in steps; `u16::MAX` without a path.
     pub fn distance(&self, from: u16, to: u16) -> u16 {
         self.distance[usize::from(from) * self.cells() + usize::from(to)]
     }
 
-    /// `[84 · 84]`, what the camera sees there.
+    /// The image above a cell, `[84 · 84]`.
     pub fn image(&self, cell: u16) -> &[u8] {
         &self.images[usize::from(cell) * IMAGE_BYTES..(usize::from(cell) + 1) * IMAGE_BYTES]
     }
 
-    /// The same of every cell.
+    /// The images above all cells.
     pub fn images(&self) -> Vec<&[u8]> {
         self.images.chunks_exact(IMAGE_BYTES).collect()
     }
 
-    /// What the second channel says of a goal and a tool over a cell.
+    /// Content of the second channel for a goal and a tool above a cell.
     pub fn places(&self, goal_m: Point2<f64>, cell: u16) -> [f32; 4] {
         places(&self.workspace, goal_m, self.center_m(cell))
     }
@@ -136,23 +135,24 @@ impl std::fmt::Debug for Terrain {
     }
 }
 
-/// What the camera sees over some cells, each of one of the terrains.
+/// The images above cells, each given by its terrain's index and its number.
 pub fn views<'a>(terrains: &'a [Terrain], cells: &[(u8, u16)]) -> Vec<&'a [u8]> {
     cells.iter().map(|&(terrain, cell)| terrains[usize::from(terrain)].image(cell)).collect()
 }
 
-/// What the second channel of an observation says of a goal and a tool, 0 to 1.
+/// Content of an observation's second channel for a goal and a tool: x and y of each, 0 to 1.
 pub fn places(workspace: &Rect, goal_m: Point2<f64>, tool_m: Point2<f64>) -> [f32; 4] {
     let [goal, tool] = [goal_m, tool_m].map(|place| Observation::scaled(place, workspace));
     [goal[0], goal[1], tool[0], tool[1]].map(|level| f32::from(level) / 255.0)
 }
 
-/// Steps between all pairs, by a search in breadth *toward* each cell: steps are not always allowed both ways.
+/// Steps between all pairs, by a breadth-first search toward each cell, because steps are not always possible in both
+/// directions.
 fn distances(next: &[[Option<u16>; 4]]) -> Vec<u16> {
     let cells = next.len();
     let mut before = vec![Vec::new(); cells];
-    for (cell, ways) in next.iter().enumerate() {
-        for &to in ways.iter().flatten() {
+    for (cell, after_actions) in next.iter().enumerate() {
+        for &to in after_actions.iter().flatten() {
             before[usize::from(to)].push(cell);
         }
     }
@@ -174,7 +174,7 @@ fn distances(next: &[[Option<u16>; 4]]) -> Vec<u16> {
     distance
 }
 
-/// How far a goal may lie from the middle of its cell, along each axis: anywhere in the cell.
+/// Largest offset of a goal from its cell's centre, along each axis.
 pub const GOAL_JITTER_M: f64 = 0.5 * STEP_M;
 
 #[cfg(test)]
@@ -183,7 +183,7 @@ pub(super) mod tests {
 
     pub const WORKSPACE: Rect = Rect { x_min_m: 0.0, x_max_m: 0.06, y_min_m: 0.0, y_max_m: 0.05 };
 
-    /// Six by five cells with a wall up the middle that leaves the top row free; the images tell the cells apart.
+    /// Six by five cells with a wall in the middle that leaves the top row free. Each cell has a different image.
     pub fn two_rooms() -> Terrain {
         let (columns, rows) = (6, 5);
         let wall = |cell: usize| cell % columns == 3 && cell / columns < rows - 1;
@@ -208,7 +208,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn ways_go_around_the_wall_and_never_through() {
+    fn paths_go_around_the_wall() {
         let terrain = two_rooms();
         assert_eq!(terrain.cells(), 26);
         let at =
@@ -219,11 +219,11 @@ pub(super) mod tests {
         assert_eq!(terrain.step(left, 2), Some(at(0.025, 0.015)));
         assert_eq!(terrain.step(left, 3), None, "out of the workspace");
         assert_eq!(terrain.image(right)[0], 32);
-        // The last is 25.5 levels, a little less after rounding.
+        // The last value is 25.5 levels before rounding.
         assert_eq!(terrain.places(Point2::new(0.06, 0.0), left), [1.0, 0.0, 106.0 / 255.0, 25.0 / 255.0]);
     }
 
-    /// One row of cells in the open, each with the steps that lead on from it.
+    /// One row of free cells, each with its possible steps.
     pub fn corridor(steps: &[u8]) -> Result<Terrain, TerrainError> {
         let columns = steps.len();
         let sweep = Sweep {
@@ -239,17 +239,17 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_map_without_a_way_is_refused_before_an_episode_looks_for_one() {
+    fn refuses_a_map_without_a_path() {
         assert!(corridor(&[1, 3, 3, 2]).is_ok());
-        // Three cells are within 2 cm of each other; four may lie apart.
+        // Three cells are within 2 cm of each other; with four, the outer ones are not.
         for steps in [&[1, 3, 2][..], &[0; 4], &[1, 2, 1, 2]] {
             let error = corridor(steps).unwrap_err();
-            assert!(error.to_string().contains("a way to one more than 0.02 m off"), "{error}");
+            assert!(error.to_string().contains("a path between two that are more than 0.02 m apart"), "{error}");
         }
     }
 
     #[test]
-    fn too_narrow_a_map_is_refused_by_name() {
+    fn refuses_a_map_that_is_too_narrow_and_names_it() {
         let sweep = Sweep {
             spacing_m: STEP_M,
             columns: 2,

@@ -1,5 +1,5 @@
-//! A training run: lanes act, the replay fills, the learner updates. It can be kept at any step and goes on from there
-//! to the same bits.
+//! A training run: lanes act, the replay fills, the learner updates. It can be saved at any step and resumed with
+//! bit-identical results.
 
 use std::fs::File;
 use std::io::Write;
@@ -17,56 +17,48 @@ use super::sweep::STEP_M;
 use super::terrain::Terrain;
 use crate::policy::{Manifest, Policy, PolicyError};
 
-/// Updates that one point of the curve sums up.
+/// Updates per point of the curve.
 pub const WINDOW: u64 = 100;
 /// Updates between two small examinations.
 const EXAMINED_EVERY: u64 = 1000;
 /// Episodes of a small examination.
 const EXAMINED_EPISODES: u32 = 200;
-/// Layout of a checkpoint.
+/// Version of the checkpoint's layout.
 const VERSION: u32 = 1;
 
-/// Why a run does not start or go on.
+/// Why a run cannot start or continue.
 #[derive(Debug, thiserror::Error)]
 pub enum TrainingError {
     /// A number of the recipe is out of range.
     #[error("recipe: {0}")]
     Recipe(#[from] RecipeError),
-    /// The network gave no answer.
+    /// The network failed.
     #[error("training: {0}")]
     Network(#[from] candle_core::Error),
-    /// The policy could not be written down.
+    /// The policy could not be written.
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// A checkpoint could not be read or written.
     #[error("checkpoint: {path}: {error}")]
     Io {
-        /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         error: std::io::Error,
     },
-    /// A checkpoint is torn, or of another version, recipe, seed or map.
+    /// A checkpoint is damaged, or has another version, recipe, seed or map.
     #[error("checkpoint: {path}: {reason}")]
-    Checkpoint {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        reason: String,
-    },
-    /// The loss or the gradient is not a number any more.
+    Checkpoint { path: PathBuf, reason: String },
+    /// The loss or the gradient is not finite.
     #[error("training: at update {update} the loss is {loss} and the gradient {gradient}")]
     Diverged {
-        /// The update.
         update: u64,
-        /// Its loss.
         loss: f64,
-        /// Its gradient's length.
+        /// Norm of the gradient.
         gradient: f64,
     },
 }
 
-/// Mean and standard deviation of what came in.
+/// Mean and standard deviation of a series of values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     count: u32,
@@ -81,17 +73,17 @@ impl Spread {
         self.squares += value * value;
     }
 
-    /// How many came in.
+    /// Number of values.
     pub fn count(&self) -> u32 {
         self.count
     }
 
-    /// Mean, `None` of nothing.
+    /// `None` without values.
     pub fn mean(&self) -> Option<f64> {
         (self.count > 0).then(|| self.sum / f64::from(self.count))
     }
 
-    /// Standard deviation, `None` of nothing.
+    /// Standard deviation; `None` without values.
     pub fn deviation(&self) -> Option<f64> {
         let mean = self.mean()?;
         Some((self.squares / f64::from(self.count) - mean * mean).max(0.0).sqrt())
@@ -101,48 +93,44 @@ impl Spread {
 /// [`WINDOW`] updates of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Updates at its end.
+    /// Updates at the end of the point.
     pub update: u64,
-    /// Steps of the environment up to then.
+    /// Steps of the environment at the end of the point.
     pub steps: u64,
-    /// Episodes that had ended by then.
+    /// Episodes finished at the end of the point.
     pub episodes: u64,
-    /// Rewards of the episodes that ended meanwhile, undiscounted and with the shaping.
+    /// Total rewards of the episodes that ended in this point, undiscounted, including shaping.
     pub reward: Spread,
-    /// Loss of the updates.
+    /// Losses of the updates.
     pub loss: Spread,
-    /// Length of the gradient before it is cut.
+    /// Gradient norms before clipping.
     pub gradient: Spread,
-    /// Of the episodes that ended meanwhile, exploring, how many reached their goal.
+    /// Number of the episodes of this point (with exploration) that reached their goal.
     pub reached: u32,
-    /// How many ended in a wall.
+    /// Number of these that ended in a wall.
     pub collided: u32,
-    /// A small examination of the averaged weights, on some of the points.
+    /// A small examination of the averaged weights, on some points.
     pub examined: Option<Marks>,
 }
 
-/// All that a run must remember.
+/// The complete state of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// The recipe.
     pub recipe: Recipe,
-    /// The seed.
     pub seed: u64,
-    /// Maps and their cells.
+    /// Names of the maps and their numbers of cells.
     pub maps: Vec<(String, u32)>,
-    /// The learner.
     pub memory: Memory,
-    /// The replay.
     pub replay: Replay,
-    /// The lanes.
+    /// The episodes in parallel.
     pub lanes: Vec<Episode>,
     /// Steps of the environment.
     pub steps: u64,
-    /// Episodes that ended.
+    /// Finished episodes.
     pub episodes: u64,
-    /// The curve up to now.
+    /// The curve so far.
     pub curve: Vec<Point>,
-    /// The point under way.
+    /// The current point.
     pub point: Point,
 }
 
@@ -179,7 +167,8 @@ impl State {
         self.memory.updates >= self.recipe.updates
     }
 
-    /// Goes on until all updates are done or `watch`, called at the end of each point of the curve, says no.
+    /// Runs until all updates are done or `watch` returns false. `watch` is called at the end of each point of the
+    /// curve.
     ///
     /// # Errors
     /// [`TrainingError`].
@@ -251,7 +240,7 @@ impl State {
         Ok(())
     }
 
-    /// What the weights are worth on some terrains.
+    /// Examines the shipped weights on terrains.
     ///
     /// # Errors
     /// [`TrainingError::Network`].
@@ -260,7 +249,7 @@ impl State {
         Ok(examine(&network, &self.recipe, terrains, episodes, seed)?)
     }
 
-    /// The bytes of the policy as it is now, trained by a program of some git revision.
+    /// The bytes of the current policy. `revision` is the git revision of the training program.
     ///
     /// # Errors
     /// [`TrainingError::Policy`].
@@ -281,8 +270,8 @@ impl State {
         Ok(Policy::to_bytes(&manifest, &weights.collect::<Vec<_>>())?)
     }
 
-    /// Keeps the run in a file, under another name first, so that nobody finds half of one; with it the seconds that
-    /// it took, which are no part of the run.
+    /// Saves the run and `spent_s`, the seconds that it took so far. Writes to a temporary name first, so that no
+    /// reader finds half a file.
     ///
     /// # Errors
     /// [`TrainingError::Io`].
@@ -297,24 +286,24 @@ impl State {
         std::fs::rename(part, path).map_err(io)
     }
 
-    /// A kept run of the same recipe, seed and maps, and the seconds that it took.
+    /// Reads a run of the same recipe, seed and maps, and the seconds that it took.
     ///
     /// # Errors
     /// [`TrainingError::Io`] or [`TrainingError::Checkpoint`].
     pub fn read(path: &Path, recipe: &Recipe, seed: u64, terrains: &[Terrain]) -> Result<(Self, f64), TrainingError> {
         let bytes = std::fs::read(path).map_err(|error| TrainingError::Io { path: path.to_owned(), error })?;
         let refuse = |reason: &str| TrainingError::Checkpoint { path: path.to_owned(), reason: reason.to_owned() };
-        let (hash, bytes) = bytes.split_at_checked(8).ok_or_else(|| refuse("it is torn"))?;
+        let (hash, bytes) = bytes.split_at_checked(8).ok_or_else(|| refuse("it is damaged"))?;
         if xxhash_rust::xxh3::xxh3_64(bytes).to_le_bytes() != hash {
-            return Err(refuse("it is torn or edited"));
+            return Err(refuse("it is damaged or edited"));
         }
-        let (version, rest): (u32, _) = postcard::take_from_bytes(bytes).map_err(|_| refuse("it is torn"))?;
+        let (version, rest): (u32, _) = postcard::take_from_bytes(bytes).map_err(|_| refuse("it is damaged"))?;
         if version != VERSION {
-            return Err(refuse(&format!("its version is {version}, this program reads {VERSION}")));
+            return Err(refuse(&format!("its version is {version}, expected {VERSION}")));
         }
         let (spent_s, state): (f64, Self) = postcard::from_bytes(rest).map_err(|error| refuse(&error.to_string()))?;
         match () {
-            () if state.recipe != *recipe => Err(refuse("it was made by another recipe")),
+            () if state.recipe != *recipe => Err(refuse("it has another recipe")),
             () if state.seed != seed => Err(refuse(&format!("its seed is {}, not {seed}", state.seed))),
             () if state.maps != maps(terrains) => Err(refuse(&format!("its maps are {:?}", state.maps))),
             () => Ok((state, spent_s)),

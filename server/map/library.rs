@@ -1,16 +1,16 @@
-//! The maps that can be asked for by name: those that come with Ferry, and those that were added.
+//! The maps available by name: shipped maps and added maps.
 
 use std::collections::BTreeMap;
 use std::sync::{PoisonError, RwLock};
 
 use super::{Map, MapError};
 
-/// Most maps that can be added.
+/// Largest number of added maps.
 pub const ADDED_MAPS: usize = 32;
-/// How added maps are called, followed by a number.
+/// Prefix of the names of added maps, followed by a number.
 const ADDED: &str = "map-";
 
-/// Maps by name. Shared by all sessions and by whoever adds maps; a session that has loaded a map keeps it.
+/// Maps by name, shared by all sessions. A session keeps the map that it has loaded.
 #[derive(Debug, Default)]
 pub struct Library {
     added: RwLock<Added>,
@@ -19,15 +19,15 @@ pub struct Library {
 #[derive(Debug, Default)]
 struct Added {
     maps: BTreeMap<u32, Map>,
-    /// The greatest number given up to now: a name that was a map's never becomes another's.
+    /// The largest number used so far: names are never reused.
     last: u32,
 }
 
 impl Library {
-    /// The map of a name.
+    /// The map with this name.
     ///
     /// # Errors
-    /// When there is none.
+    /// If there is no such map.
     pub fn find(&self, name: &str) -> Result<Map, MapError> {
         let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
         match number(name).and_then(|number| added.maps.get(&number)) {
@@ -36,57 +36,57 @@ impl Library {
         }
     }
 
-    /// All names: the shipped ones, sorted, then the added ones, the oldest first.
+    /// All names: the shipped ones, sorted, then the added ones, oldest first.
     pub fn names(&self) -> Vec<String> {
         let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
         Map::shipped_names().into_iter().chain(added.maps.values().map(|map| map.name().to_owned())).collect()
     }
 
-    /// Adds a drawing under a name of its own.
+    /// Adds a drawing under a new name.
     ///
     /// # Errors
-    /// When it is no map (see [`Map::from_svg`]), or when there are [`ADDED_MAPS`] already.
+    /// If it is not a valid map (see [`Map::from_svg`]), or if there are already [`ADDED_MAPS`].
     pub fn add(&self, svg: &str) -> Result<Map, MapError> {
-        // Read before anyone has to wait for it; the name comes last.
+        // Parsed before the lock is taken; the name is set last.
         let mut map = Map::from_svg("", svg)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         let number = added.last.checked_add(1).filter(|_| added.maps.len() < ADDED_MAPS);
-        let number = number.ok_or(MapError::TooMany { most: ADDED_MAPS })?;
+        let number = number.ok_or(MapError::TooMany { max: ADDED_MAPS })?;
         map.name = format!("{ADDED}{number}");
         added.maps.insert(number, map.clone());
         added.last = number;
         Ok(map)
     }
 
-    /// Puts a map back that was added before, under the name it had then.
+    /// Restores an added map under its old name.
     ///
     /// # Errors
-    /// Those of [`Self::add`], and when the name is not that of an added map.
+    /// Those of [`Self::add`], and if the name is not that of an added map.
     pub fn restore(&self, name: &str, svg: &str) -> Result<(), MapError> {
         let number = number(name).ok_or_else(|| MapError::Unknown { name: name.to_owned() })?;
         let map = Map::from_svg(name, svg)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         if added.maps.len() >= ADDED_MAPS {
-            return Err(MapError::TooMany { most: ADDED_MAPS });
+            return Err(MapError::TooMany { max: ADDED_MAPS });
         }
         added.maps.insert(number, map);
         added.last = added.last.max(number);
         Ok(())
     }
 
-    /// Takes an added map out, if it is there; sessions that have loaded it keep it.
+    /// Removes an added map, if it exists. Sessions that have loaded it keep it.
     pub fn remove(&self, name: &str) -> Option<Map> {
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         number(name).and_then(|number| added.maps.remove(&number))
     }
 }
 
-/// Whether a name is one that an added map has or had.
+/// Whether the name has the form of an added map's name.
 pub fn is_added(name: &str) -> bool {
     number(name).is_some()
 }
 
-/// The number of an added map, written as we write it.
+/// The number in an added map's name; `None` if it is not in canonical form.
 fn number(name: &str) -> Option<u32> {
     let number = name.strip_prefix(ADDED)?.parse().ok()?;
     (format!("{ADDED}{number}") == name).then_some(number)
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn maps_are_added_found_and_taken_out_under_names_of_our_own() {
+    fn adds_finds_and_removes_maps_under_generated_names() {
         let library = Library::default();
         let drawing = Map::shipped("posts").unwrap().svg().to_owned();
         let first = library.add(&drawing).unwrap();
@@ -113,17 +113,17 @@ mod tests {
         }
         assert!(library.restore("../x", &drawing).is_err());
         assert!(library.remove("map-8").is_some());
-        assert_eq!(library.add(&drawing).unwrap().name(), "map-9", "a link to map-8 leads to no other map");
+        assert_eq!(library.add(&drawing).unwrap().name(), "map-9", "a link to map-8 must not open another map");
     }
 
     #[test]
-    fn no_more_are_added_than_there_is_room_for() {
+    fn refuses_more_than_the_maximum_of_added_maps() {
         let library = Library::default();
         let drawing = Map::shipped("open").unwrap().svg().to_owned();
         for _ in 0..ADDED_MAPS {
             library.add(&drawing).unwrap();
         }
-        assert!(matches!(library.add(&drawing), Err(MapError::TooMany { most: ADDED_MAPS })));
+        assert!(matches!(library.add(&drawing), Err(MapError::TooMany { max: ADDED_MAPS })));
         assert!(matches!(library.add("<svg/>"), Err(error) if !matches!(error, MapError::TooMany { .. })));
     }
 }

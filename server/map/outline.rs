@@ -1,4 +1,4 @@
-//! The outline of free space, arranged for fast questions about points.
+//! The outline of free space, indexed for fast point queries.
 
 use parry2d_f64::{
     math::Vector,
@@ -7,8 +7,8 @@ use parry2d_f64::{
 
 use crate::geometry::{Point2, Polygon};
 
-/// Rows are halved until they hold no more than this many copies of each edge, so that long
-/// edges by the thousand cost time, not memory.
+/// Rows are halved until they hold at most this many copies of each edge, so that thousands of long edges cost time but
+/// not memory.
 const COPIES_PER_EDGE: usize = 8;
 
 /// Closed rings around free space.
@@ -33,14 +33,14 @@ impl Outline {
         Self { edges, rows }
     }
 
-    /// The nearest point of any ring; the point itself if it is not finite.
+    /// The nearest point of any ring; `point` itself if it is not finite.
     pub fn nearest(&self, point: Point2<f64>) -> Point2<f64> {
         self.project(point, f64::MAX).unwrap_or(point)
     }
 
-    /// The nearest point of any ring, if it is no farther than `radius_m`.
+    /// The nearest point of any ring, if it is within `radius_m`.
     pub fn nearest_within(&self, point: Point2<f64>, radius_m: f64) -> Option<Point2<f64>> {
-        // The search keeps what is strictly nearer than its limit, boxes rounded: look a little farther.
+        // The search finds only points strictly within its limit and rounds boxes, so the limit is slightly larger.
         let found = self.project(point, radius_m + 1e-9)?;
         ((found - point).norm() <= radius_m).then_some(found)
     }
@@ -51,7 +51,7 @@ impl Outline {
         Some(Point2::new(found.point.x, found.point.y))
     }
 
-    /// Whether a point lies inside, by the even–odd rule.
+    /// Whether a point is inside, by the even–odd rule.
     pub fn contains(&self, point: Point2<f64>) -> bool {
         let mut inside = false;
         for &[ax, ay, bx, by] in self.rows.at(point.y) {
@@ -63,12 +63,12 @@ impl Outline {
     }
 }
 
-/// Edges `[ax, ay, bx, by]` by the horizontal rows they reach into.
+/// Edges `[ax, ay, bx, by]`, grouped by the horizontal rows that they cross.
 #[derive(Clone)]
 struct Rows {
     y_min_m: f64,
     rows_per_m: f64,
-    /// Where each row starts in `edges`, and where the last one ends.
+    /// Start of each row in `edges`, and the end of the last row.
     starts: Vec<usize>,
     edges: Vec<[f64; 4]>,
 }
@@ -106,7 +106,7 @@ impl Rows {
         }
     }
 
-    /// Rounding keeps the order of heights, so no edge is missed by the row of a point between its ends.
+    /// Rounding is monotonic, so the row of a point contains all edges at its height.
     fn row(&self, y_m: f64) -> usize {
         (((y_m - self.y_min_m) * self.rows_per_m) as usize).min(self.starts.len() - 2)
     }
@@ -125,7 +125,7 @@ mod tests {
     use super::super::Map;
     use super::*;
 
-    /// Points anywhere, at the height of a vertex, on a vertex, and on an edge.
+    /// Random points: anywhere, at the height of a vertex, on a vertex, and on an edge.
     fn points(map: &Map, count: usize) -> Vec<Point2<f64>> {
         let mut rng = ChaCha8Rng::seed_from_u64(3);
         let w = *map.workspace();
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_answer_as_a_loop_over_every_edge_does() {
+    fn rows_agree_with_a_loop_over_every_edge() {
         for name in Map::shipped_names() {
             let map = Map::shipped(&name).unwrap();
             let outline = Outline::of(map.free());
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_within_a_radius_finds_what_a_search_without_one_finds() {
+    fn searches_with_and_without_a_radius_agree() {
         for name in Map::shipped_names() {
             let map = Map::shipped(&name).unwrap();
             for p in points(&map, 4000) {
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_that_all_span_the_map_do_not_multiply() {
+    fn edges_that_span_the_map_do_not_use_much_memory() {
         let comb = (0..1000).map(|i| [f64::from(i), 0.0, f64::from(i) + 0.5, 1.0]).collect();
         assert!(Rows::of(comb).edges.len() <= COPIES_PER_EDGE * 1000);
     }

@@ -1,13 +1,12 @@
-//! What is said about a drawing: why it was refused, or what was repaired.
+//! Reports about a drawing: why it was refused, or what was repaired.
 
 use super::{MAX_SVG_BYTES, Map};
 
-/// Where an element stands in its file. Displays as `<path> id="fold" at line 7`.
+/// Position of an element in its file. Displays as `<path> id="fold" at line 7`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Place {
     /// Tag name.
     pub element: String,
-    /// Its `id`, if it has one.
     pub id: Option<String>,
     /// Line of the file, from 1.
     pub line: u32,
@@ -23,12 +22,10 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// A part of a drawing that is no wall as it stands, and what was made of it.
+/// A change that turned an element into a wall, or left it out.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Repair {
-    /// The element.
     pub place: Place,
-    /// What was done.
     pub kind: RepairKind,
 }
 
@@ -38,19 +35,18 @@ impl std::fmt::Display for Repair {
     }
 }
 
-/// What was done to make a wall of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum RepairKind {
-    /// Two of a filled outline's edges cross.
+    /// Two edges of a filled outline cross.
     #[error("its outline crosses itself; the fill rule decides what is wall")]
     Crosses,
-    /// Two edges of a filled outline that are no neighbours share a point, and none cross.
+    /// Two edges of a filled outline that are not neighbours share a point; no edges cross.
     #[error("its outline touches itself; the fill rule decides what is wall")]
     Touches,
-    /// A filled outline ends elsewhere than it began.
+    /// A filled outline does not end at its start.
     #[error("its outline is open; closed with a straight line")]
     Open,
-    /// A shape that asks to be seen leaves no mark.
+    /// A visible shape has no area and no stroke.
     #[error("it draws nothing, having neither area nor stroke; left out")]
     Nothing,
 }
@@ -58,55 +54,46 @@ pub enum RepairKind {
 /// Why a map was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum MapError {
-    /// No map of that name is shipped.
+    /// No shipped map has this name.
     #[error("map: there is no map named {name:?}; there are {known}", known = Map::shipped_names().join(", "))]
-    Unknown {
-        /// The name asked for.
-        name: String,
-    },
+    Unknown { name: String },
     /// The file could not be read.
     #[error("map: {path}: {error}")]
     Io {
-        /// The path asked for.
         path: String,
-        /// What the system said.
+        /// The system's error.
         error: std::io::Error,
     },
     /// The file is larger than [`MAX_SVG_BYTES`].
     #[error("map: the file has {bytes} bytes, the limit is {MAX_SVG_BYTES}")]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
-    /// No room for another.
-    #[error("map: {most} maps were added already, take one out first")]
+    TooLarge { bytes: usize },
+    /// The library is full.
+    #[error("map: {max} maps are already added, remove one first")]
     TooMany {
-        /// How many there may be.
-        most: usize,
+        /// The limit.
+        max: usize,
     },
     /// Not well-formed, or not SVG.
     #[error("map: not a readable SVG: {0}")]
     Svg(String),
-    /// The root has no usable `viewBox`, which gives the workspace.
+    /// The root has no usable `viewBox`, which defines the workspace.
     #[error("map: viewBox {value:?}: {reason}")]
     ViewBox {
         /// The attribute as written.
         value: String,
-        /// What is wrong with it.
         reason: &'static str,
     },
-    /// The root asks for an unknown positioner.
+    /// The root names an unknown positioner.
     #[error("map: data-positioner {value:?}: it must be \"arm\" or \"planar-stage\"")]
     Positioner {
         /// The attribute as written.
         value: String,
     },
-    /// An element that cannot become a wall, or costs too much to make one of.
+    /// An element that cannot become a wall, or costs too much.
     #[error("map: {place}: {reason}")]
     Element {
-        /// The element.
         place: Place,
-        /// Why, and what to do instead.
+        /// The reason and a remedy.
         reason: String,
     },
     /// The walls leave no space for the bead.

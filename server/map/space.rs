@@ -1,4 +1,4 @@
-//! Free space on a grid: what is connected to what, how far it is to walk, and fair sampling.
+//! Free space on a grid: connected components, path lengths and uniform sampling.
 
 use pathfinding::prelude::astar;
 use rand::{Rng, RngExt};
@@ -6,24 +6,23 @@ use rand::{Rng, RngExt};
 use super::Map;
 use crate::geometry::Point2;
 
-/// Side of a cell.
 const CELL_M: f64 = 0.005;
 
-/// More than positions and distances can be off by.
+/// Upper bound of rounding errors in positions and distances.
 const ROUNDING_M: f64 = 1e-9;
 
-/// The points of a map that keep `clearance_m` from every wall, on a 5-mm grid.
+/// The points of a map that keep `clearance_m` from every wall, on a 5 mm grid.
 #[derive(Clone, Debug)]
 pub struct FreeSpace {
     columns: usize,
     origin_m: [f64; 2],
     clearance_m: f64,
-    /// Component of each cell, row-major from the lower left; `None` where a wall is too near.
+    /// Component of each cell, row-major from the lower left; `None` if a wall is too close.
     component: Vec<Option<u32>>,
 }
 
 impl FreeSpace {
-    /// Rasterises `map`; a cell is free when its centre keeps `clearance_m`.
+    /// Rasterises `map`. A cell is free if its centre keeps `clearance_m`.
     pub fn new(map: &Map, clearance_m: f64) -> Self {
         let w = map.workspace();
         let columns = ((w.x_max_m - w.x_min_m) / CELL_M).round().max(1.0) as usize;
@@ -51,8 +50,8 @@ impl FreeSpace {
         space
     }
 
-    /// Which cells are free. The clearance changes by no more than one goes, so that a cell far from the
-    /// walls, or deep in them, answers for those that follow it in its row.
+    /// Which cells are free. Between two points the clearance changes by at most their distance, so a cell far from
+    /// walls, or deep inside one, decides the next cells in its row too.
     fn rasterise(&self, map: &Map) -> Vec<bool> {
         let mut free = vec![false; self.component.len()];
         for (row, cells) in free.chunks_mut(self.columns).enumerate() {
@@ -60,11 +59,11 @@ impl FreeSpace {
             while column < self.columns {
                 let center = self.center(row * self.columns + column);
                 let distance_m = (map.nearest_wall_point(center) - center).norm();
-                // Near a wall, either side is too near.
+                // If the distance is too small, the side of the wall does not matter.
                 let inside = distance_m < self.clearance_m || map.is_free(center);
                 let spare_m = if inside { distance_m } else { -distance_m } - self.clearance_m;
-                let alike = 1 + ((spare_m.abs() - ROUNDING_M) / CELL_M).max(0.0) as usize;
-                let end = (column + alike).min(self.columns);
+                let equal = 1 + ((spare_m.abs() - ROUNDING_M) / CELL_M).max(0.0) as usize;
+                let end = (column + equal).min(self.columns);
                 cells[column..end].fill(spare_m >= 0.0);
                 column = end;
             }
@@ -85,7 +84,7 @@ impl FreeSpace {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// The eight neighbours inside the grid, with the distance to each in micrometres.
+    /// The eight neighbours inside the grid, with their distances in micrometres.
     fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> + use<> {
         let (columns, rows) = (self.columns as isize, (self.component.len() / self.columns) as isize);
         let (column, row) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
@@ -98,7 +97,7 @@ impl FreeSpace {
         })
     }
 
-    /// How many connected parts there are.
+    /// Number of connected components.
     pub fn components(&self) -> usize {
         self.component.iter().flatten().max().map_or(0, |&last| last as usize + 1)
     }
@@ -113,13 +112,13 @@ impl FreeSpace {
         self.points().count() as f64 * CELL_M * CELL_M
     }
 
-    /// Component of the cell under `point`; if that cell is not free, of the nearest free one.
+    /// Component of the cell that contains `point`, or of the nearest free cell.
     pub fn component_at(&self, point: Point2<f64>) -> Option<u32> {
         self.nearest_free(point).and_then(|cell| self.component[cell])
     }
 
-    /// A uniform point of the free space, of one component if asked, exact to the map's clearance.
-    /// `None` if 10,000 draws find nothing.
+    /// A uniformly distributed point of the free space, or of one component. It keeps the map's exact clearance.
+    /// `None` if 10,000 draws find no point.
     pub fn sample(&self, map: &Map, component: Option<u32>, rng: &mut impl Rng) -> Option<Point2<f64>> {
         let w = map.workspace();
         (0..10_000).find_map(|_| {
@@ -130,23 +129,22 @@ impl FreeSpace {
         })
     }
 
-    /// Length of the shortest path from `from` to `to` over the grid (8-connected, so up to 8 % too
-    /// long), or `None` if there is none.
+    /// Length of the shortest path from `from` to `to` on the grid; `None` without a path. The grid is 8-connected, so
+    /// the length is up to 8 % too large.
     pub fn geodesic_m(&self, from: Point2<f64>, to: Point2<f64>) -> Option<f64> {
         let (start, end) = (self.cell(from)?, self.cell(to)?);
         if start == end {
             return Some((to - from).norm());
         }
-        let (_, length_um) = self.grid_way(start, end)?;
+        let (_, length_um) = self.grid_path(start, end)?;
         Some(f64::from(length_um) * 1e-6)
     }
 
-    /// The shortest way between two points, pulled taut: the grid's, then straight from each point on it to the
-    /// farthest that is seen from there. From a point that is not free it starts at the nearest that is. `None` if
-    /// there is none.
-    pub fn taut_way(&self, from: Point2<f64>, to: Point2<f64>) -> Option<Vec<Point2<f64>>> {
+    /// The shortest path on the grid, pulled taut: from each point straight to the farthest visible one. If `from` or
+    /// `to` is not free, the nearest free point is used. `None` without a path.
+    pub fn taut_path(&self, from: Point2<f64>, to: Point2<f64>) -> Option<Vec<Point2<f64>>> {
         let (start, end) = (self.nearest_free(from)?, self.nearest_free(to)?);
-        let (cells, _) = self.grid_way(start, end)?;
+        let (cells, _) = self.grid_path(start, end)?;
         let mut points: Vec<Point2<f64>> = cells.into_iter().map(|cell| self.center(cell)).collect();
         let last = points.len() - 1;
         points[0] = from;
@@ -154,7 +152,7 @@ impl FreeSpace {
         if last == 0 {
             points = vec![from, to];
         }
-        // Once forward, and once back, since what one end sees the other may see better.
+        // Forward and backward, because each direction can shorten different parts.
         for _ in 0..2 {
             points = self.shortened(&points);
             points.reverse();
@@ -174,10 +172,10 @@ impl FreeSpace {
 
     /// Whether all cells on the straight line are free.
     fn sees(&self, from: Point2<f64>, to: Point2<f64>) -> bool {
-        let way = to - from;
-        let steps = (way.norm() / (0.25 * CELL_M)).ceil().max(1.0) as usize;
+        let offset = to - from;
+        let steps = (offset.norm() / (0.25 * CELL_M)).ceil().max(1.0) as usize;
         (0..=steps).all(|step| {
-            let place = from + way * (step as f64 / steps as f64);
+            let place = from + offset * (step as f64 / steps as f64);
             self.cell(place).is_some_and(|cell| self.component[cell].is_some())
         })
     }
@@ -191,14 +189,14 @@ impl FreeSpace {
         free.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)))
     }
 
-    /// The shortest way over free cells, both ends with it, and its length in micrometres.
-    fn grid_way(&self, start: usize, end: usize) -> Option<(Vec<usize>, u32)> {
+    /// The shortest path over free cells including both ends, and its length in micrometres.
+    fn grid_path(&self, start: usize, end: usize) -> Option<(Vec<usize>, u32)> {
         if self.component[start].is_none() || self.component[start] != self.component[end] {
             return None;
         }
         let free = |&cell: &usize| self.neighbours(cell).filter(|&(n, _)| self.component[n].is_some());
         let goal = self.center(end);
-        // A little less than the straight line: a diagonal step is rounded down.
+        // Slightly less than the straight line, because diagonal steps are rounded down.
         let left_um = |&cell: &usize| ((goal - self.center(cell)).norm() * 0.999e6) as u32;
         astar(&start, |cell| free(cell).collect::<Vec<_>>(), left_um, |&cell| cell == end)
     }
@@ -218,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn rooms_are_components_and_no_path_joins_them() {
+    fn rooms_are_components_without_a_path_between_them() {
         let map = two_rooms();
         let space = FreeSpace::new(&map, 0.012);
         let (left, right) = (Point2::new(-0.05, -0.3), Point2::new(0.05, -0.3));
@@ -233,35 +231,35 @@ mod tests {
     }
 
     #[test]
-    fn a_taut_way_is_as_long_as_geometry_says() {
-        // A wall from below up to y = -0.25: the shortest way is over its tip, 5 mm wide with the clearance of 10.
+    fn a_taut_path_has_the_length_from_geometry() {
+        // A wall from below up to y = -0.25. The shortest path passes over its tip, 5 mm wide, with 10 mm clearance.
         let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
             <rect x="-5" y="250" width="10" height="150"/></svg>"#;
         let space = FreeSpace::new(&Map::from_svg("wall", svg).unwrap(), 0.01);
         let (from, to) = (Point2::new(-0.15, -0.35), Point2::new(0.15, -0.35));
-        // Around two corners that keep 10 mm: two tangents and two arcs of that radius.
+        // Around two corners at 10 mm: two tangents and two arcs of that radius.
         let (dx, dy, radius_m) = (0.145, 0.1, 0.01_f64);
         let distance_m = f64::hypot(dx, dy);
         let tangent_m = (distance_m * distance_m - radius_m * radius_m).sqrt();
         let arc_rad = std::f64::consts::FRAC_PI_2 + (dx / distance_m).acos() - (radius_m / distance_m).acos();
         let expected_m = 2.0 * (tangent_m + arc_rad * radius_m) + 0.01;
-        let found_m = length_m(&space.taut_way(from, to).unwrap());
+        let found_m = length_m(&space.taut_path(from, to).unwrap());
         assert!((found_m / expected_m - 1.0).abs() < 0.02, "{found_m} {expected_m}");
         assert!(found_m < space.geodesic_m(from, to).unwrap());
 
         let near = Point2::new(-0.149, -0.35);
-        assert!((length_m(&space.taut_way(from, near).unwrap()) - 0.001).abs() < 1e-12);
-        let straight = space.taut_way(Point2::new(-0.15, -0.22), Point2::new(0.15, -0.23)).unwrap();
+        assert!((length_m(&space.taut_path(from, near).unwrap()) - 0.001).abs() < 1e-12);
+        let straight = space.taut_path(Point2::new(-0.15, -0.22), Point2::new(0.15, -0.23)).unwrap();
         assert_eq!(straight.len(), 2);
-        // Within a wall, it starts at the nearest place outside.
-        assert!(space.taut_way(Point2::new(0.0, -0.3), to).is_some());
+        // Inside a wall, it starts at the nearest free place.
+        assert!(space.taut_path(Point2::new(0.0, -0.3), to).is_some());
         assert!(
-            FreeSpace::new(&two_rooms(), 0.012).taut_way(Point2::new(-0.05, -0.3), Point2::new(0.05, -0.3)).is_none()
+            FreeSpace::new(&two_rooms(), 0.012).taut_path(Point2::new(-0.05, -0.3), Point2::new(0.05, -0.3)).is_none()
         );
     }
 
     #[test]
-    fn every_cell_is_as_free_as_its_centre() {
+    fn a_cell_is_free_exactly_if_its_centre_is() {
         for map in Map::shipped_names().iter().map(|name| Map::shipped(name).unwrap()).chain([two_rooms()]) {
             for clearance_m in [0.0, 0.0025, 0.012] {
                 let space = FreeSpace::new(&map, clearance_m);

@@ -1,8 +1,8 @@
-//! From SVG to polygons: usvg resolves shapes, groups, transforms and units; kurbo flattens curves;
-//! i_overlay unites what overlaps.
+//! From SVG to polygons: usvg resolves shapes, groups, transforms and units; kurbo flattens curves; i_overlay unites
+//! overlapping outlines.
 //!
-//! A drawing may come from anyone, so each step has a bound on its work that does not depend on a clock:
-//! `screen` before usvg, `sketch` after it, `contacts` before each union.
+//! A drawing is untrusted input, so each step has a bound on its work that does not depend on a clock: `screen` before
+//! usvg, `sketch` after it, `contacts` before each union.
 
 mod attributes;
 mod contacts;
@@ -27,13 +27,13 @@ type Ring = Vec<[f64; 2]>;
 const MAX_ATTRIBUTES: usize = 1000;
 const MAX_NAMESPACES: usize = 100;
 
-/// What a drawing says.
+/// The content of a drawing.
 pub(super) struct Drawing {
     pub workspace: Rect,
     pub walls: Vec<Polygon>,
     pub free: Vec<Polygon>,
     pub repairs: Vec<Repair>,
-    /// Whether it is drawn for the planar stage instead of the arm.
+    /// Whether the map is for the planar stage instead of the arm.
     pub for_stage: bool,
 }
 
@@ -64,14 +64,14 @@ pub(super) fn read(text: &str) -> Result<Drawing, MapError> {
     })
 }
 
-/// A DOCTYPE is let through, as drawing programs write one; entities are not, as they multiply.
+/// Accepts a DOCTYPE, because drawing programs write one, but no entities, because they can multiply.
 fn parse(text: &str) -> Result<roxmltree::Document<'_>, MapError> {
     if text.len() > MAX_SVG_BYTES {
         return Err(MapError::TooLarge { bytes: text.len() });
     }
     let refused = |reason: String| Err(MapError::Svg(reason));
     if text.contains("<!ENTITY") {
-        return refused("it declares entities; write out what they stand for".into());
+        return refused("it declares entities; replace them by their content".into());
     }
     if text.matches("xmlns:").count() > MAX_NAMESPACES {
         return refused(format!("it declares more than {MAX_NAMESPACES} namespaces"));
@@ -117,7 +117,9 @@ impl ViewBox {
         let value = root.attribute("viewBox").unwrap_or_default();
         let refused = |reason| MapError::ViewBox { value: value.chars().take(80).collect(), reason };
         if value.is_empty() {
-            return Err(refused("it is missing; it gives the workspace in millimetres, as in \"-300 210 580 330\""));
+            return Err(refused(
+                "it is missing; it defines the workspace in millimetres, for example \"-300 210 580 330\"",
+            ));
         }
         let numbers: Vec<f64> = value
             .split([' ', ',', '\t', '\n', '\r'])
@@ -137,7 +139,7 @@ impl ViewBox {
             return Err(refused("x and y must be within ±4000 mm"));
         }
         if root.attribute("preserveAspectRatio").is_some_and(|v| v.trim() != "xMidYMid meet") {
-            return Err(refused("preserveAspectRatio must be left out, since it would distort millimetres"));
+            return Err(refused("preserveAspectRatio must be removed, because it would distort millimetres"));
         }
         Ok(Self { x, y, width, height })
     }

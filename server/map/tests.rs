@@ -1,4 +1,4 @@
-//! Maps as files give them, good and bad.
+//! Valid and invalid map files.
 
 use super::*;
 
@@ -40,8 +40,8 @@ fn a_line_is_blocked_by_a_post_and_by_too_narrow_a_gap() {
 }
 
 #[test]
-fn every_shipped_map_loads_and_has_the_papers_coordinates_free() {
-    // Specification §3: these are free with at least 1 cm of clearance on a colon.
+fn every_shipped_map_loads_with_the_papers_coordinates_free() {
+    // Specification §3: on a colon map these have at least 1 cm of clearance.
     for name in ["colon", "colon-folds"] {
         let map = Map::shipped(name).unwrap();
         for (x, y) in
@@ -67,7 +67,7 @@ fn the_planar_stage_has_the_papers_coordinates_free() {
 }
 
 #[test]
-fn an_unknown_positioner_is_refused() {
+fn refuses_an_unknown_positioner() {
     let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" data-positioner="crane" viewBox="-100 200 200 200"/>"#;
     let message = Map::from_svg("crane", svg).unwrap_err().to_string();
     assert!(message.contains("data-positioner \"crane\""), "{message}");

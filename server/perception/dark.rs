@@ -1,18 +1,16 @@
-//! The dark pixels of an image, counted so that any rectangle of them is summed with four look-ups
-//! (summed-area table: Crow 1984, SIGGRAPH).
+//! The dark pixels of an image as a summed-area table (Crow 1984, SIGGRAPH): the dark pixels in a rectangle are counted
+//! with four look-ups.
 
 use crate::image::GrayImage;
 
-/// Gray at or below this is an obstacle: half-way between the walls (50 and less) and the floor (200
-/// and more) of the controllers' view, so that noise of either sign tips nothing.
+/// Pixels at or below this gray level are obstacles. It is half-way between walls (at most 50) and floor (at least 200)
+/// of the controllers' view, so that noise in either direction has no effect.
 pub const OBSTACLE_LEVEL: u8 = 125;
 
 /// A rectangle of whole pixels; rows count from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelRect {
-    /// First column.
     pub column_px: usize,
-    /// First row.
     pub row_px: usize,
     /// Columns.
     pub width_px: usize,
@@ -21,23 +19,23 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// Pixels within.
+    /// Number of pixels.
     pub fn area_px(&self) -> usize {
         self.width_px * self.height_px
     }
 }
 
-/// Which pixels of an image are dark.
+/// The dark pixels of an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DarkPixels {
     width_px: usize,
     height_px: usize,
-    /// Dark pixels above and left of each pixel corner, `height_px + 1` rows of `width_px + 1`.
+    /// Number of dark pixels above and left of each pixel corner, `height_px + 1` rows of `width_px + 1`.
     sums: Vec<u32>,
 }
 
 impl DarkPixels {
-    /// The pixels of `gray` that are `threshold` or darker.
+    /// The pixels of `gray` at or below `threshold`.
     pub fn of(gray: &GrayImage, threshold: u8) -> Self {
         let (width_px, height_px) = (gray.width_px, gray.height_px);
         let stride = width_px + 1;
@@ -66,7 +64,7 @@ impl DarkPixels {
         self.height_px
     }
 
-    /// Dark pixels in `rect`, which must lie in the image.
+    /// Number of dark pixels in `rect`, which must be inside the image.
     pub fn count(&self, rect: &PixelRect) -> usize {
         self.between([rect.column_px, rect.column_px + rect.width_px], [rect.row_px, rect.row_px + rect.height_px])
     }
@@ -86,7 +84,7 @@ impl DarkPixels {
         flags
     }
 
-    /// Dark pixels in the columns and rows from the first bound up to, not including, the second.
+    /// Number of dark pixels in half-open ranges of columns and rows.
     pub(super) fn between(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> usize {
         let (top, bottom) = (top * (self.width_px + 1), bottom * (self.width_px + 1));
         let [a, b, c, d] = [bottom + right, bottom + left, top + right, top + left].map(|at| self.sums[at] as usize);
@@ -101,7 +99,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_rectangle_is_counted_as_its_pixels_are(
+        fn counts_of_rectangles_match_a_count_of_pixels(
             (width_px, height_px, pixels) in (1..12usize, 1..12usize).prop_flat_map(|(w, h)| {
                 (Just(w), Just(h), prop::collection::vec(any::<u8>(), w * h))
             }),

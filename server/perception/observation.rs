@@ -6,11 +6,10 @@ use crate::image::GrayImage;
 /// Side of each channel.
 pub const OBSERVATION_SIZE_PX: usize = 84;
 
-/// Two channels of 84×84 bytes, row-major, 0 to 255 for 0 to 1.
+/// Two channels of 84×84 bytes, row-major; 0 to 255 represents 0 to 1.
 ///
-/// Channel 0 is the gray image, area-averaged. Channel 1 holds the goal in rows 0–41 and the tool in
-/// rows 42–83; in each block the left 42 columns are x and the right 42 are y, scaled over the
-/// workspace.
+/// Channel 0 is the gray image, area-averaged. Channel 1 has the goal in rows 0–41 and the tool in rows 42–83. In each
+/// block the left 42 columns are x and the right 42 are y, scaled over the workspace.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observation {
     /// `[2][84][84]`, flat.
@@ -18,7 +17,7 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Makes the observation; without a goal its block is zero.
+    /// Creates the observation. Without a goal, its block is zero.
     pub fn new(gray: &GrayImage, goal: Option<Point2<f64>>, tool: Point2<f64>, workspace: &Rect) -> Self {
         const SIZE: usize = OBSERVATION_SIZE_PX;
         let mut bytes = area_average(gray, SIZE);
@@ -30,7 +29,7 @@ impl Observation {
         observation
     }
 
-    /// A place as the second channel holds it: x and y over the workspace, 0 to 255.
+    /// A place as in the second channel: x and y over the workspace, 0 to 255.
     pub fn scaled(place: Point2<f64>, workspace: &Rect) -> [u8; 2] {
         let size_m = workspace.size_m();
         let level =
@@ -89,7 +88,7 @@ fn coverage(source: usize, target: usize) -> Vec<Vec<(usize, f32)>> {
         .collect()
 }
 
-/// Exact mean of the area that each target pixel covers: columns first, then rows.
+/// Exact mean of the area of each target pixel: columns first, then rows.
 fn area_average(gray: &GrayImage, target: usize) -> Vec<u8> {
     let columns = coverage(gray.width_px, target);
     let rows = coverage(gray.height_px, target);
@@ -115,7 +114,7 @@ mod tests {
     const WORKSPACE: Rect = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
     #[test]
-    fn the_mean_is_kept_and_an_edge_falls_where_it_is() {
+    fn the_mean_and_the_position_of_an_edge_are_kept() {
         let pixels = (0..480 * 480).map(|i| if i % 480 < 100 { 0 } else { 252 }).collect();
         let gray = GrayImage { width_px: 480, height_px: 480, pixels };
         let observation = Observation::new(&gray, None, Point2::new(0.0, -0.3), &WORKSPACE);
@@ -125,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn the_second_channel_holds_goal_above_and_tool_below() {
+    fn the_second_channel_has_the_goal_above_the_tool() {
         let gray = GrayImage { width_px: 480, height_px: 480, pixels: vec![0; 480 * 480] };
         let goal = Point2::new(0.28, -0.54);
         let tool = Point2::new(-0.3, -0.21);

@@ -1,20 +1,20 @@
-//! All that the camera has seen of the workspace so far: unknown, free and obstacle, in `base`.
+//! The obstacle map: which parts of the workspace the camera has observed so far as free or as obstacle, in `base`.
 //!
-//! **Grid.** Cells of 2 mm, or as coarse as it takes to have about 2¹⁸ at most (7.8 mm in 4 m × 4 m), narrowed so
-//! that whole cells fill the workspace. Two bits a cell: 13 KB for the usual 580 mm × 330 mm, 64 KB at most.
-//! Snapshots share the cells until one changes, and cells serialise as two pieces of bytes, so that hashing a map
-//! takes little longer than copying it: there is no need to keep it out of the hash of every tick.
+//! **Grid.** Cells have 2 mm, or more if needed to limit their number to about 2¹⁸ (7.8 mm in 4 m × 4 m). They are
+//! narrowed so that whole cells fill the workspace. Two bits per cell give 13 KB for the usual 580 mm × 330 mm, and at
+//! most 64 KB. Snapshots share the cells until one changes. Cells serialise as two byte arrays, so that hashing a map
+//! takes little longer than copying it, and the map can be part of the hash of every tick.
 //!
-//! **Walls have a height**, and the pinhole sees their tops farther from its axis than they stand: a wall darkens
-//! everything from its foot to [`super::wall_spread`] times as far from the camera's foot, 1.7 mm more at the rim of the
-//! default image and 2.4 mm in its corners. Whatever stands on a place therefore darkens both the place and the
-//! place spread; where either is bright, nothing stands. A cell is an obstacle when any pixel in it is dark and so is
-//! its place spread. That misses no wall of the height that was said or higher; it adds up to a cell and a pixel,
-//! and what lies in gaps narrower than the spread. Lower walls lose the difference from their far side.
+//! **Walls have a height.** A pinhole camera sees their tops farther from its axis than they are. A wall darkens
+//! everything from its foot to [`super::wall_spread`] times its distance from the camera's foot: 1.7 mm more at the
+//! edge of the default image and 2.4 mm in its corners. So a wall at a place darkens both the place and its spread
+//! image; if either is bright, there is no wall. A cell is an obstacle if any pixel in it is dark together with its
+//! spread image. This misses no wall of the given height or higher. It can add up to a cell and a pixel, and gaps
+//! narrower than the spread. Lower walls lose the difference on their far side.
 //!
-//! **No flicker.** Cells that are not wholly in view, spread included, stay as they are. A cell that was an obstacle
-//! becomes free only when no such pixel is within two pixels of it: an edge that sticks out into a cell by less than
-//! a pixel is seen from one place and not from the next, and must not come and go.
+//! **No flicker.** Cells that are not completely in view, including their spread, stay unchanged. An obstacle cell
+//! becomes free only if no such pixel is within two pixels of it: a wall edge that extends into a cell by less than a
+//! pixel is visible from some places only, and must not appear and disappear.
 
 mod bits;
 mod queries;
@@ -35,14 +35,14 @@ use view::View;
 
 pub use queries::{Area, CellState, Unknown};
 
-/// Side of a cell, where the workspace is not too large for it.
+/// Side of a cell, if the workspace is not too large.
 const CELL_M: f64 = 0.002;
-/// Most cells of a map, but for those that rounding up adds.
-const MOST_CELLS: f64 = (1 << 18) as f64;
-/// Most cells along one side of a workspace that is long and narrow.
-const MOST_ALONG: usize = 4096;
+/// Largest number of cells of a map, before rounding up.
+const MAX_CELLS: f64 = (1 << 18) as f64;
+/// Largest number of cells along one side, for long and narrow workspaces.
+const MAX_ALONG: usize = 4096;
 
-/// What has been seen of a workspace; at first nothing. Everything outside the workspace is wall.
+/// The observed part of a workspace; empty at first. Everything outside the workspace is wall.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Stored")]
 pub struct ObstacleMap {
@@ -54,12 +54,12 @@ pub struct ObstacleMap {
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Cells {
-    /// Row by row from the least y; an obstacle has been seen.
+    /// Row by row from the smallest y; an obstacle was observed.
     obstacle: BitGrid,
     seen: BitGrid,
 }
 
-/// A map as it was serialised, not yet checked.
+/// A deserialised map before validation.
 #[derive(Deserialize)]
 struct Stored {
     workspace: Rect,
@@ -75,7 +75,7 @@ impl TryFrom<Stored> for ObstacleMap {
         let shape = Some(shape(&workspace));
         let is_whole = |grid: &BitGrid| Some((grid.columns, grid.rows)) == shape && grid.is_whole();
         if !is_whole(&cells.obstacle) || !is_whole(&cells.seen) {
-            return Err("an obstacle map's cells do not fit its workspace");
+            return Err("the cells of the obstacle map do not fit its workspace");
         }
         Ok(Self { workspace, version, cells: Arc::new(cells) })
     }
@@ -85,50 +85,49 @@ fn serialize_shared<S: Serializer>(cells: &Arc<Cells>, serializer: S) -> Result<
     cells.as_ref().serialize(serializer)
 }
 
-/// What an update changed, in `base`.
+/// Result of an update, in `base`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
-    /// The cells that became obstacles, as few disjoint rectangles.
+    /// Cells that became obstacles, as disjoint rectangles.
     pub appeared: Vec<Rect>,
-    /// The cells that were obstacles and are free, likewise.
+    /// Cells that were obstacles and became free, as disjoint rectangles.
     pub cleared: Vec<Rect>,
-    /// Whether anything was seen for the first time.
+    /// Whether any cell was observed for the first time.
     pub seen_more: bool,
 }
 
 /// Columns and rows of the grid.
 fn shape(workspace: &Rect) -> (usize, usize) {
     let size = workspace.size_m();
-    let cell_m = CELL_M.max((size.x * size.y / MOST_CELLS).sqrt());
-    // A size that is a multiple of the cell but for rounding gets no cell more.
-    let count = |side_m: f64| ((side_m / cell_m - 1e-6).ceil() as usize).clamp(1, MOST_ALONG);
+    let cell_m = CELL_M.max((size.x * size.y / MAX_CELLS).sqrt());
+    // A size that is a multiple of the cell except for rounding gets no additional cell.
+    let count = |side_m: f64| ((side_m / cell_m - 1e-6).ceil() as usize).clamp(1, MAX_ALONG);
     (count(size.x), count(size.y))
 }
 
 impl ObstacleMap {
-    /// A map of which nothing is known.
+    /// A map without observations.
     pub fn new(workspace: Rect) -> Self {
         let (columns, rows) = shape(&workspace);
         let grid = BitGrid::zero(columns, rows);
         Self { workspace, version: 0, cells: Arc::new(Cells { obstacle: grid.clone(), seen: grid }) }
     }
 
-    /// The workspace.
     pub fn workspace(&self) -> &Rect {
         &self.workspace
     }
 
-    /// Grows by one with every update that changes an obstacle.
+    /// Increases by one with every update that changes an obstacle.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// Whether the two share their cells, as a copy does until either is updated with something new.
+    /// Whether both share their cells in memory. Clones do until one of them changes.
     pub fn shares_cells(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.cells, &other.cells)
     }
 
-    /// Cells across and away from the user.
+    /// Columns and rows.
     pub fn shape(&self) -> (usize, usize) {
         (self.cells.seen.columns, self.cells.seen.rows)
     }
@@ -139,11 +138,11 @@ impl ObstacleMap {
         self.workspace.size_m().component_div(&Vector2::new(columns as f64, rows as f64))
     }
 
-    /// Takes in what an image shows: its dark pixels, where they lie, and how far wall tops seem to spread
-    /// ([`super::wall_spread`]; 1 takes every dark pixel for what it covers).
+    /// Adds the content of an image: its dark pixels, their positions, and the spread of wall tops
+    /// ([`super::wall_spread`]; with 1, every dark pixel counts as the place that it covers).
     ///
-    /// The pixels may be those of the image, or as coarse as the blocks of a quadtree
-    /// ([`super::Quadtree::dark_pixels`]); blocks move with the camera, so what they darken besides comes and goes.
+    /// The pixels may be those of the image, or blocks of a quadtree ([`super::Quadtree::dark_pixels`]). Blocks move
+    /// with the camera, so the additional area that they darken varies.
     pub fn update(&mut self, dark: &DarkPixels, calibration: &Calibration, spread: f64) -> Change {
         let view = View::of(self, dark, calibration, spread);
         let (mut appeared, mut cleared, mut first_seen) = (Vec::new(), Vec::new(), Vec::new());
@@ -172,20 +171,20 @@ impl ObstacleMap {
         change
     }
 
-    /// All obstacles seen so far, as few disjoint rectangles as possible.
+    /// All observed obstacles, as the minimum number of disjoint rectangles.
     pub fn rectangles(&self) -> Vec<Rect> {
         let partition = self.partition();
         partition.rectangles.iter().map(|cells| self.rect(cells)).collect()
     }
 
-    /// The same in cells, row 0 at the least y, with the terms of the formula for their number.
+    /// The same in cells, row 0 at the smallest y, with the terms of the formula for their number.
     pub fn partition(&self) -> Partition {
         let (columns, rows) = self.shape();
         let obstacle = |row| (0..columns).map(move |column| self.cells.obstacle.get(column, row));
         Partition::of(&CellMask { columns, rows, dark: (0..rows).flat_map(obstacle).collect() })
     }
 
-    /// The part of the table that a rectangle of cells covers.
+    /// The table area of a rectangle of cells.
     pub fn rect(&self, cells: &CellRect) -> Rect {
         Rect {
             x_min_m: self.column_edge_m(cells.column),
@@ -195,7 +194,7 @@ impl ObstacleMap {
         }
     }
 
-    /// Where a column of cells begins; the last edge is the workspace's to the bit.
+    /// Lower edge of a column of cells. The last edge equals that of the workspace exactly.
     fn column_edge_m(&self, column: usize) -> f64 {
         edge_m(self.workspace.x_min_m, self.workspace.x_max_m, column, self.cells.seen.columns)
     }
@@ -204,7 +203,7 @@ impl ObstacleMap {
         edge_m(self.workspace.y_min_m, self.workspace.y_max_m, row, self.cells.seen.rows)
     }
 
-    /// The fewest rectangles that make up a list of cells.
+    /// The minimum number of rectangles for a list of cells.
     fn rectangles_around(&self, cells: &[(usize, usize)]) -> Vec<Rect> {
         let Some(&first) = cells.first() else { return Vec::new() };
         let bounds = |(low, high): ((usize, usize), (usize, usize)), &(column, row): &(usize, usize)| {

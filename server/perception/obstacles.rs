@@ -1,16 +1,16 @@
-//! Obstacles near the tool, as the attractor senses them: the part of each obstacle that is nearest,
-//! at most 2 cm high and wide (paper, Example 1).
+//! Obstacles near the tool, as the attractor senses them: the nearest part of each obstacle, at most 2 cm high and wide
+//! (paper, Example 1).
 
 use super::{CellState, OBSTACLE_MEAN, ObstacleMap, Percept};
 use crate::geometry::{Point2, Vector2};
 
-/// Pixels a cell of the mask: 0.83 mm of table at the default camera.
+/// Pixels per cell of the mask; 0.83 mm on the table with the default camera.
 const CELL_PX: usize = 2;
 
-/// How much farther than the nearest free cell the way off an obstacle looks.
-const WAY_OFF_M: f64 = 0.006;
+/// [`ObstacleMask::exit_direction`] uses free cells up to this much farther than the nearest one.
+const EXIT_SEARCH_M: f64 = 0.006;
 
-/// The dark cells of a frame, and which of them hang together.
+/// The dark cells of a frame and their connected components.
 #[derive(Clone, Debug)]
 pub struct ObstacleMask {
     columns: usize,
@@ -24,16 +24,15 @@ pub struct ObstacleMask {
 /// A fitted rectangle, axis-aligned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
-    /// Centre.
     pub center_m: Point2<f64>,
     /// Half sides.
     pub half_size_m: Vector2<f64>,
-    /// The seen point of this obstacle that is nearest to where it was asked from.
+    /// The observed point of this obstacle nearest to the query point.
     pub nearest_m: Point2<f64>,
 }
 
 impl ObstacleMask {
-    /// Finds the dark cells of a frame: a cell is dark when any of its pixels is.
+    /// The dark cells of a frame: a cell is dark if any of its pixels is.
     pub fn of(percept: &Percept) -> Self {
         let gray = &percept.gray;
         let columns = gray.width_px / CELL_PX;
@@ -51,7 +50,7 @@ impl ObstacleMask {
         Self::of_cells(columns, &dark, percept.calibration.center_m, cell_m)
     }
 
-    /// The same from what was seen up to now, within `half_m` of a place.
+    /// The obstacle map's dark cells within `half_m` of a place.
     pub fn around(known: &ObstacleMap, place: Point2<f64>, half_m: f64) -> Self {
         let cell_m = known.cell_m().x;
         let reach = (half_m / cell_m) as i32;
@@ -65,7 +64,7 @@ impl ObstacleMask {
         Self::of_cells(columns, &dark, place, cell_m)
     }
 
-    /// Rows of `columns` cells around a middle, the top row first.
+    /// Rows of `columns` cells around a centre, top row first.
     fn of_cells(columns: usize, dark: &[bool], center_m: Point2<f64>, cell_m: f64) -> Self {
         let mut mask = Self { columns, label: vec![0; dark.len()], components: 0, center_m, cell_m };
         mask.flood(dark);
@@ -105,8 +104,8 @@ impl ObstacleMask {
         self.center_m + offset * self.cell_m
     }
 
-    /// Of each obstacle in view, the rectangle around the part that lies within a window of
-    /// `window_m` on its point nearest to `from`; nearest obstacle first.
+    /// For each obstacle in view, the rectangle around its part inside a window of `window_m` at its point nearest to
+    /// `from`. Nearest obstacle first.
     pub fn patches(&self, from: Point2<f64>, window_m: f64) -> Vec<Patch> {
         let mut nearest = vec![(f64::INFINITY, 0usize); usize::from(self.components) + 1];
         for (cell, &label) in self.label.iter().enumerate().filter(|&(_, &label)| label != 0) {
@@ -121,19 +120,19 @@ impl ObstacleMask {
         order.into_iter().map(|(_, cell)| self.fit(cell, window_m)).collect()
     }
 
-    /// From a place over or beside an obstacle, the unit direction off it: toward the middle of the free
-    /// cells around, as far as the nearest of them and a little more; `None` where none is free. A mean,
-    /// because on an edge the nearest cell alone can lie anywhere.
-    pub fn way_off(&self, from: Point2<f64>) -> Option<Vector2<f64>> {
+    /// Unit direction away from an obstacle that is below or beside a place: toward the mean of the free cells around,
+    /// up to slightly farther than the nearest one. `None` without free cells. The nearest cell alone would not do,
+    /// because at an edge its direction is arbitrary.
+    pub fn exit_direction(&self, from: Point2<f64>) -> Option<Vector2<f64>> {
         let free = |cell: &usize| self.label[*cell] == 0;
         let offsets = || (0..self.label.len()).filter(free).map(|cell| self.point(cell) - from);
         let nearest_m = offsets().map(|offset| offset.norm()).min_by(f64::total_cmp)?;
-        let reach_m = nearest_m + WAY_OFF_M;
+        let reach_m = nearest_m + EXIT_SEARCH_M;
         let sum: Vector2<f64> = offsets().filter(|offset| offset.norm() <= reach_m).sum();
         sum.try_normalize(0.0)
     }
 
-    /// Bounding rectangle of the cells of one obstacle inside the window around its nearest cell.
+    /// Bounding rectangle of one obstacle's cells inside the window around its nearest cell.
     fn fit(&self, nearest: usize, window_m: f64) -> Patch {
         let rows = self.label.len() / self.columns;
         let reach = ((window_m / self.cell_m - 1.0) / 2.0).floor().max(0.0) as usize;
@@ -164,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_patch_is_the_near_part_of_a_post_and_never_larger_than_its_window() {
+    fn a_patch_is_the_near_part_of_a_post_inside_its_window() {
         let center = Point2::new(0.0, -0.3);
         let post = |p: Point2<f64>| (p.x - 0.05).abs() < 0.02 && (p.y + 0.3).abs() < 0.02;
         let mask = ObstacleMask::of(&Percept::of(&frame(center, post), center));
@@ -177,24 +176,24 @@ mod tests {
     }
 
     #[test]
-    fn separate_posts_are_separate_and_the_nearest_comes_first() {
+    fn posts_are_separate_and_the_nearest_is_first() {
         let center = Point2::new(0.0, -0.3);
         let (far, near) = (Point2::new(-0.07, -0.3), Point2::new(0.0, -0.25));
         let posts = |p: Point2<f64>| (p - far).norm() < 0.01 || (p - near).norm() < 0.01;
         let patches = ObstacleMask::of(&Percept::of(&frame(center, posts), center)).patches(center, 0.02);
         assert_eq!(patches.len(), 2);
-        // A patch is the near part only: its centre lies up to half a window before the post's.
+        // A patch is only the near part: its centre is up to half a window before the post's centre.
         assert!((patches[0].center_m - near).norm() < 7e-3 && (patches[1].center_m - far).norm() < 7e-3);
     }
 
     #[test]
-    fn the_way_off_leaves_by_the_nearest_edge_from_within_and_without() {
+    fn the_exit_direction_points_to_the_nearest_edge_from_inside_and_outside() {
         let center = Point2::new(0.0, -0.3);
         for x in [0.003, -0.003, 0.0, 1e-4, -1e-4] {
-            // The wall's edge is this far to the right of the tool.
+            // Distance of the wall's edge to the right of the tool.
             let mask = ObstacleMask::of(&Percept::of(&frame(center, |p| p.x < x), center));
-            let way = mask.way_off(center).unwrap();
-            assert!((way - Vector2::x()).norm() < 0.05, "{x}: {way}");
+            let direction = mask.exit_direction(center).unwrap();
+            assert!((direction - Vector2::x()).norm() < 0.05, "{x}: {direction}");
         }
     }
 

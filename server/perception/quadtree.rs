@@ -1,15 +1,15 @@
-//! Quadtree of a camera image: dark blocks and free ones (paper, §IV-C; Finkel & Bentley 1974).
+//! Quadtree of a camera image: dark and free blocks (paper, §IV-C; Finkel & Bentley 1974).
 
 use super::dark::{DarkPixels, OBSTACLE_LEVEL, PixelRect};
 use super::rectangles::{CellMask, CellRect, Partition};
 use crate::image::GrayImage;
 
-/// What the operator chooses.
+/// Parameters set by the operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct QuadtreeParameters {
-    /// Gray at or below this is an obstacle.
+    /// Gray levels at or below this are obstacles.
     pub threshold: u8,
-    /// Smallest side of a block; 0 means 1, and more than the image means the image.
+    /// Smallest side of a block. 0 counts as 1; larger than the image counts as the image.
     pub smallest_px: usize,
 }
 
@@ -20,29 +20,28 @@ impl Default for QuadtreeParameters {
 }
 
 impl QuadtreeParameters {
-    /// Those of the paper's figures: blocks so large that they close a channel of 4 cm.
+    /// The paper's figures: blocks so large that they close a channel of 4 cm.
     pub const PAPER: Self = Self { threshold: 50, smallest_px: 50 };
 }
 
-/// The blocks of an image. A block without a dark pixel is free and one without a free pixel is dark;
-/// any other is split, and counts as dark where it cannot be split further.
+/// The blocks of an image. A block without dark pixels is free, one without free pixels is dark. Any other is split; if
+/// it cannot be split, it counts as dark.
 ///
-/// **How it splits.** An image is seldom a power of two. Each axis is first cut into as many nearly
-/// equal cells as fit with `smallest_px` each: 80 of 6 px in 480, or 9 of 53 and 54 px for 50. Blocks
-/// consist of whole cells and split at the middle cell line of each axis on which they have two or
-/// more, the lesser half first where the count is odd. So no block is smaller than asked, and the
-/// finest grid is regular.
+/// **How it splits.** The size of an image is seldom a power of two. Each axis is first cut into as many nearly equal
+/// cells as fit with `smallest_px` each: 80 of 6 px in 480, or 9 of 53 and 54 px for 50. Blocks consist of whole cells
+/// and split at the middle cell line of each axis with at least two cells; for an odd count the first half is smaller.
+/// So no block is smaller than `smallest_px`, and the finest grid is regular.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quadtree {
     /// Dark blocks, in the tree's order.
     pub dark: Vec<PixelRect>,
     /// Free blocks, in the tree's order.
     pub free: Vec<PixelRect>,
-    /// The dark cells of the finest grid, the top row first.
+    /// The dark cells of the finest grid, top row first.
     pub mask: CellMask,
-    /// Where the columns of cells begin, and where the last ends.
+    /// Starts of the cell columns, and the end of the last one.
     column_lines_px: Vec<usize>,
-    /// Where the rows of cells begin, and where the last ends.
+    /// Starts of the cell rows, and the end of the last one.
     row_lines_px: Vec<usize>,
 }
 
@@ -52,7 +51,7 @@ impl Quadtree {
         Self::of_dark(&DarkPixels::of(gray, parameters.threshold), parameters.smallest_px)
     }
 
-    /// The same from dark pixels that are counted already.
+    /// The blocks of dark pixels that are already counted.
     pub fn of_dark(dark: &DarkPixels, smallest_px: usize) -> Self {
         let column_lines_px = lines_px(dark.width_px(), smallest_px);
         let row_lines_px = lines_px(dark.height_px(), smallest_px);
@@ -91,13 +90,13 @@ impl Quadtree {
         PixelRect { column_px: left, row_px: top, width_px: right - left, height_px: bottom - top }
     }
 
-    /// The dark blocks merged into as few rectangles as possible; [`Quadtree::pixels`] says where each
-    /// lies. The quadtree alone gives `self.dark.len()`.
+    /// The dark blocks merged into the minimum number of rectangles; [`Quadtree::pixels`] gives their positions. The
+    /// quadtree alone has `self.dark.len()`.
     pub fn partition(&self) -> Partition {
         Partition::of(&self.mask)
     }
 
-    /// The image as coarse as its blocks: every pixel of a dark block is dark.
+    /// The image at the resolution of its blocks: every pixel of a dark block is dark.
     pub fn dark_pixels(&self) -> DarkPixels {
         let [width_px, height_px] =
             [&self.column_lines_px, &self.row_lines_px].map(|lines| lines.last().copied().unwrap_or(0));
@@ -135,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn the_finest_grid_is_regular_and_never_finer_than_asked() {
+    fn the_finest_grid_is_regular_and_not_finer_than_requested() {
         let steps = |size_px, smallest_px| -> Vec<usize> {
             lines_px(size_px, smallest_px).windows(2).map(|pair| pair[1] - pair[0]).collect()
         };
@@ -147,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn uniform_images_are_one_block_and_one_dark_pixel_is_one_smallest_block() {
+    fn a_uniform_image_is_one_block_and_one_dark_pixel_is_one_smallest_block() {
         let parameters = QuadtreeParameters::default();
         let whole = PixelRect { column_px: 0, row_px: 0, width_px: 480, height_px: 480 };
         let tree = Quadtree::of(&gray(480, 480, |_, _| true), &parameters);
@@ -176,7 +175,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn blocks_tile_the_image_and_hold_what_they_say(
+        fn blocks_tile_the_image_and_are_uniform(
             (width_px, height_px, seeds) in (1..70usize, 1..70usize).prop_flat_map(|(w, h)| {
                 (Just(w), Just(h), prop::collection::vec((0..w, 0..h, 1..20usize, 1..20usize), 0..6))
             }),
@@ -194,7 +193,7 @@ mod tests {
                     prop_assert!(block.height_px >= smallest_px.min(height_px));
                     let count = DarkPixels::of(&image, 50).count(block);
                     prop_assert_eq!(count > 0, mark == 1);
-                    // Only smallest blocks are of both kinds.
+                    // Only blocks of the smallest size are mixed.
                     let smallest = block.width_px < 2 * smallest_px.max(1) && block.height_px < 2 * smallest_px.max(1);
                     prop_assert!(count == 0 || count == block.area_px() || smallest);
                     for y in block.row_px..block.row_px + block.height_px {
@@ -206,7 +205,7 @@ mod tests {
                 }
             }
             prop_assert!(covered.iter().all(|&mark| mark != 0));
-            // The mask and the coarse image tell the same as the blocks.
+            // The mask and the coarse image agree with the blocks.
             let coarse = tree.dark_pixels();
             for (cell, &is_dark) in tree.mask.dark.iter().enumerate() {
                 let (column, row) = (cell % tree.mask.columns, cell / tree.mask.columns);

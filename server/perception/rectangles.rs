@@ -1,16 +1,15 @@
-//! The fewest disjoint rectangles that make up a set of cells (paper, §IV-C, which says "minimum number"
-//! and not how).
+//! Partition of a set of cells into the minimum number of disjoint rectangles (paper, §IV-C, which requires the
+//! "minimum number" but gives no method).
 //!
-//! Of a rectilinear region with N concave vertices, H holes and C components, at most L of whose chords
-//! between concave vertices can be drawn without meeting, the minimum is N − L − H + C: Lipski, Lodi,
-//! Luccio, Mugnai & Pagli 1979 (Fundamenta Informaticae 2, 245–260); Ohtsuki 1982 (ISCAS, 1210–1213); for
-//! digitised images Ferrari, Sankar & Sklansky 1984 (Computer Vision, Graphics, and Image Processing 28,
-//! 58–71). Chords of one direction never meet, so L is a maximum independent set of a bipartite graph, which
-//! a maximum matching gives (König 1931).
+//! Consider a rectilinear region with N concave vertices, H holes and C components. Let L be the largest number of
+//! chords between concave vertices that do not meet. The minimum is N − L − H + C: Lipski, Lodi, Luccio, Mugnai & Pagli
+//! 1979 (Fundamenta Informaticae 2, 245–260); Ohtsuki 1982 (ISCAS, 1210–1213); for digitised images Ferrari, Sankar &
+//! Sklansky 1984 (Computer Vision, Graphics, and Image Processing 28, 58–71). Chords of one direction never meet, so L
+//! is a maximum independent set of a bipartite graph, which follows from a maximum matching (König 1931).
 //!
-//! **Degenerate cases.** Cells hang together by their edges only. Where two dark cells touch at a corner, the
-//! vertex is a convex corner of each and not concave, and free cells do hang together there: what is
-//! closed off by corners alone is no hole. Chords that share an end meet.
+//! **Degenerate cases.** Dark cells are connected by edges only. Where two dark cells touch at a corner, the vertex is
+//! a convex corner of each and not concave. Free cells are connected there too: an area that is closed off only by
+//! corners is not a hole. Chords that share an end meet.
 
 mod chords;
 
@@ -19,7 +18,7 @@ mod tests;
 
 use chords::Chords;
 
-/// A grid of cells, some of which are dark.
+/// A grid of dark and free cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellMask {
     /// Cells across.
@@ -33,9 +32,7 @@ pub struct CellMask {
 /// A rectangle of whole cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CellRect {
-    /// First column.
     pub column: usize,
-    /// First row.
     pub row: usize,
     /// Cells across.
     pub columns: usize,
@@ -44,12 +41,12 @@ pub struct CellRect {
 }
 
 impl CellMask {
-    /// A grid without a dark cell.
+    /// A grid without dark cells.
     pub fn free(columns: usize, rows: usize) -> Self {
         Self { columns, rows, dark: vec![false; columns * rows] }
     }
 
-    /// Makes the cells of `rect` dark, which must lie in the grid.
+    /// Makes the cells of `rect` dark. It must be inside the grid.
     pub fn darken(&mut self, rect: &CellRect) {
         for row in rect.row..rect.row + rect.rows {
             let start = row * self.columns + rect.column;
@@ -61,11 +58,11 @@ impl CellMask {
 /// The dark cells as rectangles, and the terms of the formula for their number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Partition {
-    /// Disjoint; together exactly the dark cells; by first row, then first column.
+    /// Disjoint; together exactly the dark cells; sorted by first row, then first column.
     pub rectangles: Vec<CellRect>,
-    /// N: corners at which three of four cells are dark.
+    /// N: corners with three dark cells of four.
     pub concave_vertices: usize,
-    /// L: most chords between concave vertices that do not meet.
+    /// L: the largest number of chords between concave vertices that do not meet.
     pub independent_chords: usize,
     /// H: free regions enclosed by dark cells.
     pub holes: usize,
@@ -74,8 +71,7 @@ pub struct Partition {
 }
 
 impl Partition {
-    /// Splits the dark cells of `mask` into as few rectangles as possible. The same mask gives the same
-    /// rectangles.
+    /// Splits the dark cells of `mask` into the minimum number of rectangles. The result is deterministic.
     pub fn of(mask: &CellMask) -> Self {
         let mut grid = Grid::of(mask);
         let Chords { concave, horizontal, vertical, independent } = chords::find(&grid);
@@ -85,8 +81,8 @@ impl Partition {
         for chord in vertical.iter().filter(|chord| chord.kept) {
             grid.cut_column(chord.line, chord.from, chord.to);
         }
-        // Every concave vertex needs one cut. Those without a chord get one along their row, as far as the
-        // region or a chord across it; two such cuts never meet head-on, or the two would be a chord to keep.
+        // Every concave vertex needs one cut. Vertices without a kept chord get a cut along their row, up to the end of
+        // the region or to a chord across it. Two such cuts never meet head-on: together they would be a kept chord.
         for vertex in &concave {
             if !grid.is_cut(vertex.column, vertex.row) {
                 grid.cut_from(vertex);
@@ -99,32 +95,31 @@ impl Partition {
         Self { rectangles, concave_vertices: concave.len(), independent_chords: independent, holes, components }
     }
 
-    /// N − L − H + C, which is how many rectangles there are.
+    /// N − L − H + C, the number of rectangles.
     pub fn formula(&self) -> usize {
         self.concave_vertices + self.components - self.independent_chords - self.holes
     }
 }
 
-/// What is known of a cell.
+// Flags of a cell.
 const DARK: u8 = 1;
 /// A cut runs along its right edge.
 const CUT_RIGHT: u8 = 2;
 /// A cut runs along its lower edge.
 const CUT_BELOW: u8 = 4;
-/// Counted as part of a component.
+/// Already counted in a component.
 const COUNTED: u8 = 8;
 
-/// A corner of cells at which exactly one of the four around is free. Lattice corners count from the
-/// upper left one of the grid.
+/// A corner with exactly one free cell of four. Corners are counted from the upper left one of the grid.
 #[derive(Clone, Copy, Debug)]
 struct Vertex {
     column: usize,
     row: usize,
-    /// The free cell is on the left, so that the region goes on to the right.
+    /// The free cell is on the left, so the region continues to the right.
     opens_right: bool,
 }
 
-/// The mask with a frame of free cells around it, so that every corner has four cells.
+/// The mask with a border of free cells, so that every corner has four cells.
 struct Grid {
     columns: usize,
     rows: usize,
@@ -217,7 +212,7 @@ impl Grid {
         for row in 0..=self.rows {
             for column in 0..=self.columns {
                 let pattern = self.pattern(column, row);
-                // The cell to the upper left, its right and its lower edge, and the corner itself.
+                // The cell to the upper left, its right and lower edges, and the corner itself.
                 sum += i64::from(pattern & 1) - i64::from(pattern & 0b0011 == 0b0011);
                 sum += i64::from(pattern == 0b1111) - i64::from(pattern & 0b0101 == 0b0101);
             }
@@ -225,7 +220,7 @@ impl Grid {
         sum
     }
 
-    /// Reads off the rectangles between the cuts; none is left.
+    /// Removes the rectangles between the cuts and returns them.
     fn take_rectangles(&mut self) -> Vec<CellRect> {
         let mut rectangles = Vec::new();
         for row in 0..self.rows {

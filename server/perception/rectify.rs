@@ -1,16 +1,15 @@
-//! The table as a camera straight above it would show it: a tilted camera's image, rectified to the plane of
-//! the table (inverse perspective mapping: Mallot et al. 1991, Biological Cybernetics 64, 177–185).
+//! Rectifies a tilted camera's image to a view of the table from straight above (inverse perspective mapping: Mallot et
+//! al. 1991, Biological Cybernetics 64, 177–185).
 
 use super::Calibration;
 use crate::geometry::{Point3, Vector2, Vector3};
 use crate::image::{GrayImage, Pinhole};
 
-/// The largest square of table around the optical axis that is wholly in view, with as many pixels as the
-/// image has. A camera that looks straight down has taken it already.
+/// The largest square of the table around the optical axis that is completely in view, with as many pixels as the
+/// image. The image of a camera that looks straight down is returned unchanged.
 ///
-/// Each pixel is the one in whose square its middle lies, so that dark stays dark and bright bright; that
-/// moves an edge by half a pixel at most. The camera sees only table ([`crate::image`]'s pinholes are
-/// checked by whoever draws).
+/// Each pixel is a copy of the nearest image pixel, so dark stays dark and bright stays bright; an edge moves by at
+/// most half a pixel. The camera must see only the table, which is checked when the image is drawn.
 pub(super) fn from_above(gray: GrayImage, pinhole: &Pinhole) -> (GrayImage, Calibration) {
     let size_px = gray.width_px;
     let [_, _, height_m] = pinhole.position_m;
@@ -31,7 +30,7 @@ pub(super) fn from_above(gray: GrayImage, pinhole: &Pinhole) -> (GrayImage, Cali
             let point = calibration.table_from_image(column as f64 + 0.5, row as f64 + 0.5);
             let ray = Vector3::new(point.x - foot_m.x, point.y - foot_m.y, -height_m);
             let per_depth = scale_px / forward.dot(&ray);
-            // In view by the choice of the square, but for rounding at its corners.
+            // In view by the choice of the square, except for rounding at its corners.
             let at = |offset_px: f64| ((half_px + offset_px).max(0.0) as usize).min(size_px - 1);
             let (from_column, from_row) = (at(right.dot(&ray) * per_depth), at(-up.dot(&ray) * per_depth));
             pixels.push(gray.pixels[from_row * size_px + from_column]);
@@ -40,14 +39,14 @@ pub(super) fn from_above(gray: GrayImage, pinhole: &Pinhole) -> (GrayImage, Cali
     (GrayImage { pixels, ..gray }, calibration)
 }
 
-/// Half the side of the square: along each diagonal from where the optical axis meets the table to the rim.
+/// Half the side of the square: along each diagonal, from the optical axis on the table to the edge of the view.
 fn half_side_m(pinhole: &Pinhole) -> f64 {
     let [right, up, forward] = pinhole.axes();
     let tangent = pinhole.tangent();
     let depth_m = (Point3::from(pinhole.position_m).z) / -forward.z;
     let diagonals = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| Vector3::new(x, y, 0.0));
     let along = |diagonal: &Vector3<f64>| {
-        // A point t along it is seen at t·a/(depth + t·b) of the tangent, a to the right or up and b forward.
+        // A point t along it is seen at t·a/(depth + t·b) of the tangent, with a to the right or up and b forward.
         let leaves = |axis: &Vector3<f64>| {
             let rate = axis.dot(diagonal).abs() - tangent * forward.dot(diagonal);
             if rate > 0.0 { tangent * depth_m / rate } else { f64::INFINITY }
@@ -64,7 +63,7 @@ mod tests {
     use crate::image::CameraMount;
     use proptest::prelude::*;
 
-    /// What a camera sees of a pattern painted on the table.
+    /// The camera's image of a pattern painted on the table.
     fn image(pinhole: &Pinhole, size_px: usize, is_dark: impl Fn(Point2<f64>) -> bool) -> GrayImage {
         let half = 0.5 * size_px as f64;
         let pixels = (0..size_px * size_px).map(|at| {
@@ -76,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_seen_from_above_already_is_left_as_it_is() {
+    fn leaves_an_image_from_above_unchanged() {
         let pinhole = CameraMount { offset_m: [0.03, 0.0], ..CameraMount::default() }.over(Point2::new(0.1, -0.3));
         let seen = image(&pinhole, 48, |p| p.x > 0.13);
         let (gray, calibration) = from_above(seen.clone(), &pinhole);
@@ -86,7 +85,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_tilted_view_shows_the_table_where_it_is(
+        fn a_rectified_view_shows_the_table_at_its_place(
             tilt_rad in prop::array::uniform2(-0.4..0.4), field_of_view_rad in 0.1..1.2,
             (edge, turn) in (-0.5..0.5, 0.0..std::f64::consts::TAU),
         ) {
@@ -99,7 +98,7 @@ mod tests {
             let side_m = known.m_per_px * size_px as f64;
             let beyond_m = |p: Point2<f64>| -> f64 { normal.dot(&(p - known.center_m)) - edge * 0.5 * side_m };
             let (gray, _) = from_above(image(&pinhole, size_px, |p| beyond_m(p) > 0.0), &pinhole);
-            // One pixel of the image, at its largest on the table, each way.
+            // The largest size of an image pixel on the table, in each direction.
             let corners = pinhole.table_corners_m().unwrap();
             let sides_m = (0..4).map(|i| (corners[i] - corners[(i + 1) % 4]).norm());
             let coarsest_m = 2.0 * sides_m.fold(0.0, f64::max) / size_px as f64;

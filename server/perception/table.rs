@@ -1,24 +1,23 @@
-//! From pixels to the table.
+//! Conversion from pixels to the table.
 
 use super::Calibration;
 use super::dark::PixelRect;
 use crate::geometry::Rect;
 
-/// How many times farther from the camera's foot the top of a wall seems than its own foot, for a pinhole
-/// `camera_height_m` above the table. 1 where the wall is as high as the camera or higher, which no camera sees.
+/// Ratio between the apparent distance of a wall's top from the camera's foot and the distance of the wall's foot, for
+/// a pinhole `camera_height_m` above the table. Returns 1 if the wall is at least as high as the camera.
 pub fn wall_spread(camera_height_m: f64, wall_height_m: f64) -> f64 {
     let spread = camera_height_m / (camera_height_m - wall_height_m);
     if spread.is_finite() { spread.max(1.0) } else { 1.0 }
 }
 
 impl PixelRect {
-    /// The part of the table that these pixels show, read at table height, in `base`.
+    /// The table area of these pixels, read at table height, in `base`.
     ///
-    /// For dark pixels this errs on the safe side. Whatever stands on a place hides it, so the rectangle holds all of
-    /// the wall's foot that is in view; it also holds the side or top that is seen beyond the foot, up to
-    /// `wall_spread − 1` times the distance from the camera's foot: with the default camera 1.7 mm at the rim and
-    /// 2.4 mm in the corners. Blocks of a quadtree add up to their smallest side. [`super::ObstacleMap`] takes the
-    /// spread out again.
+    /// For dark pixels the result is conservative. A wall hides the place it covers, so the rectangle contains all of
+    /// the wall's foot that is in view. It also contains the visible side or top beyond the foot, up to `wall_spread −
+    /// 1` times the distance from the camera's foot: with the default camera 1.7 mm at the edge and 2.4 mm in the
+    /// corners. Blocks of a quadtree add up to their smallest side. [`super::ObstacleMap`] removes the spread.
     pub fn on_table(&self, calibration: &Calibration) -> Rect {
         let (column, row) = (self.column_px as f64, self.row_px as f64);
         let upper_left = calibration.table_from_image(column, row);
@@ -46,7 +45,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn pixel_to_metre_and_back_is_the_same_pixel(
+        fn pixels_survive_conversion_to_metres_and_back(
             calibration in calibrations(), across in 0.0..1.0, down in 0.0..1.0,
         ) {
             let size_px = calibration.size_px as f64;
@@ -56,7 +55,7 @@ mod tests {
         }
 
         #[test]
-        fn metre_to_pixel_and_back_is_the_same_place(
+        fn places_survive_conversion_to_pixels_and_back(
             calibration in calibrations(), x_m in -4.0..4.0, y_m in -4.0..4.0,
         ) {
             let point = Point2::new(x_m, y_m);
@@ -65,21 +64,21 @@ mod tests {
         }
 
         #[test]
-        fn right_is_plus_x_and_down_is_minus_y_by_the_size_of_a_pixel(
+        fn one_pixel_right_is_plus_x_and_one_down_is_minus_y(
             calibration in calibrations(), column_px in 0.0..4096.0, row_px in 0.0..4096.0,
         ) {
             let at = calibration.table_from_image(column_px, row_px);
             let step = calibration.table_from_image(column_px + 1.0, row_px + 1.0) - at;
             let expected = Vector2::new(calibration.m_per_px, -calibration.m_per_px);
-            // Places of coarse pixels are kilometres apart.
+            // Coordinates of coarse pixels can be kilometres.
             prop_assert!((step - expected).norm() < 1e-9);
-            // The middle of the image is the middle of the table seen.
+            // The image centre is the centre of the table area in view.
             let half_px = calibration.size_px as f64 / 2.0;
             prop_assert_eq!(calibration.table_from_image(half_px, half_px), calibration.center_m);
         }
 
         #[test]
-        fn a_rectangle_of_pixels_holds_the_middles_of_its_own_and_of_no_other(
+        fn a_rectangle_of_pixels_contains_exactly_the_centres_of_its_pixels(
             calibration in calibrations(),
             (column_px, row_px, width_px, height_px) in (0usize..99, 0usize..99, 1usize..99, 1usize..99),
             (across, down) in (0usize..200, 0usize..200),
@@ -93,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn rectangles_hold_every_wall_in_view_and_little_else() {
+    fn rectangles_contain_every_wall_in_view_and_little_else() {
         for center in [Point2::new(-0.1, -0.4), Point2::new(0.103, -0.3)] {
             let percept = seen_from(center, simple);
             let tree = Quadtree::of(&percept.gray, &QuadtreeParameters::default());
@@ -115,18 +114,18 @@ mod tests {
                 let p =
                     center + Vector2::new(0.001 * f64::from(i % 200), 0.001 * f64::from(i / 200)).add_scalar(-0.0995);
                 let held = rectangles.iter().any(|rect| rect.contains(p));
-                // What sticks into a pixel by less than half of it is not seen.
+                // A wall that covers less than half of a pixel is not seen.
                 let half_m = 0.5 * percept.calibration.m_per_px;
                 let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
                 let within = corners.into_iter().all(|(x, y)| simple(p + Vector2::new(x, y) * half_m));
-                assert!(held || !within, "{p} is wall");
+                assert!(held || !within, "{p} is a wall");
                 assert!(!held || simple(p) || around(p), "{p} is far from any wall");
             }
         }
     }
 
     #[test]
-    fn wall_tops_spread_by_the_height_they_are_nearer() {
+    fn wall_tops_spread_in_proportion_to_their_height() {
         assert!((wall_spread(0.3, 0.005) - 300.0 / 295.0).abs() < 1e-12);
         assert_eq!(wall_spread(0.3, 0.0), 1.0);
         assert_eq!([wall_spread(0.3, 0.3), wall_spread(0.3, 0.4), wall_spread(f64::NAN, 0.0)], [1.0; 3]);

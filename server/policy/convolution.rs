@@ -1,8 +1,8 @@
-//! A 2-D convolution for the CPU that candle can differentiate.
+//! A differentiable 2-D convolution for candle on the CPU.
 //!
 //! Candle's own `conv2d` works on NCHW tensors and its backward pass is far slower than its forward pass. This one
-//! keeps channels last, so that one pixel's channels lie together: im2col then copies whole runs of memory, and the
-//! bias and the ReLU that precedes the convolution in a residual block cost no pass over memory of their own.
+//! keeps channels last, so the channels of one pixel are contiguous: im2col then copies long runs of memory. The bias,
+//! and the ReLU that precedes the convolution in a residual block, need no separate pass over memory.
 
 mod matrix;
 #[cfg(test)]
@@ -15,17 +15,17 @@ use candle_core::{CpuStorage, CustomOp3, Error, Layout, Result, Shape, Storage, 
 use matrix::{Matrix, add_to, multiply, transpose};
 use rayon::prelude::*;
 
-/// Into how many parts a batch is cut at most. It bounds the number of threads that help, and it decides the order in
-/// which weight gradients are summed: it must not depend on the number of threads.
+/// Largest number of parts of a batch. It limits the number of useful threads. It also determines the order in which
+/// weight gradients are summed, so it must not depend on the number of threads.
 const BATCH_PARTS: usize = 16;
 
-/// Below this many multiply-adds (some 50 µs on one core), waking the thread pool costs more than it saves.
+/// With fewer multiply-adds (about 50 µs on one core), waking the thread pool costs more than it saves.
 const PARALLEL_THRESHOLD: usize = 2_000_000;
 
-/// A 2-D convolution with a square kernel: its shape, not its weights.
+/// The shape of a 2-D convolution with a square kernel, without its weights.
 ///
 /// `y[b,i,j,o] = bias[o] + Σ r(x)[b, i·stride+di−padding, j·stride+dj−padding, c] · weight[di,dj,c,o]`, where `x` is
-/// zero outside the image and `r` is the ReLU if `rectify_input` is set, else the identity.
+/// zero outside the image and `r` is the ReLU if `rectify_input` is set, otherwise the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Convolution {
     /// Height and width of the kernel, at least 1.
@@ -34,18 +34,18 @@ pub struct Convolution {
     pub stride: usize,
     /// Rows and columns of zeros added on each side of the image.
     pub padding: usize,
-    /// Whether negative inputs are taken as zero. Their gradient is then zero too, also at exactly 0.
+    /// Whether negative inputs are replaced by zero. Their gradient is then zero too, including at exactly 0.
     pub rectify_input: bool,
 }
 
 impl Convolution {
-    /// Convolves `x` of shape `[batch, height, width, channels_in]` with `weight` of shape
-    /// `[kernel·kernel·channels_in, channels_out]`, whose rows are ordered by kernel row, kernel column and input
-    /// channel, and adds `bias` of shape `[channels_out]`. All are f32 on the CPU and need not be contiguous.
+    /// Convolves `x` of shape `[batch, height, width, channels_in]` with `weight` of shape `[kernel·kernel·channels_in,
+    /// channels_out]`, whose rows are ordered by kernel row, kernel column and input channel, and adds `bias` of shape
+    /// `[channels_out]`. All must be f32 on the CPU; they need not be contiguous.
     ///
-    /// Returns `[batch, height_out, width_out, channels_out]`, where a side of `n` pixels becomes one of
-    /// `(n + 2·padding − kernel) / stride + 1`, rounded down. The values and all gradients are the same to the bit for
-    /// any number of threads. An argument that candle does not track gets no gradient, and the work for it is saved.
+    /// Returns `[batch, height_out, width_out, channels_out]`, where a side of `n` pixels becomes
+    /// `(n + 2·padding − kernel) / stride + 1`, rounded down. Values and gradients are bit-identical for any number of
+    /// threads. Arguments that candle does not track get no gradient, and the work for it is skipped.
     ///
     /// # Errors
     ///
@@ -122,7 +122,7 @@ fn contiguous_slice<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a 
     Ok(&storage.as_slice::<f32>()?[start..end])
 }
 
-/// The sizes that belong to one call, with shapes that were found to fit together.
+/// The sizes of one call, after the shapes were checked.
 #[derive(Clone, Copy)]
 struct Geometry {
     convolution: Convolution,
@@ -141,7 +141,7 @@ struct Gradients {
     bias: Option<Vec<f32>>,
 }
 
-/// Buffers for one image, kept per thread: allocating them anew for each call costs page faults.
+/// Buffers for one image, kept per thread: allocating them in each call would cause page faults.
 #[derive(Default)]
 struct Scratch {
     /// An image with its padding, `[height + 2·padding, width + 2·padding, channels_in]`.
@@ -198,12 +198,12 @@ impl Geometry {
         self.height_out * self.width_out
     }
 
-    /// Number of inputs to one output: the rows of the weight matrix.
+    /// Number of inputs of one output: the rows of the weight matrix.
     fn window_len(&self) -> usize {
         self.convolution.kernel * self.convolution.kernel * self.channels_in
     }
 
-    /// Whether a tensor without elements makes the work (and chunks of length zero) pointless.
+    /// Whether a tensor has no elements, so that there is no work (and chunks would have length zero).
     fn is_empty(&self) -> bool {
         self.batch * self.image_len() * self.channels_out == 0
     }
@@ -212,7 +212,7 @@ impl Geometry {
         self.batch * self.pixels_out() * self.window_len() * self.channels_out
     }
 
-    /// Images in each part of the batch but the last.
+    /// Images in each part of the batch except the last.
     fn images_per_part(&self) -> usize {
         self.batch.div_ceil(BATCH_PARTS).max(1)
     }
@@ -235,8 +235,8 @@ impl Geometry {
         y
     }
 
-    /// The gradients of a loss whose gradient with respect to the output is `y_gradient`; that of `x` and those of the
-    /// parameters only where wanted.
+    /// The gradients of a loss whose gradient with respect to the output is `y_gradient`. The gradients of `x` and of
+    /// the parameters are computed only if wanted.
     fn backward(
         &self,
         x: &[f32],
@@ -256,7 +256,7 @@ impl Geometry {
         if parts > 0 {
             let transposed_weight = if x_wanted { transpose(weight, window_len, channels_out) } else { Vec::new() };
             let transposed_weight = &transposed_weight[..];
-            // Both yield nothing where no gradient is wanted, as their vectors are empty.
+            // Without a wanted gradient the vector is empty, and so is the iterator.
             let mut x_gradients = x_gradient.chunks_mut(images_per_part * self.image_len());
             let mut sums = part_sums.chunks_mut(part_len.max(1));
             let tasks = x
@@ -312,7 +312,7 @@ impl Geometry {
     }
 }
 
-/// What the backward pass reads and writes for some images of the batch.
+/// Input and output of the backward pass for some images of the batch.
 struct BackwardPart<'a> {
     x: &'a [f32],
     y_gradient: &'a [f32],
@@ -320,7 +320,7 @@ struct BackwardPart<'a> {
     sums: Option<&'a mut [f32]>,
 }
 
-/// Runs `task` on each part with the thread's scratch buffers, on the current rayon pool if the work is worth it.
+/// Runs `task` on each part with the thread's scratch buffers, in parallel on the current rayon pool if that is faster.
 fn for_each_part<T: Send>(parts: Vec<T>, multiply_adds: usize, task: impl Fn(T, &mut Scratch) + Sync) {
     let task = |part| SCRATCH.with_borrow_mut(|scratch| task(part, scratch));
     if parts.len() < 2 || multiply_adds < PARALLEL_THRESHOLD {

@@ -1,4 +1,4 @@
-//! A policy's file: safetensors whose metadata hold the manifest.
+//! The file of a policy: safetensors with the manifest in the metadata.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -15,27 +15,26 @@ use crate::files::{ReadError, read_at_most};
 
 /// Key of the manifest in the metadata.
 const KEY: &str = "ferry";
-/// Layout of the manifest and meaning of the outputs.
+/// Version of the manifest's layout and of the outputs' meaning.
 const VERSION: u32 = 1;
-/// A larger file is no policy.
-const BYTES_MOST: u64 = 16 << 20;
-/// A longer header is none: those of Ferry have 3 KiB.
-const HEADER_MOST: u64 = 64 << 10;
+/// Size limit of a policy's file.
+const MAX_BYTES: u64 = 16 << 20;
+/// Size limit of the header; shipped policies have 3 KiB.
+const MAX_HEADER_BYTES: u64 = 64 << 10;
 
 #[derive(RustEmbed)]
 #[folder = "assets/policies"]
 #[include = "*.safetensors"]
 struct Assets;
 
-/// Where a policy comes from and what it fits.
+/// Origin and requirements of a policy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
     /// Layout of this manifest, 1.
     pub version: u32,
-    /// Maps that it was trained on.
+    /// Maps used in training.
     pub maps: Vec<String>,
-    /// Length of a step.
     pub step_m: f64,
     /// Shape of the observation, 2 × 84 × 84.
     pub observation: [usize; 3],
@@ -43,53 +42,48 @@ pub struct Manifest {
     pub architecture: Architecture,
     /// Distance from walls at which training ended an episode.
     pub clearance_m: f64,
-    /// Training's seed.
+    /// Seed of the training run.
     pub seed: u64,
-    /// Git revision of the program that trained it.
+    /// Git revision of the training program.
     pub revision: String,
-    /// Updates of the weights.
+    /// Number of updates of the weights.
     pub updates: u64,
 }
 
 impl Manifest {
-    /// A manifest of this version's layout.
+    /// Version and observation shape of this program.
     pub fn current() -> (u32, [usize; 3]) {
         (VERSION, [2, OBSERVATION_SIZE_PX, OBSERVATION_SIZE_PX])
     }
 }
 
-/// Why a policy is refused, or gives no answer.
+/// Why a policy was refused, or could not judge.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
-    /// No policy of that name.
+    /// No policy has this name.
     #[error("policy: there is no policy named {name:?}; there are {}", known.join(", "))]
     Unknown {
-        /// The name asked for.
         name: String,
-        /// Those that exist.
+        /// Existing names.
         known: Vec<String>,
     },
     /// The file could not be read.
     #[error("policy: {path}: {error}")]
     Io {
-        /// The file.
         path: String,
-        /// What the system said.
+        /// The system's error.
         error: std::io::Error,
     },
-    /// Larger than a policy can be.
-    #[error("policy: the file has {bytes} bytes, the limit is {BYTES_MOST}")]
-    TooLarge {
-        /// Bytes of the file.
-        bytes: u64,
-    },
-    /// The header is longer than a policy's can be.
-    #[error("policy: the header has {bytes} bytes by its own account, the limit is {HEADER_MOST}")]
+    /// The file is larger than a policy can be.
+    #[error("policy: the file has {bytes} bytes, the limit is {MAX_BYTES}")]
+    TooLarge { bytes: u64 },
+    /// The header is longer than that of a policy can be.
+    #[error("policy: the header claims {bytes} bytes, the limit is {MAX_HEADER_BYTES}")]
     Header {
-        /// What the file's first eight bytes say.
+        /// The value of the file's first eight bytes.
         bytes: u64,
     },
-    /// Not safetensors.
+    /// Not a safetensors file.
     #[error("policy: not a safetensors file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
     /// The manifest is missing or wrong.
@@ -97,41 +91,28 @@ pub enum PolicyError {
     Manifest(String),
     /// A tensor is missing.
     #[error("policy: tensor {name:?} is missing")]
-    Missing {
-        /// Its name.
-        name: String,
-    },
+    Missing { name: String },
     /// A tensor does not fit the observation or the network.
     #[error("policy: tensor {name:?} is {found}, the observation and the network need {needed:?} of f32")]
     Shape {
-        /// Its name.
         name: String,
         /// Shape and type found.
         found: String,
-        /// Shape needed.
+        /// Required shape.
         needed: Vec<usize>,
     },
     /// A tensor that the network does not have.
-    #[error("policy: tensor {name:?} belongs to no part of the network")]
-    Stray {
-        /// Its name.
-        name: String,
-    },
+    #[error("policy: tensor {name:?} is not part of the network")]
+    Stray { name: String },
     /// A number in a tensor is not finite.
-    #[error("policy: tensor {name:?} holds {value}")]
-    NotFinite {
-        /// Its name.
-        name: String,
-        /// The number.
-        value: f32,
-    },
-    /// The network gave no answer.
+    #[error("policy: tensor {name:?} contains {value}")]
+    NotFinite { name: String, value: f32 },
+    /// The network returned an error.
     #[error("policy: {0}")]
     Network(#[from] candle_core::Error),
 }
 
 impl Policy {
-    /// Names of the shipped policies.
     pub fn shipped_names() -> Vec<String> {
         let names = Assets::iter().filter_map(|file| file.strip_suffix(".safetensors").map(str::to_owned));
         let mut names: Vec<String> = names.collect();
@@ -139,7 +120,7 @@ impl Policy {
         names
     }
 
-    /// A shipped policy; each is read once.
+    /// A shipped policy; each is read only once.
     ///
     /// # Errors
     /// [`PolicyError::Unknown`].
@@ -148,7 +129,7 @@ impl Policy {
         let read = READ.get_or_init(|| {
             let read = |name: String| {
                 let file = Assets::get(&format!("{name}.safetensors")).expect("a listed asset exists");
-                let policy = Self::from_bytes(&file.data).expect("shipped policies are whole: a test reads them");
+                let policy = Self::from_bytes(&file.data).expect("shipped policies are valid: a test reads them");
                 (name, Arc::new(policy))
             };
             Self::shipped_names().into_iter().map(read).collect()
@@ -157,42 +138,42 @@ impl Policy {
         found.ok_or_else(|| PolicyError::Unknown { name: name.to_owned(), known: Self::shipped_names() })
     }
 
-    /// Reads a policy's file.
+    /// Reads a policy from a file.
     ///
     /// # Errors
-    /// [`PolicyError`]; nothing of a file over 16 MiB is read.
+    /// [`PolicyError`]. A file over 16 MiB is not read.
     pub fn open(path: &Path) -> Result<Self, PolicyError> {
-        let read = read_at_most(path, BYTES_MOST).map_err(|error| match error {
+        let read = read_at_most(path, MAX_BYTES).map_err(|error| match error {
             ReadError::Io(error) => PolicyError::Io { path: path.display().to_string(), error },
             ReadError::TooLarge { bytes, .. } => PolicyError::TooLarge { bytes },
         })?;
         Self::from_bytes(&read)
     }
 
-    /// Reads a policy; what does not fit is refused with the tensor named.
+    /// Reads a policy. Errors name the tensor that does not fit.
     ///
     /// # Errors
     /// [`PolicyError`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PolicyError> {
-        // Before anything is parsed: the file's word is not taken for how much to read.
+        // Checked before parsing, so that the file cannot determine how much is read.
         let header = bytes.first_chunk().map_or(0, |length| u64::from_le_bytes(*length));
-        if header > HEADER_MOST {
+        if header > MAX_HEADER_BYTES {
             return Err(PolicyError::Header { bytes: header });
         }
         let file = SafeTensors::deserialize(bytes)?;
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
         let text = metadata.metadata().as_ref().and_then(|entries| entries.get(KEY));
-        let text = text.ok_or_else(|| PolicyError::Manifest(format!("the metadata have no {KEY:?}")))?;
+        let text = text.ok_or_else(|| PolicyError::Manifest(format!("the metadata has no {KEY:?}")))?;
         let manifest: Manifest =
             serde_json::from_str(text).map_err(|error| PolicyError::Manifest(error.to_string()))?;
         let (version, observation) = Manifest::current();
         if manifest.version != version {
             let found = manifest.version;
-            return Err(PolicyError::Manifest(format!("version is {found}, this program reads {version}")));
+            return Err(PolicyError::Manifest(format!("version is {found}, expected {version}")));
         }
         if manifest.observation != observation {
             let found = manifest.observation;
-            return Err(PolicyError::Manifest(format!("observation is {found:?}, this program has {observation:?}")));
+            return Err(PolicyError::Manifest(format!("observation is {found:?}, expected {observation:?}")));
         }
         if !(0.001..=0.1).contains(&manifest.step_m) {
             return Err(PolicyError::Manifest(format!("step_m is {}, it must be .001 to .1", manifest.step_m)));
@@ -207,7 +188,7 @@ impl Policy {
         Ok(Self { manifest, network: Arc::new(network), hash: xxhash_rust::xxh3::xxh3_64(bytes) })
     }
 
-    /// The bytes of a policy's file. Of noisy layers only the means are kept: acting needs no more.
+    /// The bytes of a policy's file. Only the means of noisy layers are written, which is sufficient for acting.
     ///
     /// # Errors
     /// [`PolicyError::Format`].

@@ -1,17 +1,17 @@
-//! The product by which a quantile fraction meets a state (Dabney et al. 2018, §3.1), as one operation that candle can
-//! differentiate: broadcast and summed by candle, it costs more than the layers around it.
+//! The product of the embeddings of quantile fractions and states (Dabney et al. 2018, §3.1), as one differentiable
+//! operation. Broadcast and summed by candle, it would cost more than the layers around it.
 
 use candle_core::{CpuStorage, CustomOp2, Error, Layout, Result, Shape, Storage, Tensor};
 use rayon::prelude::*;
 
-/// Fewer products than this are made without the thread pool.
+/// Fewer products than this are computed without the thread pool.
 const PARALLEL_THRESHOLD: usize = 100_000;
 
 /// `y[b,g,n,h] = r(state)[b,g,h] · r(fraction)[b,n,h]` with the ReLU r: `[B, G, H]` and `[B, N, H]` of f32 →
 /// `[B, G, N, H]`.
 ///
 /// # Errors
-/// An error that names the shape when the two do not fit together; candle's own for another type or device.
+/// An error that names the shapes if they do not fit together; candle's own for another type or device.
 pub fn modulate(states: &Tensor, fractions: &Tensor) -> Result<Tensor> {
     let (batch, _, width) = states.dims3()?;
     let (other_batch, _, other_width) = fractions.dims3()?;
@@ -23,7 +23,7 @@ pub fn modulate(states: &Tensor, fractions: &Tensor) -> Result<Tensor> {
 
 struct Modulation;
 
-/// States, fractions and the gradient of their product, of one batch entry.
+/// States, fractions and the gradient of their product, for one batch entry.
 type Given<'a> = ((&'a [f32], &'a [f32]), &'a [f32]);
 
 /// Sizes of one batch entry.
@@ -52,7 +52,7 @@ impl Sizes {
         }
     }
 
-    /// Adds to gradients that begin at zero.
+    /// Adds to gradients that are initially zero.
     fn backward(self, states: &[f32], fractions: &[f32], dy: &[f32], ds: &mut [f32], df: &mut [f32]) {
         let Self { count, width, .. } = self;
         let by_goal = states.chunks_exact(width).zip(ds.chunks_exact_mut(width)).zip(dy.chunks_exact(count * width));
@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_product_of_both_with_the_gradients_of_candle() {
+    fn product_and_gradients_agree_with_candle() {
         let mut rng = ChaCha8Rng::seed_from_u64(4);
         // The second case is large enough for the thread pool.
         for (batch, goals, count, width) in [(3, 2, 5, 7), (9, 13, 8, 128)] {
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_that_do_not_fit_are_named() {
+    fn names_shapes_that_do_not_fit() {
         let zeros = |shape: (usize, usize, usize)| Tensor::zeros(shape, candle_core::DType::F32, &Device::Cpu).unwrap();
         let error = modulate(&zeros((2, 3, 4)), &zeros((2, 3, 5))).unwrap_err();
         assert!(error.to_string().contains("[2, 3, 5]"), "{error}");

@@ -1,5 +1,5 @@
-//! The network: a ResNet trunk (He et al. 2016), implicit quantiles (Dabney et al. 2018, "Implicit Quantile
-//! Networks"), a dueling head (Wang et al. 2016) of factorised noisy layers (Fortunato et al. 2018).
+//! The network: a ResNet trunk (He et al. 2016), implicit quantiles (Dabney et al. 2018, "Implicit Quantile Networks"),
+//! and a dueling head (Wang et al. 2016) of factorised noisy layers (Fortunato et al. 2018).
 
 use std::f32::consts::PI;
 
@@ -17,38 +17,37 @@ pub const HIDDEN: usize = 128;
 const CHANNELS: usize = 32;
 /// Side of the trunk's last images, 84 px / 7 / 2.
 const LAST_SIDE: usize = 6;
-/// Cosines that a quantile fraction is embedded by (Dabney et al. 2018, §4).
+/// Cosines in the embedding of a quantile fraction (Dabney et al. 2018, §4).
 const COSINES: usize = 64;
-/// Octaves that a place is embedded by.
+/// Octaves in the embedding of a place.
 const OCTAVES: usize = 4;
-/// Parts that the rows of a large product are cut into.
+/// Number of parts into which the rows of a large product are divided.
 const ROW_PARTS: usize = 16;
-/// A place's embedding: the four numbers, and their sines and cosines.
+/// Size of the embedding of the places: the four numbers, and their sines and cosines.
 const PLACE: usize = 4 * (1 + 2 * OCTAVES);
 /// σ0 of the noisy layers (Fortunato et al. 2018, §3.2).
 const SIGMA: f32 = 0.5;
 
-/// Where goal and tool, the observation's second channel, meet the image.
+/// Where goal and tool (the observation's second channel) enter the network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fusion {
-    /// The trunk looks at both channels (the paper).
+    /// The trunk processes both channels, as in the paper.
     Early,
-    /// The trunk looks at the image alone; the four numbers that channel 1 repeats join its features.
+    /// The trunk processes only the image; the four numbers of channel 1 are joined to its features.
     Late,
 }
 
-/// What parts the network has; all on but for early fusion is what Ferry trains.
+/// The parts of the network. The shipped policies use late fusion and all parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Architecture {
-    /// Where the second channel comes in.
     pub fusion: Fusion,
-    /// Implicit quantiles; without, one value an action.
+    /// Implicit quantiles; otherwise one value per action.
     pub quantiles: bool,
-    /// Value and advantage apart.
+    /// Separate value and advantage.
     pub dueling: bool,
-    /// Noisy layers for the last two; without, plain ones.
+    /// Noisy layers as the last two; otherwise plain ones.
     pub noisy: bool,
     /// Skip connections in the trunk.
     pub residual: bool,
@@ -60,31 +59,29 @@ impl Default for Architecture {
     }
 }
 
-/// How a weight begins.
+/// Initial distribution of a weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Initial {
     /// Uniform in ±1/√(inputs of the layer).
     Uniform {
-        /// Inputs of the layer.
+        /// Number of inputs of the layer.
         inputs: usize,
     },
-    /// The same number everywhere.
+    /// The same value everywhere.
     Constant(f32),
 }
 
-/// A weight's name, shape and beginning.
+/// Name, shape and initial distribution of a weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TensorSpec {
     /// Name in the file.
     pub name: String,
-    /// Shape.
     pub shape: Vec<usize>,
-    /// How it begins.
     pub initial: Initial,
 }
 
 impl Architecture {
-    /// Channels that the trunk looks at.
+    /// Number of channels that the trunk processes.
     pub fn channels(&self) -> usize {
         match self.fusion {
             Fusion::Early => 2,
@@ -140,20 +137,20 @@ impl Architecture {
 }
 
 impl TensorSpec {
-    /// Draws the first values, row-major.
+    /// Draws the initial values, row-major.
     pub fn draw(&self, rng: &mut impl Rng) -> Vec<f32> {
         let count = self.shape.iter().product();
         match self.initial {
             Initial::Constant(value) => vec![value; count],
             Initial::Uniform { inputs } => {
-                let most = 1.0 / (inputs as f32).sqrt();
-                (0..count).map(|_| rng.random_range(-most..most)).collect()
+                let max = 1.0 / (inputs as f32).sqrt();
+                (0..count).map(|_| rng.random_range(-max..max)).collect()
             }
         }
     }
 }
 
-/// y = x·W + b, with W + σ_W∘ε when noisy.
+/// y = x·W + b, with W + σ_W∘ε if noisy.
 #[derive(Clone, Debug)]
 struct Linear {
     weight: Tensor,
@@ -161,7 +158,7 @@ struct Linear {
     sigma: Option<(Tensor, Tensor)>,
 }
 
-/// Whether a layer takes negative inputs as zero: the ReLU before it costs no pass of its own.
+/// Whether a layer rectifies its input, so that the preceding ReLU needs no separate pass.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Input {
     AsItIs,
@@ -182,11 +179,11 @@ impl Linear {
     }
 }
 
-/// A linear layer as a convolution over single pixels, whose bias and ReLU and their gradients cost nothing: candle's
-/// own sum over the rows takes longer than the product.
+/// A linear layer as a convolution over single pixels, which includes bias, ReLU and their gradients at no cost. With
+/// candle, the sum over the rows takes longer than the product.
 fn pointwise(x: &Tensor, weight: &Tensor, bias: &Tensor, input: Input) -> Result<Tensor> {
     let (rows, inputs) = x.dims2()?;
-    // Rows in parts, which the thread pool shares.
+    // Rows are divided into parts for the thread pool.
     let parts = if rows.is_multiple_of(ROW_PARTS) { ROW_PARTS } else { 1 };
     let layer = Convolution { kernel: 1, stride: 1, padding: 0, rectify_input: input == Input::Rectified };
     let y = layer.forward(&x.reshape((parts, rows / parts, 1, inputs))?, weight, bias)?;
@@ -206,10 +203,10 @@ struct LayerNoise {
 pub struct Noise(Vec<LayerNoise>);
 
 impl Noise {
-    /// Draws noise for an architecture; `None` where it has no noisy layers.
+    /// Draws noise for an architecture; `None` without noisy layers.
     ///
     /// # Errors
-    /// Of candle, which no shape here gives.
+    /// Of candle, which cannot occur with these shapes.
     pub fn draw(architecture: &Architecture, rng: &mut impl Rng) -> Result<Option<Self>> {
         if !architecture.noisy {
             return Ok(None);
@@ -230,7 +227,7 @@ impl Noise {
     }
 }
 
-/// The network over given weights.
+/// The network with its weights.
 #[derive(Clone, Debug)]
 pub struct Network {
     architecture: Architecture,
@@ -240,7 +237,7 @@ pub struct Network {
     block2: [Linear; 2],
     features: Linear,
     join_features: Linear,
-    /// Embedding of the places and what joins them, with late fusion.
+    /// Embedding of the places, and its join with the features; late fusion only.
     place: Option<[Linear; 2]>,
     fraction: Option<Linear>,
     advantage: [Linear; 2],
@@ -248,10 +245,10 @@ pub struct Network {
 }
 
 impl Network {
-    /// A network over the weights that `get` finds by name, of the shapes of [`Architecture::tensors`].
+    /// A network with the weights that `get` returns by name, with the shapes of [`Architecture::tensors`].
     ///
     /// # Errors
-    /// What `get` gives.
+    /// Those of `get`.
     pub fn new<E>(
         architecture: Architecture,
         mut get: impl FnMut(&str) -> std::result::Result<Tensor, E>,
@@ -285,7 +282,6 @@ impl Network {
         })
     }
 
-    /// What parts it has.
     pub fn architecture(&self) -> &Architecture {
         &self.architecture
     }
@@ -311,9 +307,9 @@ impl Network {
         self.join_features.forward(&x, Input::Rectified, None)
     }
 
-    /// Quantiles of the return: features `[B, 128]`, places `[B, G, 4]` of `G` goals (and tools) for each image, from 0
-    /// to 1, fractions `[B, N]` → `[B, G, N, 4]`. With early fusion the features know the places, and `G` is 1; without
-    /// quantiles `N` is 1, whatever the fractions.
+    /// Quantiles of the return: features `[B, 128]`, places `[B, G, 4]` from 0 to 1 of `G` goals (and tools) per image,
+    /// fractions `[B, N]` → `[B, G, N, 4]`. With early fusion the features include the places, and `G` is 1. Without
+    /// quantiles `N` is 1 for any fractions.
     ///
     /// # Errors
     /// Of candle, for other shapes.
@@ -364,7 +360,7 @@ fn cosines(fractions: &Tensor) -> Result<Tensor> {
     fractions.unsqueeze(1)?.matmul(&orders.unsqueeze(0)?)?.cos()
 }
 
-/// The numbers themselves, and sine and cosine of π·2^k times them: `[M, 4]` → `[M, 36]`.
+/// The numbers themselves, and the sine and cosine of π·2^k times them: `[M, 4]` → `[M, 36]`.
 fn octaves(places: &Tensor) -> Result<Tensor> {
     let mut parts = vec![places.clone()];
     for octave in 0..OCTAVES {

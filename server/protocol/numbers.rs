@@ -1,5 +1,5 @@
-//! Lists of fixed length in the API's description: the derive forgets how long an array is.
-//! `#[schema(value_type = Numbers2)]` stands where a field is an `[f64; 2]`.
+//! Arrays of fixed length in the API description: the derive does not keep the length of an array.
+//! Use `#[schema(value_type = Numbers2)]` for a field of type `[f64; 2]`.
 
 use std::borrow::Cow;
 

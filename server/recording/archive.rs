@@ -1,4 +1,4 @@
-//! The folder of the sessions' recordings: what they are called, which there are, and which must go.
+//! The folder of the sessions' recordings: names, list and deletion of old ones.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,15 +10,15 @@ use jiff::{Timestamp, Zoned};
 
 use super::RecordingError;
 
-/// How a name begins: the local clock, to the millisecond.
+/// Format of a name's beginning: local time, to the millisecond.
 const BEGINNING: &str = "%Y%m%d-%H%M%S-%3f";
-/// Characters of that.
+/// Length of the beginning.
 const BEGINNING_LENGTH: usize = "20250130-235959-999".len();
 
-/// Endings of a recording's files.
+/// File extensions of a recording.
 const ENDINGS: [&str; 2] = ["rrd", "ferry"];
 
-/// Name of a part of a session's recording: it sorts by time.
+/// Name of a part of a session's recording. Names sort by time.
 fn name(started: &Zoned, session: &str) -> String {
     format!("{}-{session}", started.strftime(BEGINNING))
 }
@@ -26,15 +26,15 @@ fn name(started: &Zoned, session: &str) -> String {
 /// A finished or running recording on disk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Listed {
-    /// Its id: the name of its files without their endings.
+    /// File name without extension.
     pub id: String,
-    /// The session that it is of, if Ferry named it.
+    /// Session name; `None` for files with other names.
     pub session: Option<String>,
-    /// When it began, if Ferry named it.
+    /// Time of the beginning; `None` for files with other names.
     pub started: Option<Timestamp>,
     /// Size of Rerun's file.
     pub bytes: u64,
-    /// Size of the input log, if there is one.
+    /// Size of the input log, if it exists.
     pub log_bytes: Option<u64>,
     /// Whether it is being written.
     pub live: bool,
@@ -58,42 +58,41 @@ fn started_and_session(id: &str, zone: &TimeZone) -> Option<(Timestamp, String)>
     Some((zone.to_timestamp(clock).ok()?, session.to_owned()))
 }
 
-/// What is kept of old recordings.
+/// Limits for old recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Retention {
-    /// So many parts at most.
-    pub most: usize,
-    /// So large together at most.
-    pub most_bytes: u64,
+    /// Largest number of parts.
+    pub max_parts: usize,
+    /// Largest total size.
+    pub max_bytes: u64,
 }
 
 impl Default for Retention {
     fn default() -> Self {
-        Self { most: 200, most_bytes: 4 << 30 }
+        Self { max_parts: 200, max_bytes: 4 << 30 }
     }
 }
 
-/// A folder of recordings, some being written.
+/// A folder of recordings. Some may be in progress.
 #[derive(Debug)]
 pub struct Archive {
     folder: PathBuf,
     retention: Retention,
-    /// Names that are being written.
+    /// Names of recordings in progress.
     live: Mutex<BTreeSet<String>>,
 }
 
 impl Archive {
-    /// Of a folder that is made when it is first written to.
+    /// The folder is created at the first write.
     pub fn new(folder: PathBuf, retention: Retention) -> Arc<Self> {
         Arc::new(Self { folder, retention, live: Mutex::default() })
     }
 
-    /// Where it is.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// A file of a recording that the list holds: no other name is ever opened.
+    /// A file of a listed recording; other names are never opened.
     pub fn file(&self, name: &str) -> Result<Option<PathBuf>, RecordingError> {
         let Some((id, ending)) = name.rsplit_once('.').filter(|(_, ending)| ENDINGS.contains(ending)) else {
             return Ok(None);
@@ -103,7 +102,7 @@ impl Archive {
         Ok(known.map(|listed| self.folder.join(format!("{}.{ending}", listed.id))))
     }
 
-    /// The recordings, newest name first; an absent folder holds none.
+    /// The recordings, newest name first. A missing folder has none.
     pub fn list(&self) -> Result<Vec<Listed>, RecordingError> {
         let failed = |error| RecordingError::Io { path: self.folder.clone(), error };
         let entries = match std::fs::read_dir(&self.folder) {
@@ -117,7 +116,7 @@ impl Archive {
         for entry in entries {
             let name = entry.map_err(failed)?.file_name();
             let Some(id) = name.to_str().and_then(|name| name.strip_suffix(".rrd")) else { continue };
-            // One that was let go meanwhile is no longer there.
+            // The recording may have been deleted meanwhile.
             let Some(bytes) = self.size(id, ENDINGS[0]) else { continue };
             found.push(Listed::new(id, bytes, self.size(id, ENDINGS[1]), live.contains(id), &zone));
         }
@@ -129,7 +128,7 @@ impl Archive {
         std::fs::metadata(self.folder.join(format!("{id}.{ending}"))).ok().map(|data| data.len())
     }
 
-    /// A name for a new part of a session's recording, and room for it: what is too old goes.
+    /// Returns the name of a new part of a session's recording, and deletes old recordings to make room.
     pub(super) fn claim(&self, session: &str) -> Result<String, RecordingError> {
         std::fs::create_dir_all(&self.folder)
             .map_err(|error| RecordingError::Io { path: self.folder.clone(), error })?;
@@ -139,20 +138,20 @@ impl Archive {
         Ok(id)
     }
 
-    /// It is written no more.
+    /// Marks a recording as finished.
     pub(super) fn release(&self, id: &str) {
         self.lock().remove(id);
     }
 
-    /// Lets the oldest go until no more are left than may be, the one about to begin counted. What Ferry did not
-    /// name, and what is being written, stays.
+    /// Deletes the oldest recordings until the limits hold, including the new one. Files with other names and
+    /// recordings in progress stay.
     fn prune(&self) -> Result<(), RecordingError> {
         let listed = self.list()?;
         let ours = |listed: &&Listed| listed.session.is_some();
         let mut count = 1 + listed.iter().filter(ours).count();
         let mut bytes: u64 = listed.iter().filter(ours).map(Listed::all_bytes).sum();
         for old in listed.iter().rev().filter(ours).filter(|listed| !listed.live) {
-            if count <= self.retention.most && bytes <= self.retention.most_bytes {
+            if count <= self.retention.max_parts && bytes <= self.retention.max_bytes {
                 break;
             }
             for ending in ENDINGS {
@@ -164,7 +163,7 @@ impl Archive {
                     _ => {}
                 }
             }
-            tracing::info!(id = old.id, "an old recording was let go");
+            tracing::info!(id = old.id, "old recording deleted");
             count -= 1;
             bytes -= old.all_bytes();
         }
@@ -181,7 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_tells_when_and_whose() {
+    fn a_name_contains_time_and_session() {
         let zone = TimeZone::fixed(jiff::tz::offset(2));
         let started: Timestamp = "2026-03-01T21:04:09.045Z".parse().unwrap();
         let id = name(&started.to_zoned(zone.clone()), "session-2");
@@ -212,17 +211,17 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_go_by_count_and_by_size_and_nothing_else() {
+    fn deletes_only_the_oldest_by_count_and_by_size() {
         let folder = tempfile::tempdir().unwrap();
         let olds = ["20200101-000000-000-main", "20200101-000001-000-main", "20200101-000002-000-main"];
         for id in olds {
             put(folder.path(), id, 1000);
         }
         put(folder.path(), "mine", 100_000);
-        let archive = |most, most_bytes| Archive::new(folder.path().to_owned(), Retention { most, most_bytes });
+        let archive = |max_parts, max_bytes| Archive::new(folder.path().to_owned(), Retention { max_parts, max_bytes });
         let by_count = archive(3, u64::MAX);
         by_count.live.lock().unwrap().insert(olds[0].to_owned());
-        // The one that begins is the fourth; the first is being written.
+        // The new one is the fourth; the first is in progress.
         let new = by_count.claim("main").unwrap();
         assert_eq!(ids(&by_count), ["mine", olds[2], olds[0]]);
         assert!(!folder.path().join(format!("{}.ferry", olds[1])).exists());

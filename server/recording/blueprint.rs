@@ -1,4 +1,4 @@
-//! How a recording lies open in Rerun's viewer.
+//! Layout of a recording in Rerun's viewer.
 
 use re_sdk::blueprint::components::PanelState;
 use re_sdk::blueprint::{
@@ -6,7 +6,7 @@ use re_sdk::blueprint::{
     StateTimelineView, Tabs, TextLogView, TimePanel, TimeSeriesView, Vertical,
 };
 
-/// Scene, plan and camera above; errors, modes and what the controller thought below; the log beside.
+/// Scene, plan view and camera above; errors, modes and the controller's evaluation below; the log at the side.
 pub(super) fn blueprint() -> Blueprint {
     let scene = Spatial3DView::new("Scene").with_origin("world");
     let plan = Spatial2DView::new("Workspace, mm (y down)")

@@ -1,7 +1,6 @@
-//! What is logged for Rerun, entity by entity. Timelines: `tick` counts on through resets, `sim_time` is the
-//! trial's own time.
+//! The entities logged for Rerun. Timelines: `tick` continues across resets, `sim_time` is the trial's own time.
 //!
-//! The plan is in the map's own units, millimetres with y down, since Rerun draws plans that way.
+//! The plan view is in the map's units, millimetres with y down, because Rerun draws 2-D views that way.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -29,15 +28,15 @@ use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::trial::{Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
 
 const JPEG_QUALITY: u8 = 85;
-/// Rerun writes what it was told this often; a crash loses no more.
+/// Rerun's flush interval; a crash loses at most this much.
 const FLUSH_EVERY: Duration = Duration::from_millis(250);
-/// Asked whether its file can be written, Rerun is given this long to answer.
+/// Time limit for Rerun's check of its file.
 const CHECK_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Where a recording is on its timelines; it goes on from part to part.
 #[derive(Debug, Default)]
-pub(super) struct Course {
-    /// What the recording's ticks are ahead of the present trial's.
+pub(super) struct TimelinePosition {
+    /// Tick of the recording minus tick of the current trial.
     offset: i64,
     last: i64,
 }
@@ -48,7 +47,7 @@ pub(super) struct Writer {
     samples: Samples,
     image_every: Duration,
     imaged: Option<Instant>,
-    /// What was last told of that which changes seldom.
+    /// The last logged values of data that changes rarely.
     goal_m: Option<Point2<f64>>,
     mode: Option<Mode>,
     phase: Option<Phase>,
@@ -56,7 +55,7 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    /// Begins a file; `recording` is the same for all parts, `name` this part's.
+    /// Creates a file. `recording` is the same for all parts, `name` is this part's.
     pub(super) fn create(
         path: &Path,
         recording: &str,
@@ -69,7 +68,7 @@ impl Writer {
             .with_blueprint(blueprint())
             .save(path)
             .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
-        // Without a name the viewer calls it unknown; the builder's own is lost on the way to a file.
+        // Without a name the viewer shows "unknown"; the builder's name is not written to files.
         stream.send_recording_name(name)?;
         let names = |names: &[&'static str]| SeriesLines::new().with_names(names.iter().copied());
         stream.log_static("tracking_error_mm", &names(&["in x", "in y", "distance"]))?;
@@ -82,15 +81,15 @@ impl Writer {
         Ok(Self { stream, samples, image_every, imaged: None, goal_m: None, mode: None, phase: None, plans: None })
     }
 
-    /// Hands to Rerun what was collected.
+    /// Passes collected samples to Rerun.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
         self.samples.write(&self.stream)
     }
 
-    /// Whether the file still takes what it is told: Rerun only logs that it does not.
+    /// Whether the file is still writable: Rerun itself only logs errors.
     pub(super) fn check(&self) -> Result<(), RecordingError> {
         match self.stream.flush_with_timeout(CHECK_TIMEOUT) {
-            // A slow disk is seen elsewhere.
+            // A slow disk is detected elsewhere.
             Ok(()) | Err(SinkFlushError::Timeout) => Ok(()),
             Err(error) => Err(trouble(error)),
         }
@@ -103,11 +102,11 @@ impl Writer {
         Ok(())
     }
 
-    pub(super) fn begin(&mut self, opening: &Opening, course: &mut Course) -> Result<(), RecordingError> {
+    pub(super) fn begin(&mut self, opening: &Opening, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {
         self.flush()?;
-        // A trial that begins at a later tick, after going back, follows on without a gap.
-        course.offset = course.last - opening.tick as i64;
-        self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, course);
+        // A trial that begins at a later tick, after going back, continues without a gap.
+        timeline.offset = timeline.last - opening.tick as i64;
+        self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, timeline);
         (self.mode, self.phase, self.plans) = (None, None, None);
         let map = &opening.arena.map;
         let rings = || map.walls().iter().chain(map.free()).flat_map(Polygon::rings);
@@ -133,21 +132,21 @@ impl Writer {
         self.log("log", &TextLog::new(event.text.as_str()).with_level(level(event.kind)))
     }
 
-    pub(super) fn sample(&mut self, sample: &Sample, course: &mut Course) -> Result<(), RecordingError> {
+    pub(super) fn sample(&mut self, sample: &Sample, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {
         let moment = &sample.moment;
-        self.at(moment.tick, moment.sim_time_s(), course);
-        self.samples.add(course.last, moment);
+        self.at(moment.tick, moment.sim_time_s(), timeline);
+        self.samples.add(timeline.last, moment);
         self.changes(moment)?;
         if let Some(sight) = &sample.sight {
             self.images(sight)?;
-            self.thoughts(sight)?;
+            self.evaluation(sight)?;
         }
         sample.events.iter().try_for_each(|event| self.event(event))
     }
 
-    fn at(&self, tick: u64, sim_time_s: f64, course: &mut Course) {
-        let here = course.offset + tick as i64;
-        course.last = course.last.max(here);
+    fn at(&self, tick: u64, sim_time_s: f64, timeline: &mut TimelinePosition) {
+        let here = timeline.offset + tick as i64;
+        timeline.last = timeline.last.max(here);
         self.stream.set_time_sequence("tick", here);
         self.stream.set_duration_secs("sim_time", sim_time_s);
     }
@@ -167,7 +166,7 @@ impl Writer {
         self.log("workspace/goal", &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]))
     }
 
-    /// What changes seldom, when it does.
+    /// Logs data that changes rarely, if it has changed.
     fn changes(&mut self, moment: &Moment) -> Result<(), RecordingError> {
         if moment.goal_m != self.goal_m {
             self.goal(moment.goal_m)?;
@@ -197,8 +196,8 @@ impl Writer {
         self.log("observation", &EncodedImage::from_file_contents(png))
     }
 
-    /// What the controller made of what it saw.
-    fn thoughts(&mut self, sight: &Sight) -> Result<(), RecordingError> {
+    /// Logs the controller's evaluation of the image.
+    fn evaluation(&mut self, sight: &Sight) -> Result<(), RecordingError> {
         match &sight.carrier {
             Carrier::Rl(rl) => match rl.judged() {
                 Some((judgement, _)) => self.judgement(judgement),
@@ -232,7 +231,7 @@ impl Writer {
             errt.path().map(|path| path.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
         self.log("workspace/planner/way", &LineStrips2D::new([path]).with_colors([color(GOAL)]))?;
         let corners = known.rectangles().into_iter().map(|rect| {
-            // Down is up: the highest y is the least.
+            // y is reversed: the largest y is the minimum.
             let min = plan_mm(Point2::new(rect.x_min_m, rect.y_max_m));
             let max = plan_mm(Point2::new(rect.x_max_m, rect.y_min_m));
             (min, [max[0] - min[0], max[1] - min[1]])

@@ -1,26 +1,26 @@
-//! A recording's files, one pair a part.
+//! The files of a recording, one pair per part.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::entities::{Course, Writer};
+use super::entities::{TimelinePosition, Writer};
 use super::{Archive, Message, Opening, Options, RecordingError};
 use crate::trial::{Entry, LogWriter};
 
-/// A crash loses no more than this of an input log.
+/// A crash loses at most this much of an input log.
 const FLUSH_EVERY: Duration = Duration::from_millis(200);
-/// Entries of one frame: at full speed, they are many in that time.
+/// Entries per frame; at full speed many arrive within the flush interval.
 const FRAME_ENTRIES: usize = 512;
-/// Looks at the room left are this far apart: at full speed, far less than the room is written between.
+/// Interval of the checks of the disk; even at full speed, far less than the required free space is written in between.
 const CHECK_EVERY: Duration = Duration::from_secs(1);
 
-/// Where parts are, and what they are called.
+/// Folder and names of the parts.
 pub(super) enum Naming {
-    /// Among the parts of other sessions, called after their time.
+    /// Among the parts of other sessions, named by time.
     Archive { archive: Arc<Archive>, session: String },
-    /// Two files of this name.
+    /// Two files with this name.
     Alone { folder: PathBuf, name: String },
 }
 
@@ -32,7 +32,7 @@ impl Naming {
         }
     }
 
-    /// Whose recording it is.
+    /// The session or episode of the recording.
     pub(super) fn subject(&self) -> &str {
         match self {
             Self::Archive { session, .. } => session,
@@ -54,7 +54,7 @@ impl Naming {
     }
 }
 
-/// The name of a part that is being written; whatever becomes of that, it is given back.
+/// The name of a part in progress; released on drop.
 struct Claim {
     id: String,
     archive: Option<Arc<Archive>>,
@@ -73,9 +73,9 @@ struct Part {
     writer: Writer,
     log: LogWriter<File>,
     since: Instant,
-    /// Whether it was said that it is over.
-    said_over: bool,
-    /// Given back when the files are closed.
+    /// Whether the end of the part was already reported.
+    reported_over: bool,
+    /// Released after the files are closed.
     claim: Claim,
 }
 
@@ -88,19 +88,19 @@ impl Part {
         let file = File::create(&path).map_err(|error| RecordingError::Io { path, error })?;
         let path = folder.join(format!("{id}.rrd"));
         let writer = Writer::create(&path, recording.unwrap_or(id), id, options.image_every)?;
-        Ok(Self { writer, log: LogWriter::new(file)?, since: Instant::now(), said_over: false, claim })
+        Ok(Self { writer, log: LogWriter::new(file)?, since: Instant::now(), reported_over: false, claim })
     }
 }
 
-/// Keeps a recording: what is told goes to the files of the present part.
+/// Writes a recording into the files of the current part.
 pub(super) struct Keeper {
     naming: Naming,
     options: Options,
     part: Part,
-    /// The first part's name: Rerun takes parts with the same for one recording.
+    /// The first part's name: Rerun treats parts with the same name as one recording.
     recording: String,
-    course: Course,
-    /// Entries not written yet, and since when the first waits.
+    timeline: TimelinePosition,
+    /// Entries that are not yet written, and the age of the first one.
     waiting: Vec<Entry>,
     waiting_since: Instant,
     checked: Instant,
@@ -115,14 +115,14 @@ impl Keeper {
             naming,
             options,
             part,
-            course: Course::default(),
+            timeline: TimelinePosition::default(),
             waiting: Vec::new(),
             waiting_since: now,
             checked: now,
         })
     }
 
-    /// How long nothing needs to be done if nothing is told.
+    /// Time until the next flush, if no message arrives.
     pub(super) fn wait(&self) -> Duration {
         if self.waiting.is_empty() {
             return Duration::from_secs(3600);
@@ -134,19 +134,19 @@ impl Keeper {
         self.part.since.elapsed() >= self.options.part
     }
 
-    /// True once a part: it is old enough, and the next begins when the trial's state is told.
+    /// True once per part, when it is old enough. The next part begins with the trial's next beginning.
     pub(super) fn wants_next(&mut self) -> bool {
-        self.is_over() && !std::mem::replace(&mut self.part.said_over, true)
+        self.is_over() && !std::mem::replace(&mut self.part.reported_over, true)
     }
 
     pub(super) fn write(&mut self, message: Message) -> Result<(), RecordingError> {
         match message {
             Message::Begin(opening) => self.begin(*opening)?,
-            Message::Tick(told) => {
-                if let Some(sample) = &told.sample {
-                    self.part.writer.sample(sample, &mut self.course)?;
+            Message::Tick(tick) => {
+                if let Some(sample) = &tick.sample {
+                    self.part.writer.sample(sample, &mut self.timeline)?;
                 }
-                self.push(Entry::Tick(told.logged));
+                self.push(Entry::Tick(tick.logged));
             }
             Message::Note(event) => self.part.writer.event(&event)?,
         }
@@ -163,7 +163,7 @@ impl Keeper {
             let over = std::mem::replace(&mut self.part, next);
             over.writer.close()?;
         }
-        self.part.writer.begin(&opening, &mut self.course)?;
+        self.part.writer.begin(&opening, &mut self.timeline)?;
         self.push(Entry::Begin(Box::new(opening.logged)));
         Ok(())
     }
@@ -175,7 +175,7 @@ impl Keeper {
         self.waiting.push(entry);
     }
 
-    /// Writes what waits; Rerun does so by itself with what it was handed. The room left is looked after before it is gone.
+    /// Writes waiting entries; Rerun writes its data by itself. Checks the free space of the disk.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
         if self.checked.elapsed() >= CHECK_EVERY {
             self.checked = Instant::now();
@@ -195,13 +195,13 @@ impl Keeper {
     }
 }
 
-/// Where the system cannot tell what is left, there is room.
+/// Accepts the disk if the system does not report its free space.
 fn check_room(folder: &Path, options: &Options) -> Result<(), RecordingError> {
     #[cfg(unix)]
     if let Ok(disk) = rustix::fs::statvfs(folder) {
         let left_bytes = disk.f_bavail.saturating_mul(disk.f_frsize);
-        if left_bytes < options.least_room_bytes {
-            return Err(RecordingError::Full { left_mb: left_bytes >> 20, least_mb: options.least_room_bytes >> 20 });
+        if left_bytes < options.min_free_bytes {
+            return Err(RecordingError::Full { left_mb: left_bytes >> 20, min_mb: options.min_free_bytes >> 20 });
         }
     }
     let _ = (folder, options);

@@ -1,4 +1,4 @@
-//! What is told many times a second, collected and written in columns: a tenth of what it costs row by row.
+//! Samples taken many times a second, collected and written in columns: this costs a tenth of writing row by row.
 
 use re_sdk::log::TimeColumn;
 use re_sdk::{RecordingStream, SerializedComponentColumn};
@@ -9,10 +9,10 @@ use super::{RecordingError, trouble};
 use crate::plant::BEAD_RADIUS_M;
 use crate::trial::Moment;
 
-/// Joints of the arm as three names and three.
+/// Number of the arm's joints, logged in two groups of three.
 const JOINTS: usize = 6;
 
-/// Moments that wait to be written; all have an arm, or none has.
+/// Samples that wait to be written. Either all of them have an arm, or none has.
 #[derive(Default)]
 pub(super) struct Samples {
     ticks: Vec<i64>,
@@ -27,7 +27,7 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// What all samples share, once a file.
+    /// Writes the data that all samples share, once per file.
     pub(super) fn introduce(stream: &RecordingStream) -> Result<(), RecordingError> {
         let arm = LineStrips3D::update_fields().with_radii([0.02]).with_colors([color(ARM)]);
         stream.log_static("world/arm", &arm)?;
@@ -41,7 +41,7 @@ impl Samples {
         Ok(stream.log_static("workspace/tool_and_bead", &plan)?)
     }
 
-    /// Takes a moment in, at a tick of the recording's.
+    /// Adds a moment at a tick of the recording.
     pub(super) fn add(&mut self, tick: i64, moment: &Moment) {
         let place = |place: nalgebra::Vector3<f64>| -> [f32; 3] { place.cast::<f32>().into() };
         self.ticks.push(tick);
@@ -60,7 +60,7 @@ impl Samples {
         self.forces.extend([moment.load.lift_ratio(), moment.hand_force_n]);
     }
 
-    /// Writes them, and is empty.
+    /// Writes and clears the samples.
     pub(super) fn write(&mut self, stream: &RecordingStream) -> Result<(), RecordingError> {
         let Self { ticks, times_s, arms, joints_rad, tools, beads, plans_mm, errors_mm, forces } = std::mem::take(self);
         if ticks.is_empty() {

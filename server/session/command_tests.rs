@@ -9,7 +9,7 @@ use tokio::sync::broadcast;
 use super::worker::Worker;
 use super::{Command, CommandError, Kept};
 use crate::camera::{CameraError, Eye, Subject};
-use crate::control::limits::{LEAST_MANIPULABILITY_M3, LIFT_SPEED_M_S};
+use crate::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
 use crate::geometry::Point2;
 use crate::image::{CameraFrame, Picture};
 use crate::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
@@ -226,7 +226,7 @@ impl Watch {
         assert!(tool.z > 0.05 && tool.z < 0.25 && TOOL_LENGTH_M > 0.0, "the tool is at {tool}");
         if let Some(joints) = world.reference.joints_rad() {
             let manipulability_m3 = jacobian::manipulability(&joints);
-            assert!(manipulability_m3 >= LEAST_MANIPULABILITY_M3, "singular: {manipulability_m3} at {joints:?}");
+            assert!(manipulability_m3 >= MIN_MANIPULABILITY_M3, "singular: {manipulability_m3} at {joints:?}");
         }
         let bead = world.plant.bead.position_m;
         assert!(bead.x.is_finite() && bead.y.is_finite() && map.workspace().contains(bead), "the bead is at {bead}");

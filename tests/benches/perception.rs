@@ -104,7 +104,7 @@ pub fn benches(c: &mut Criterion) {
     let from = Point2::new(-0.2, -0.4);
     group.bench_function("obstacle map, way of 3 cm with 12 mm clearance", |b| {
         let to = Point2::new(-0.18, -0.378);
-        b.iter(|| map.is_way_free(black_box(from), black_box(to), 0.012, Unknown::Free));
+        b.iter(|| map.is_corridor_free(black_box(from), black_box(to), 0.012, Unknown::Free));
     });
     group.bench_function("obstacle map, nearest obstacle", |b| b.iter(|| map.nearest_obstacle_m(black_box(from))));
     group.finish();

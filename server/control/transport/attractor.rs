@@ -1,11 +1,10 @@
-//! Attractor dynamics (paper, §IV-B): a linear system that flows to the goal, bent around obstacles
-//! by the modulation of Khansari-Zadeh & Billard (2012), "A dynamical system approach to realtime
-//! obstacle avoidance", §3.2.
+//! Attractor dynamics (paper, §IV-B): a linear system that flows to the goal, deflected around obstacles by the
+//! modulation of Khansari-Zadeh & Billard (2012), "A dynamical system approach to realtime obstacle avoidance", §3.2.
 //!
-//! The literal law is the paper's. Behind a flat face it sticks: the goal's pull is normal to the
-//! face, the modulation cancels it, and the face's middle attracts. The improved law keeps a
-//! clearance, uses a star-shaped basis (Huber, Billard & Slotine 2019) and follows the contour, on one
-//! side until the goal is no longer behind the obstacle.
+//! The literal law is the paper's. It gets stuck behind a flat face: the goal's pull is normal to the face, the
+//! modulation cancels it, and the middle of the face attracts. The improved law keeps a clearance, uses a star-shaped
+//! basis (Huber, Billard & Slotine 2019) and follows the contour on one side until the goal is no longer behind the
+//! obstacle.
 
 mod flow;
 mod modulation;
@@ -24,11 +23,11 @@ pub use flow::Flow;
 pub use modulation::Superellipse;
 use modulation::{Basis, modulate};
 
-/// Largest part of an obstacle that is sensed, high and wide (paper, Example 1).
+/// Width and height of the largest sensed part of an obstacle (paper, Example 1).
 const SENSED_M: f64 = 0.02;
-/// Obstacles beyond this Γ are no reason to follow a contour.
+/// Obstacles beyond this Γ do not start contour following.
 const CONTOUR_GAMMA: f64 = 2.0;
-/// Contouring starts when the modulation leaves less than this share of the speed.
+/// Contour following starts if the modulation leaves less than this share of the speed.
 const CONTOUR_SHARE: f64 = 0.5;
 /// Γ at which a contour is followed.
 const CONTOUR_TRACK_GAMMA: f64 = 1.15;
@@ -67,19 +66,19 @@ pub struct Attractor {
 }
 
 impl Attractor {
-    /// What the last step was decided on.
+    /// The superellipses of the last control step.
     pub fn sensed(&self) -> &[Superellipse] {
         &self.sensed
     }
 
-    /// Velocity of the tool at `point`, no faster than the transport speed.
+    /// Velocity of the tool at `point`, capped at the transport speed.
     fn velocity(&mut self, point: Point2<f64>, goal: Point2<f64>, parameters: &Parameters) -> Vector2<f64> {
-        // ṗ = (K − I)(P_g − p) with A = B = I (specification §5), slowed to what the bead can follow.
+        // ṗ = (K − I)(P_g − p) with A = B = I (specification §5), slowed to a speed that the bead can follow.
         let limit_m_s = parameters.transport_speed_m_s;
         let nominal = ((goal - point) * (parameters.attractor_gain - 1.0)).cap_magnitude(limit_m_s);
         let rho = parameters.attractor_reactivity;
         match parameters.attractor_law {
-            // The modulation means nothing inside: out first (specification §5).
+            // Inside an obstacle the modulation is undefined: move out first (specification §5).
             AttractorLaw::Literal => match deepest(&self.sensed, point) {
                 Some(obstacle) => obstacle.normal(point) * limit_m_s,
                 None => modulate(&self.sensed, point, nominal, rho, Basis::Normal).cap_magnitude(limit_m_s),
@@ -110,12 +109,12 @@ impl Attractor {
                 modulate(&self.sensed, point, along * speed, rho, Basis::Star)
             }
         };
-        // Inside the clearance, outward first: the wall itself may be a bead's radius away.
+        // Inside the clearance, move outward first: the wall itself may be only a bead's radius away.
         let outward = normal * (speed * (1.0 - gamma).clamp(0.0, 1.0));
         (wanted + outward).try_normalize(1e-9).map_or(wanted, |direction| direction * speed)
     }
 
-    /// Where the law leads from a place, as if the tool came there anew: what was seen is sensed as from there.
+    /// The flow at a place, without memory of a followed contour. Obstacles are sensed from that place.
     ///
     /// `None` over a known obstacle.
     pub fn flow_at(
@@ -133,7 +132,7 @@ impl Attractor {
         Some(fresh.velocity(place, goal_m, parameters))
     }
 
-    /// Fits what is near; gives the patches, nearest first.
+    /// Fits superellipses to nearby obstacles; returns the patches, nearest first.
     fn sense(&mut self, mask: &ObstacleMask, from: Point2<f64>, parameters: &Parameters) -> Vec<Patch> {
         let patches = mask.patches(from, SENSED_M);
         let safety = parameters.attractor_safety_factor;
@@ -142,20 +141,20 @@ impl Attractor {
         patches
     }
 
-    /// Follows the flow at the servo's rate for one control period.
+    /// Follows the flow at the servo rate for one control period.
     fn flow(&mut self, input: &TransportInput<'_>) -> Point2<f64> {
         let ticks = (CONTROL_PERIOD_S / SERVO_PERIOD_S).round() as usize;
         let mut point = input.tool_m;
         for _ in 0..ticks {
             point += self.velocity(point, input.goal_m, input.parameters) * SERVO_PERIOD_S;
         }
-        // The straight segment may not be longer than the speed allows.
+        // The straight segment must not be longer than the speed limit allows.
         let reach_m = input.parameters.transport_speed_m_s * CONTROL_PERIOD_S;
         input.tool_m + (point - input.tool_m).cap_magnitude(reach_m)
     }
 }
 
-/// Distance that the law keeps beyond the superellipse around a patch.
+/// Extra distance between a patch's superellipse and the tool.
 fn clearance_m(parameters: &Parameters) -> f64 {
     match parameters.attractor_law {
         AttractorLaw::Literal => 0.0,
@@ -163,7 +162,7 @@ fn clearance_m(parameters: &Parameters) -> f64 {
     }
 }
 
-/// The obstacle that a point is deepest in, if it is in any.
+/// The obstacle with the smallest Γ at a point inside it; `None` if the point is outside all.
 fn deepest(obstacles: &[Superellipse], point: Point2<f64>) -> Option<&Superellipse> {
     let inside = obstacles.iter().map(|obstacle| (obstacle, obstacle.gamma(point))).filter(|(_, gamma)| *gamma < 1.0);
     inside.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(obstacle, _)| obstacle)
@@ -197,10 +196,10 @@ impl Transport for Attractor {
             let blocked = input.percept.obstacle_on_step(input.tool_m, target_m).is_some();
             let beside =
                 patches.first().is_some_and(|p| (p.nearest_m - input.tool_m).norm() < 0.5 * clearance_m(parameters));
-            if let (true, Some(way)) = (beside || input.percept.obstacle(), mask.way_off(input.tool_m)) {
-                // After a fetch the tool may stand over or close beside a wall that the bead leans on,
-                // where a superellipse's normal means nothing: off it first.
-                target_m = input.tool_m + way * reach_m;
+            if let (true, Some(direction)) = (beside || input.percept.obstacle(), mask.exit_direction(input.tool_m)) {
+                // After a fetch the tool may be over or close to a wall that the bead leans on. There a superellipse's
+                // normal is meaningless: leave the wall first.
+                target_m = input.tool_m + direction * reach_m;
             } else if let (true, Some(side)) = (blocked, self.contour) {
                 self.contour = Some(side.opposite());
                 target_m = self.flow(input);
@@ -216,7 +215,7 @@ mod tests {
     use super::*;
 
     fn flow_to(law: AttractorLaw, start: Point2<f64>, steps: usize) -> Point2<f64> {
-        // A flat 2-cm block in the way, sensed whole.
+        // A flat 2 cm block on the path, sensed completely.
         let patch = Patch {
             center_m: Point2::new(0.0, 0.0),
             half_size_m: Vector2::new(0.01, 0.01),
@@ -236,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn behind_the_middle_of_a_face_the_literal_law_sticks_and_the_improved_law_gets_round() {
+    fn behind_a_face_the_literal_law_gets_stuck_and_the_improved_law_does_not() {
         let start = Point2::new(-0.1, 0.0);
         let stuck = flow_to(AttractorLaw::Literal, start, 4000);
         assert!(stuck.x < -0.01, "{stuck}");
@@ -245,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn no_flow_enters_the_obstacle() {
+    fn flow_does_not_enter_obstacles() {
         for law in [AttractorLaw::Literal, AttractorLaw::Improved] {
             for k in 0..40 {
                 let start = Point2::new(-0.1, -0.06 + 0.003 * f64::from(k));

@@ -1,20 +1,20 @@
 //! ERRT: the execution-extended rapidly exploring random tree of Bruce & Veloso 2002, "Real-time randomized path
-//! planning for robot navigation" (IROS), around what the camera has seen so far.
+//! planning for robot navigation" (IROS), on the obstacles that the camera has observed so far.
 //!
 //! From the publication: a tree grows from the start by edges of a fixed length, each from the node nearest to a target
-//! toward it. The target is the goal with one probability, a waypoint of an earlier way with another, and anywhere
-//! else ([`PlannerParameters`]); the corners of a way that was found take random slots of the waypoint cache; nearest
-//! is least distance + β · cost from the root ([`Tree::nearest`]), and β adapts between 0 and its most.
+//! toward that target. The target is the goal, a waypoint of an earlier path, or a random point, with probabilities
+//! from [`PlannerParameters`]. The corners of a found path replace random slots of the waypoint cache. The nearest node
+//! minimises distance + β · cost from the root ([`Tree::nearest`]). β adapts between 0 and its upper limit.
 //!
-//! Ours, each with a parameter or a reason where it is made: obstacles are rectangles with a clearance, which near an
-//! end that has less is what that end has and grows from there ([`Clearance`]); a flood fill decides beforehand whether
-//! there is a way and how much clearance it leaves; the straight line from start to goal is tried first; empty slots of
-//! the cache stand for random states; samples come from where the clearance is kept; β also falls while a search takes
-//! long; ways are cut short.
+//! Not from the publication: obstacles are rectangles with a clearance, which is smaller near an end that is close to a
+//! wall ([`Clearance`]). A flood fill decides beforehand whether a path exists and which clearance it can keep. The
+//! straight line from start to goal is tried first. The cache starts with empty slots, not with random states. Samples
+//! are drawn where the clearance is kept. β also falls while a search takes long. Found paths are shortened. Each has a
+//! parameter or a reason where it is defined.
 //!
-//! What was never seen counts as free: a way leads through it, and seeing it either confirms the way or has it
-//! planned anew. So the unknown is explored where the goal is hidden behind it, and what is walled off for all that is
-//! unknown is walled off for good.
+//! Unobserved places count as free: a path may lead through them. When they are observed, the path is either confirmed
+//! or planned again. So the tool explores unobserved places when the goal is behind them. A goal that is walled off
+//! even with all unobserved places free stays walled off.
 
 mod cache;
 mod clearance;
@@ -49,11 +49,11 @@ pub const MOST_EDGES: usize = 4000;
 const OFF_PATH_M: f64 = 0.01;
 /// A way may lose so much of its clearance before another is planned: a cell of the map, as more of a wall is seen.
 const TOLERANCE_M: f64 = 0.002;
-/// Spacing at which a way is asked whether it was seen.
+/// Spacing at which a path is checked for unobserved places.
 const SAMPLE_M: f64 = 0.005;
 
-/// What was made of the map last; not part of the memory, since the map says it all. A copy has none: snapshots are
-/// many, and this is half a megabyte.
+/// The obstacles of the last map version. Not part of the controller state, because the map determines it. A clone is
+/// empty: snapshots are many, and this is half a megabyte.
 #[derive(Debug, Default)]
 struct Made(Option<Arc<Obstacles>>);
 
@@ -69,7 +69,7 @@ impl PartialEq for Made {
     }
 }
 
-/// A way that is wanted, and what was found of it.
+/// The requested path, and the results so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Task {
     from: Point2<f64>,
@@ -80,13 +80,13 @@ struct Task {
     best: Option<(Path, f64)>,
 }
 
-/// A way and how far along it the tool is.
+/// A path and the tool's position along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Followed {
     #[serde(rename = "way")]
     path: Path,
     along_m: f64,
-    /// How far off the tool may be: at first as far as the place where it gets off a wall.
+    /// Allowed distance of the tool; larger at first if the tool starts over a wall.
     off_m: f64,
 }
 
@@ -94,22 +94,20 @@ struct Followed {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errt {
     planner: Planner,
-    /// What is searched for, if anything is.
+    /// `None` if no path is being searched.
     task: Option<Task>,
     followed: Option<Followed>,
-    /// Ways planned since the trial began.
+    /// Paths planned since the trial began.
     plans: u32,
     #[serde(skip)]
     made: Made,
 }
 
 impl Errt {
-    /// A transport that remembers nothing.
     pub fn new(seed: u64) -> Self {
         Self { planner: Planner::new(seed), task: None, followed: None, plans: 0, made: Made::default() }
     }
 
-    /// The planner.
     pub fn planner(&self) -> &Planner {
         &self.planner
     }
@@ -124,12 +122,12 @@ impl Errt {
         self.followed.as_ref().map(|followed| &followed.path)
     }
 
-    /// Ways planned since the trial began.
+    /// Paths planned since the trial began.
     pub fn plans(&self) -> u32 {
         self.plans
     }
 
-    /// The obstacles of a map, made anew when it changed.
+    /// The obstacles of a map, rebuilt when it has changed.
     fn obstacles(&mut self, known: &ObstacleMap, clearance_m: f64) -> Arc<Obstacles> {
         let fits = |made: &&Arc<Obstacles>| made.version() == known.version() && made.most_clearance_m() == clearance_m;
         match self.made.0.as_ref().filter(fits) {
@@ -138,7 +136,7 @@ impl Errt {
         }
     }
 
-    /// Drops a way that leads elsewhere, that the tool has left, or that a newly seen obstacle cuts.
+    /// Drops a path that leads to another goal, that the tool has left, or that a new obstacle crosses.
     fn check_path(&mut self, obstacles: &Obstacles, tool_m: Point2<f64>, goal_m: Point2<f64>) {
         let is_good = |Followed { path, along_m, off_m }: &mut Followed| {
             let (place_m, is_off_m) = path.nearest(tool_m, *along_m);
@@ -153,12 +151,12 @@ impl Errt {
         }
     }
 
-    /// Searches on, or anew where it would search for something else, until there are as many ways as are to be
-    /// compared or no attempts are left. Then the shortest is followed: through what was never seen many ways seem
-    /// open, and whoever takes now this and now that one gets nowhere.
+    /// Continues the search, or restarts it if the goal has changed, until enough paths are found for comparison or no
+    /// attempts are left. Then the shortest path is followed. Through unobserved places many paths appear open, and a
+    /// tool that switches between them makes no progress.
     fn plan(&mut self, obstacles: &Obstacles, input: &TransportInput<'_>) -> Result<(), Refusal> {
         let parameters = planner_parameters(input.parameters);
-        // Waypoints lead along the way that is known; to be compared it needs others.
+        // Waypoints follow the known path; the comparison needs different ones.
         let other = PlannerParameters { waypoint_probability: 0.0, ..parameters };
         let is_same = |task: &Task| task.goal == input.goal_m && (task.from - input.tool_m).norm() <= OFF_PATH_M;
         let goes_on = *self.planner.progress() == Progress::Searching && self.task.as_ref().is_some_and(is_same);
@@ -174,13 +172,13 @@ impl Errt {
             let before = self.planner.attempts();
             match self.planner.advance(obstacles, left) {
                 Progress::WalledOff => return Err(Refusal::WalledOff),
-                // What is left is narrower than the least clearance, or the flood fill would have told where there is
-                // room for a search that never takes so long.
+                // What is left is narrower than the smallest clearance; otherwise the flood fill would have found room
+                // for a search that takes less long.
                 Progress::Exhausted if task.paths == 0 => return Err(Refusal::WalledOff),
                 Progress::Found(path) => {
                     task.paths += 1;
                     let cost_m = expected_m(path, input.known, input.parameters.errt_unseen_weight);
-                    // Nothing is shorter than the straight line.
+                    // No path is shorter than the straight line.
                     let is_straight = path.points.len() == 2;
                     if task.best.as_ref().is_none_or(|(_, best_m)| cost_m < *best_m) {
                         task.best = Some((path.clone(), cost_m));
@@ -215,8 +213,8 @@ impl Errt {
     }
 }
 
-/// Length of a way, with what leads through the unseen counted so many times: where a way leads there straight, the
-/// real one seldom does.
+/// Length of a path, with the parts through unobserved places multiplied by `unseen_weight`: there the real path is
+/// seldom straight.
 fn expected_m(path: &Path, known: &ObstacleMap, unseen_weight: f64) -> f64 {
     let length_m = path.length_m();
     let count = (length_m / SAMPLE_M).ceil().max(1.0);
@@ -254,7 +252,7 @@ impl Transport for Errt {
         let Some(Followed { path, along_m, .. }) = &self.followed else {
             return Err(Refusal::Searching { attempts: 0 });
         };
-        // Where the tool is off the way, the way to it counts too.
+        // If the tool is off the path, its distance to the path counts too.
         let off_m = (path.at(*along_m) - input.tool_m).norm();
         let ahead_m = path.at(*along_m + (reach_m - off_m).max(0.0));
         let target_m = input.tool_m + (ahead_m - input.tool_m).cap_magnitude(reach_m);

@@ -1,26 +1,26 @@
-//! Whether a tool gets anywhere.
+//! Detects a tool that makes no progress.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
 
-/// A tool that stays within the first of these for so many control steps stands still, one within the second
-/// gets nowhere.
+/// Within `STILL_M` for `STILL_STEPS` control steps, the tool counts as still; within `AROUND_M` for `AROUND_STEPS`,
+/// as circling.
 const STILL_M: f64 = 0.003;
 const STILL_STEPS: u32 = 8;
 const AROUND_M: f64 = 0.03;
 const AROUND_STEPS: u32 = 40;
 
-/// In which way a tool gets nowhere.
+/// How the tool fails to progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standstill {
-    /// It stands.
+    /// It does not move.
     Still,
-    /// It moves, but around one place.
+    /// It moves, but stays near one place.
     Around,
 }
 
-/// Where the tool was when it last got anywhere, and how many control steps ago.
+/// For each radius: the last place where the tool made progress, and the control steps since then.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     still: Option<(Point2<f64>, u32)>,
@@ -28,7 +28,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Takes note of a step.
+    /// Records the tool's position at a control step.
     pub fn note(&mut self, tool_m: Point2<f64>) {
         for (since, radius_m) in [(&mut self.still, STILL_M), (&mut self.around, AROUND_M)] {
             *since = match *since {
@@ -38,7 +38,7 @@ impl Progress {
         }
     }
 
-    /// What keeps it, if anything does.
+    /// The present kind of standstill; `None` while the tool makes progress.
     pub fn standstill(&self) -> Option<Standstill> {
         let lasts = |since: Option<(Point2<f64>, u32)>, steps| since.is_some_and(|(_, count)| count >= steps);
         if lasts(self.still, STILL_STEPS) {

@@ -1,8 +1,8 @@
-//! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis for each look of the camera, greedy.
+//! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis per image, greedy.
 //!
-//! Training knew the tool only over the middles of the sweep's cells, so the tool first goes to a cell near by that
-//! keeps training's distance from the walls, and from then on from cell to cell. Between two cells no image is judged:
-//! a slow tool takes several control steps for one action.
+//! In training the tool was only at the centres of the sweep's cells. So the tool first goes to a nearby cell that
+//! keeps training's distance from walls, and then from cell to cell. Between two cells no image is judged: a slow tool
+//! needs several control steps for one action.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,12 +13,12 @@ use crate::geometry::{Point2, Rect, Vector2};
 use crate::perception::{Observation, Percept};
 use crate::policy::{Action, Judgement, Policy};
 
-/// Share of a step within which the tool is over a cell.
+/// Share of a step within which the tool counts as over a cell.
 const OVER: f64 = 0.35;
-/// Cells around the tool that it may enter the lattice by.
+/// Distance, in cells, within which the tool looks for a cell to enter the lattice.
 const ENTRY_CELLS: i64 = 2;
 
-/// The places that training knew.
+/// The places used in training.
 #[derive(Clone, Copy, Debug)]
 struct Lattice {
     workspace: Rect,
@@ -35,7 +35,7 @@ impl Lattice {
     }
 
     fn cell_at(&self, place: Point2<f64>) -> Cell {
-        let index = |value: f64, least: f64| ((value - least) / self.step_m).floor() as i64;
+        let index = |value: f64, min_m: f64| ((value - min_m) / self.step_m).floor() as i64;
         [index(place.x, self.workspace.x_min_m), index(place.y, self.workspace.y_min_m)]
     }
 
@@ -47,21 +47,21 @@ impl Lattice {
 /// The transport and its memory.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rl {
-    /// The cell that the tool is over, or on its way to.
+    /// The cell that the tool is over or moves to.
     cell: Option<Cell>,
-    /// What the network made of the last image, and which action was taken.
+    /// The network's result for the last judged image, and the action taken.
     judged: Option<(Judgement, Action)>,
     progress: Progress,
 }
 
 impl Rl {
-    /// What the network made of the last image that it judged, and what was done.
+    /// The network's result for the last judged image, and the action taken.
     pub fn judged(&self) -> Option<&(Judgement, Action)> {
         self.judged.as_ref()
     }
 
-    /// The nearest cell that keeps the clearance and that nothing lies before; where none keeps it, the one that has
-    /// most.
+    /// The nearest cell that keeps the clearance with no obstacle before it; if none keeps the clearance, the cell with
+    /// the most.
     fn entry(lattice: &Lattice, input: &TransportInput<'_>, clearance_m: f64) -> Option<Cell> {
         let [column, row] = lattice.cell_at(input.tool_m);
         let around = |middle: i64| middle - ENTRY_CELLS..=middle + ENTRY_CELLS;
@@ -76,7 +76,7 @@ impl Rl {
             }
             let lacking_m = clearance_m - wall_distance_m(percept, center_m, clearance_m);
             let rank = (lacking_m, (center_m - input.tool_m).norm());
-            if best.is_none_or(|(least, _)| rank < least) {
+            if best.is_none_or(|(best_rank, _)| rank < best_rank) {
                 best = Some((rank, cell));
             }
         }
@@ -86,23 +86,23 @@ impl Rl {
     /// A control step toward the middle of a cell.
     fn toward(lattice: &Lattice, input: &TransportInput<'_>, cell: Cell) -> TargetStep {
         let limit_m_s = input.parameters.transport_speed_m_s;
-        let way: Vector2<f64> = (lattice.center_m(cell) - input.tool_m).cap_magnitude(limit_m_s * CONTROL_PERIOD_S);
-        let speed_m_s = (way.norm() / CONTROL_PERIOD_S).min(limit_m_s);
-        TargetStep { target_m: input.tool_m + way, speed_m_s }
+        let offset: Vector2<f64> = (lattice.center_m(cell) - input.tool_m).cap_magnitude(limit_m_s * CONTROL_PERIOD_S);
+        let speed_m_s = (offset.norm() / CONTROL_PERIOD_S).min(limit_m_s);
+        TargetStep { target_m: input.tool_m + offset, speed_m_s }
     }
 }
 
-/// Distance to the nearest wall in view, at most `most_m`.
-fn wall_distance_m(percept: &Percept, place: Point2<f64>, most_m: f64) -> f64 {
-    percept.wall_distance_m(place, most_m).unwrap_or(most_m)
+/// Distance to the nearest wall in view, capped at `max_m`.
+fn wall_distance_m(percept: &Percept, place: Point2<f64>, max_m: f64) -> f64 {
+    percept.wall_distance_m(place, max_m).unwrap_or(max_m)
 }
 
 fn is_blocked(input: &TransportInput<'_>, target_m: Point2<f64>) -> bool {
     input.percept.obstacle_on_step(input.tool_m, target_m).is_some()
 }
 
-/// The best action; with the shield, the best of those whose step keeps training's distance from the walls in view,
-/// or failing that, is free of obstacles.
+/// The best action. With the shield: the best one whose step keeps training's distance from the walls in view, or else
+/// the best one whose step is free of obstacles.
 fn choose(lattice: &Lattice, input: &TransportInput<'_>, policy: &Policy, ranking: [Action; 4], here: Cell) -> Action {
     let clearance_m = policy.manifest().clearance_m;
     let target_m = |action: &Action| lattice.center_m(beside(here, *action));
@@ -128,12 +128,12 @@ impl Transport for Rl {
     }
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
-        let Some(policy) = input.policy else { return Err(Refusal::Policy("there is none".to_owned())) };
+        let Some(policy) = input.policy else { return Err(Refusal::Policy("none is loaded".to_owned())) };
         let lattice = Lattice { workspace: *input.known.workspace(), step_m: policy.manifest().step_m };
         self.progress.note(input.tool_m);
         let here = match self.cell {
             Some(cell) if lattice.is_over(input.tool_m, cell) => cell,
-            // Still on its way.
+            // The tool is still moving to its cell.
             Some(cell) => return Ok(Self::toward(&lattice, input, cell)),
             None => {
                 let near = lattice.cell_at(input.tool_m);
@@ -153,7 +153,7 @@ impl Transport for Rl {
         self.judged = Some((judgement, action));
         let cell = beside(here, action);
         let step = Self::toward(&lattice, input, cell);
-        // A step that the last gate refuses is no step: the next image is judged from here.
+        // A step that will be refused by the limits is not taken: the next image is judged from here.
         if lattice.workspace.contains(lattice.center_m(cell)) && !is_blocked(input, step.target_m) {
             self.cell = Some(cell);
         }

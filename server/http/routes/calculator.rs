@@ -9,7 +9,7 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use crate::control::limits::LEAST_MANIPULABILITY_M3;
+use crate::control::limits::MIN_MANIPULABILITY_M3;
 use crate::geometry::{Isometry3, Matrix3, Vector3};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
@@ -154,7 +154,7 @@ pub async fn workspace(
         };
         Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no_workspace", error.to_string()).field(field)
     })?;
-    Ok(Json(WorkspaceMap { map: map.into(), least_m3: LEAST_MANIPULABILITY_M3 }))
+    Ok(Json(WorkspaceMap { map: map.into(), least_m3: MIN_MANIPULABILITY_M3 }))
 }
 
 /// The pull on the bead over its offset from the block.

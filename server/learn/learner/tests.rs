@@ -20,26 +20,27 @@ fn middle_of(cell: u16) -> Goal {
     Goal { cell, offset: [0, 0] }
 }
 
-/// A quarter of a centimetre below it: a goal up the wall is reached one cell earlier, with no tie at 2 cm.
+/// A goal a quarter of a centimetre below the cell's centre. From below it is reached one cell earlier, without a tie
+/// at 2 cm.
 fn below(cell: u16) -> Goal {
     Goal { cell, offset: [0, -64] }
 }
 
-/// A replay of one lane that went from the first cell through the others, into a wall last if that is how it ended.
+/// A replay of one lane that visited the cells in order, and finally hit a wall if `ending` is a collision.
 fn walked(terrain: &Terrain, cells: &[u16], goal: Goal, ending: Option<Ending>) -> Replay {
     let mut replay = Replay::new(100, 1, 0.5);
     let crashed = ending == Some(Ending::Collided);
     let last = cells.len() - if crashed { 1 } else { 2 };
     for (index, &cell) in cells[..=last].iter().enumerate() {
         let next = cells.get(index + 1).copied();
-        let action = (0..4).find(|&action| terrain.step(cell, action) == next).expect("a way of one step");
+        let action = (0..4).find(|&action| terrain.step(cell, action) == next).expect("neighbouring cells");
         let ending = ending.filter(|_| index == last);
         replay.push(Transition { terrain: 0, cell, action: action as u8, next, goal, ending });
     }
     replay
 }
 
-/// Reward, discount and the cell that the return goes on from, of the first step on the way to a goal.
+/// Reward, discount and bootstrap cell of the first step's return for a goal.
 fn return_of(recipe: &Recipe, replay: &Replay, goal: Goal, is_own: bool) -> (f32, f32, u16) {
     let terrains = [two_rooms()];
     let mut learner = Learner::new(recipe, &terrains, Memory::new(recipe, 1)).unwrap();
@@ -47,7 +48,7 @@ fn return_of(recipe: &Recipe, replay: &Replay, goal: Goal, is_own: bool) -> (f32
     let (reward, discount) = learner.step_return(&terrains[0], &path, goal, is_own);
     let sample = learner.sample(replay, 0);
     if is_own {
-        // What an update draws is the same.
+        // The sample of an update has the same values.
         assert_eq!((sample.goals[0].reward, sample.goals[0].discount), (reward, discount));
         assert_eq!(sample.goals[0].places, terrains[0].places(goal.place_m(&terrains[0]), replay.get(0).cell));
         assert_eq!(sample.goals[0].places_beyond, terrains[0].places(goal.place_m(&terrains[0]), sample.beyond.1));
@@ -55,10 +56,10 @@ fn return_of(recipe: &Recipe, replay: &Replay, goal: Goal, is_own: bool) -> (f32
     (reward, discount, sample.beyond.1)
 }
 
-// In `two_rooms`, cells 0, 5, 10, 15, 20 go up the left wall, 20 to 25 along the top to the right.
+// In `two_rooms`, cells 0, 5, 10, 15, 20 go up the left wall, and 20 to 25 along the top to the right.
 
 #[test]
-fn a_return_within_an_episode_is_n_discounted_rewards_and_goes_on_after_n_steps() {
+fn a_return_within_an_episode_has_n_discounted_rewards_and_then_bootstraps() {
     let (terrain, goal) = (two_rooms(), middle_of(25));
     let replay = walked(&terrain, &[0, 5, 10, 15, 20, 21], goal, None);
     assert_eq!(return_of(&recipe(1), &replay, goal, true), (0.25, 0.5, 5));
@@ -73,7 +74,7 @@ fn a_wall_ends_the_return_for_every_goal() {
     let (terrain, goal) = (two_rooms(), middle_of(25));
     let replay = walked(&terrain, &[1, 0], goal, Some(Ending::Collided));
     for is_own in [true, false] {
-        // A step away, then the wall.
+        // One step away from the goal, then the wall.
         let (reward, discount, _) = return_of(&recipe(3), &replay, goal, is_own);
         assert_eq!((reward, discount), (-0.25 - 0.5, 0.0), "own {is_own}");
     }
@@ -82,9 +83,9 @@ fn a_wall_ends_the_return_for_every_goal() {
 }
 
 #[test]
-fn a_goal_ends_its_return_and_no_other() {
+fn a_goal_ends_only_its_own_return() {
     let (terrain, own) = (two_rooms(), below(20));
-    // Within 2 cm of cell 20 at cell 10; the last cell is never left.
+    // Cell 10 is within 2 cm of cell 20; the last cell is never left.
     let replay = walked(&terrain, &[0, 5, 10], own, Some(Ending::Reached));
     assert_eq!(return_of(&recipe(3), &replay, own, true), (0.25 + 0.5 * 1.25, 0.0, 10));
     let far = middle_of(25);
@@ -93,7 +94,7 @@ fn a_goal_ends_its_return_and_no_other() {
 }
 
 #[test]
-fn a_goal_given_later_ends_the_return_midway() {
+fn a_hindsight_goal_ends_the_return_midway() {
     let (terrain, own) = (two_rooms(), middle_of(25));
     let replay = walked(&terrain, &[0, 5, 10, 15, 20], own, None);
     let (reward, discount, _) = return_of(&recipe(3), &replay, below(15), false);
@@ -103,7 +104,7 @@ fn a_goal_given_later_ends_the_return_midway() {
 }
 
 #[test]
-fn an_episode_out_of_steps_goes_on_or_fails_as_the_recipe_says() {
+fn a_timeout_bootstraps_or_fails_depending_on_the_recipe() {
     let (terrain, own) = (two_rooms(), middle_of(25));
     let replay = walked(&terrain, &[0, 5, 10], own, Some(Ending::TimedOut));
     let rewards = 0.25 + 0.125;
@@ -112,8 +113,12 @@ fn an_episode_out_of_steps_goes_on_or_fails_as_the_recipe_says() {
     let (reward, discount, _) = return_of(&fails, &replay, own, true);
     assert_eq!((reward, discount), (rewards - 0.5, 0.0), "the failure comes with the second step");
     let other = middle_of(24);
-    assert_eq!(return_of(&fails, &replay, other, false), (rewards, 0.25, 10), "another goal had not run out");
-    // Without a discount there is nothing to divide by.
+    assert_eq!(
+        return_of(&fails, &replay, other, false),
+        (rewards, 0.25, 10),
+        "for another goal the episode did not time out"
+    );
+    // With discount 0 there must be no division by 0.
     let blind = Recipe { discount: 0.0, n_step: 1, ..fails };
     let replay = walked(&terrain, &[0, 5], own, Some(Ending::TimedOut));
     let (reward, discount, _) = return_of(&blind, &replay, own, true);
@@ -121,7 +126,7 @@ fn an_episode_out_of_steps_goes_on_or_fails_as_the_recipe_says() {
 }
 
 #[test]
-fn a_path_cut_by_the_newest_step_goes_on_from_there() {
+fn a_path_that_ends_at_the_newest_step_bootstraps_from_there() {
     let (terrain, own) = (two_rooms(), middle_of(25));
     let mut replay = Replay::new(4, 1, 0.5);
     let other = walked(&terrain, &[22, 21, 20, 15, 10, 5, 0], own, None);
@@ -130,11 +135,11 @@ fn a_path_cut_by_the_newest_step_goes_on_from_there() {
     let cells: Vec<u16> = (0..4).map(|index| replay.get(index).cell).collect();
     assert_eq!(cells, [10, 5, 20, 15]);
     let (reward, discount, beyond) = return_of(&recipe(3), &replay, own, true);
-    assert_eq!((reward, discount, beyond), (-0.25 - 0.125, 0.25, 0), "two steps are left, then the newest ends it");
+    assert_eq!((reward, discount, beyond), (-0.25 - 0.125, 0.25, 0), "two steps are left up to the newest");
 }
 
 #[test]
-fn shaped_rewards_add_up_to_the_difference_of_the_distances() {
+fn shaped_rewards_sum_to_the_difference_of_the_distances() {
     let terrains = [two_rooms()];
     let recipe = Recipe { n_step: 20, discount: 1.0, progress_reward: 0.1, goals: 1, ..Recipe::default() };
     let learner = Learner::new(&recipe, &terrains, Memory::new(&recipe, 1)).unwrap();
@@ -145,8 +150,9 @@ fn shaped_rewards_add_up_to_the_difference_of_the_distances() {
         let (first, goal) = (episode.cell, episode.goal);
         let mut path = Vec::new();
         while path.len() < 20 {
-            let ways: Vec<usize> = (0..4).filter(|&way| terrains[0].step(episode.cell, way).is_some()).collect();
-            let action = ways[rng.random_range(0..ways.len())];
+            let actions: Vec<usize> =
+                (0..4).filter(|&action| terrains[0].step(episode.cell, action).is_some()).collect();
+            let action = actions[rng.random_range(0..actions.len())];
             let cell = episode.cell;
             let (next, ending) = episode.step(&terrains, action, &recipe);
             path.push(Transition { terrain: 0, cell, action: action as u8, next, goal, ending });
@@ -163,5 +169,5 @@ fn shaped_rewards_add_up_to_the_difference_of_the_distances() {
         assert!((episode.total - expected).abs() < 1e-5, "{} {expected}", episode.total);
         assert_eq!(discount, f32::from(u8::from(!is_reached)));
     }
-    assert!((20..180).contains(&reached), "both kinds came: {reached}");
+    assert!((20..180).contains(&reached), "both endings occur: {reached}");
 }

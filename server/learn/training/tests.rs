@@ -5,7 +5,7 @@ use super::*;
 use crate::learn::examine::examine_by;
 use crate::learn::terrain::tests::two_rooms;
 
-/// A recipe whose runs take a second.
+/// A recipe whose runs take about a second.
 fn shrunk(recipe: Recipe) -> Recipe {
     Recipe {
         images: 8,
@@ -45,24 +45,24 @@ fn resuming_changes_nothing(recipe: &Recipe) {
         read.run(&terrains, &mut |_| true).unwrap();
         read
     });
-    // Numbers that print alike may differ: not a comparison of texts.
+    // Numbers that print the same may differ, so the values are compared, not the texts.
     assert_eq!(resumed.curve, whole.curve);
     assert!(resumed == whole);
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no part of a file is left");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no partial file is left");
 }
 
 #[test]
-fn a_run_kept_midway_and_resumed_with_other_threads_is_the_uninterrupted_one_to_the_bit() {
+fn a_resumed_run_on_other_threads_equals_the_uninterrupted_one_bit_by_bit() {
     resuming_changes_nothing(&shrunk(Recipe::default()));
 }
 
 #[test]
-fn so_is_a_run_of_the_papers_recipe() {
+fn a_resumed_run_of_the_papers_recipe_equals_the_uninterrupted_one() {
     resuming_changes_nothing(&shrunk(Recipe::paper()));
 }
 
 #[test]
-fn another_seed_gives_another_run() {
+fn another_seed_gives_a_different_run() {
     let terrains = [two_rooms()];
     let first = |seed| State::new(shrunk(Recipe::default()), seed, &terrains).unwrap();
     assert!(first(1) == first(1));
@@ -83,49 +83,49 @@ fn a_checkpoint_that_does_not_fit_is_refused_with_the_reason() {
         assert!(text.contains("run.checkpoint"), "{text}");
         text
     };
-    assert!(matches!(State::read(&path, &recipe, 3, &terrains), Err(TrainingError::Io { .. })), "there is none yet");
+    assert!(matches!(State::read(&path, &recipe, 3, &terrains), Err(TrainingError::Io { .. })), "no file exists yet");
 
     state.write(&path, 0.0).unwrap();
     assert!(State::read(&path, &recipe, 3, &terrains).is_ok());
     assert!(refusal(&recipe, 4, &terrains).contains("its seed is 3, not 4"));
     let other = Recipe { n_step: 2, ..recipe.clone() };
-    assert!(refusal(&other, 3, &terrains).contains("it was made by another recipe"));
+    assert!(refusal(&other, 3, &terrains).contains("it has another recipe"));
     let two = [two_rooms(), two_rooms()];
     assert!(refusal(&recipe, 3, &two).contains(r#"its maps are [("rooms", 26)]"#));
 
     let whole = std::fs::read(&path).unwrap();
     for length in [0, 7, 8, 100, whole.len() / 2, whole.len() - 1] {
         std::fs::write(&path, &whole[..length]).unwrap();
-        assert!(refusal(&recipe, 3, &terrains).contains("torn"), "{length} bytes");
+        assert!(refusal(&recipe, 3, &terrains).contains("damaged"), "{length} bytes");
     }
     for at in [0, 8, 20, whole.len() / 2, whole.len() - 1] {
         let mut edited = whole.clone();
         edited[at] ^= 1;
         std::fs::write(&path, &edited).unwrap();
-        assert!(refusal(&recipe, 3, &terrains).contains("torn or edited"), "byte {at}");
+        assert!(refusal(&recipe, 3, &terrains).contains("damaged or edited"), "byte {at}");
     }
 
-    // What another version wrote is whole, and another.
+    // A file of another version is intact but refused.
     let bytes = postcard::to_stdvec(&(VERSION + 1, 0.0, &state)).unwrap();
     let hash = xxhash_rust::xxh3::xxh3_64(&bytes).to_le_bytes();
     std::fs::write(&path, [&hash[..], &bytes].concat()).unwrap();
-    assert!(refusal(&recipe, 3, &terrains).contains("its version is 2, this program reads 1"));
+    assert!(refusal(&recipe, 3, &terrains).contains("its version is 2, expected 1"));
 }
 
 #[test]
-fn a_recipe_out_of_range_starts_no_run() {
+fn refuses_a_recipe_out_of_range() {
     let bad = Recipe { images: 0, ..Recipe::default() };
     let error = State::new(bad, 1, &[two_rooms()]).unwrap_err();
     assert!(error.to_string().contains("images is 0"), "{error}");
 }
 
-/// Episodes of an examination here.
+/// Episodes of an examination in this test.
 const EPISODES: u32 = 300;
 
 #[test]
-fn a_small_run_learns_the_way_between_two_rooms() {
+fn a_small_run_learns_the_path_between_two_rooms() {
     let terrains = [two_rooms()];
-    // Rewards near at hand: what is learned from far needs thousands of updates.
+    // Frequent rewards: learning from distant ones needs thousands of updates.
     let recipe = Recipe {
         images: 6,
         goals: 16,
@@ -143,9 +143,9 @@ fn a_small_run_learns_the_way_between_two_rooms() {
         ..shrunk(Recipe::default())
     };
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut wander =
+    let mut act_randomly =
         |cells: &[(u8, u16)], _: &[[f32; 4]]| Ok(cells.iter().map(|_| rng.random_range(0..4)).collect::<Vec<u32>>());
-    let wandering = examine_by(&recipe, &terrains, EPISODES, 9, &mut wander).unwrap();
+    let random = examine_by(&recipe, &terrains, EPISODES, 9, &mut act_randomly).unwrap();
     for seed in [2, 3] {
         let mut state = State::new(recipe.clone(), seed, &terrains).unwrap();
         let untrained = state.examine(&terrains, EPISODES, 9).unwrap();
@@ -153,9 +153,9 @@ fn a_small_run_learns_the_way_between_two_rooms() {
         let trained = state.examine(&terrains, EPISODES, 9).unwrap();
         let ended = trained.reached + trained.collided + trained.timed_out;
         assert_eq!((trained.episodes, ended), (EPISODES, EPISODES));
-        // Of six seeds the worst reached 77 %, these two 99 % and more; wandering, 15 %. Another processor rounds
-        // otherwise, and these runs are short enough to differ by it.
-        assert!(trained.success() > 0.6 && wandering.success() < 0.25, "{trained:?} {wandering:?}");
+        // Of six seeds the worst reached 77 %, these two 99 % and more; random steps reach 15 %. Other processors
+        // round differently, and runs this short can differ because of it.
+        assert!(trained.success() > 0.6 && random.success() < 0.25, "{trained:?} {random:?}");
         assert!(untrained.success() < 0.25, "{untrained:?}");
         assert!(trained.steps <= trained.least_steps, "{trained:?}: goals end 2 cm before their cells");
     }

@@ -1,4 +1,4 @@
-//! Attributes, as far as they must be known before usvg reads them.
+//! Checks of attributes before usvg reads them.
 
 use usvg::roxmltree::{Attribute, Node};
 
@@ -10,19 +10,19 @@ const XML: &str = "http://www.w3.org/XML/1998/namespace";
 const MAX_NUMBER: f64 = 1e6;
 /// Every class of an element is compared with every class of a style sheet.
 const MAX_CLASS_BYTES: usize = 100;
-/// Values other than coordinates: what is inside an element inherits them, and reads them again.
+/// For values other than coordinates: children inherit them and parse them again.
 const MAX_VALUE_BYTES: usize = 10_000;
 
 const SIZES: [&str; 13] = ["x", "y", "width", "height", "cx", "cy", "r", "rx", "ry", "x1", "y1", "x2", "y2"];
 const STROKES: [&str; 3] = ["stroke-width", "stroke-miterlimit", "stroke-dashoffset"];
 const UNITS: [&str; 8] = ["", "px", "mm", "cm", "in", "pt", "pc", "%"];
 
-/// Whether usvg would look at an element.
+/// Whether usvg processes an element.
 pub(super) fn is_svg(node: Node<'_, '_>) -> bool {
     node.is_element() && matches!(node.tag_name().namespace(), None | Some(SVG))
 }
 
-/// The attributes that usvg would look at.
+/// The attributes that usvg reads.
 fn known<'a, 'input>(node: Node<'a, 'input>) -> impl Iterator<Item = Attribute<'a, 'input>> {
     node.attributes().filter(|a| matches!(a.namespace(), None | Some(SVG | XLINK | XML)))
 }
@@ -36,14 +36,14 @@ pub(super) fn href<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     hrefs().find(|a| a.namespace().is_none()).or_else(|| hrefs().next()).map(|a| a.value())
 }
 
-/// Whether an element keeps itself and what is in it from being drawn in its place.
+/// Whether an element and its children are not drawn at their own position.
 pub(super) fn hidden(node: Node<'_, '_>) -> bool {
     let declared = declarations(node.attribute("style").unwrap_or_default()).any(|d| d == ("display", "none"));
     let tag = node.tag_name().name();
     declared || node.attribute("display") == Some("none") || ["defs", "symbol", "switch"].contains(&tag)
 }
 
-/// As much of a value as an error message holds.
+/// A value shortened for an error message.
 pub(super) fn short(value: &str) -> String {
     const SHOWN: usize = 80;
     let mut short: String = value.chars().take(SHOWN).collect();
@@ -53,7 +53,7 @@ pub(super) fn short(value: &str) -> String {
     short
 }
 
-/// Refuses values that usvg would pass over in silence, or choke on. Gives how many coordinates there are.
+/// Refuses values that usvg would silently ignore or could not handle. Returns the number of coordinates.
 pub(super) fn check(node: Node<'_, '_>) -> Result<usize, String> {
     let mut coordinates = 0;
     for attribute in known(node) {
@@ -79,7 +79,7 @@ pub(super) fn check(node: Node<'_, '_>) -> Result<usize, String> {
                     check_path(value)?;
                 }
             }
-            // The root's size means nothing: its viewBox is in millimetres.
+            // The root's size is ignored: its viewBox is in millimetres.
             "width" | "height" if node.parent_element().is_none() => {}
             _ => check_property(name, value)?,
         }
@@ -98,10 +98,10 @@ fn check_property(name: &str, value: &str) -> Result<(), String> {
     let wrong = |what: &str| Err(format!("{name}={:?} {what}", short(value)));
     let has_length = SIZES.contains(&name) || STROKES.contains(&name);
     if has_length && !is_length(value.trim_end_matches("!important").trim()) {
-        return wrong("is no number within ±1e6, plain or with px, mm, cm, in, pt, pc or %");
+        return wrong("is not a number within ±1e6, plain or with px, mm, cm, in, pt, pc or %");
     }
     if name.contains("stroke-dasharray") && !value.trim().starts_with("none") {
-        return wrong("is not drawn; draw each dash as a wall of its own");
+        return wrong("is not drawn; draw each dash as a separate wall");
     }
     if name.contains("vector-effect") && !value.trim().starts_with("none") {
         return wrong("is not applied; give the stroke its width in mm");
@@ -116,14 +116,14 @@ fn is_length(value: &str) -> bool {
     matches!(value, "auto" | "inherit") || in_range && UNITS.contains(&unit)
 }
 
-/// usvg draws a path up to its first mistake, and half a wall is none.
+/// usvg draws a path only up to its first error, which would give half a wall.
 fn check_path(value: &str) -> Result<(), String> {
-    let stranger =
+    let unexpected =
         value.chars().find(|c| !c.is_ascii_whitespace() && !"MmLlHhVvCcSsQqTtAaZz0123456789+-.,eE".contains(*c));
     if value.trim() == "none" {
         Ok(())
-    } else if let Some(stranger) = stranger {
-        Err(format!("d has a {stranger:?}, which is no part of a path"))
+    } else if let Some(unexpected) = unexpected {
+        Err(format!("d has a {unexpected:?}, which is not allowed in a path"))
     } else {
         kurbo::BezPath::from_svg(value).map(drop).map_err(|error| format!("d={:?} is broken: {error}", short(value)))
     }
@@ -137,7 +137,7 @@ fn declarations(style: &str) -> impl Iterator<Item = (&str, &str)> {
         .map(|(name, value)| (name.trim(), value.trim()))
 }
 
-/// The numbers in a list as SVG writes them, where `10-5.5.3e2` is 10, −5.5, 30.
+/// The numbers of an SVG list: `10-5.5.3e2` is 10, −5.5, 30.
 fn numbers(value: &str) -> Vec<f64> {
     let (mut numbers, mut number, mut has_point, mut has_exponent) = (Vec::new(), String::new(), false, false);
     let mut last = ' ';
@@ -171,14 +171,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_read_as_svg_writes_them() {
+    fn parses_numbers_as_svg_writes_them() {
         assert_eq!(numbers("M10-5.5.3e2,-1e-2+7 .5."), [10.0, -5.5, 30.0, -0.01, 7.0, 0.5]);
         assert_eq!(numbers("matrix(1 0 0 -1 5 1e400)")[5], f64::INFINITY);
         assert!(numbers("translate( )").is_empty());
     }
 
     #[test]
-    fn lengths_have_numbers_and_known_units() {
+    fn accepts_lengths_with_known_units_only() {
         for good in ["10", "-1.5e2mm", "50%", ".5in", "auto"] {
             assert!(is_length(good), "{good}");
         }

@@ -1,5 +1,5 @@
-//! Where outlines meet, counted before they are united: the union's cost grows with the count, which
-//! grows as the square of what a scribbler draws.
+//! Counts where outlines meet before they are united: the cost of the union grows with this count, which can be
+//! quadratic in the number of edges.
 
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
@@ -9,16 +9,16 @@ use super::Ring;
 
 /// Points at which a drawing's outlines may meet. Each may add a vertex to the walls.
 const MAX_CONTACTS: usize = 100_000;
-/// Pairs of edges whose boxes overlap, of which few need meet: half a second's work.
+/// Pairs of edges with overlapping boxes, whether they meet or not: half a second of work.
 const MAX_PAIRS: usize = 10_000_000;
 
-/// What is left of a drawing's bounds.
+/// The remaining limits of a drawing.
 pub(super) struct Budget {
     contacts: usize,
     pairs: usize,
 }
 
-/// How the edges of some rings meet, other than at the corners between neighbours.
+/// How the edges of some rings meet, except at the corners between neighbours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Contacts {
     pub cross: bool,
@@ -29,7 +29,7 @@ struct Edge {
     a: Vector,
     b: Vector,
     ring: usize,
-    /// Position in `edges` of the ring's next edge.
+    /// Index in `edges` of the ring's next edge.
     next: usize,
 }
 
@@ -38,7 +38,7 @@ impl Budget {
         Self { contacts: MAX_CONTACTS, pairs: MAX_PAIRS }
     }
 
-    /// Looks at closed rings; `Err` gives the ring at which the budget was spent.
+    /// Counts the contacts of closed rings; `Err` is the ring at which a limit was exceeded.
     pub fn spend(&mut self, rings: &[Ring]) -> Result<Contacts, usize> {
         let edges = edges_of(rings);
         let bvh = Bvh::from_iter(BvhBuildStrategy::Binned, edges.iter().map(Edge::aabb).enumerate());
@@ -63,7 +63,7 @@ impl Budget {
     }
 }
 
-/// The edges of some rings, without those that have no length.
+/// The edges of some rings, except those of length 0.
 fn edges_of(rings: &[Ring]) -> Vec<Edge> {
     let mut edges = Vec::new();
     for (ring, points) in rings.iter().enumerate() {
@@ -81,8 +81,8 @@ fn edges_of(rings: &[Ring]) -> Vec<Edge> {
     edges
 }
 
-/// Whether two edges cross at a point inside both, or else touch. Neighbours share a corner, and touch
-/// only if they fold back on each other.
+/// Whether two edges cross at an inner point of both, and if not, whether they touch. Neighbours share a corner and
+/// touch only if they fold back on each other.
 fn meet(p: &Edge, q: &Edge, neighbours: bool) -> (bool, bool) {
     let side = |e: &Edge, point: Vector| {
         let cross = (e.b - e.a).perp_dot(point - e.a);
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn crossing_touching_and_neither_are_told_apart() {
+    fn distinguishes_crossing_touching_and_separate_edges() {
         let (cross, touch) = (Contacts { cross: true, touch: false }, Contacts { cross: false, touch: true });
         let square = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
         let moved = |dx: f64, dy: f64| square.iter().map(|[x, y]| [x + dx, y + dy]).collect::<Ring>();
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scribble_spends_the_budget_at_its_own_ring() {
+    fn a_dense_scribble_exceeds_the_budget_at_its_own_ring() {
         let square = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
         let fan = |k: u32| [if k.is_multiple_of(2) { 10.0 } else { 20.0 }, f64::from(k * 7919 % 10_007)];
         let scribble: Ring = (0..10_000).map(fan).collect();

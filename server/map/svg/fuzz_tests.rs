@@ -1,4 +1,4 @@
-//! Drawings that nobody makes: whatever is in the file, the answer is a map or an error.
+//! Random drawings: any input gives a map or an error.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
@@ -64,7 +64,7 @@ const SHAPES: [&str; 9] = [
     "<use href='#a' x='?' y='?' transform='skewX(?)'",
 ];
 
-/// Loads a drawing and, if it is accepted, sees that its polygons are sound.
+/// Loads a drawing and, if it is accepted, checks that its polygons are valid.
 fn survives(text: &str) {
     let Ok(map) = Map::from_svg("fuzz", text) else { return };
     FreeSpace::new(&map, 0.012);

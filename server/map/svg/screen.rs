@@ -1,7 +1,6 @@
-//! What is let through to usvg: elements that can become walls, numbers in range, and no more of
-//! either than can be worked through.
+//! Filters the input of usvg: only elements that can become walls, numbers in range, and a limited amount of both.
 //!
-//! usvg loses lines, so each element gets an id by which its line is found again.
+//! usvg does not keep line numbers, so each element gets an id by which its line is found again.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -11,20 +10,20 @@ use usvg::roxmltree::{Document, Node};
 use super::super::{MapError, Place};
 use super::attributes::{self, hidden, is_svg, short};
 
-/// Levels of elements in elements, each `<use>` resolved: usvg descends by recursion.
+/// Nesting depth of elements with each `<use>` resolved. usvg is recursive.
 const MAX_DEPTH: usize = 64;
-/// Elements, each `<use>` resolved. A maze of single lines that fills the largest file has 20,000.
+/// Number of elements with each `<use>` resolved. A maze of single lines that fills the largest file has 20,000.
 const MAX_ELEMENTS: usize = 20_000;
-/// Numbers in `d` and `points`, each `<use>` resolved: four to a vertex of [`super::sketch::MAX_VERTICES`].
+/// Numbers in `d` and `points` with each `<use>` resolved: four per vertex of [`super::sketch::MAX_VERTICES`].
 const MAX_NUMBERS: usize = 200_000;
-/// Style sheets, and the steps that matching their selectors may take.
+/// Size of style sheets, and number of steps for matching their selectors.
 const MAX_STYLE_BYTES: usize = 16 << 10;
 const MAX_STYLE_STEPS: usize = 1_000_000_000;
 
 const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
 const OTHERS: [&str; 12] =
     ["svg", "g", "a", "defs", "symbol", "use", "switch", "title", "desc", "metadata", "style", "view"];
-/// What shapes are filled with is nothing to a wall, and costs usvg dearly: each becomes a plain colour.
+/// Paints do not matter for walls and are expensive in usvg: each is replaced by a plain colour.
 const PAINTS: [&str; 3] = ["linearGradient", "radialGradient", "pattern"];
 
 pub(super) struct Screened {
@@ -33,7 +32,7 @@ pub(super) struct Screened {
     /// The elements by their ids in `text`.
     pub places: HashMap<String, Place>,
     pub root: Place,
-    /// Ids in `text` of the shapes that ask to be seen.
+    /// Ids in `text` of the shapes that should be visible.
     pub shown: Vec<String>,
 }
 
@@ -48,9 +47,9 @@ struct Screen<'a, 'input> {
     xml: &'a Document<'input>,
     /// Line of each node, by node id.
     lines: Vec<u32>,
-    /// Numbers in each node's coordinates, by node id.
+    /// Count of the numbers in each node's coordinates, by node id.
     numbers: Vec<usize>,
-    /// Whether each node is kept from being drawn where it stands, by node id.
+    /// Whether each node is not drawn at its own position, by node id.
     hidden: Vec<bool>,
     by_id: HashMap<&'a str, Node<'a, 'input>>,
     seen_elements: usize,
@@ -88,7 +87,7 @@ impl<'a, 'input> Screen<'a, 'input> {
         MapError::Element { place: self.place(node), reason: reason.into() }
     }
 
-    /// Elements that are SVG, those inside paints left out.
+    /// SVG elements, except those inside paints.
     fn elements(&self) -> impl Iterator<Item = Node<'a, 'input>> + use<'a, 'input> {
         let is_paint = |node: Node<'_, '_>| PAINTS.contains(&node.tag_name().name());
         let mut paint_ends = 0;
@@ -101,28 +100,30 @@ impl<'a, 'input> Screen<'a, 'input> {
         })
     }
 
-    /// Each element by itself, as written.
+    /// Checks each element separately, as written.
     fn check(&mut self) -> Result<(), MapError> {
         let (mut style_bytes, mut count, mut depth) = (0, 0, 0);
         for node in self.elements() {
             let tag = node.tag_name().name();
             let reason = match tag {
                 _ if SHAPES.contains(&tag) || OTHERS.contains(&tag) || PAINTS.contains(&tag) => None,
-                "text" | "tspan" | "textPath" | "flowRoot" => Some("text is no wall; convert it to paths"),
-                "image" | "foreignObject" => Some("a picture is no wall; trace it to paths"),
+                "text" | "tspan" | "textPath" | "flowRoot" => Some("text cannot be a wall; convert it to paths"),
+                "image" | "foreignObject" => Some("an image cannot be a wall; trace it to paths"),
                 "mask" | "clipPath" | "filter" => {
                     Some("masks, clips and filters are not applied; draw the shape itself")
                 }
                 "marker" => Some("markers are not drawn; draw the shape itself"),
-                "animate" | "animateTransform" | "animateMotion" | "set" => Some("walls stand still"),
-                _ => Some("it is not known here; draw with paths, rects, circles, ellipses, lines and polygons"),
+                "animate" | "animateTransform" | "animateMotion" | "set" => {
+                    Some("animations are not supported; walls are static")
+                }
+                _ => Some("unsupported element; draw with paths, rects, circles, ellipses, lines and polygons"),
             };
             if let Some(reason) = reason {
                 return Err(self.refused(node, reason));
             }
             count += 1;
             if count > MAX_ELEMENTS {
-                return Err(self.refused(node, format!("there are more than {MAX_ELEMENTS} elements before it")));
+                return Err(self.refused(node, format!("the drawing has more than {MAX_ELEMENTS} elements")));
             }
             if tag == "style" {
                 style_bytes += node.range().len();
@@ -134,29 +135,31 @@ impl<'a, 'input> Screen<'a, 'input> {
                 attributes::check(node).map_err(|reason| self.refused(node, reason))?;
             depth = depth.max(node.ancestors().take(MAX_DEPTH + 2).count());
         }
-        // A selector of many parts is tried on every choice of ancestors.
+        // A selector with several parts is tried on every combination of ancestors.
         let steps = (style_bytes * count).saturating_mul(1 << depth.min(40));
         if steps > MAX_STYLE_STEPS {
-            let style = self.elements().find(|node| node.tag_name().name() == "style").expect("it has bytes");
-            let reason = "too long a style sheet for so many nested elements; use attributes";
+            let style = self.elements().find(|node| node.tag_name().name() == "style").expect("a style element exists");
+            let reason = "the style sheet is too long for this number of nested elements; use attributes";
             return Err(self.refused(style, reason));
         }
         Ok(())
     }
 
-    /// The drawing with each `<use>` resolved, as usvg will see it.
+    /// Checks the drawing with each `<use>` resolved, as usvg will process it.
     fn descend(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<(), MapError> {
         self.seen_elements += 1;
         self.seen_numbers += self.numbers[node.id().get_usize()];
         if depth > MAX_DEPTH {
-            return Err(self.refused(node, format!("it lies more than {MAX_DEPTH} elements deep, or uses itself")));
+            return Err(
+                self.refused(node, format!("it is nested more than {MAX_DEPTH} elements deep, or refers to itself"))
+            );
         }
         if self.seen_elements > MAX_ELEMENTS {
-            let reason = format!("with it the drawing has more than {MAX_ELEMENTS} elements, each <use> resolved");
+            let reason = format!("up to here the drawing has more than {MAX_ELEMENTS} elements, each <use> resolved");
             return Err(self.refused(node, reason));
         }
         if self.seen_numbers > MAX_NUMBERS {
-            let reason = format!("with it the drawing has more than {MAX_NUMBERS} coordinates, each <use> resolved");
+            let reason = format!("up to here the drawing has more than {MAX_NUMBERS} coordinates, each <use> resolved");
             return Err(self.refused(node, reason));
         }
         for child in node.children().filter(Node::is_element) {
@@ -167,14 +170,14 @@ impl<'a, 'input> Screen<'a, 'input> {
             let target = href.trim().strip_prefix('#').and_then(|id| self.by_id.get(id).copied());
             let Some(target) = target else {
                 let href = short(href);
-                return Err(self.refused(node, format!("href={href:?} is no element of this drawing")));
+                return Err(self.refused(node, format!("href={href:?} is not an element of this drawing")));
             };
             self.descend(target, depth + 1)?;
         }
         Ok(())
     }
 
-    /// Gives each element an id of its own, each paint a plain colour, and the root no size but its viewBox.
+    /// Gives each element its own id, replaces each paint by a plain colour, and removes the root's size.
     fn rewrite(&self, view_box: &str) -> Screened {
         let (text, root) = (self.xml.input_text(), self.xml.root_element());
         let mut edits: Vec<(Range<usize>, String)> = Vec::new();
@@ -208,9 +211,9 @@ impl<'a, 'input> Screen<'a, 'input> {
                 Some(own) if !own.value().is_empty() && self.by_id.get(own.value()) == Some(&node) => {
                     own.value().to_owned()
                 }
-                // Two elements with one id could not be told apart.
+                // Replaces ids too: two elements could have the same one.
                 own => {
-                    let id = fresh_ids.next().expect("numbers do not end");
+                    let id = fresh_ids.next().expect("the range is infinite");
                     edits.push(match own {
                         Some(own) => (own.range(), format!("id={id:?}")),
                         None => (tag_end..tag_end, format!(" id={id:?}")),

@@ -1,4 +1,4 @@
-//! The outlines of what usvg has resolved, in metres, each in order by itself.
+//! The outlines of the elements that usvg has resolved, in metres, in order.
 
 use std::cell::Cell;
 use std::collections::HashSet;
@@ -13,24 +13,24 @@ use super::Ring;
 use super::contacts::Budget;
 use super::screen::Screened;
 
-/// Chords stay this close to the curves they replace.
+/// Largest distance between a curve and the chords that replace it.
 const FLATNESS_MM: f64 = 0.05;
 
-/// Vertices of all outlines together, curves as chords. One for each 18-mm square of the largest workspace,
-/// where a bead needs 24 mm to pass; loading such a drawing takes a fifth of a second.
+/// Vertices of all outlines, with curves as chords. This is one per 18 mm square of the largest workspace, where a bead
+/// needs 24 mm to pass. Loading such a drawing takes a fifth of a second.
 pub(super) const MAX_VERTICES: usize = 50_000;
 
-/// Length of all outlines together, in diagonals of the viewBox; of an edge no more than one counts. Corridors that a
-/// bead can pass have a third of it at most. Edges that are nearly as long as the drawing, by the ten thousand, cost
-/// the union a gigabyte, and each question about the nearest wall a search through most of them.
+/// Total length of all outlines, in diagonals of the viewBox; each edge counts as at most one. Corridors that a bead
+/// can pass have at most a third of it. Tens of thousands of edges nearly as long as the drawing would cost the union a
+/// gigabyte, and each query for the nearest wall would visit most of them.
 const MAX_DIAGONALS: f64 = 1000.0;
 
-/// Coordinates beyond this would cost the others their precision.
+/// Larger coordinates would reduce the precision of the others.
 const MAX_EXTENT_MM: f64 = 1e5;
 
-/// What a drawing leaves on the table.
+/// The outlines of a drawing.
 pub(super) struct Sketch {
-    /// Outlines in order: their union is what the non-zero rule fills.
+    /// Outlines in order. Walls are their union by the non-zero rule.
     pub rings: Vec<Ring>,
     pub repairs: Vec<Repair>,
 }
@@ -71,24 +71,24 @@ struct Pen<'a> {
     budget: Budget,
     vertices: usize,
     diagonal_mm: f64,
-    /// Length of the outlines so far, as [`MAX_DIAGONALS`] counts it.
+    /// Total length of the outlines so far, measured as for [`MAX_DIAGONALS`].
     diagonals: f64,
     rings: Vec<Ring>,
-    /// Whose each ring is.
+    /// The element of each ring.
     places: Vec<&'a Place>,
-    /// Ids of the shapes that usvg has drawn or knows to be unpainted.
+    /// Ids of the shapes that usvg has drawn or found to be unpainted.
     drawn: HashSet<&'a str>,
     repairs: Vec<Repair>,
-    /// The repairs again: what a `<use>` copies is reported once.
+    /// Repairs that were already reported: copies by `<use>` are reported once.
     reported: HashSet<Repair>,
 }
 
 impl<'a> Pen<'a> {
-    /// `id` is that of the nearest element with one: what a `<use>` copies has lost its own.
+    /// `id` is that of the nearest element with an id: copies by `<use>` have lost theirs.
     fn group(&mut self, group: &'a usvg::Group, id: &'a str) -> Result<(), MapError> {
         let id = if group.id().is_empty() { id } else { group.id() };
         if group.clip_path().is_some_and(|clip| cuts(clip, group.stroke_bounding_box())) {
-            let reason = "its viewport cuts off a part of it; draw that part only, or add overflow=\"visible\"";
+            let reason = "its viewport cuts off a part of it; draw only the visible part, or add overflow=\"visible\"";
             return Err(refused(self.place(id), reason));
         }
         if group.mask().is_some() || !group.filters().is_empty() {
@@ -143,9 +143,9 @@ impl<'a> Pen<'a> {
             }
         }
         if let Some(stroke) = path.stroke() {
-            // The outline is made in the path's own units, and finer than the flatness asked.
+            // The outline is computed in the path's own units, and finer than the required flatness.
             let scale = PathStroker::compute_resolution_scale(&transform);
-            check_reach(scale * stroke.width().get(), "its stroke is wide", place)?;
+            check_reach(scale * stroke.width().get(), "its stroke is too wide", place)?;
             placed(path.data(), transform, place)?;
             if let Some(outline) = path.data().stroke(&stroke.to_tiny_skia(), 8.0 * scale.max(1.0)) {
                 let outline = self.flatten(&outline, transform, place)?;
@@ -159,7 +159,7 @@ impl<'a> Pen<'a> {
         Ok(())
     }
 
-    /// Whether anything was left to append.
+    /// Returns whether there was anything to append.
     fn append(&mut self, outline: &Flat, rule: FillRule, place: &'a Place) -> bool {
         let metres = |ring: &Ring| ring.iter().map(|[x, y]| [x / 1000.0, -y / 1000.0]).collect();
         let contours: Vec<Ring> = outline.rings_mm.iter().map(metres).collect();
@@ -192,14 +192,15 @@ impl<'a> Pen<'a> {
         flat.rings_mm.retain(|ring| ring.len() >= 3);
         self.vertices = vertices.get();
         if self.vertices > MAX_VERTICES {
-            return Err(refused(place, format!("with it the drawing has more than {MAX_VERTICES} vertices")));
+            return Err(refused(place, format!("up to here the drawing has more than {MAX_VERTICES} vertices")));
         }
         let length = |[[ax, ay], [bx, by]]: [[f64; 2]; 2]| ((bx - ax).hypot(by - ay) / self.diagonal_mm).min(1.0);
         let edges =
             |ring: &Ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| length([a, b])).sum::<f64>();
         self.diagonals += flat.rings_mm.iter().map(edges).sum::<f64>();
         if self.diagonals > MAX_DIAGONALS {
-            let reason = format!("with it the outlines are longer than {MAX_DIAGONALS} times the viewBox's diagonal");
+            let reason =
+                format!("up to here the outlines are longer than {MAX_DIAGONALS} times the viewBox's diagonal");
             return Err(refused(place, reason));
         }
         Ok(flat)
@@ -209,7 +210,7 @@ impl<'a> Pen<'a> {
 /// A path as straight lines.
 struct Flat {
     rings_mm: Vec<Ring>,
-    /// Whether some ring ends elsewhere than it began.
+    /// Whether a ring does not end at its start.
     is_open: bool,
 }
 
@@ -220,7 +221,7 @@ impl Flat {
     }
 }
 
-/// Whether a viewport, the only clip there is, leaves anything out.
+/// Whether a viewport (the only supported clip) cuts anything off.
 fn cuts(clip: &usvg::ClipPath, content: usvg::Rect) -> bool {
     let window = clip.root().bounding_box();
     let slack = 1e-4 * window.width().max(window.height());
@@ -230,14 +231,14 @@ fn cuts(clip: &usvg::ClipPath, content: usvg::Rect) -> bool {
         || content.bottom() > window.bottom() + slack
 }
 
-/// A path in millimetres, if it lies in reach.
+/// A path in millimetres, if its coordinates are within the limit.
 fn placed(path: &Path, to_mm: Transform, place: &Place) -> Result<Path, MapError> {
     let path = path.clone().transform(to_mm);
     let reach_mm = path.as_ref().map_or(f32::INFINITY, |path| {
         path.points().iter().fold(0.0, |reach: f32, p| reach.max(p.x.abs()).max(p.y.abs()))
     });
-    check_reach(reach_mm, "it reaches far", place)?;
-    Ok(path.expect("what has no path reaches to infinity"))
+    check_reach(reach_mm, "it reaches too far", place)?;
+    Ok(path.expect("an infinite reach is refused above"))
 }
 
 fn check_reach(reach_mm: f32, what: &str, place: &Place) -> Result<(), MapError> {
@@ -252,7 +253,7 @@ fn refused(place: &Place, reason: impl Into<String>) -> MapError {
 }
 
 fn tangled(place: &Place) -> MapError {
-    refused(place, "with it too many outlines cross or overlap; simplify the drawing")
+    refused(place, "here too many outlines cross or overlap; simplify the drawing")
 }
 
 fn bezier(path: &Path) -> BezPath {

@@ -1,4 +1,4 @@
-//! Drawings that people make, and how each is read, repaired or refused.
+//! Realistic drawings, and how each is read, repaired or refused.
 
 use std::fmt::Write;
 
@@ -24,7 +24,7 @@ fn area_m2(map: &Map) -> f64 {
     map.walls().iter().flat_map(|p| p.rings()).map(ring_area).sum()
 }
 
-/// Each body with what its error must say.
+/// Asserts that each body is refused with an error that contains the given text.
 fn assert_refused(cases: &[(&str, &str)]) {
     for (body, part) in cases {
         let message = draw(body).err().unwrap_or_else(|| panic!("{body} was accepted")).to_string();
@@ -80,7 +80,7 @@ fn circles_strokes_groups_and_transforms_have_their_true_area() {
 }
 
 #[test]
-fn what_fills_a_shape_is_no_matter() {
+fn the_fill_of_a_shape_does_not_matter() {
     for paint in [
         r##"<linearGradient id="a" href="#b"/><linearGradient id="b" href="#c"/><linearGradient id="c" href="#b"/>"##,
         r#"<radialGradient id="a"/>"#,
@@ -93,7 +93,7 @@ fn what_fills_a_shape_is_no_matter() {
 }
 
 #[test]
-fn a_nominal_size_in_other_units_changes_nothing() {
+fn a_nominal_size_in_other_units_has_no_effect() {
     let body = r#"<rect x="-20" y="280" width="40" height="40"/>"#;
     let plain = draw(body).unwrap();
     for size in [r#"width="20cm" height="30cm""#, r#"width="1e30" height="1e-30""#, r#"width="0" height="100%""#] {
@@ -137,7 +137,7 @@ fn repairs_name_the_element_its_line_and_what_was_done() {
     let twice = draw("<line id=\"a\"/>\n<line id=\"a\"/><path id=\"a\" d=\"M0 300H9V310Z\"/>").unwrap();
     let lines: Vec<u32> = twice.repairs().iter().map(|repair| repair.place.line).collect();
     assert_eq!(lines, [1, 2]);
-    // Strokes may be open, and a ring that ends where it began is closed.
+    // Strokes may be open, and a ring that ends at its start is closed.
     let fine = r#"<path fill="none" stroke="red" d="M0 300H50V350"/><path d="M0 300H50V350L0 300"/>"#;
     assert!(draw(fine).unwrap().repairs().is_empty());
     for name in Map::shipped_names() {
@@ -146,7 +146,7 @@ fn repairs_name_the_element_its_line_and_what_was_done() {
 }
 
 #[test]
-fn what_is_no_wall_is_refused_by_name() {
+fn refuses_elements_that_cannot_be_walls_and_names_them() {
     assert_refused(&[
         (r#"<text id="label" x="0" y="300">hi</text>"#, "<text> id=\"label\" at line 1"),
         (r#"<image href="x.png"/>"#, "<image>"),
@@ -174,22 +174,22 @@ fn what_is_no_wall_is_refused_by_name() {
 }
 
 #[test]
-fn values_out_of_range_are_refused_with_element_and_value() {
+fn refuses_values_out_of_range_and_names_element_and_value() {
     assert_refused(&[
-        (r#"<circle id="c" r="ten"/>"#, r#"<circle> id="c" at line 1: r="ten" is no number"#),
+        (r#"<circle id="c" r="ten"/>"#, r#"<circle> id="c" at line 1: r="ten" is not a number"#),
         (r#"<rect width="1e30" height="1"/>"#, r#"width="1e30""#),
         (r#"<rect x="NaN" width="1" height="1"/>"#, r#"x="NaN""#),
         (r#"<rect width="3em" height="1"/>"#, r#"width="3em""#),
         (r#"<path d="M0 300L1e30 0V9Z"/>"#, "d has the number 1e30"),
         (r#"<path d="M0 300A1e300 1e300 0 0 1 9 9Z"/>"#, "d has the number 1e300"),
         (r#"<path d="M0 300 l9 9 q5 Z"/>"#, "is broken"),
-        (r#"<path d="M0 300 9 9;L9 9"/>"#, "';', which is no part of a path"),
+        (r#"<path d="M0 300 9 9;L9 9"/>"#, "';', which is not allowed in a path"),
         (r#"<polygon points="0,0 1e9,0 0,9"/>"#, "points has the number 1e9"),
         (r#"<line x2="9" stroke="red" stroke-width="1e30"/>"#, r#"stroke-width="1e30""#),
-        (r#"<line x2="9" stroke="red" stroke-width="9e5"/>"#, "its stroke is wide: 9e5 mm"),
+        (r#"<line x2="9" stroke="red" stroke-width="9e5"/>"#, "its stroke is too wide: 9e5 mm"),
         (
             r#"<g transform="scale(1e5)"><rect id="r" width="9" height="9"/></g>"#,
-            r#"<rect> id="r" at line 1: it reaches far"#,
+            r#"<rect> id="r" at line 1: it reaches too far"#,
         ),
         (r##"<use id="u" href="#nowhere"/>"##, r##"<use> id="u" at line 1: href="#nowhere""##),
     ]);
@@ -199,9 +199,9 @@ fn values_out_of_range_are_refused_with_element_and_value() {
     }
 }
 
-/// What costs far more than it is long: each is refused before the cost arises.
+/// Small files with a very large cost: each is refused before the cost arises.
 #[test]
-fn drawings_that_explode_are_refused() {
+fn refuses_drawings_with_excessive_cost() {
     let zigzag = |count: u32, step: u32| {
         (0..count).fold("M0 300".to_owned(), |mut d, k| {
             write!(d, "L{} {}", k.wrapping_mul(step) % 200, 200 + k.wrapping_mul(step + 66) % 199).unwrap();
@@ -225,16 +225,19 @@ fn drawings_that_explode_are_refused() {
     assert_refused(&[
         (
             &path(&zigzag(100_001, 7919)),
-            r#"<path> id="z" at line 1: with it the drawing has more than 200000 coordinates"#,
+            r#"<path> id="z" at line 1: up to here the drawing has more than 200000 coordinates"#,
         ),
-        (&path(&zigzag(1400, 7919)), r#"<path> id="z" at line 1: with it too many outlines cross"#),
-        (&path(&zigzag(49_000, 2)), r#"<path> id="z" at line 1: with it the outlines are longer than 1000 times"#),
-        // None cross but at the closing edge. Fuzzed by hand: it took four seconds and a gigabyte.
-        (&path(&hatch(45_000, 200.0)), r#"<path> id="z" at line 1: with it the outlines are longer than 1000 times"#),
+        (&path(&zigzag(1400, 7919)), r#"<path> id="z" at line 1: here too many outlines cross"#),
+        (&path(&zigzag(49_000, 2)), r#"<path> id="z" at line 1: up to here the outlines are longer than 1000 times"#),
+        // Edges that cross only at the closing edge. Found by manual fuzzing: it took four seconds and a gigabyte.
+        (
+            &path(&hatch(45_000, 200.0)),
+            r#"<path> id="z" at line 1: up to here the outlines are longer than 1000 times"#,
+        ),
         (&path(&format!("M0 300{}", "C9 9 90000 9 0 300".repeat(9000))), "more than 50000 vertices"),
-        (&nested(65), "<g> at line 1: it lies more than 64 elements deep"),
+        (&nested(65), "<g> at line 1: it is nested more than 64 elements deep"),
         (&nested(60_000), "more than 20000 elements"),
-        (r##"<g id="a"><use id="u" href="#b"/></g><g id="b"><use href="#a"/></g>"##, "or uses itself"),
+        (r##"<g id="a"><use id="u" href="#b"/></g><g id="b"><use href="#a"/></g>"##, "or refers to itself"),
         (&uses, "each <use> resolved"),
         (&format!("<g{attributes}/>"), "more than 1000 attributes"),
         (&format!("<g{namespaces}/>"), "more than 100 namespaces"),

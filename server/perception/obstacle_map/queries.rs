@@ -1,41 +1,41 @@
-//! What the map tells of a place, a disc and a way.
+//! Queries for points, discs and corridors.
 
 use super::ObstacleMap;
 use crate::geometry::{Point2, Rect, Vector2};
 
-/// What is known of a cell.
+/// Content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellState {
-    /// Never seen.
+    /// Not observed.
     Unknown,
-    /// Seen, and nothing stands there.
+    /// Observed, without an obstacle.
     Free,
-    /// Something stands there.
+    /// Observed as an obstacle.
     Obstacle,
 }
 
-/// What is known of an area.
+/// Content of an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Area {
-    /// Seen throughout, and free.
+    /// Completely observed and free.
     Free,
-    /// Without a known obstacle, but not seen throughout.
+    /// Without a known obstacle, but not completely observed.
     Unknown,
     /// It touches an obstacle, or leaves the workspace.
     Blocked,
 }
 
-/// What to take unknown cells for.
+/// How unknown cells are treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
-    /// As if they were free.
+    /// As free.
     Free,
-    /// As if they were obstacles.
+    /// As obstacles.
     Blocked,
 }
 
 impl ObstacleMap {
-    /// What is known of a place; outside of the workspace is an obstacle.
+    /// Content of the cell under a point. Outside the workspace everything is an obstacle.
     pub fn state(&self, point: Point2<f64>) -> CellState {
         if !self.workspace.contains(point) {
             return CellState::Obstacle;
@@ -45,14 +45,14 @@ impl ObstacleMap {
         self.cell_state((at.x as usize).min(columns - 1), (at.y as usize).min(rows - 1))
     }
 
-    /// What is known of a disc.
+    /// Content of a disc.
     pub fn disc(&self, center: Point2<f64>, radius_m: f64) -> Area {
-        self.way(center, center, radius_m)
+        self.corridor(center, center, radius_m)
     }
 
-    /// What is known of all places that are `clearance_m` or less from the straight way between two points. What is
-    /// not a number is blocked.
-    pub fn way(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64) -> Area {
+    /// Content of the corridor of all points within `clearance_m` of a straight line. A corridor with a number that is
+    /// NaN is blocked.
+    pub fn corridor(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64) -> Area {
         if !self.keeps_in(from, to, clearance_m) {
             return Area::Blocked;
         }
@@ -64,10 +64,10 @@ impl ObstacleMap {
         if all_seen { Area::Free } else { Area::Unknown }
     }
 
-    /// Whether a straight way can be gone with so much clearance on all sides.
-    pub fn is_way_free(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64, unknown: Unknown) -> bool {
+    /// Whether a corridor is free.
+    pub fn is_corridor_free(&self, from: Point2<f64>, to: Point2<f64>, clearance_m: f64, unknown: Unknown) -> bool {
         match unknown {
-            Unknown::Blocked => self.way(from, to, clearance_m) == Area::Free,
+            Unknown::Blocked => self.corridor(from, to, clearance_m) == Area::Free,
             Unknown::Free => {
                 self.keeps_in(from, to, clearance_m)
                     && !self
@@ -77,7 +77,7 @@ impl ObstacleMap {
         }
     }
 
-    /// Distance to the nearest known obstacle or to the workspace's border; 0 within an obstacle or outside.
+    /// Distance to the nearest known obstacle or to the workspace's border; 0 inside an obstacle or outside.
     pub fn nearest_obstacle_m(&self, point: Point2<f64>) -> f64 {
         let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = self.workspace;
         if !self.workspace.contains(point) {
@@ -105,8 +105,8 @@ impl ObstacleMap {
         nearest_m
     }
 
-    /// The whole grid, row by row from the least y, each row from the least x: equal cells in succession, which
-    /// may go on in the next row, and how many.
+    /// The whole grid in run-length encoding, row by row from the smallest y, each row from the smallest x. Runs may
+    /// continue in the next row.
     pub fn runs(&self) -> Vec<(CellState, u32)> {
         let (columns, rows) = self.shape();
         let mut runs: Vec<(CellState, u32)> = Vec::new();
@@ -128,13 +128,13 @@ impl ObstacleMap {
         }
     }
 
-    /// A place in cells from the corner of least x and y.
+    /// A point in units of cells, from the corner of smallest x and y.
     fn in_cells(&self, point: Point2<f64>) -> Vector2<f64> {
         let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
         (point - corner).component_div(&self.cell_m())
     }
 
-    /// Whether a capsule stays in the workspace: both its discs do.
+    /// Whether a capsule is inside the workspace, that is, both of its end discs are.
     fn keeps_in(&self, from: Point2<f64>, to: Point2<f64>, radius_m: f64) -> bool {
         let Rect { x_min_m, x_max_m, y_min_m, y_max_m } = self.workspace;
         let inner = Rect {
@@ -146,7 +146,7 @@ impl ObstacleMap {
         inner.contains(from) && inner.contains(to)
     }
 
-    /// The cells that a capsule within the workspace touches, row by row: the first column, and the one after the last.
+    /// The half-open column range, for each row, that a capsule inside the workspace touches.
     fn spans(
         &self,
         from: Point2<f64>,
@@ -158,11 +158,11 @@ impl ObstacleMap {
         let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
         let touched = move |low_m: f64, high_m: f64, cell_m: f64, count: usize| {
             let first = ((low_m / cell_m).ceil() - 1.0).max(0.0) as usize;
-            // A cast of what is negative is 0.
+            // Casting a negative number gives 0.
             let end = ((high_m / cell_m).floor() + 1.0) as usize;
             [first.min(count), end.min(count)]
         };
-        // From the corner on.
+        // Relative to the corner.
         let capsule = Capsule::new(from - corner, to - corner, radius_m.max(0.0));
         let [low_m, high_m] = capsule.extent_y();
         let [first, end] = touched(low_m, high_m, cell_m.y, rows);
@@ -175,13 +175,13 @@ impl ObstacleMap {
     }
 }
 
-/// All places within `radius_m` of a straight line.
+/// All points within `radius_m` of a straight line.
 #[derive(Clone, Copy)]
 struct Capsule {
     from: Vector2<f64>,
     to: Vector2<f64>,
     radius_m: f64,
-    /// From the line to its flank on the side of greater x; none for a point.
+    /// Vector from the line to its side of larger x; `None` for a point.
     flank: Option<Vector2<f64>>,
 }
 
@@ -197,10 +197,10 @@ impl Capsule {
         [self.from.y.min(self.to.y) - self.radius_m, self.from.y.max(self.to.y) + self.radius_m]
     }
 
-    /// Least and greatest x of the part between two y; an empty range where there is none.
+    /// Smallest and largest x between two values of y; an empty range without points.
     fn extent_x(&self, strip: [f64; 2]) -> [f64; 2] {
         let mirrored = |v: Vector2<f64>| Vector2::new(-v.x, v.y);
-        // The flank on the side of lesser x, mirrored, is this one turned half around and mirrored.
+        // The side of smaller x, mirrored, is the side of larger x of the mirrored capsule.
         let other = Self {
             from: mirrored(self.from),
             to: mirrored(self.to),
@@ -211,7 +211,7 @@ impl Capsule {
     }
 
     fn greatest_x(&self, [low, high]: [f64; 2]) -> f64 {
-        // The outline is concave as a function of y: the maximum is as near to its top as the strip allows.
+        // The outline is concave as a function of y: the maximum is as close to its top as the strip allows.
         let top = if self.from.x >= self.to.x { self.from } else { self.to };
         let y = top.y.clamp(low, high);
         let on_disc = |center: Vector2<f64>| {

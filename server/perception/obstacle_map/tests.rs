@@ -5,14 +5,14 @@ use crate::geometry::Point2;
 use crate::perception::test_world::{WORKSPACE, channel, posts, seen_from, simple, spread};
 use crate::perception::{OBSTACLE_LEVEL, Quadtree};
 
-/// Lets a map see a world.
+/// Updates a map with an image of a world.
 fn look(map: &mut ObstacleMap, center: Point2<f64>, is_wall: impl Fn(Point2<f64>) -> bool) -> Change {
     let percept = seen_from(center, is_wall);
     map.update(&DarkPixels::of(&percept.gray, OBSTACLE_LEVEL), &percept.calibration, spread())
 }
 
 fn tour() -> impl Iterator<Item = Point2<f64>> {
-    // Steps that are no multiple of a cell or of a pixel.
+    // Steps that are not multiples of a cell or of a pixel.
     (0..24).map(|i| Point2::new(-0.25 + 0.02137 * f64::from(i), -0.375 + 0.08 * (0.7 * f64::from(i)).sin()))
 }
 
@@ -21,7 +21,7 @@ fn all_cells(map: &ObstacleMap) -> impl Iterator<Item = CellRect> {
     (0..rows).flat_map(move |row| (0..columns).map(move |column| CellRect { column, row, columns: 1, rows: 1 }))
 }
 
-/// Whether anything within `margin_m` of a rectangle is wall, looked at every .2 mm.
+/// Whether any wall is within `margin_m` of a rectangle, tested every .2 mm.
 fn wall_within(rect: &Rect, margin_m: f64) -> bool {
     let count = |from: f64, to: f64| ((to - from + 2.0 * margin_m) / 2e-4).floor() as usize;
     let (across, down) = (count(rect.x_min_m, rect.x_max_m), count(rect.y_min_m, rect.y_max_m));
@@ -33,7 +33,7 @@ fn wall_within(rect: &Rect, margin_m: f64) -> bool {
 }
 
 #[test]
-fn cells_of_two_millimetres_and_bounded_in_number() {
+fn cells_have_two_millimetres_and_a_bounded_number() {
     assert_eq!(shape(&WORKSPACE), (290, 165));
     let square = |side_m: f64| Rect { x_min_m: 0.0, x_max_m: side_m, y_min_m: 0.0, y_max_m: side_m };
     assert_eq!(shape(&square(1.0)), (500, 500));
@@ -46,12 +46,12 @@ fn cells_of_two_millimetres_and_bounded_in_number() {
 }
 
 #[test]
-fn nothing_is_known_at_first_and_the_outside_is_wall() {
+fn a_new_map_is_unknown_and_the_outside_is_wall() {
     let map = ObstacleMap::new(WORKSPACE);
     let middle = Point2::new(0.0, -0.4);
     assert_eq!(map.disc(middle, 0.01), Area::Unknown);
-    assert!(map.is_way_free(middle, Point2::new(0.1, -0.4), 0.01, Unknown::Free));
-    assert!(!map.is_way_free(middle, Point2::new(0.1, -0.4), 0.01, Unknown::Blocked));
+    assert!(map.is_corridor_free(middle, Point2::new(0.1, -0.4), 0.01, Unknown::Free));
+    assert!(!map.is_corridor_free(middle, Point2::new(0.1, -0.4), 0.01, Unknown::Blocked));
     assert_eq!(map.disc(Point2::new(0.275, -0.4), 0.01), Area::Blocked);
     assert_eq!(map.disc(Point2::new(0.3, -0.4), 0.0), Area::Blocked);
     assert_eq!(map.disc(Point2::new(f64::NAN, -0.4), 0.01), Area::Blocked);
@@ -65,7 +65,7 @@ fn nothing_is_known_at_first_and_the_outside_is_wall() {
 }
 
 #[test]
-fn obstacles_are_the_walls_to_a_cell_and_a_pixel_wherever_they_are_seen_from() {
+fn obstacles_match_walls_to_a_cell_and_a_pixel_from_everywhere() {
     let mut map = ObstacleMap::new(WORKSPACE);
     tour().for_each(|center| drop(look(&mut map, center, simple)));
     let (mut walls, mut free) = (0, 0);
@@ -75,12 +75,12 @@ fn obstacles_are_the_walls_to_a_cell_and_a_pixel_wherever_they_are_seen_from() {
         match map.cell_state(cell.column, cell.row) {
             CellState::Obstacle => {
                 walls += 1;
-                assert!(wall_within(&rect, pixel_m), "{rect:?} is no wall");
+                assert!(wall_within(&rect, pixel_m), "{rect:?} has no wall");
             }
             CellState::Free => {
                 free += 1;
-                // What sticks into the cell by less than a pixel can be missed.
-                assert!(!wall_within(&rect, -pixel_m), "{rect:?} holds a wall");
+                // A wall that extends into the cell by less than a pixel can be missed.
+                assert!(!wall_within(&rect, -pixel_m), "{rect:?} contains a wall");
             }
             CellState::Unknown => (),
         }
@@ -89,7 +89,7 @@ fn obstacles_are_the_walls_to_a_cell_and_a_pixel_wherever_they_are_seen_from() {
 }
 
 #[test]
-fn a_world_that_stands_still_is_never_cleared_and_soon_without_news() {
+fn a_static_world_is_never_cleared_and_soon_unchanged() {
     for world in [simple, posts] {
         let mut map = ObstacleMap::new(WORKSPACE);
         for center in tour() {
@@ -106,7 +106,7 @@ fn a_world_that_stands_still_is_never_cleared_and_soon_without_news() {
 }
 
 #[test]
-fn what_is_gone_is_cleared_and_what_is_new_is_said() {
+fn reports_cleared_and_new_obstacles() {
     let center = Point2::new(-0.05, -0.35);
     let post = |p: Point2<f64>| (p - Point2::new(-0.02, -0.33)).norm() < 0.008;
     let area_m2 = |rects: &[Rect]| rects.iter().map(|rect| rect.size_m().product()).sum::<f64>();
@@ -116,7 +116,7 @@ fn what_is_gone_is_cleared_and_what_is_new_is_said() {
     assert_eq!(map.disc(Point2::new(-0.02, -0.33), 0.01), Area::Free);
     let change = look(&mut map, center, post);
     assert!((2e-4..3e-4).contains(&area_m2(&change.appeared)) && !change.seen_more && map.version() == 1);
-    // All obstacles are new ones, so the two partitions are one.
+    // All obstacles are new, so the two partitions are equal.
     assert_eq!(map.rectangles().len(), change.appeared.len());
     assert_eq!(map.disc(Point2::new(-0.02, -0.35), 0.015), Area::Blocked);
     assert_eq!(look(&mut map, center, post), Change::default());
@@ -126,7 +126,7 @@ fn what_is_gone_is_cleared_and_what_is_new_is_said() {
 }
 
 #[test]
-fn blocks_of_a_quadtree_hold_what_pixels_hold() {
+fn blocks_of_a_quadtree_contain_all_obstacles_of_the_pixels() {
     let center = Point2::new(0.02, -0.35);
     let percept = seen_from(center, channel);
     let dark = DarkPixels::of(&percept.gray, OBSTACLE_LEVEL);
@@ -141,14 +141,14 @@ fn blocks_of_a_quadtree_hold_what_pixels_hold() {
 }
 
 #[test]
-fn cells_finer_than_pixels_are_seen_too() {
+fn cells_finer_than_pixels_are_updated_too() {
     let center_m = Point2::new(0.0, -0.4);
     let calibration = Calibration { center_m, m_per_px: 0.01, size_px: 64, foot_m: center_m };
     let gray = crate::image::GrayImage { width_px: 64, height_px: 64, pixels: vec![0; 64 * 64] };
     let mut map = ObstacleMap::new(WORKSPACE);
     map.update(&DarkPixels::of(&gray, 50), &calibration, 1.0);
     assert_eq!(map.rectangles(), [WORKSPACE]);
-    // Absurd geometry changes nothing and breaks nothing.
+    // Invalid geometry has no effect.
     for (m_per_px, spread) in [(0.0, 1.0), (f64::NAN, 1.0), (1e-300, 1.0), (0.01, f64::INFINITY), (0.01, f64::NAN)] {
         let absurd = Calibration { m_per_px, ..calibration };
         assert_eq!(map.update(&DarkPixels::of(&gray, 50), &absurd, spread), Change::default(), "{m_per_px} {spread}");
@@ -156,7 +156,7 @@ fn cells_finer_than_pixels_are_seen_too() {
 }
 
 #[test]
-fn a_map_survives_serialisation_and_a_forged_one_is_refused() {
+fn a_map_survives_serialisation_and_a_forged_one_is_rejected() {
     let mut map = ObstacleMap::new(WORKSPACE);
     tour().take(3).for_each(|center| drop(look(&mut map, center, simple)));
     let bytes = postcard::to_stdvec(&map).unwrap();
@@ -171,7 +171,7 @@ fn a_map_survives_serialisation_and_a_forged_one_is_refused() {
     assert!(postcard::from_bytes::<ObstacleMap>(&postcard::to_stdvec(&forged).unwrap()).is_err());
 }
 
-/// A map of about 60 × 40 cells, randomly known.
+/// A map of about 60 × 40 cells with random content.
 fn random_map(obstacles: &[(usize, usize)], unseen: &[(usize, usize)]) -> ObstacleMap {
     let workspace = Rect { x_min_m: -0.071, x_max_m: 0.05, y_min_m: -0.03, y_max_m: 0.05 };
     let mut map = ObstacleMap::new(workspace);
@@ -223,7 +223,7 @@ fn places() -> impl Strategy<Value = Point2<f64>> {
 
 proptest! {
     #[test]
-    fn a_way_is_what_the_cells_within_its_clearance_are(
+    fn a_corridor_has_the_state_of_the_cells_within_its_clearance(
         map in maps(), from in places(), to in places(), on_axis in 0..4u8, clearance_m in 0.0..0.02f64,
     ) {
         let to = match on_axis {
@@ -255,10 +255,10 @@ proptest! {
         if !keeps_in(from) || !keeps_in(to) {
             expected = Area::Blocked;
         }
-        prop_assert_eq!(map.way(from, to, clearance_m), expected);
-        prop_assert_eq!(map.way(to, from, clearance_m), expected);
-        prop_assert_eq!(map.is_way_free(from, to, clearance_m, Unknown::Blocked), expected == Area::Free);
-        prop_assert_eq!(map.is_way_free(from, to, clearance_m, Unknown::Free), expected != Area::Blocked);
+        prop_assert_eq!(map.corridor(from, to, clearance_m), expected);
+        prop_assert_eq!(map.corridor(to, from, clearance_m), expected);
+        prop_assert_eq!(map.is_corridor_free(from, to, clearance_m, Unknown::Blocked), expected == Area::Free);
+        prop_assert_eq!(map.is_corridor_free(from, to, clearance_m, Unknown::Free), expected != Area::Blocked);
     }
 
     #[test]
@@ -272,7 +272,7 @@ proptest! {
     }
 
     #[test]
-    fn rectangles_and_layer_tell_the_same_as_the_cells(map in maps()) {
+    fn rectangles_and_runs_agree_with_the_cells(map in maps()) {
         let rectangles = map.rectangles();
         let runs = map.runs();
         let mut states = runs.iter().flat_map(|&(state, count)| std::iter::repeat_n(state, count as usize));

@@ -1,25 +1,26 @@
-//! Which pixels of an image tell of which cells.
+//! Which pixels of an image determine which cells.
 
 use super::ObstacleMap;
 use crate::geometry::Point2;
 use crate::image::GrayImage;
 use crate::perception::{Calibration, DarkPixels};
 
-/// How far from a cell's middles a dark pixel keeps it from being cleared. Pixels are sampled one apart, and the
-/// look at wall tops rounds by one: two apart, what one image shows in a cell no other leaves out.
+/// A dark pixel within this distance of a cell's pixels keeps it from being cleared. Pixels are one apart, and the
+/// look-up of wall tops rounds by one: so every obstacle in a cell that one image shows is within two pixels in
+/// another.
 const AROUND_PX: f64 = 2.0;
 
-/// Pixels along one axis, from the first bound up to, not including, the second.
+/// A half-open range of pixels along one axis.
 type Span = [usize; 2];
 
-/// The cells along one axis that are wholly in view, wall tops included: which pixels have their middle in the cell,
-/// and which in or around it.
+/// The cells along one axis that are completely in view, including wall tops: for each, the pixels with their centre in
+/// the cell, and those in or around it.
 struct Axis {
     first: usize,
     cells: Vec<(Span, Span)>,
 }
 
-/// How wall tops seem to move along one axis of an image: so many times farther from the camera's foot.
+/// Displacement of wall tops along one axis of an image: away from the camera's foot by the factor `times`.
 struct Spread {
     times: f64,
     foot_px: f64,
@@ -27,7 +28,7 @@ struct Spread {
 }
 
 impl Spread {
-    /// Where the top of what stands at a place seems to be.
+    /// Apparent position of the top of a wall at `at_px`.
     fn top_px(&self, at_px: f64) -> f64 {
         self.foot_px + (at_px - self.foot_px) * self.times
     }
@@ -37,7 +38,7 @@ impl Spread {
     }
 }
 
-/// An image laid over a map.
+/// An image aligned with a map.
 pub(super) struct View {
     standing: DarkPixels,
     columns: Axis,
@@ -59,20 +60,20 @@ impl View {
         }
     }
 
-    /// Column and row of all cells that are wholly in view.
+    /// Column and row of all cells that are completely in view.
     pub fn cells(&self) -> impl Iterator<Item = (usize, usize)> {
         let columns = self.columns.first..self.columns.first + self.columns.cells.len();
         let rows = self.rows.first..self.rows.first + self.rows.cells.len();
         rows.flat_map(move |row| columns.clone().map(move |column| (column, row)))
     }
 
-    /// Whether something stands on a cell in view.
+    /// Whether a cell in view contains a wall.
     pub fn is_dark(&self, column: usize, row: usize) -> bool {
         let ((across, _), (down, _)) = self.seen(column, row);
         self.standing.between(across, down) > 0
     }
 
-    /// Whether something stands on it or near it.
+    /// Whether a wall is in the cell or near it.
     pub fn is_near_dark(&self, column: usize, row: usize) -> bool {
         let ((_, across), (_, down)) = self.seen(column, row);
         self.standing.between(across, down) > 0
@@ -84,7 +85,7 @@ impl View {
 }
 
 impl Axis {
-    /// `edges_px` gives the lesser and the greater edge of a cell.
+    /// `edges_px` returns the lower and the upper edge of a cell.
     fn of(count: usize, spread: &Spread, edges_px: impl Fn(usize) -> [f64; 2]) -> Self {
         let seen = |i: usize| {
             let edges_px = edges_px(i);
@@ -97,8 +98,8 @@ impl Axis {
     }
 }
 
-/// The pixels whose middle is between two places, widened by `margin_px` on both sides; at least the one in the
-/// middle, since a cell may be smaller than a pixel.
+/// The pixels whose centre is between two places, widened by `margin_px` on both sides; at least the middle one,
+/// because a cell may be smaller than a pixel.
 fn middles([low_px, high_px]: [f64; 2], margin_px: f64, size_px: usize) -> Span {
     let first = (low_px - margin_px - 0.5).ceil().max(0.0) as usize;
     let end = ((high_px + margin_px - 0.5).ceil().max(0.0) as usize).min(size_px);
@@ -109,8 +110,8 @@ fn middles([low_px, high_px]: [f64; 2], margin_px: f64, size_px: usize) -> Span 
     [middle, middle + 1]
 }
 
-/// The dark pixels on whose place of the table something can stand: the top of it would darken the place spread, of
-/// which the four pixels around are asked. What would be out of view is left as it is.
+/// The dark pixels where a wall is possible: its top would darken the spread image of the place, for which the four
+/// surrounding pixels are tested. Places whose spread image is out of view are unchanged.
 fn standing(dark: &DarkPixels, across: &Spread, down: &Spread) -> DarkPixels {
     let (width_px, height_px) = (dark.width_px(), dark.height_px());
     if across.times == 1.0 || width_px < 2 || height_px < 2 {
@@ -122,16 +123,16 @@ fn standing(dark: &DarkPixels, across: &Spread, down: &Spread) -> DarkPixels {
     };
     let (lefts, tops) = (tops(across), tops(down));
     let flags = dark.flags();
-    // Dark here or to the right; nothing asks the last column.
+    // Dark here or to the right; the last column is not used.
     let mut pairs = Vec::with_capacity(flags.len());
     pairs.extend(flags.windows(2).map(|pair| pair[0] | pair[1]));
     pairs.push(0);
     let mut pixels = Vec::with_capacity(flags.len());
     for (flags, top) in flags.chunks_exact(width_px).zip(tops) {
         let (upper, lower) = pairs[top * width_px..(top + 2) * width_px].split_at(width_px);
-        let stands = |(flag, &left): (&u8, &usize)| flag & (upper[left] | lower[left]);
+        let is_wall = |(flag, &left): (&u8, &usize)| flag & (upper[left] | lower[left]);
         // Gray: 0 is dark.
-        pixels.extend(flags.iter().zip(&lefts).map(|seen| 1 - stands(seen)));
+        pixels.extend(flags.iter().zip(&lefts).map(|seen| 1 - is_wall(seen)));
     }
     DarkPixels::of(&GrayImage { width_px, height_px, pixels }, 0)
 }

@@ -1,4 +1,4 @@
-//! Concave vertices, the chords between them, and the most chords that do not meet.
+//! Concave vertices, the chords between them, and a largest set of chords that do not meet.
 
 use super::{Grid, Vertex};
 
@@ -7,20 +7,20 @@ use super::{Grid, Vertex};
 pub(super) struct Chord {
     /// Row of corners of a horizontal chord, column of a vertical one.
     pub line: usize,
-    /// Its lesser end on that line.
+    /// Lower end on that line.
     pub from: usize,
-    /// Its greater end.
+    /// Upper end on that line.
     pub to: usize,
     /// In the independent set.
     pub kept: bool,
 }
 
-/// Everything that the formula needs of the boundary.
+/// The boundary's data for the formula.
 pub(super) struct Chords {
     pub concave: Vec<Vertex>,
     pub horizontal: Vec<Chord>,
     pub vertical: Vec<Chord>,
-    /// How many chords are kept.
+    /// Number of kept chords.
     pub independent: usize,
 }
 
@@ -39,8 +39,8 @@ pub(super) fn find(grid: &Grid) -> Chords {
     found
 }
 
-/// Walks all corners once. On every line a chord is open from a concave vertex on, and stays so while the four
-/// cells around each corner are dark.
+/// Visits all corners once. A chord starts at a concave vertex and continues while the four cells around each corner
+/// are dark.
 fn all(grid: &Grid) -> Chords {
     let (mut concave, mut horizontal, mut vertical) = (Vec::new(), Vec::new(), Vec::new());
     let mut open_above: Vec<Option<usize>> = vec![None; grid.columns + 1];
@@ -72,7 +72,7 @@ fn all(grid: &Grid) -> Chords {
     Chords { concave, horizontal, vertical, independent: 0 }
 }
 
-/// For each horizontal chord, the vertical ones that it meets, common ends included.
+/// For each horizontal chord, the vertical ones that it meets, including at common ends.
 fn crossings(grid: &Grid, chords: &Chords) -> Vec<Vec<usize>> {
     if chords.vertical.is_empty() {
         return vec![Vec::new(); chords.horizontal.len()];
@@ -91,22 +91,22 @@ fn crossings(grid: &Grid, chords: &Chords) -> Vec<Vec<usize>> {
     chords.horizontal.iter().map(met).collect()
 }
 
-/// The fewest chords that meet all crossings; the others are independent.
+/// The smallest set of chords that meets all crossings; the other chords are independent.
 struct Cover {
     horizontal: Vec<bool>,
     vertical: Vec<bool>,
 }
 
-/// König's cover, by augmenting paths found in breadth.
+/// König's cover, by augmenting paths found breadth-first.
 ///
-/// A search that fails can be left out of all later ones, and the chords it reached are those that König's
-/// theorem asks for: reached from an unmatched horizontal chord. The cover is every vertical chord reached and
-/// every horizontal one not reached.
+/// The chords reached by a failed search can be excluded from all later ones. They are the chords of König's theorem:
+/// those reached from an unmatched horizontal chord. The cover is every reached vertical chord and every horizontal
+/// chord that is not reached.
 fn cover(crossings: &[Vec<usize>], verticals: usize) -> Cover {
     let mut mate_of_horizontal: Vec<Option<usize>> = vec![None; crossings.len()];
     let mut mate_of_vertical: Vec<Option<usize>> = vec![None; verticals];
     let mut cover = Cover { horizontal: vec![true; crossings.len()], vertical: vec![false; verticals] };
-    // The horizontal chord from which a vertical one was reached.
+    // For each vertical chord, the horizontal one from which it was reached.
     let mut reached_from = vec![0; verticals];
     let (mut queue, mut reached) = (Vec::new(), Vec::new());
     for root in 0..crossings.len() {

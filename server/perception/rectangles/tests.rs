@@ -1,5 +1,5 @@
-//! Every small mask against exhaustive search; larger ones against the formula with its terms counted in
-//! other ways.
+//! Compares all small masks with an exhaustive search, and larger ones with the formula, whose terms are counted
+//! independently.
 
 use pathfinding::matrix::Matrix;
 use pathfinding::prelude::{connected_components, kuhn_munkres};
@@ -19,7 +19,7 @@ fn drawn(lines: &[&str]) -> CellMask {
     mask(lines[0].len(), lines.len(), |column, row| lines[row].as_bytes()[column] == b'#')
 }
 
-/// The partition, after a check that it is one.
+/// The partition, after checks that it is valid.
 fn checked(mask: &CellMask) -> Partition {
     let partition = Partition::of(mask);
     let mut covered = CellMask::free(mask.columns, mask.rows);
@@ -34,7 +34,8 @@ fn checked(mask: &CellMask) -> Partition {
     partition
 }
 
-/// Fewest rectangles for every mask of a grid: one of them has the first dark cell for its upper left one.
+/// Minimum number of rectangles for every mask of a grid. One of the rectangles has the first dark cell as its upper
+/// left cell.
 fn exhaustive(columns: usize, rows: usize) -> Vec<u8> {
     let rectangles_at: Vec<Vec<usize>> = (0..columns * rows)
         .map(|first| {
@@ -69,7 +70,7 @@ fn random_masks_of_five_by_five_have_the_minimum() {
     let fewest = exhaustive(5, 5);
     let mut cells = 0x5eed_u64;
     for round in 0..200_000 {
-        // Knuth's generator; two draws joined make some masks dense and some sparse.
+        // Knuth's generator; combinations of two draws make some masks dense and some sparse.
         let mut draw = || {
             cells = cells.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (cells >> 33) as usize & 0x1ff_ffff
@@ -85,7 +86,7 @@ fn random_masks_of_five_by_five_have_the_minimum() {
 }
 
 #[test]
-fn degenerate_masks_have_the_terms_that_the_module_says() {
+fn degenerate_masks_have_the_documented_terms() {
     let terms = |lines: &[&str]| {
         let p = checked(&drawn(lines));
         [p.rectangles.len(), p.concave_vertices, p.independent_chords, p.holes, p.components]
@@ -97,7 +98,7 @@ fn degenerate_masks_have_the_terms_that_the_module_says() {
     assert_eq!(terms(&["###", "#.#", "###"]), [4, 4, 0, 1, 1]);
     // The middle is closed off by a corner only.
     assert_eq!(terms(&["##.", "#.#", "###"]), [4, 3, 0, 0, 1]);
-    // A cross: four vertices, two chords of each direction, all of which share ends across directions.
+    // A cross: four vertices, two chords per direction; all chords share ends with those of the other direction.
     assert_eq!(terms(&[".#.", "###", ".#."]), [3, 4, 2, 0, 1]);
     // A staircase: no two vertices face each other.
     assert_eq!(terms(&["#..", "##.", "###"]), [3, 2, 0, 0, 1]);
@@ -106,7 +107,7 @@ fn degenerate_masks_have_the_terms_that_the_module_says() {
 }
 
 /// Independent counts of the formula's terms.
-fn terms_counted_otherwise(mask: &CellMask) -> [usize; 4] {
+fn independent_terms(mask: &CellMask) -> [usize; 4] {
     let (columns, rows) = (mask.columns as i64, mask.rows as i64);
     let inside = |x: i64, y: i64| (0..columns).contains(&x) && (0..rows).contains(&y);
     let dark = |x: i64, y: i64| inside(x, y) && mask.dark[(y * columns + x) as usize];
@@ -115,7 +116,7 @@ fn terms_counted_otherwise(mask: &CellMask) -> [usize; 4] {
     };
     let corners: Vec<(i64, i64)> = (0..=rows).flat_map(|y| (0..=columns).map(move |x| (x, y))).collect();
     let vertices: Vec<_> = corners.iter().copied().filter(|&(x, y)| concave(x, y)).collect();
-    // A chord joins two concave vertices of a line when all cells along both sides of it are dark.
+    // A chord joins two concave vertices of a line if all cells along both sides of it are dark.
     let (mut across, mut down) = (Vec::new(), Vec::new());
     for &(x, y) in &vertices {
         for &(u, v) in &vertices {
@@ -160,7 +161,7 @@ fn terms_counted_otherwise(mask: &CellMask) -> [usize; 4] {
 }
 
 #[test]
-fn camera_images_have_the_minimum_that_the_formula_says() {
+fn camera_images_have_the_minimum_of_the_formula() {
     let finer = QuadtreeParameters { smallest_px: 3, ..Default::default() };
     for (name, world) in [("simple", simple as fn(_) -> _), ("channel", channel), ("posts", posts)] {
         for center in [Point2::new(-0.2, -0.42), Point2::new(0.013, -0.37), Point2::new(0.2, -0.3)] {
@@ -170,7 +171,7 @@ fn camera_images_have_the_minimum_that_the_formula_says() {
                 let p = tree.partition();
                 assert_eq!(p, checked(&tree.mask));
                 let terms = [p.concave_vertices, p.independent_chords, p.holes, p.components];
-                assert_eq!(terms, terms_counted_otherwise(&tree.mask), "{name} from {center}");
+                assert_eq!(terms, independent_terms(&tree.mask), "{name} from {center}");
                 assert!(p.rectangles.len() <= tree.dark.len());
             }
         }
@@ -181,7 +182,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
-    fn the_terms_of_random_masks_are_those_counted_otherwise(
+    fn the_terms_of_random_masks_match_independent_counts(
         (columns, rows, dark) in (1..16usize, 1..16usize).prop_flat_map(|(w, h)| {
             let cells = (0..=100u32).prop_flat_map(move |share| {
                 prop::collection::vec((0..100u32).prop_map(move |draw| draw < share), w * h)
@@ -192,11 +193,11 @@ proptest! {
         let mask = CellMask { columns, rows, dark };
         let p = checked(&mask);
         let terms = [p.concave_vertices, p.independent_chords, p.holes, p.components];
-        prop_assert_eq!(terms, terms_counted_otherwise(&mask));
+        prop_assert_eq!(terms, independent_terms(&mask));
     }
 
     #[test]
-    fn the_terms_of_masks_made_of_boxes_are_those_counted_otherwise(
+    fn the_terms_of_masks_of_boxes_match_independent_counts(
         boxes in prop::collection::vec((0..24usize, 0..24usize, 1..14usize, 1..14usize, any::<bool>()), 1..14),
     ) {
         let mut mask = CellMask::free(24, 24);
@@ -207,6 +208,6 @@ proptest! {
         }
         let p = checked(&mask);
         let terms = [p.concave_vertices, p.independent_chords, p.holes, p.components];
-        prop_assert_eq!(terms, terms_counted_otherwise(&mask));
+        prop_assert_eq!(terms, independent_terms(&mask));
     }
 }

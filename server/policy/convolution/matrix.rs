@@ -1,4 +1,4 @@
-//! Products of matrices that lie in slices.
+//! Products of matrices stored in slices.
 
 pub fn add_to(sum: &mut [f32], term: &[f32]) {
     sum.iter_mut().zip(term).for_each(|(sum, term)| *sum += term);
@@ -8,7 +8,7 @@ pub fn transpose(matrix: &[f32], rows: usize, columns: usize) -> Vec<f32> {
     (0..columns).flat_map(|column| (0..rows).map(move |row| matrix[row * columns + column])).collect()
 }
 
-/// A dense matrix, as it lies in memory or transposed.
+/// A dense matrix, as stored or transposed.
 #[derive(Clone, Copy)]
 pub struct Matrix<'a> {
     data: &'a [f32],
@@ -35,11 +35,11 @@ impl<'a> Matrix<'a> {
     }
 }
 
-/// Sets the row-major matrix `product` to `left · right`, or with `add` adds that to it, on the calling thread.
+/// Sets the row-major matrix `product` to `left · right`, or adds to it if `add` is set. Uses the calling thread only.
 pub fn multiply(product: &mut [f32], add: bool, left: Matrix, right: Matrix) {
     assert_eq!(left.columns, right.rows);
     assert_eq!(product.len(), left.rows * right.columns);
-    // SAFETY: a `Matrix` has `rows · columns` elements at its strides, and `product` has as many as were just checked.
+    // SAFETY: a `Matrix` has `rows · columns` elements at its strides, and the size of `product` was just checked.
     unsafe {
         gemm::gemm(
             left.rows,

@@ -28,12 +28,12 @@ fn arguments(convolution: Convolution, shape: [usize; 4], channels_out: usize) -
     ])
 }
 
-/// The same convolution from candle's own operations.
+/// The same convolution by candle's own operations.
 fn reference(convolution: Convolution, x: &Tensor, weight: &Tensor, bias: &Tensor) -> Result<Tensor> {
     let Convolution { kernel, stride, padding, rectify_input } = convolution;
     let (channels_in, channels_out) = (x.dim(3)?, weight.dim(1)?);
     let x = if rectify_input { x.relu()? } else { x.clone() };
-    // Candle's backward pass needs as many unused rows as columns; without padding there need be none.
+    // Candle's backward pass requires equal numbers of unused rows and columns; without padding there can be none.
     let used = |side: usize| if padding == 0 { (side - kernel) / stride * stride + kernel } else { side };
     let x = x.narrow(1, 0, used(x.dim(1)?))?.narrow(2, 0, used(x.dim(2)?))?;
     let weight = weight.reshape((kernel, kernel, channels_in, channels_out))?.permute((3, 2, 0, 1))?.contiguous()?;
@@ -45,7 +45,7 @@ fn assert_close(actual: &Tensor, expected: &Tensor) -> Result<()> {
     assert_eq!(actual.dims(), expected.dims());
     let difference = (actual - expected)?.abs()?.flatten_all()?.max(0)?.to_scalar::<f32>()?;
     let magnitude = expected.abs()?.flatten_all()?.max(0)?.to_scalar::<f32>()?;
-    assert!(difference <= 2e-5 * magnitude.max(1.0), "differs by {difference} where the largest is {magnitude}");
+    assert!(difference <= 2e-5 * magnitude.max(1.0), "differs by {difference}, the largest value is {magnitude}");
     Ok(())
 }
 
@@ -93,7 +93,7 @@ fn accepts_strided_arguments() -> Result<()> {
 }
 
 #[test]
-fn is_the_same_to_the_bit_for_any_number_of_threads() -> Result<()> {
+fn is_bit_identical_for_any_number_of_threads() -> Result<()> {
     for (convolution, shape, channels_out) in CASES {
         let arguments = arguments(convolution, shape, channels_out)?;
         let run = |threads: usize| -> Result<Vec<Vec<u32>>> {
@@ -112,7 +112,7 @@ fn is_the_same_to_the_bit_for_any_number_of_threads() -> Result<()> {
 }
 
 #[test]
-fn a_batch_is_the_same_to_the_bit_as_its_images() -> Result<()> {
+fn a_batch_is_bit_identical_to_its_images() -> Result<()> {
     for (convolution, shape, channels_out) in CASES {
         let [x, weight, bias] = arguments(convolution, shape, channels_out)?;
         let together = convolution.forward(&x, &weight, &bias)?;
@@ -143,7 +143,7 @@ fn only_tracked_arguments_get_a_gradient() -> Result<()> {
 }
 
 #[test]
-fn an_empty_batch_is_no_error() -> Result<()> {
+fn an_empty_batch_is_not_an_error() -> Result<()> {
     let convolution = convolution(3, 1, 1, false);
     let [_, weight, bias] = arguments(convolution, [1, 5, 5, 3], 4)?;
     let x = Var::zeros((0, 5, 5, 3), candle_core::DType::F32, &Device::Cpu)?;
@@ -156,7 +156,7 @@ fn an_empty_batch_is_no_error() -> Result<()> {
 }
 
 #[test]
-fn keeps_not_a_number() -> Result<()> {
+fn keeps_nan() -> Result<()> {
     let convolution = convolution(1, 1, 0, true);
     let x = Tensor::new(&[f32::NAN, -1.0, 2.0], &Device::Cpu)?.reshape((1, 1, 3, 1))?;
     let one = Tensor::ones((1, 1), candle_core::DType::F32, &Device::Cpu)?;

@@ -6,26 +6,26 @@ use super::matrix::add_to;
 use super::{Convolution, Geometry, Scratch};
 
 impl Geometry {
-    /// The part of the padded image that window `(i, j)` covers in its row `di`.
+    /// The range of the padded image that window `(i, j)` covers in its row `di`.
     fn window_row(&self, i: usize, j: usize, di: usize) -> Range<usize> {
         let Convolution { kernel, stride, .. } = self.convolution;
         let start = ((i * stride + di) * self.padded_width() + j * stride) * self.channels_in;
         start..start + kernel * self.channels_in
     }
 
-    /// The part of the padded image that holds row `i` of the image.
+    /// The range of the padded image that contains row `i` of the image.
     fn inner_row(&self, i: usize) -> Range<usize> {
         let padding = self.convolution.padding;
         let start = ((i + padding) * self.padded_width() + padding) * self.channels_in;
         start..start + self.width * self.channels_in
     }
 
-    /// Whether the windows are the pixels, one after another.
+    /// Whether the windows are exactly the pixels in order.
     pub(super) fn is_pointwise(&self) -> bool {
         matches!(self.convolution, Convolution { kernel: 1, stride: 1, padding: 0, .. })
     }
 
-    /// The windows of the image `x`, rectified if asked for, one window a row.
+    /// The windows of the image `x`, one per row; rectified if `rectify_input` is set.
     pub(super) fn im2col<'a>(&self, x: &'a [f32], scratch: &'a mut Scratch) -> &'a [f32] {
         let Convolution { kernel, padding, rectify_input, .. } = self.convolution;
         if self.is_pointwise() && !rectify_input {
@@ -36,7 +36,7 @@ impl Geometry {
             scratch.columns.extend(x.iter().map(|&from| rectified(from)));
             return &scratch.columns;
         }
-        // A padded and rectified copy (in L1) lets the windows, which overlap, be plain copies without a branch.
+        // A padded and rectified copy (in L1 cache) makes the overlapping windows plain copies without branches.
         let padded = if padding == 0 && !rectify_input {
             x
         } else {
@@ -64,7 +64,7 @@ impl Geometry {
         &scratch.columns
     }
 
-    /// Adds up the gradients of windows in `scratch.columns` to the gradient of the image `x`.
+    /// Adds the window gradients in `scratch.columns` to the gradient of the image `x`.
     pub(super) fn col2im(&self, x: &[f32], x_gradient: &mut [f32], scratch: &mut Scratch) {
         let Convolution { kernel, .. } = self.convolution;
         scratch.padded.clear();
@@ -84,7 +84,7 @@ impl Geometry {
         self.rectify_gradient(x, x_gradient);
     }
 
-    /// Where the input was taken as zero, its gradient is zero.
+    /// Sets the gradient to zero where the input was rectified to zero.
     pub(super) fn rectify_gradient(&self, x: &[f32], x_gradient: &mut [f32]) {
         if self.convolution.rectify_input {
             x_gradient.iter_mut().zip(x).for_each(|(to, &x)| *to = if x <= 0.0 { 0.0 } else { *to });
@@ -92,7 +92,7 @@ impl Geometry {
     }
 }
 
-/// Written so that a NaN stays a NaN, which `max` would hide.
+/// Keeps NaN, unlike `max`.
 fn rectified(x: f32) -> f32 {
     if x < 0.0 { 0.0 } else { x }
 }

@@ -29,17 +29,20 @@ fn draw(architecture: &Architecture, seed: u64) -> Tensors {
     architecture.tensors().into_iter().map(|spec| (spec.clone(), spec.draw(&mut rng))).collect()
 }
 
-/// The tensors of a file without noise.
+/// The tensors of a file without noise parameters.
 fn kept() -> Tensors {
     draw(&Architecture { noisy: false, ..Architecture::default() }, 1)
 }
 
-/// A file of anything, as another program could write it.
+/// A file with any content, as another program could write it.
 fn file(manifest: &str, tensors: &Tensors) -> Vec<u8> {
     let bytes = |values: &Vec<f32>| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
     let data: Vec<_> = tensors.iter().map(|(spec, values)| (spec, bytes(values))).collect();
     let views = data.iter().map(|(spec, bytes)| {
-        (&spec.name, TensorView::new(Dtype::F32, spec.shape.clone(), bytes).expect("as many values as the shape says"))
+        (
+            &spec.name,
+            TensorView::new(Dtype::F32, spec.shape.clone(), bytes).expect("the number of values fits the shape"),
+        )
     });
     safetensors::serialize(views, Some(HashMap::from([(KEY.to_owned(), manifest.to_owned())]))).unwrap()
 }
@@ -64,7 +67,7 @@ fn observation() -> Observation {
 }
 
 #[test]
-fn what_is_written_judges_as_what_was_trained() {
+fn a_written_policy_judges_like_the_trained_network() {
     let full = Architecture::default();
     for architecture in
         [full, Architecture { fusion: Fusion::Early, ..full }, Architecture { quantiles: false, ..full }]
@@ -77,7 +80,7 @@ fn what_is_written_judges_as_what_was_trained() {
         let policy = Policy::open(&path).unwrap();
         assert_eq!(policy, Policy::from_bytes(&bytes).unwrap());
         let expected = manifest(Architecture { noisy: false, ..architecture });
-        assert_eq!(policy.manifest(), &expected, "acting needs no noise");
+        assert_eq!(policy.manifest(), &expected, "acting does not need noise");
 
         let network = Network::new(architecture, |name| {
             let (spec, values) = weights.iter().find(|(spec, _)| spec.name == name).unwrap();
@@ -99,10 +102,10 @@ fn what_is_written_judges_as_what_was_trained() {
 }
 
 #[test]
-fn a_tensor_that_does_not_fit_is_refused_by_name() {
+fn refuses_a_tensor_that_does_not_fit_and_names_it() {
     assert!(Policy::from_bytes(&file_of(&plain(), &kept())).is_ok());
 
-    // Two channels in the first convolution, where the manifest says that the trunk looks at one.
+    // Two channels in the first convolution, but the manifest says that the trunk uses one.
     let mut tensors = kept();
     tensors[0] = draw(&Architecture { fusion: Fusion::Early, ..plain().architecture }, 1).remove(0);
     let text = refusal(&file_of(&plain(), &tensors));
@@ -122,22 +125,19 @@ fn a_tensor_that_does_not_fit_is_refused_by_name() {
     let mut tensors = kept();
     let spec = TensorSpec { name: "trunk.extra".to_owned(), ..tensors[1].0.clone() };
     tensors.push((spec, tensors[1].1.clone()));
-    assert_eq!(
-        refusal(&file_of(&plain(), &tensors)),
-        "policy: tensor \"trunk.extra\" belongs to no part of the network"
-    );
-    // What a manifest switches off is stray too.
+    assert_eq!(refusal(&file_of(&plain(), &tensors)), "policy: tensor \"trunk.extra\" is not part of the network");
+    // Tensors of a part that the manifest switches off are refused too.
     let no_duel = manifest(Architecture { dueling: false, ..plain().architecture });
     assert!(refusal(&file_of(&no_duel, &kept())).contains("\"value."));
 
     for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut tensors = kept();
         *tensors[5].1.last_mut().unwrap() = value;
-        let expected = format!("policy: tensor {:?} holds {value}", tensors[5].0.name);
+        let expected = format!("policy: tensor {:?} contains {value}", tensors[5].0.name);
         assert_eq!(refusal(&file_of(&plain(), &tensors)), expected);
     }
 
-    // Integers, of as many bytes.
+    // Integers, with the same number of bytes.
     let data: Vec<u8> = vec![0; 4 * 49 * 32];
     let integers = TensorView::new(Dtype::I32, vec![49, 32], &data).unwrap();
     let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&plain()).unwrap())]);
@@ -146,10 +146,10 @@ fn a_tensor_that_does_not_fit_is_refused_by_name() {
 }
 
 #[test]
-fn a_manifest_that_does_not_fit_is_refused_with_the_reason() {
+fn refuses_a_manifest_that_does_not_fit_and_gives_the_reason() {
     let (version, [channels, height, width]) = Manifest::current();
     let cases = [
-        (Manifest { version: version + 1, ..plain() }, "version is 2, this program reads 1"),
+        (Manifest { version: version + 1, ..plain() }, "version is 2, expected 1"),
         (Manifest { observation: [channels + 1, height, width], ..plain() }, "observation is [3, 84, 84]"),
         (Manifest { observation: [channels, height, 96], ..plain() }, "observation is [2, 84, 96]"),
         (Manifest { step_m: 0.0, ..plain() }, "step_m is 0"),
@@ -165,66 +165,66 @@ fn a_manifest_that_does_not_fit_is_refused_with_the_reason() {
     }
     let stray = serde_json::to_string(&plain()).unwrap().replace("\"seed\"", "\"sead\"");
     assert!(refusal(&file(&stray, &kept())).contains("unknown field `sead`"));
-    // No manifest at all, as other programs write weights.
+    // Without a manifest, as other programs write weights.
     let data = [0; 4];
     let view = TensorView::new(Dtype::F32, vec![1], &data).unwrap();
     let text = refusal(&safetensors::serialize([("x", view)], None).unwrap());
-    assert!(text.contains("the metadata have no \"ferry\""), "{text}");
+    assert!(text.contains("the metadata has no \"ferry\""), "{text}");
 }
 
 #[test]
-fn a_header_that_claims_to_be_large_is_refused_before_it_is_looked_at() {
+fn refuses_a_header_with_a_large_claimed_size_before_parsing() {
     let mut bytes = file_of(&plain(), &kept());
-    for claimed in [HEADER_MOST + 1, 100 << 30, u64::MAX] {
+    for claimed in [MAX_HEADER_BYTES + 1, 100 << 30, u64::MAX] {
         bytes[..8].copy_from_slice(&claimed.to_le_bytes());
         let error = Policy::from_bytes(&bytes).unwrap_err();
         assert!(matches!(error, PolicyError::Header { bytes } if bytes == claimed), "{error}");
     }
-    // A tensor that claims a hundred gigabytes.
+    // A tensor with a claimed size of a hundred gigabytes.
     let header = br#"{"x":{"dtype":"F32","shape":[26843545600],"data_offsets":[0,107374182400]}}"#;
     let bytes = [&(header.len() as u64).to_le_bytes()[..], header, &[0; 64]].concat();
     assert!(matches!(Policy::from_bytes(&bytes), Err(PolicyError::Format(_))));
 }
 
 #[test]
-fn a_file_too_large_is_refused_unread() {
+fn refuses_a_large_file_without_reading_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("large");
-    // Holes: more than the memory of this machine could be read.
-    for bytes in [BYTES_MOST + 1, 1 << 42] {
+    // A sparse file: larger than the memory of the machine.
+    for bytes in [MAX_BYTES + 1, 1 << 42] {
         std::fs::File::create(&path).unwrap().set_len(bytes).unwrap();
         match Policy::open(&path) {
             Err(PolicyError::TooLarge { bytes: found }) => assert_eq!(found, bytes),
             other => panic!("{other:?}"),
         }
     }
-    std::fs::File::create(&path).unwrap().set_len(BYTES_MOST).unwrap();
-    assert!(matches!(Policy::open(&path), Err(PolicyError::Format(_))), "read, and nothing in it");
+    std::fs::File::create(&path).unwrap().set_len(MAX_BYTES).unwrap();
+    assert!(matches!(Policy::open(&path), Err(PolicyError::Format(_))), "the file is read but empty");
     let missing = Policy::open(&folder.path().join("none")).unwrap_err().to_string();
     assert!(missing.contains("none"), "{missing}");
 }
 
 #[cfg(unix)]
 #[test]
-fn a_device_that_never_ends_is_refused_too() {
+fn refuses_an_endless_device() {
     let error = Policy::open(Path::new("/dev/zero")).unwrap_err();
     assert!(matches!(error, PolicyError::TooLarge { .. }), "{error}");
 }
 
 #[test]
-fn torn_and_damaged_files_are_read_or_refused_and_nothing_else() {
+fn truncated_and_damaged_files_are_read_or_refused_without_panic() {
     let bytes = file_of(&plain(), &kept());
     let header = 8 + u64::from_le_bytes(*bytes.first_chunk().unwrap()) as usize;
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     for length in (0..20).chain((0..200).map(|_| rng.random_range(0..bytes.len()))).chain([header, bytes.len() - 1]) {
         assert!(matches!(Policy::from_bytes(&bytes[..length]), Err(PolicyError::Format(_))), "{length} bytes");
     }
-    assert!(Policy::from_bytes(&[&bytes[..], &[0]].concat()).is_err(), "one byte more");
+    assert!(Policy::from_bytes(&[&bytes[..], &[0]].concat()).is_err(), "one additional byte");
     let (seen, mut whole) = (observation(), 0);
     for round in 0..600 {
         let mut damaged = bytes.clone();
         for _ in 0..rng.random_range(1..4) {
-            // Most of the damage to the header: numbers are only numbers.
+            // Damage mostly the header, because other bytes are only numbers.
             let at = if round % 4 > 0 { rng.random_range(0..header) } else { rng.random_range(header..bytes.len()) };
             damaged[at] = if rng.random() { rng.random() } else { damaged[at] ^ (1 << rng.random_range(0..8)) };
         }

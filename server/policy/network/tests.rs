@@ -9,7 +9,7 @@ use super::*;
 const FULL: Architecture =
     Architecture { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true };
 
-/// Every part switched, one at a time.
+/// All parts, then each one switched off.
 const ALL: [Architecture; 6] = [
     FULL,
     Architecture { fusion: Fusion::Early, ..FULL },
@@ -45,7 +45,7 @@ fn flat(tensor: &Tensor) -> Vec<f32> {
     tensor.flatten_all().unwrap().to_vec1().unwrap()
 }
 
-/// Sums of a hundred terms or so in another order differ by this.
+/// Tolerance for sums of about a hundred terms in a different order.
 fn assert_near(a: &Tensor, b: &Tensor) {
     assert_eq!(a.dims(), b.dims());
     for (a, b) in flat(a).into_iter().zip(flat(b)) {
@@ -53,7 +53,7 @@ fn assert_near(a: &Tensor, b: &Tensor) {
     }
 }
 
-/// Images, places, fractions and noise for two images of three goals (one with early fusion) and four fractions.
+/// Images, places, fractions and noise for two images, three goals (one with early fusion) and four fractions.
 struct Example {
     images: Tensor,
     places: Tensor,
@@ -84,7 +84,7 @@ fn noise_has_the_moments_of_the_publication_and_rank_one() {
     const DRAWS: usize = 1000;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let layers = FULL.head();
-    // Of each layer: Σ ε_w, Σ ε_w², Σ ε_b, Σ ε_b².
+    // For each layer: Σ ε_w, Σ ε_w², Σ ε_b, Σ ε_b².
     let mut sums = vec![[0.0f64; 4]; layers.len()];
     for draw in 0..DRAWS {
         let Noise(noise) = Noise::draw(&FULL, &mut rng).unwrap().unwrap();
@@ -97,7 +97,7 @@ fn noise_has_the_moments_of_the_publication_and_rank_one() {
                 sums[1] += values.iter().map(|&x| f64::from(x * x)).sum::<f64>() / values.len() as f64;
             }
             if draw < 10 {
-                // ε_ij = f(ε_i)·f(ε_j), and the bias has the very f(ε_j).
+                // ε_ij = f(ε_i)·f(ε_j), and the bias has the same f(ε_j).
                 for (row, j) in (0..inputs).zip((0..outputs).cycle()) {
                     let (row, scale) = (&weight[row * outputs..(row + 1) * outputs], bias[j]);
                     for (&w, &b) in row.iter().zip(&bias) {
@@ -107,7 +107,7 @@ fn noise_has_the_moments_of_the_publication_and_rank_one() {
             }
         }
     }
-    // E|x| and E|x|² of a standard normal x. For each layer: how far the mean over the draws may be, five deviations.
+    // E|x| and E|x|² of a standard normal x. For each layer, the tolerance of the mean is five deviations.
     let mean = (2.0 / std::f64::consts::PI).sqrt();
     for (sums, (name, inputs, outputs)) in sums.into_iter().zip(layers) {
         let [w, w2, b, b2] = sums.map(|sum| sum / DRAWS as f64);
@@ -123,7 +123,7 @@ fn noise_has_the_moments_of_the_publication_and_rank_one() {
 }
 
 #[test]
-fn weights_begin_as_fortunato_and_others_begin_theirs() {
+fn initial_weights_follow_fortunato_and_others() {
     for architecture in ALL {
         let weights = draw_weights(&architecture, 3);
         let mut noisy = 0;
@@ -138,13 +138,14 @@ fn weights_begin_as_fortunato_and_others_begin_theirs() {
                 assert!(values.iter().all(|&value| (value - 0.5 / inputs.sqrt()).abs() < 1e-7), "{}", spec.name);
                 continue;
             }
-            let most = 1.0 / inputs.sqrt();
-            assert!(values.iter().all(|value| value.abs() <= most), "{}", spec.name);
+            let max = 1.0 / inputs.sqrt();
+            assert!(values.iter().all(|value| value.abs() <= max), "{}", spec.name);
             if values.len() >= 1000 {
-                // Uniform: a third of its square is the mean square, within 10 %; and it comes near its ends.
+                // Uniform: the mean square is a third of the squared limit, within 10 %, and the values come near the
+                // limits.
                 let square = values.iter().map(|value| value * value).sum::<f32>() / values.len() as f32;
-                assert!((square * 3.0 / (most * most) - 1.0).abs() < 0.1, "{} {square}", spec.name);
-                assert!(values.iter().any(|&v| v > 0.98 * most) && values.iter().any(|&v| v < -0.98 * most));
+                assert!((square * 3.0 / (max * max) - 1.0).abs() < 0.1, "{} {square}", spec.name);
+                assert!(values.iter().any(|&v| v > 0.98 * max) && values.iter().any(|&v| v < -0.98 * max));
             }
         }
         let heads = if architecture.dueling { 4 } else { 2 };
@@ -153,14 +154,14 @@ fn weights_begin_as_fortunato_and_others_begin_theirs() {
 }
 
 #[test]
-fn without_noise_the_means_answer_and_two_draws_differ() {
+fn without_noise_the_means_are_used_and_two_draws_differ() {
     let weights = draw_weights(&FULL, 4);
     let example = Example::new(&FULL, 5);
     let noisy = network(&FULL, &weights);
     let plain = network(&Architecture { noisy: false, ..FULL }, &weights);
     let quiet = Example { noise: None, ..Example::new(&FULL, 5) };
     assert_eq!(flat(&quiet.quantiles(&noisy)), flat(&quiet.quantiles(&plain)));
-    // The same seed draws the same; noise of σ = 0 is none.
+    // Equal seeds draw equal noise; noise with σ = 0 has no effect.
     assert_eq!(flat(&example.quantiles(&noisy)), flat(&Example::new(&FULL, 5).quantiles(&noisy)));
     let still = weights.iter().map(|(name, values)| {
         let factor = f32::from(u8::from(!name.ends_with("_sigma")));
@@ -187,7 +188,7 @@ fn with_dueling_the_mean_over_the_actions_is_the_value() {
     let means = out.mean_keepdim(D::Minus1).unwrap();
     assert!(flat(&out).iter().zip(flat(&means.broadcast_as(out.dims()).unwrap())).any(|(a, b)| (a - b).abs() > 1e-2));
 
-    // An advantage of the same for all actions is none.
+    // An advantage that is equal for all actions has no effect.
     weights.get_mut("advantage.out.bias").unwrap().iter_mut().for_each(|bias| *bias += 3.0);
     assert_near(&example.quantiles(&network(&FULL, &weights)), &out);
     // Without an advantage every action has the value.
@@ -195,7 +196,7 @@ fn with_dueling_the_mean_over_the_actions_is_the_value() {
     advantage.for_each(|(_, values)| values.fill(0.0));
     let value = example.quantiles(&network(&FULL, &weights));
     assert_near(&value, &means.broadcast_as(out.dims()).unwrap());
-    // And the value is there: it moves all actions alike.
+    // The value is used: it shifts all actions equally.
     weights.get_mut("value.out.bias").unwrap()[0] += 0.5;
     assert_near(&example.quantiles(&network(&FULL, &weights)), &(value + 0.5).unwrap());
 }
@@ -211,11 +212,11 @@ fn a_quantile_does_not_depend_on_the_others() {
         assert_near(&alone, &all.narrow(2, index, 1).unwrap());
     }
     let [first, second] = [0, 1].map(|index| flat(&all.narrow(2, index, 1).unwrap()));
-    assert!(first.iter().zip(&second).any(|(a, b)| (a - b).abs() > 1e-4), "but on its own fraction");
+    assert!(first.iter().zip(&second).any(|(a, b)| (a - b).abs() > 1e-4), "it depends on its own fraction");
 }
 
 #[test]
-fn an_image_is_seen_alike_alone_and_among_others() {
+fn an_image_has_the_same_result_alone_and_in_a_batch() {
     for architecture in [FULL, ALL[1]] {
         let network = network(&architecture, &draw_weights(&architecture, 11));
         let mut rng = ChaCha8Rng::seed_from_u64(12);
@@ -229,7 +230,7 @@ fn an_image_is_seen_alike_alone_and_among_others() {
 }
 
 #[test]
-fn late_fusion_answers_for_many_goals_what_it_answers_for_each() {
+fn late_fusion_gives_the_same_for_many_goals_as_for_each() {
     let example = Example::new(&FULL, 13);
     let network = network(&FULL, &draw_weights(&FULL, 14));
     let together = example.quantiles(&network);
@@ -240,11 +241,11 @@ fn late_fusion_answers_for_many_goals_what_it_answers_for_each() {
         assert_near(&alone, &together.narrow(1, goal, 1).unwrap());
     }
     let [first, second] = [0, 1].map(|goal| flat(&together.narrow(1, goal, 1).unwrap()));
-    assert!(first.iter().zip(&second).any(|(a, b)| (a - b).abs() > 1e-4), "but the goal matters");
+    assert!(first.iter().zip(&second).any(|(a, b)| (a - b).abs() > 1e-4), "the goal matters");
 }
 
 #[test]
-fn early_fusion_looks_at_both_channels_and_has_no_place_of_its_own() {
+fn early_fusion_uses_both_channels_and_has_no_separate_places() {
     let early = ALL[1];
     let patches = |architecture: &Architecture| architecture.tensors()[0].clone();
     assert_eq!((patches(&early).name.as_str(), patches(&early).shape), ("trunk.patches.weight", vec![7 * 7 * 2, 32]));
@@ -265,7 +266,7 @@ fn early_fusion_looks_at_both_channels_and_has_no_place_of_its_own() {
 }
 
 #[test]
-fn every_weights_gradient_is_the_slope_of_the_whole_network() {
+fn the_gradient_of_every_weight_is_the_slope_of_the_network() {
     for architecture in ALL {
         let mut weights = draw_weights(&architecture, 18);
         let example = Example::new(&architecture, 19);
@@ -284,7 +285,7 @@ fn every_weights_gradient_is_the_slope_of_the_whole_network() {
         };
         for spec in architecture.tensors() {
             let gradient = flat(gradients.get(&variables[&spec.name]).unwrap());
-            // The steepest of its weights and one by chance.
+            // The steepest of its weights, and a random one.
             let steepest =
                 (0..gradient.len()).max_by(|&a, &b| gradient[a].abs().total_cmp(&gradient[b].abs())).unwrap();
             assert!(gradient[steepest] != 0.0, "{} {architecture:?}", spec.name);
@@ -297,8 +298,8 @@ fn every_weights_gradient_is_the_slope_of_the_whole_network() {
                 });
                 weights.get_mut(&spec.name).unwrap()[index] = kept;
                 let slopes = [above - here, here - below].map(|rise| rise / f64::from(STEP));
-                // Where a ReLU turns within the step the slopes differ, and one of them is meant. Rounding leaves
-                // some 2e-4.
+                // If a ReLU switches within the step the slopes differ, and the gradient is one of them. Rounding
+                // errors are about 2e-4.
                 let given = f64::from(gradient[index]);
                 let slack = 1e-3 + 0.02 * given.abs();
                 let [low, high] = [slopes[0].min(slopes[1]) - slack, slopes[0].max(slopes[1]) + slack];

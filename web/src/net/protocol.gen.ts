@@ -66,7 +66,7 @@ export const MAX_SVG_BYTES = 1048576;
  */
 export type Polygon = { 
 /**
- * Outer ring, `[x_m, y_m]` a vertex.
+ * Outer ring, `[x_m, y_m]` per vertex.
  */
 exterior: Array<[number, number]>, 
 /**
@@ -79,19 +79,19 @@ holes: Array<Array<[number, number]>>, };
  */
 export type Rect = { 
 /**
- * Least x.
+ * Smallest x.
  */
 x_min_m: number, 
 /**
- * Greatest x.
+ * Largest x.
  */
 x_max_m: number, 
 /**
- * Least y.
+ * Smallest y.
  */
 y_min_m: number, 
 /**
- * Greatest y.
+ * Largest y.
  */
 y_max_m: number, };
 

@@ -6,22 +6,20 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Point2, Vector2};
 use crate::perception::Patch;
 
-/// Exponent of the superellipse; with more than 2 it looks like a rectangle with round corners
-/// (paper, §IV-B).
+/// Exponent of the superellipse; above 2 it resembles a rectangle with round corners (paper, §IV-B).
 const EXPONENT: f64 = 4.0;
 
 /// An obstacle's boundary: Σ(|x̃_i|/a_i)^4 = 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Superellipse {
-    /// Centre.
     pub center_m: Point2<f64>,
-    /// Half sides of the rectangle it was fitted to.
+    /// Half sides of the fitted rectangle.
     pub half_size_m: Vector2<f64>,
-    /// Half axes a, margins included.
+    /// Half axes a, including margins.
     pub half_axes_m: Vector2<f64>,
 }
 
-/// Which first column E has.
+/// The first column of E.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Basis {
     /// The boundary's normal: Khansari-Zadeh & Billard (2012).
@@ -31,8 +29,8 @@ pub(super) enum Basis {
 }
 
 impl Superellipse {
-    /// Encloses a patch: half sides times 2^(1/4), so that the corners touch, times the safety factor,
-    /// plus a clearance.
+    /// Encloses a patch: half sides times 2^(1/4), so that the corners touch, times the safety factor, plus a
+    /// clearance.
     pub fn around(patch: &Patch, safety_factor: f64, clearance_m: f64) -> Self {
         let enclosing = 2f64.powf(1.0 / EXPONENT) * safety_factor;
         Self {
@@ -48,7 +46,7 @@ impl Superellipse {
         scaled.x.powf(EXPONENT) + scaled.y.powf(EXPONENT)
     }
 
-    /// Unit normal of the level set through `point`, outward; any direction at the centre.
+    /// Outward unit normal of the level set through `point`; any direction at the centre.
     pub fn normal(&self, point: Point2<f64>) -> Vector2<f64> {
         let offset = point - self.center_m;
         let gradient = offset.zip_map(&self.half_axes_m, |x, a| (x.abs() / a).powf(EXPONENT - 1.0) * x.signum() / a);
@@ -56,7 +54,7 @@ impl Superellipse {
     }
 }
 
-/// Bends `nominal` around all obstacles: the weighted product of their modulations, nearest last
+/// Deflects `nominal` around all obstacles: the weighted product of their modulations, nearest last
 /// (Khansari-Zadeh & Billard 2012, §4.3).
 pub(super) fn modulate(
     obstacles: &[Superellipse],
@@ -73,7 +71,7 @@ pub(super) fn modulate(
     })
 }
 
-/// w_k = Π_{i≠k} (Γ_i−1)/((Γ_k−1)+(Γ_i−1)); where both touch, each has half.
+/// w_k = Π_{i≠k} (Γ_i−1)/((Γ_k−1)+(Γ_i−1)); if the point is on both boundaries, each gets half.
 fn weight(gammas: &[f64], k: usize) -> f64 {
     let excess = |i: usize| gammas[i] - 1.0;
     (0..gammas.len())
@@ -101,12 +99,12 @@ fn modulate_by(
         Basis::Star => (point - obstacle.center_m).try_normalize(0.0).unwrap_or(normal),
     };
     let reach = weight / gamma.powf(1.0 / rho);
-    // The tail effect is off: what leaves the obstacle is not held back.
+    // The tail effect is off: motion away from the obstacle is not slowed.
     let leaving = normal.dot(&velocity) >= 0.0;
     let lambda_normal = if leaving { 1.0 } else { 1.0 - reach };
     let eigenvalues = Matrix2::from_diagonal(&Vector2::new(lambda_normal, 1.0 + reach));
     let e = Matrix2::from_columns(&[first, tangent]);
-    // The centre sees every point of a convex boundary, so that E is regular.
+    // Every boundary point of a convex shape is visible from the centre, so E is regular.
     e.try_inverse().map_or(velocity, |inverse| e * eigenvalues * inverse * velocity)
 }
 
@@ -123,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn the_superellipse_encloses_its_rectangle() {
+    fn a_superellipse_encloses_its_rectangle() {
         let patch = Patch {
             center_m: Point2::new(0.3, -0.1),
             half_size_m: Vector2::new(0.01, 0.004),
@@ -137,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn on_the_boundary_nothing_flows_inward_and_the_tangent_doubles() {
+    fn on_the_boundary_nothing_flows_inward_and_tangential_speed_doubles() {
         for basis in [Basis::Normal, Basis::Star] {
             for k in 0..64 {
                 let angle = f64::from(k) * std::f64::consts::TAU / 64.0;
@@ -153,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn far_away_nothing_changes_and_weights_share_between_obstacles() {
+    fn far_away_the_flow_is_unchanged_and_weights_sum_to_one() {
         let velocity = Vector2::new(0.3, 0.7);
         let far = modulate(&[unit()], Point2::new(50.0, 0.0), velocity, 1.0, Basis::Normal);
         assert!((far - velocity).norm() < 1e-6);

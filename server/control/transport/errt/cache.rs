@@ -1,4 +1,4 @@
-//! Waypoints: places that ways went through, which a later search tries again.
+//! Waypoints: points of earlier paths, which a later search tries again.
 
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
@@ -7,8 +7,8 @@ use crate::geometry::Point2;
 
 /// A fixed number of slots.
 ///
-/// The publication fills them with random states at first. Ours are empty, and a search that draws one goes anywhere
-/// instead: random states too, but not the same few again and again, from which a first search would suffer.
+/// The publication fills the slots with random states at first. Here they are empty, and a search that draws an empty
+/// slot samples anywhere instead. These samples are random too, but the search does not repeat the same few.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Cache {
     slots: Vec<Option<Point2<f64>>>,
@@ -20,12 +20,12 @@ impl Cache {
         self.slots.resize(count, None);
     }
 
-    /// What a random slot holds.
+    /// The content of a random slot.
     pub fn draw(&self, rng: &mut impl Rng) -> Option<Point2<f64>> {
         if self.slots.is_empty() { None } else { self.slots[rng.random_range(0..self.slots.len())] }
     }
 
-    /// Remembers a way: each of its points takes a random slot.
+    /// Stores a path: each of its points replaces a random slot.
     pub fn remember(&mut self, path: &[Point2<f64>], rng: &mut impl Rng) {
         let count = self.slots.len();
         if count > 0 {

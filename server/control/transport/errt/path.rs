@@ -1,4 +1,4 @@
-//! A way from start to goal, and how it is made shorter.
+//! A path from start to goal, and how it is shortened.
 
 use rand::{Rng, RngExt};
 use serde::de::Error;
@@ -11,14 +11,14 @@ use crate::geometry::Point2;
 /// Straight lines from start to goal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Path {
-    /// Corners, start and goal included. If the tool was over a wall, the first is where it gets off.
+    /// Corners, including start and goal. If the tool was over a wall, the first is where it leaves the wall.
     #[serde(deserialize_with = "ends_and_corners")]
     pub points: Vec<Point2<f64>>,
-    /// What all of it kept when it was found.
+    /// The clearance that the whole path kept when it was found.
     pub clearance: Clearance,
 }
 
-/// A file may lie.
+/// Rejects a path with fewer than two points from a file.
 fn ends_and_corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Point2<f64>>, D::Error> {
     let points = Vec::deserialize(deserializer)?;
     if points.len() < 2 {
@@ -28,13 +28,12 @@ fn ends_and_corners<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Po
 }
 
 impl Path {
-    /// From start to goal.
     pub fn length_m(&self) -> f64 {
         self.points.windows(2).map(|edge| (edge[1] - edge[0]).norm()).sum()
     }
 
-    /// Whether all of it from `from_m` on is clear of obstacles that may have become known since. Its clearance may
-    /// have shrunk by `tolerance_m`: a cell more at the rim of a wall is no reason for another way.
+    /// Whether the path from `from_m` on is clear of the currently known obstacles. The clearance may have shrunk by
+    /// `tolerance_m`: one more cell at the edge of a wall is no reason for a new path.
     pub fn is_clear_from(&self, from_m: f64, obstacles: &Obstacles, tolerance_m: f64) -> bool {
         let clearance = self.clearance.less(tolerance_m);
         let (edge, place) = self.place(from_m);
@@ -46,17 +45,17 @@ impl Path {
         })
     }
 
-    /// Where it leads.
     pub fn goal(&self) -> Point2<f64> {
         self.clearance.ends[1].point
     }
 
-    /// The place so far along the way; its end beyond that.
+    /// The point at `along_m` from the start; the end if the path is shorter.
     pub fn at(&self, along_m: f64) -> Point2<f64> {
         self.place(along_m).1
     }
 
-    /// How far along the way its place nearest to `point` is, not before `from_m`, and the distance from there.
+    /// The path's point nearest to `point`, not before `from_m`: its distance along the path, and its distance to
+    /// `point`.
     pub fn nearest(&self, point: Point2<f64>, from_m: f64) -> (f64, f64) {
         let mut start_m = 0.0;
         let mut best = (from_m, (self.at(from_m) - point).norm());
@@ -76,7 +75,7 @@ impl Path {
         best
     }
 
-    /// From each corner on, goes straight to the farthest corner in sight.
+    /// Replaces corners by straight lines: from each corner on to the farthest corner with a clear line.
     pub(super) fn skip_corners(&mut self, obstacles: &Obstacles) {
         let corners = std::mem::take(&mut self.points);
         let mut at = 0;
@@ -88,13 +87,13 @@ impl Path {
         }
     }
 
-    /// Goes straight between two random places along it if that is clear.
+    /// Replaces the part between two random points by a straight line if that is clear.
     pub(super) fn cut_short(&mut self, obstacles: &Obstacles, rng: &mut impl Rng) {
         let length_m = self.length_m();
         let mut along_m = [length_m * rng.random::<f64>(), length_m * rng.random::<f64>()];
         along_m.sort_by(f64::total_cmp);
         let [(before, from), (last, to)] = along_m.map(|along_m| self.place(along_m));
-        // What is left of an edge is looked at too: near an end, its pieces are others than those of the edge.
+        // The remaining parts of edges are checked again: near an end, they are divided into other pieces than before.
         let corners = [self.points[before], from, to, self.points[last + 1]];
         let is_clear = |edge: &[Point2<f64>]| obstacles.is_clear(edge[0], edge[1], &self.clearance);
         if before < last && corners.windows(2).all(is_clear) {
@@ -102,7 +101,7 @@ impl Path {
         }
     }
 
-    /// The place so far along the way, and the number of its edge.
+    /// The point at `along_m` from the start, and the index of its edge.
     fn place(&self, mut along_m: f64) -> (usize, Point2<f64>) {
         let last = self.points.len() - 2;
         for (edge, ends) in self.points.windows(2).enumerate() {

@@ -1,4 +1,4 @@
-//! The search, and what one search leaves to the next.
+//! The search, and the state that one search leaves to the next.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -12,42 +12,42 @@ use super::path::Path;
 use super::tree::Tree;
 use crate::geometry::{Point2, Rect};
 
-/// Share of a step that is tried from the root where a whole one is not clear: a start beside a wall may have no room
-/// for more.
+/// Share of a step that is tried from the root if a whole step is not clear: a start beside a wall may have no room for
+/// more.
 const FIRST_STEP: f64 = 0.25;
 
-/// How often a sample that lies too near to a wall is drawn again.
+/// How often a sample that is too close to a wall is redrawn.
 const DRAWS: usize = 100;
 
-/// How to search. The defaults are those of the publication as far as it gives any.
+/// Parameters of the search. The defaults are those of the publication where it gives any.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlannerParameters {
-    /// Share of extensions that go toward the goal.
+    /// Share of extensions toward the goal.
     pub goal_probability: f64,
-    /// Share of extensions that go toward a waypoint; they go anywhere as long as the cache has none. What the two
-    /// leave goes anywhere.
+    /// Share of extensions toward a waypoint, or toward a random point while the cache is empty. The remaining
+    /// extensions go toward a random point.
     pub waypoint_probability: f64,
-    /// Size of the cache; 0 is without.
+    /// Size of the cache; 0 disables it.
     pub waypoints: usize,
-    /// Most that β, the weight of the cost from the root, grows to; 0 is the plain nearest neighbour.
+    /// Upper limit of β, the weight of the cost from the root; 0 gives the plain nearest neighbour.
     pub beta_most: f64,
-    /// How much β grows when a way is shorter than the last to the same goal, and falls otherwise.
+    /// β grows by this if a path is shorter than the last one to the same goal; otherwise it falls by this.
     pub beta_step: f64,
-    /// Ours: β falls by a step after every so many attempts of one search, too. In a winding channel the cost of
-    /// the right node is many times its distance, and a great β would let only nodes near the root grow.
+    /// Not from the publication: β also falls by a step after this many attempts of one search. In a winding channel
+    /// the right node's cost is many times its distance, and with a large β only nodes near the root would grow.
     pub beta_patience: usize,
     /// Longest edge of the tree.
     pub step_m: f64,
-    /// Ours: anywhere is anywhere that keeps the clearance, instead of anywhere in the workspace.
+    /// Not from the publication: random points are drawn where the clearance is kept, not in the whole workspace.
     pub sample_where_clear: bool,
-    /// Ours: random shortcuts that are tried on a way that was found, after those from corner to corner; `None` is
-    /// the way as it was found.
+    /// Not from the publication: random shortcuts tried on a found path, after those from corner to corner. `None`
+    /// leaves the path as it was found.
     pub shortcuts: Option<usize>,
-    /// Ours: distance that a way keeps from walls where there is room.
+    /// Not from the publication: distance that a path keeps from walls where there is room.
     pub clearance_m: f64,
-    /// Ours: distance that it keeps in the narrowest places.
+    /// Not from the publication: distance that a path keeps in the narrowest places.
     pub least_clearance_m: f64,
-    /// Attempts to add an edge after which a search is given up.
+    /// The search stops after this many attempts to add an edge.
     pub most_attempts: usize,
 }
 
@@ -71,7 +71,7 @@ impl Default for PlannerParameters {
 }
 
 impl PlannerParameters {
-    /// Those of a file, which may lie: none may ask for more memory or time than a search has.
+    /// Checks parameters from a file, so that a search cannot use more memory or time than it has.
     fn checked<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let found = Self::deserialize(deserializer)?;
         let ranges = [
@@ -86,8 +86,8 @@ impl PlannerParameters {
             ("least_clearance_m", found.least_clearance_m, 0.03),
             ("most_attempts", found.most_attempts as f64, 1e6),
         ];
-        match ranges.into_iter().find(|&(_, value, most)| !(0.0..=most).contains(&value)) {
-            Some((field, value, most)) => Err(D::Error::custom(format!("{field} is {value}, it must be 0 to {most}"))),
+        match ranges.into_iter().find(|&(_, value, max)| !(0.0..=max).contains(&value)) {
+            Some((field, value, max)) => Err(D::Error::custom(format!("{field} is {value}, it must be 0 to {max}"))),
             None => Ok(found),
         }
     }
@@ -98,29 +98,29 @@ impl PlannerParameters {
     }
 }
 
-/// How far a search has come.
+/// The state of a search.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Progress {
-    /// Nothing was asked for.
+    /// Not started.
     #[default]
     Idle,
-    /// It goes on.
+    /// In progress.
     Searching,
-    /// A way was found.
+    /// A path was found.
     Found(Path),
-    /// It was given up. Another start draws other numbers.
+    /// Given up after the largest number of attempts. A new start draws other random numbers.
     Exhausted,
-    /// There is no way with the least clearance, whatever the unknown turns out to be.
+    /// No path has the smallest clearance, even if all unobserved places are free.
     WalledOff,
 }
 
-/// Plans one way after another. A value: all randomness comes from its seed.
+/// Plans one path after another. All randomness comes from its seed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Planner {
     rng: ChaCha8Rng,
     cache: Cache,
     beta: f64,
-    /// Goal and length of the last way as it was found.
+    /// Goal of the last path, and its length before shortening.
     last: Option<(Point2<f64>, f64)>,
     search: Option<Search>,
     progress: Progress,
@@ -130,9 +130,9 @@ pub struct Planner {
 struct Search {
     #[serde(deserialize_with = "PlannerParameters::checked")]
     parameters: PlannerParameters,
-    /// Of the obstacles that the tree keeps clear of.
+    /// Version of the obstacles that the tree avoids.
     version: u64,
-    /// Where the tool was.
+    /// Position of the tool at the start.
     from: Point2<f64>,
     clearance: Clearance,
     tree: Tree,
@@ -140,7 +140,7 @@ struct Search {
 }
 
 impl Planner {
-    /// A planner that remembers nothing.
+    /// A planner without waypoints or tree.
     pub fn new(seed: u64) -> Self {
         Self {
             rng: ChaCha8Rng::seed_from_u64(seed),
@@ -152,7 +152,7 @@ impl Planner {
         }
     }
 
-    /// Begins a search; one that goes on is dropped. The way may be found, or found not to exist, at once.
+    /// Starts a search and drops the previous one. A path may be found, or found impossible, immediately.
     ///
     /// `obstacles` must have been made for clearances up to that of `parameters`.
     pub fn start(
@@ -183,8 +183,8 @@ impl Planner {
         self.search = Some(Search { parameters: *parameters, version, from, clearance, tree, attempts: 0 });
     }
 
-    /// Goes on for at most `attempts` attempts to add an edge, a bound on the work; how they are portioned out changes
-    /// nothing. If the obstacles changed since the start, the search begins anew.
+    /// Makes at most `attempts` attempts to add an edge. The result does not depend on how attempts are divided into
+    /// calls. If the obstacles have changed since the start, the search restarts.
     pub fn advance(&mut self, obstacles: &Obstacles, attempts: usize) -> &Progress {
         if let (Progress::Searching, Some(search)) = (&self.progress, &self.search)
             && search.version != obstacles.version()
@@ -209,7 +209,7 @@ impl Planner {
             self.beta = (self.beta - parameters.beta_step).max(0.0);
         }
         let target = search.target(&self.cache, obstacles, &mut self.rng);
-        // A way's length is known only afterwards, and parameters may have changed since.
+        // A path's length is known only afterwards, and the parameters may have changed since.
         let beta = self.beta.min(parameters.beta_most);
         if let Some(last) = search.extend(target, beta, obstacles) {
             let points = search.tree.path(last);
@@ -234,17 +234,16 @@ impl Planner {
         }
     }
 
-    /// Remembers the corners of a way as waypoints.
+    /// Stores the corners of a path as waypoints.
     pub fn remember(&mut self, path: &Path) {
         self.cache.remember(&path.points, &mut self.rng);
     }
 
-    /// How far the search has come.
     pub fn progress(&self) -> &Progress {
         &self.progress
     }
 
-    /// The tree of the last search; none where there is no way.
+    /// The tree of the last search; `None` if no path exists.
     pub fn tree(&self) -> Option<&Tree> {
         self.search.as_ref().map(|search| &search.tree)
     }
@@ -254,14 +253,14 @@ impl Planner {
         self.search.as_ref().map_or(0, |search| search.attempts)
     }
 
-    /// Weight of the cost from the root in choosing the nearest node.
+    /// Weight of the cost from the root when the nearest node is chosen.
     pub fn beta(&self) -> f64 {
         self.beta
     }
 }
 
 impl Search {
-    /// Where to extend the tree to.
+    /// The point toward which the tree is extended.
     fn target(&self, cache: &Cache, obstacles: &Obstacles, rng: &mut ChaCha8Rng) -> Point2<f64> {
         let p = &self.parameters;
         let share: f64 = rng.random();
@@ -284,8 +283,8 @@ impl Search {
         sample
     }
 
-    /// Adds an edge from the nearest node toward `target` if it is clear, and one on to the goal if that is near. Gives
-    /// the goal's node once it is in the tree.
+    /// Adds an edge from the nearest node toward `target` if it is clear, and another one to the goal if that is near.
+    /// Returns the goal's node once it is in the tree.
     fn extend(&mut self, target: Point2<f64>, beta: f64, obstacles: &Obstacles) -> Option<usize> {
         let nearest = self.tree.nearest(target, beta);
         let from = self.tree.point(nearest);

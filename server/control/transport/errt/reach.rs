@@ -1,28 +1,28 @@
-//! Whether a way exists at all, and how much clearance it leaves, by flood fill on the map's cells.
+//! Decides by flood fill on the map's cells whether a path exists and which clearance it can keep.
 //!
-//! A random search cannot tell a wall from bad luck, so this comes first; it is ours, not the publication's. Levels of
-//! clearance are tried from the most to the least, each on the cells that have a third more, so that the random search
-//! has room. Where all fail, every cell that a way with the least clearance could touch is taken: if those do not
-//! lead to the goal either, there is no such way.
+//! A random search cannot distinguish a missing path from an unlucky sample, so this test comes first. It is not from
+//! the publication. Levels of clearance are tried from the largest to the smallest, each on cells that have a third
+//! more, so that the random search has room. If all fail, the fill uses every cell that a path with the smallest
+//! clearance could touch. If those do not lead to the goal either, no path exists.
 
 use crate::geometry::{Point2, Rect, Vector2};
 use crate::perception::CellRect;
 
 use super::clearance::{Clearance, End, GROWTH, PIECE_M};
 
-/// Levels of clearance, the most and the least among them.
+/// Number of clearance levels, including the largest and the smallest.
 const LEVELS: usize = 5;
-/// More clearance, by this share of what is asked, leaves room for a random search.
+/// Extra clearance, as a share of the required one, that leaves room for a random search.
 const ROOM: f64 = 1.0 / 3.0;
 
-/// How far each cell's centre is from walls.
+/// The distance of each cell's centre from walls.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
     workspace: Rect,
     columns: usize,
     cell_m: Vector2<f64>,
-    /// Row by row from the least y: distance from the centre to the nearest obstacle's edge or to the border, exact
-    /// unless it is more than is ever asked; 0 in an obstacle.
+    /// Row by row, from the smallest y: distance from the centre to the nearest obstacle edge or to the border; 0 in an
+    /// obstacle. Exact up to the largest clearance that is queried.
     distance_m: Vec<f64>,
 }
 
@@ -39,18 +39,18 @@ impl Grid {
         Self { workspace, columns, cell_m, distance_m }
     }
 
-    /// The clearance to ask for between two ends, from the most down to the least; `None` if no way has the least.
+    /// The clearance for a path between two ends, between the two limits; `None` if no path has the smallest.
     pub fn clearance(&self, ends: [End; 2], [most_m, least_m]: [f64; 2]) -> Option<Clearance> {
         let near_ends = Clearance { asked_m: f64::INFINITY, ends };
         let leads = |is_free: &dyn Fn(usize) -> bool| {
             self.connects(self.cell(ends[0].point), self.cell(ends[1].point), is_free)
         };
-        // From the end itself to the centre of a cell next to its own.
+        // From the end itself to the centre of a cell next to the end's cell.
         let beside_m = self.cell_m.norm();
         let is_beside = |center: Point2<f64>| ends.iter().any(|end| (end.point - center).norm() <= beside_m);
         let is_roomy = |cell: usize, asked_m: f64| {
             let distance_m = self.distance_m[cell];
-            // Most cells need no look at the ends.
+            // For most cells the ends need no check.
             distance_m >= asked_m * (1.0 + ROOM) || {
                 let center = self.center(cell);
                 distance_m >= near_ends.required_m(center) || is_beside(center)
@@ -58,8 +58,8 @@ impl Grid {
         };
         let level_m = |level: usize| most_m + (least_m - most_m) * level as f64 / (LEVELS - 1) as f64;
         let roomy = (0..LEVELS).map(level_m).find(|&asked_m| leads(&|cell| is_roomy(cell, asked_m)));
-        // A point of a way is at most half a diagonal from the centre of its cell, where half a diagonal less may be
-        // kept and GROWTH times as much more be asked.
+        // A point of a path is at most half a diagonal from the centre of its cell. There the distance may be half a
+        // diagonal less, and the requirement GROWTH times half a diagonal more.
         let half_m = 0.5 * self.cell_m.norm();
         let is_possible = |cell: usize| {
             let (distance_m, required_m) = (self.distance_m[cell], near_ends.required_m(self.center(cell)));
@@ -70,19 +70,19 @@ impl Grid {
         Some(Clearance { asked_m, ends })
     }
 
-    /// Distance from walls at the centre of the cell under a point.
+    /// Distance from walls at the centre of the cell that contains a point.
     pub fn distance_m(&self, point: Point2<f64>) -> f64 {
         self.distance_m[self.cell(point)]
     }
 
-    /// The nearest centre of a cell that has so much clearance.
+    /// The nearest centre of a cell with at least `clearance_m`.
     pub fn nearest(&self, point: Point2<f64>, clearance_m: f64) -> Option<Point2<f64>> {
         let clear = (0..self.distance_m.len()).filter(|&cell| self.distance_m[cell] >= clearance_m);
         let away_2 = |center: &Point2<f64>| (center - point).norm_squared();
         clear.map(|cell| self.center(cell)).min_by(|a, b| away_2(a).total_cmp(&away_2(b)))
     }
 
-    /// Whether free cells, each beside or at a corner of the next, lead from one cell to another.
+    /// Whether a chain of free cells, connected by sides or corners, leads from one cell to another.
     fn connects(&self, from: usize, to: usize, is_free: impl Fn(usize) -> bool) -> bool {
         let rows = self.distance_m.len() / self.columns;
         let mut seen = vec![false; self.distance_m.len()];
@@ -108,11 +108,11 @@ impl Grid {
         false
     }
 
-    /// The cell under a point, or the nearest to it.
+    /// The cell that contains a point, or the nearest one.
     fn cell(&self, point: Point2<f64>) -> usize {
         let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
         let at = (point - corner).component_div(&self.cell_m);
-        // A cast of what is negative is 0.
+        // Casting a negative number gives 0.
         let rows = self.distance_m.len() / self.columns;
         (at.y as usize).min(rows - 1) * self.columns + (at.x as usize).min(self.columns - 1)
     }
@@ -126,8 +126,8 @@ impl Grid {
     }
 }
 
-/// Distance from each cell's centre to the nearest obstacle's edge or to the border, or any number above `most_m` where
-/// it is more: first along each column, then over the columns that are near enough.
+/// Distance from each cell's centre to the nearest obstacle edge or to the border; any number above `most_m` where the
+/// distance is larger. Computed first along each column, then across the columns that are near enough.
 fn truncated_distances_m(
     columns: usize,
     rows: usize,
@@ -141,7 +141,7 @@ fn truncated_distances_m(
             along_y_m[row * columns + rect.column..][..rect.columns].fill(0.0);
         }
     }
-    // Centre to edge of the next cell is half a cell, then a cell more each.
+    // From a centre to the edge of the next cell is half a cell; then one cell more each.
     let next_m = |from_m: f64| if from_m > 0.0 { from_m + cell_m.y } else { 0.5 * cell_m.y };
     for cell in columns..along_y_m.len() {
         along_y_m[cell] = along_y_m[cell].min(next_m(along_y_m[cell - columns]));
@@ -150,14 +150,14 @@ fn truncated_distances_m(
         along_y_m[cell] = along_y_m[cell].min(next_m(along_y_m[cell + columns]));
     }
     let border_m = |index: usize, count: usize, side_m: f64| (index.min(count - 1 - index) as f64 + 0.5) * side_m;
-    let most_columns = (most_m / cell_m.x + 0.5).ceil() as usize;
+    let max_columns = (most_m / cell_m.x + 0.5).ceil() as usize;
     let mut distance_m = vec![0.0; columns * rows];
     for (row, (found, along_y_m)) in
         distance_m.chunks_exact_mut(columns).zip(along_y_m.chunks_exact(columns)).enumerate()
     {
         let squared: Vec<f64> = along_y_m.iter().map(|along_m| along_m * along_m).collect();
         found.copy_from_slice(&squared);
-        for offset in 1..=most_columns.min(columns - 1) {
+        for offset in 1..=max_columns.min(columns - 1) {
             let across_m = (offset as f64 - 0.5) * cell_m.x;
             let across_2 = across_m * across_m;
             let nearer = |(found, beside): (&mut f64, &f64)| *found = found.min(beside + across_2);

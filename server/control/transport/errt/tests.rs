@@ -19,10 +19,10 @@ use crate::perception::{Calibration, DarkPixels, OBSTACLE_LEVEL, ObstacleMap};
 
 const CLEARANCE_M: f64 = 0.012;
 const LEAST_M: f64 = 0.006;
-/// More than GJK and the half-millimetre pieces near an end can be off by.
+/// Upper bound of the errors of GJK and of the half-millimetre pieces near an end.
 const TOLERANCE_M: f64 = 1e-6 + 0.000125;
 
-/// Lets a map see all of its workspace at once, in `per_cell` pixels a cell.
+/// Lets a map observe its whole workspace at once, in `per_cell` pixels per cell.
 fn look(map: &mut ObstacleMap, per_cell: f64, is_wall: impl Fn(Point2<f64>) -> bool) {
     let workspace = *map.workspace();
     let m_per_px = map.cell_m().min() / per_cell;
@@ -50,7 +50,7 @@ fn shipped(name: &str) -> (Map, Obstacles) {
 const SMALL: Rect = Rect { x_min_m: -0.08, x_max_m: 0.04, y_min_m: -0.5, y_max_m: -0.42 };
 
 prop_compose! {
-    /// A small workspace with walls that are whole cells.
+    /// A small workspace with walls that consist of whole cells.
     fn small_maps()(
         walls in prop::collection::vec((0u32..60, 0u32..40, 1u32..25, 1u32..10, any::<bool>()), 0..9),
     ) -> ObstacleMap {
@@ -93,7 +93,7 @@ fn brute_distance_m(obstacles: &Obstacles, from: Point2<f64>, to: Point2<f64>) -
     obstacles.rectangles().iter().map(to_rectangle_m).fold(border_m(from).min(border_m(to)), f64::min)
 }
 
-/// Asserts, by parry2d and looked at every .2 mm, that an edge keeps what its clearance says.
+/// Asserts with parry2d, every .2 mm, that an edge keeps its required clearance.
 fn assert_kept(obstacles: &Obstacles, from: Point2<f64>, to: Point2<f64>, clearance: &Clearance) {
     let kept_m = brute_distance_m(obstacles, from, to);
     if kept_m >= clearance.asked_m - TOLERANCE_M {
@@ -122,7 +122,7 @@ fn found(planner: &Planner) -> Option<&Path> {
     }
 }
 
-/// Whether steps between neighbours on the lattice, each clear, lead from one of its points to another.
+/// Whether clear steps between neighbours on the lattice lead from one of its points to another.
 fn lattice_leads(obstacles: &Obstacles, clearance: &Clearance) -> bool {
     let [start, goal] = clearance.ends.map(|end| {
         let at = (end.point - lattice_point(0, 0)) / 0.001;
@@ -161,9 +161,9 @@ proptest! {
     }
 
     #[test]
-    fn ways_begin_at_the_place_itself_or_at_the_nearest_that_is_clear(map in small_maps(), point in places()) {
+    fn paths_begin_at_the_place_itself_or_at_the_nearest_clear_cell(map in small_maps(), point in places()) {
         let obstacles = Obstacles::of(&map, CLEARANCE_M);
-        // No cell's clearance but for rounding.
+        // Not exactly the clearance of any cell, except for rounding.
         let least_m = 0.0057;
         let brute_m = brute_distance_m(&obstacles, point, point);
         prop_assume!(brute_m == 0.0 || brute_m > 1e-6);
@@ -184,7 +184,7 @@ proptest! {
     }
 
     #[test]
-    fn cells_know_their_distance_up_to_what_is_ever_asked(map in small_maps(), column in 0u32..60, row in 0u32..40) {
+    fn cell_distances_are_exact_up_to_the_largest_clearance(map in small_maps(), column in 0u32..60, row in 0u32..40) {
         let obstacles = Obstacles::of(&map, CLEARANCE_M);
         let center = lattice_point(2 * column + 1, 2 * row + 1);
         let (known_m, brute_m) = (obstacles.grid().distance_m(center), brute_distance_m(&obstacles, center, center));
@@ -192,8 +192,8 @@ proptest! {
     }
 
     #[test]
-    fn the_nearest_node_is_that_of_a_look_at_every_node(
-        // Few places, so that many are equally far.
+    fn the_nearest_node_matches_an_exhaustive_search(
+        // Few distinct places, so that many distances are equal.
         nodes in prop::collection::vec((0u8..12, 0u8..12, any::<prop::sample::Index>()), 0..150),
         targets in prop::collection::vec((0u8..12, 0u8..12), 1..20),
         beta in prop_oneof![Just(0.0), Just(0.5), 0.0..0.65],
@@ -208,7 +208,7 @@ proptest! {
         prop_assert_eq!(&back, &tree);
         for target in targets.into_iter().map(point) {
             let sum = |node: usize| (tree.point(node) - target).norm() + beta * tree.cost_m(node);
-            // `min_by` gives the first of equals.
+            // `min_by` returns the first of equal elements.
             let brute = (0..tree.node_count()).min_by(|&a, &b| sum(a).total_cmp(&sum(b))).unwrap();
             prop_assert_eq!(tree.nearest(target, beta), brute);
             prop_assert_eq!(back.nearest(target, beta), brute);
@@ -216,7 +216,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_found_keeps_its_clearance_and_what_is_walled_off_has_no_way(
+    fn paths_keep_their_clearance_and_walled_off_goals_have_no_path(
         map in small_maps(), from in places(), goal in places(), seed: u64,
     ) {
         let obstacles = Obstacles::of(&map, CLEARANCE_M);
@@ -241,7 +241,7 @@ proptest! {
     }
 
     #[test]
-    fn one_seed_gives_one_tree_however_the_work_is_portioned_and_wherever_it_is_saved(
+    fn one_seed_gives_one_tree_for_any_portions_and_save_points(
         map in small_maps(), from in places(), goal in places(), seed: u64, portion in 1usize..40,
     ) {
         let obstacles = Obstacles::of(&map, CLEARANCE_M);
@@ -263,7 +263,7 @@ proptest! {
 }
 
 #[test]
-fn all_shipped_maps_are_planned_across_every_time() {
+fn plans_paths_across_all_shipped_maps() {
     for name in Map::shipped_names() {
         let (map, obstacles) = shipped(&name);
         let space = FreeSpace::new(&map, CLEARANCE_M);
@@ -277,7 +277,7 @@ fn all_shipped_maps_are_planned_across_every_time() {
             planner.advance(&obstacles, usize::MAX);
             let path = found(&planner).unwrap_or_else(|| panic!("{name}: {from} to {goal}: {:?}", planner.progress()));
             assert!(path.is_clear_from(0.0, &obstacles, 0.0));
-            // Walls on the map are no thinner than they are.
+            // Walls of the obstacle map are at least as thick as the true walls.
             assert!(path.points.iter().all(|&p| map.clearance_m(p) > path.clearance.required_m(p) - 1e-3), "{name}");
             if seed < 10 {
                 assert_all_kept(&planner, &obstacles, path);
@@ -285,12 +285,12 @@ fn all_shipped_maps_are_planned_across_every_time() {
             attempts.push(planner.attempts());
         }
         attempts.sort_unstable();
-        println!("{name}: attempts median {}, p99 {}, most {}", attempts[150], attempts[297], attempts[299]);
+        println!("{name}: attempts median {}, p99 {}, max {}", attempts[150], attempts[297], attempts[299]);
     }
 }
 
 #[test]
-fn a_tool_over_a_wall_leaves_it_and_follows_no_wall() {
+fn a_tool_over_a_wall_leaves_it_and_does_not_follow_it() {
     let (map, obstacles) = shipped("colon");
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     let w = *map.workspace();
@@ -313,7 +313,7 @@ fn a_tool_over_a_wall_leaves_it_and_follows_no_wall() {
 }
 
 #[test]
-fn narrow_places_are_passed_with_less_clearance_and_closed_ones_reported() {
+fn passes_narrow_gaps_with_less_clearance_and_reports_closed_ones() {
     let workspace = Rect { x_min_m: 0.0, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.4 };
     let (from, goal) = (Point2::new(0.05, -0.45), Point2::new(0.25, -0.46));
     let plan = |gap_m: f64| {
@@ -335,7 +335,7 @@ fn narrow_places_are_passed_with_less_clearance_and_closed_ones_reported() {
 }
 
 #[test]
-fn goals_in_a_wall_outside_or_nowhere_are_walled_off() {
+fn goals_in_a_wall_outside_or_not_finite_are_walled_off() {
     let (map, obstacles) = shipped("posts");
     let from = Point2::new(-0.24, -0.25);
     for goal in [Point2::new(-0.2, -0.305), Point2::new(0.3, -0.3), Point2::new(f64::NAN, -0.3)] {
@@ -349,7 +349,7 @@ fn goals_in_a_wall_outside_or_nowhere_are_walled_off() {
 }
 
 #[test]
-fn a_search_begins_anew_when_the_map_changes() {
+fn a_search_restarts_when_the_map_changes() {
     let wall = |p: Point2<f64>, x_m: f64| (p.x - x_m).abs() < 0.004 && p.y < -0.445;
     let workspace = Rect { x_min_m: 0.0, x_max_m: 0.3, y_min_m: -0.5, y_max_m: -0.4 };
     let (from, goal) = (Point2::new(0.05, -0.48), Point2::new(0.25, -0.48));
@@ -358,7 +358,7 @@ fn a_search_begins_anew_when_the_map_changes() {
     let mut planner = Planner::new(1);
     planner.start(&PlannerParameters::default(), &before, from, goal);
     assert_eq!(planner.advance(&before, 20), &Progress::Searching);
-    // A second wall is seen.
+    // A second wall is observed.
     look(&mut map, 1.0, |p| wall(p, 0.15) || wall(p, 0.09));
     let after = Obstacles::of(&map, CLEARANCE_M);
     assert_ne!(before.version(), after.version());
@@ -373,7 +373,7 @@ fn a_search_begins_anew_when_the_map_changes() {
 }
 
 #[test]
-fn ways_found_before_are_found_again_sooner() {
+fn paths_found_before_are_found_again_sooner() {
     let (_, obstacles) = shipped("colon-folds");
     let (from, goal) = (Point2::new(-0.25, -0.385), Point2::new(0.2, -0.3));
     let attempts = |waypoints: usize| {
@@ -382,7 +382,7 @@ fn ways_found_before_are_found_again_sooner() {
         let plan = |_| {
             planner.start(&parameters, &obstacles, from, goal);
             planner.advance(&obstacles, usize::MAX);
-            found(&planner).map(|_| planner.attempts()).expect("there is a way")
+            found(&planner).map(|_| planner.attempts()).expect("there is a path")
         };
         (0..40).map(plan).skip(10).sum::<usize>()
     };

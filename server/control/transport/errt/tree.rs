@@ -1,4 +1,4 @@
-//! The search tree, and its node that is nearest to a point when the way to it costs too.
+//! The search tree, with a nearest-node query that includes the cost from the root.
 
 use std::sync::Arc;
 
@@ -8,26 +8,25 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
 
-/// A tree of straight edges that grows from its first node, the root. Copies share what they have in common until one
-/// of them grows.
+/// A tree of straight edges that grows from its first node, the root. Clones share memory until one of them grows.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "Vec<Stored>", try_from = "Vec<Stored>")]
 pub struct Tree {
     nodes: Arc<Vec<Node>>,
-    /// Every node's position and number; not serialised, since the nodes say it all.
+    /// Position and number of every node; not serialised, because the nodes determine it.
     index: Arc<RTree<GeomWithData<[f64; 2], u32>>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Node {
     point: Point2<f64>,
-    /// The root is its own.
+    /// The root is its own parent.
     parent: u32,
-    /// Length of the way from the root.
+    /// Length of the path from the root.
     cost_m: f64,
 }
 
-/// A node as it is serialised: its position and its parent, which comes before it.
+/// A serialised node: its position and its parent, which precedes it.
 type Stored = (Point2<f64>, u32);
 
 impl PartialEq for Tree {
@@ -46,11 +45,11 @@ impl TryFrom<Vec<Stored>> for Tree {
     type Error = &'static str;
 
     fn try_from(stored: Vec<Stored>) -> Result<Self, Self::Error> {
-        let (&(root, _), others) = stored.split_first().ok_or("a tree has a root")?;
+        let (&(root, _), others) = stored.split_first().ok_or("the tree has no root")?;
         let mut tree = Self::new(root);
         for &(point, parent) in others {
             if parent as usize >= tree.node_count() {
-                return Err("a node's parent comes before it");
+                return Err("a node precedes its parent");
             }
             tree.push(point, parent as usize);
         }
@@ -59,7 +58,7 @@ impl TryFrom<Vec<Stored>> for Tree {
 }
 
 impl Tree {
-    /// A tree of nothing but its root.
+    /// A tree that consists of its root.
     pub fn new(root: Point2<f64>) -> Self {
         let mut tree = Self { nodes: Arc::default(), index: Arc::default() };
         tree.add(Node { point: root, parent: 0, cost_m: 0.0 });
@@ -71,7 +70,7 @@ impl Tree {
         Arc::make_mut(&mut self.nodes).push(node);
     }
 
-    /// Adds a node at the end of a straight edge from `parent`, and tells its number.
+    /// Adds a node at the end of a straight edge from `parent` and returns its number.
     pub fn push(&mut self, point: Point2<f64>, parent: usize) -> usize {
         let from = &self.nodes[parent];
         let cost_m = from.cost_m + (point - from.point).norm();
@@ -79,24 +78,23 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Nodes, the root included.
+    /// Number of nodes, including the root.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Position of a node.
     pub fn point(&self, node: usize) -> Point2<f64> {
         self.nodes[node].point
     }
 
-    /// Length of the way from the root to a node.
+    /// Length of the path from the root to a node.
     pub fn cost_m(&self, node: usize) -> f64 {
         self.nodes[node].cost_m
     }
 
-    /// The node with the least distance + `beta` · cost from the root; of equals the first.
+    /// The node with the smallest sum of distance and `beta` · cost from the root; the first one if several are equal.
     ///
-    /// Nodes come by growing distance, so the search ends where the distance alone is more than the best sum.
+    /// Nodes are visited by growing distance, so the search ends when the distance alone exceeds the best sum.
     pub fn nearest(&self, target: Point2<f64>, beta: f64) -> usize {
         let mut best = (f64::INFINITY, usize::MAX);
         for (entry, distance_2) in self.index.nearest_neighbor_iter_with_distance_2(target.into()) {
@@ -121,7 +119,7 @@ impl Tree {
         points
     }
 
-    /// Both ends of every edge, nearer to the root first.
+    /// Both ends of every edge, the one nearer to the root first.
     pub fn edges(&self) -> impl Iterator<Item = [Point2<f64>; 2]> {
         self.nodes[1..].iter().map(|node| [self.point(node.parent as usize), node.point])
     }

@@ -7,7 +7,7 @@ const WORKSPACE: Rect = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_m
 /// Middle of a cell.
 const HERE: Point2<f64> = Point2::new(0.005, -0.385);
 
-/// A policy that wants these values everywhere: all weights are zero but the last bias.
+/// A policy with these action values everywhere: all weights are zero except the last bias.
 fn wanting(values: [f32; 4]) -> Policy {
     let architecture = Architecture { noisy: false, dueling: false, ..Architecture::default() };
     let (version, observation) = Manifest::current();
@@ -30,7 +30,7 @@ fn wanting(values: [f32; 4]) -> Policy {
     let weights: Vec<_> = architecture.tensors().into_iter().map(weight).collect();
     Policy::from_bytes(&Policy::to_bytes(&manifest, &weights).unwrap()).unwrap()
 }
-
+/// One control step with the tool at a place.
 /// One control step with the tool somewhere.
 fn step(
     rl: &mut Rl,
@@ -67,13 +67,13 @@ fn the_best_action_is_taken_one_step_along_its_axis() {
 }
 
 #[test]
-fn off_the_lattice_the_tool_first_goes_to_a_cell_that_keeps_clear_of_walls() {
+fn off_the_lattice_the_tool_first_goes_to_a_cell_clear_of_walls() {
     let (policy, parameters) = (wanting([0.0, 0.0, 1.0, 0.0]), Parameters::default());
     let aside = HERE + Vector2::new(0.0045, 0.0);
     let mut rl = Rl::default();
     assert!(near(step(&mut rl, &policy, aside, &parameters, |_| false), HERE), "the nearest");
-    assert_eq!(rl.judged(), None, "nothing is judged between two cells");
-    // The nearest one is 6 mm before a wall; the one to its left has room.
+    assert_eq!(rl.judged(), None, "no image is judged between two cells");
+    // The nearest cell is 6 mm from a wall; the one to its left has room.
     let mut rl = Rl::default();
     let wall = |p: Point2<f64>| p.x > HERE.x + 0.006;
     let first = step(&mut rl, &policy, HERE - Vector2::new(0.002, 0.0), &parameters, wall);
@@ -87,7 +87,7 @@ fn a_slow_tool_takes_several_control_steps_for_one_action() {
     let mut rl = Rl::default();
     let first = step(&mut rl, &policy, HERE, &parameters, |_| false);
     assert!(near(first, HERE + Vector2::new(0.005, 0.0)));
-    // Half way, a policy that wants elsewhere is not asked.
+    // Half way, the policy is not queried, although it prefers another action now.
     let second = step(&mut rl, &wanting([0.0, 1.0, 0.0, 0.0]), first, &parameters, |_| false);
     assert!(near(second, HERE + Vector2::new(0.01, 0.0)));
     let third = step(&mut rl, &wanting([0.0, 1.0, 0.0, 0.0]), second, &parameters, |_| false);
@@ -95,21 +95,21 @@ fn a_slow_tool_takes_several_control_steps_for_one_action() {
 }
 
 #[test]
-fn the_shield_chooses_the_next_best_and_without_it_the_wall_is_asked_for() {
+fn the_shield_takes_the_next_best_action_and_without_it_the_step_enters_the_wall() {
     let policy = wanting([1.0, 0.0, 0.5, 0.2]);
     let wall = |p: Point2<f64>| p.x > HERE.x + 0.0115;
     let shielded = Parameters::default();
     let mut rl = Rl::default();
     let up = step(&mut rl, &policy, HERE, &shielded, wall);
     assert!(near(up, HERE + Vector2::new(0.0, 0.01)));
-    assert_eq!(rl.judged().unwrap().0.ranking()[0], Action::PlusX, "what was best is still told");
+    assert_eq!(rl.judged().unwrap().0.ranking()[0], Action::PlusX, "the best action is still reported");
     let bare = Parameters { rl_shield: false, ..Parameters::default() };
     let right = step(&mut Rl::default(), &policy, HERE, &bare, wall);
     assert!(near(right, HERE + Vector2::new(0.01, 0.0)));
 }
 
 #[test]
-fn a_refused_step_leaves_the_tool_where_it_judges() {
+fn after_a_refused_step_the_next_image_is_judged_from_the_same_cell() {
     let policy = wanting([1.0, 0.0, 0.5, 0.2]);
     let bare = Parameters { rl_shield: false, ..Parameters::default() };
     let wall = |p: Point2<f64>| p.x > HERE.x + 0.006;
@@ -127,7 +127,7 @@ fn a_refused_step_leaves_the_tool_where_it_judges() {
 }
 
 #[test]
-fn without_a_policy_the_arm_holds_and_says_why() {
+fn without_a_policy_the_arm_holds_and_reports_the_reason() {
     let percept = Percept::of(&test_frame(HERE, |_| false), HERE);
     let known = ObstacleMap::new(WORKSPACE);
     let parameters = Parameters::default();
