@@ -62,7 +62,7 @@ fn vertex_inputs_match_the_buffers() {
     for source in [view::SHADER, scene::SHADER] {
         let module = parse(source);
         for entry in &module.entry_points {
-            if entry.static_scene != ShaderStage::Vertex {
+            if entry.stage != ShaderStage::Vertex {
                 continue;
             }
             let corner = &module.types[entry.function.arguments[0].ty].inner;
