@@ -16,7 +16,7 @@
 //! | `gpu` | finds an adapter, opens the device, turns what it says into errors |
 //! | `target` | colour, depth and readback memory of one picture size |
 //! | `mesh`, `geometry_buffers` | triangles, and their copies on the device |
-//! | `stage` | walls and floor as triangles for the controllers' view |
+//! | `static_scene` | walls and floor as triangles for the controllers' view |
 //! | `diorama` | walls, floor and table for people |
 //! | `arm` | robot, gripper and magnet as a list of simple solids |
 //! | `optics` | projections |
