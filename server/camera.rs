@@ -15,7 +15,7 @@
 //! | `gpu` | finds an adapter, opens the device, turns device errors into [`CameraError`] |
 //! | `target` | colour, depth and readback memory for one image size |
 //! | `mesh`, `geometry_buffers` | triangles, and their copies on the device |
-//! | `stage` | walls and floor as triangles for the controllers' view |
+//! | `static_scene` | walls and floor as triangles for the controllers' view |
 //! | `diorama` | walls, floor and table for people |
 //! | `robot` | the robot as simple solids, for the page too |
 //! | `arm` | robot, gripper and magnet, where they are now |

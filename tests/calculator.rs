@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::laboratory::Laboratory;
+use crate::support::Laboratory;
 
 #[tokio::test(flavor = "multi_thread")]
 async fn arm_and_magnet_can_be_asked_for_numbers() {

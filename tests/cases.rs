@@ -6,8 +6,7 @@ use std::path::Path;
 use ferry::trial::{Arena, Case};
 use serde_json::json;
 
-use crate::determinism::gpu;
-use crate::laboratory::Laboratory;
+use crate::support::{Laboratory, ferry, gpu};
 
 fn kept() -> Vec<std::path::PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
@@ -93,7 +92,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     // It can be drawn.
     let path = lab.data.path().join("case.json");
     std::fs::write(&path, text.to_string()).unwrap();
-    let drawn = std::process::Command::new(env!("CARGO_BIN_EXE_ferry"))
+    let drawn = ferry(&[])
         .args(["render", "--scenario"])
         .arg(&path)
         .arg("--out")

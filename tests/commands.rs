@@ -1,14 +1,10 @@
 //! The command line: what it prints, and how it fails.
 
-use std::process::{Command, Output};
+use std::process::Output;
 
 use ferry::trial::{InputLog, replay};
 
-fn ferry(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_ferry"));
-    command.args(arguments);
-    command
-}
+use crate::support::ferry;
 
 fn failure(output: Output) -> String {
     assert!(!output.status.success());

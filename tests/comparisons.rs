@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use serde_json::{Value, json};
 
-use crate::laboratory::{Browser, Laboratory};
+use crate::support::{Browser, Laboratory};
 
 /// Carries the bead for four seconds, takes it away, and goes on for four more; stands at tick 1000 then.
 async fn disturbed(browser: &mut Browser) -> Value {

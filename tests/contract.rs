@@ -5,9 +5,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::crashes::Ferry;
-use crate::laboratory::Browser;
-use crate::recordings::tool;
+use crate::support::{Browser, Ferry, ferry, tool};
 
 /// A plain request cannot become a WebSocket, where there is no token nobody logs in, and it draws no maps (`leases` does).
 const NEVER_ACCEPTED: [&str; 4] =
@@ -46,7 +44,7 @@ async fn fill(ferry: &Ferry) -> String {
 #[tokio::test(flavor = "multi_thread")]
 async fn the_server_keeps_to_its_description() {
     let data = tempfile::tempdir().unwrap();
-    let ferry = Ferry::serve(&mut Command::new(env!("CARGO_BIN_EXE_ferry")), data.path());
+    let ferry = Ferry::serve(&mut ferry(&[]), data.path());
     let recording = fill(&ferry).await;
     let report = data.path().join("report.json");
     let asked = Command::new(tool("schemathesis"))

@@ -1,9 +1,7 @@
 //! The server killed at any moment, or its disk full: what was recorded up to then is there, and readable.
 
-use std::io::{BufRead, BufReader};
-use std::net::SocketAddr;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use ferry::trial::{Entry, InputLog, replay};
@@ -11,8 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::json;
 
-use crate::laboratory::Browser;
-use crate::recordings::{files, read};
+use crate::support::{Browser, Ferry, ferry, files, read};
 
 /// What a crash may take with it.
 const LOST_TICKS: u64 = 62;
@@ -22,39 +19,9 @@ fn kills() -> u32 {
     std::env::var("FERRY_KILLS").map_or(10, |count| count.parse().expect("FERRY_KILLS is a count"))
 }
 
-/// A server in a process of its own.
-pub struct Ferry {
-    child: Child,
-    pub address: SocketAddr,
-}
-
-impl Ferry {
-    pub fn serve(command: &mut Command, data: &Path) -> Self {
-        let mut child = command
-            .args(["serve", "--bind", "127.0.0.1:0", "--data"])
-            .arg(data)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        let address = line.trim().strip_prefix("listening on http://").expect("it tells its address").parse().unwrap();
-        Self { child, address }
-    }
-}
-
-impl Drop for Ferry {
-    fn drop(&mut self) {
-        // As `kill -9` does.
-        self.child.kill().unwrap();
-        self.child.wait().unwrap();
-    }
-}
-
 /// Lets a session run and kills the server; returns the last tick that a browser saw.
 async fn run_and_kill(data: &Path, after: Duration) -> u64 {
-    let ferry = Ferry::serve(&mut Command::new(env!("CARGO_BIN_EXE_ferry")), data);
+    let ferry = Ferry::serve(&mut ferry(&[]), data);
     let mut browser = Browser::at(ferry.address).await;
     browser
         .send(json!({"type": "load_scenario", "map": "posts", "start_m": [-0.25, -0.38], "goal_m": [0.12, -0.33]}))

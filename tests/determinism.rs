@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use ferry::camera::{AdapterChoice, Camera, CameraError, Eye, Gpu, Subject};
+use ferry::camera::{Camera, CameraError, Eye, Subject};
 use ferry::geometry::Point2;
 use ferry::image::CameraFrame;
 use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
@@ -13,10 +13,7 @@ use ferry::trial::{
 };
 use proptest::prelude::*;
 
-pub fn gpu() -> Arc<Gpu> {
-    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
-    GPU.get_or_init(|| Gpu::open(AdapterChoice::Auto).expect("tests render: a graphics adapter is needed")).clone()
-}
+use crate::support::gpu;
 
 fn posts() -> Arc<Arena> {
     static POSTS: OnceLock<Arc<Arena>> = OnceLock::new();

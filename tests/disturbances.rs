@@ -5,7 +5,7 @@ use ferry::plant::PositionerKind;
 use ferry::scenario::{Disturbance, Parameters, Scenario, Scripted, When};
 use ferry::trial::{Arena, EventKind, Moment, Phase, Source, TickRecord, Trial, TrialError};
 
-use crate::determinism::gpu;
+use crate::support::gpu;
 
 const START: Point2<f64> = Point2::new(0.0, -0.4);
 

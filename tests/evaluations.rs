@@ -1,11 +1,10 @@
 //! Evaluations over HTTP: the same rows as on the command line, in the background, one after the other.
 
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::laboratory::Laboratory;
+use crate::support::{Laboratory, ferry};
 
 /// More trials than end during a test.
 const LONG: u32 = 1000;
@@ -60,7 +59,7 @@ fn timeless(rows: &Value) -> Vec<Value> {
 }
 
 fn on_the_command_line(controllers: &str, disturbances: &str) -> Vec<Value> {
-    let output = Command::new(env!("CARGO_BIN_EXE_ferry"))
+    let output = ferry(&[])
         .args(["evaluate", "--map", "posts", "--episodes", "4", "--seed", "1", "--json"])
         .args(["--controller", controllers, "--disturbances", disturbances])
         .output()

@@ -9,7 +9,7 @@ use ferry::map::Map;
 use ferry::scenario::{ControllerName, Scenario, Shipped};
 use ferry::trial::{Arena, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
 
-use crate::determinism::gpu;
+use crate::support::gpu;
 
 fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
     let venue = Venue::of(arena.clone());

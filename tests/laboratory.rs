@@ -1,147 +1,14 @@
 //! The server as a browser meets it: routes, the WebSocket, refusals.
 
 use std::cell::Cell;
-use std::net::SocketAddr;
-use std::sync::Arc;
 use std::time::Duration;
 
-use ferry::camera::Gpu;
-use ferry::http::{self, Settings};
-use futures_util::{SinkExt, StreamExt};
+use futures_util::StreamExt;
 use serde_json::{Value, json};
-use tokio::net::TcpStream;
-use tokio::sync::watch;
-use tokio::task::JoinHandle;
+use tokio_tungstenite::connect_async;
 use tokio_tungstenite::tungstenite::Message;
-use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
 
-use crate::determinism::gpu;
-
-/// A server in this process, and the folder it writes to.
-pub struct Laboratory {
-    pub address: SocketAddr,
-    pub data: tempfile::TempDir,
-    stop: watch::Sender<bool>,
-    served: JoinHandle<()>,
-}
-
-impl Laboratory {
-    pub async fn open() -> Self {
-        Self::open_on(gpu()).await
-    }
-
-    /// The same with a graphics device of its own.
-    pub async fn open_on(gpu: Arc<Gpu>) -> Self {
-        Self::open_with(gpu, None, |_| ()).await
-    }
-
-    /// The same behind a token, or with other settings.
-    pub async fn open_with(gpu: Arc<Gpu>, token: Option<&str>, change: impl FnOnce(&mut Settings)) -> Self {
-        let data = tempfile::tempdir().unwrap();
-        let (stop, stopping) = watch::channel(false);
-        let listener = http::listen("127.0.0.1:0".parse().unwrap()).await.unwrap();
-        let address = listener.local_addr().unwrap();
-        let access = http::Access::new(address, token.map(|token| token.parse().unwrap()), &[]).unwrap();
-        let mut settings = Settings::in_folder(data.path().to_owned());
-        change(&mut settings);
-        let server = http::Server::new(gpu, settings, access, stopping).unwrap();
-        let served = tokio::spawn(async move { http::serve(listener, server).await.unwrap() });
-        Self { address, data, stop, served }
-    }
-
-    pub async fn browser(&self) -> Browser {
-        Browser::at(self.address).await
-    }
-
-    /// Status and body of a request.
-    pub async fn ask(&self, method: &str, path: &str, body: &str) -> (u16, Value) {
-        self.ask_with(method, path, body, &[]).await
-    }
-
-    /// The same with headers.
-    pub async fn ask_with(&self, method: &str, path: &str, body: &str, headers: &[(&str, &str)]) -> (u16, Value) {
-        let (status, text) = self.ask_text(method, path, body, headers).await;
-        (status, serde_json::from_str(&text).unwrap_or(Value::String(text)))
-    }
-
-    /// Body of a file.
-    pub async fn bytes(&self, path: &str) -> Vec<u8> {
-        let address = format!("http://{}{path}", self.address);
-        let read = move || ureq::get(address).call().unwrap().body_mut().read_to_vec().unwrap();
-        tokio::task::spawn_blocking(read).await.unwrap()
-    }
-
-    async fn ask_text(&self, method: &str, path: &str, body: &str, headers: &[(&str, &str)]) -> (u16, String) {
-        let mut request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", self.address));
-        for (name, value) in headers {
-            request = request.header(*name, *value);
-        }
-        let request = request.body(body.to_owned()).unwrap();
-        tokio::task::spawn_blocking(move || {
-            let agent = ureq::Agent::config_builder().http_status_as_error(false).build().new_agent();
-            let mut response = agent.run(request).unwrap();
-            (response.status().as_u16(), response.body_mut().read_to_string().unwrap_or_default())
-        })
-        .await
-        .unwrap()
-    }
-
-    /// Stops the server as SIGTERM does, and waits.
-    pub async fn close(self) -> tempfile::TempDir {
-        self.stop.send(true).unwrap();
-        tokio::time::timeout(Duration::from_secs(5), self.served).await.expect("closes in time").unwrap();
-        self.data
-    }
-}
-
-/// One WebSocket.
-pub struct Browser {
-    pub socket: WebSocketStream<MaybeTlsStream<TcpStream>>,
-}
-
-impl Browser {
-    /// Of the session `main` of a server.
-    pub async fn at(address: SocketAddr) -> Self {
-        let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
-        Self::of(socket)
-    }
-
-    pub fn of(socket: WebSocketStream<MaybeTlsStream<TcpStream>>) -> Self {
-        Self { socket }
-    }
-
-    pub async fn send(&mut self, message: Value) {
-        self.send_text(&message.to_string()).await;
-    }
-
-    async fn send_text(&mut self, text: &str) {
-        self.socket.send(Message::text(text)).await.unwrap();
-    }
-
-    /// The next text message that fits, within 30 s.
-    pub async fn until(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
-        let found = async {
-            while let Some(message) = self.socket.next().await {
-                if let Message::Text(text) = message.unwrap() {
-                    let value: Value = serde_json::from_str(&text).unwrap();
-                    if fits(&value) {
-                        return value;
-                    }
-                }
-            }
-            panic!("the server closed before: {what}");
-        };
-        tokio::time::timeout(Duration::from_secs(30), found).await.unwrap_or_else(|_| panic!("waited in vain: {what}"))
-    }
-
-    pub async fn state(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
-        self.until(what, |m| m["type"] == "state" && fits(m)).await
-    }
-
-    pub async fn error(&mut self) -> Value {
-        self.until("an error", |m| m["type"] == "error").await
-    }
-}
+use crate::support::Laboratory;
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_goal_is_delivered_a_disturbance_fetched_and_a_refusal_changes_nothing() {
@@ -376,7 +243,7 @@ async fn a_goal_given_up_does_not_stop_the_fetch() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
     // So slow that the leg's 150 steps end before the goal.
-    let mut parameters = browser_parameters(&lab).await;
+    let mut parameters = lab.default_parameters().await;
     parameters["transport_speed_m_s"] = json!(0.01);
     let load = json!({"type": "load_scenario", "map": "open", "start_m": [-0.25, -0.4], "goal_m": [0.25, -0.4], "parameters": parameters});
     browser.send(load).await;
@@ -389,10 +256,4 @@ async fn a_goal_given_up_does_not_stop_the_fetch() {
     let fetched = browser.state("fetched", |m| m["mode"] == 2 && m["switches"] == 2).await;
     assert!(fetched["phase"] == "transporting" && fetched["leg_steps"].as_u64().unwrap() < 20, "{fetched}");
     lab.close().await;
-}
-
-/// The parameters' defaults, from a second browser's scene.
-pub async fn browser_parameters(lab: &Laboratory) -> Value {
-    let mut other = lab.browser().await;
-    other.until("scene", |m| m["type"] == "scene").await["defaults"].clone()
 }

@@ -1,6 +1,5 @@
 //! The trained policies, and training from the command line.
 
-use std::process::Command;
 use std::sync::atomic::AtomicBool;
 
 use ferry::evaluate::{Cell, Experiment, Venue, Watch, run, unrecorded};
@@ -8,7 +7,7 @@ use ferry::policy::Policy;
 use ferry::scenario::{ControllerName, Parameters};
 use ferry::trial::Arena;
 
-use crate::determinism::gpu;
+use crate::support::{ferry, gpu};
 
 #[test]
 fn every_shipped_policy_is_whole_and_says_where_it_comes_from() {
@@ -45,8 +44,8 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
     }
 }
 
-fn ferry(arguments: &[&str], folder: &std::path::Path) -> std::process::Output {
-    Command::new(env!("CARGO_BIN_EXE_ferry")).args(arguments).current_dir(folder).output().unwrap()
+fn run_in(arguments: &[&str], folder: &std::path::Path) -> std::process::Output {
+    ferry(arguments).current_dir(folder).output().unwrap()
 }
 
 /// A room small enough to be learned in seconds.
@@ -59,7 +58,7 @@ fn training_writes_a_policy_that_acts_and_goes_on_where_it_stopped() {
     std::fs::write(folder.path().join("room.svg"), ROOM).unwrap();
     let train = |out: &str, more: &[&str]| {
         let arguments = ["train", "--map", "room.svg", "--episodes", "200", "--set", "warm_up=500", "--out", out];
-        let said = ferry(&[&arguments, more].concat(), folder.path());
+        let said = run_in(&[&arguments, more].concat(), folder.path());
         assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
         String::from_utf8(said.stdout).unwrap()
     };
@@ -82,12 +81,12 @@ fn training_writes_a_policy_that_acts_and_goes_on_where_it_stopped() {
     train("room.safetensors", &["--resume", "--set", "updates=300", "--set", "images=16"]);
     assert_eq!(std::fs::read(folder.path().join("room.safetensors")).unwrap(), bytes);
     // Of another recipe, nothing is resumed.
-    let refused = ferry(&["train", "--map", "room.svg", "--out", "room.safetensors", "--resume"], folder.path());
+    let refused = run_in(&["train", "--map", "room.svg", "--out", "room.safetensors", "--resume"], folder.path());
     let said = String::from_utf8(refused.stderr).unwrap();
     assert!(!refused.status.success() && said.contains("another recipe"), "{said}");
     // The policy acts live, on the map that it was trained on.
     let arguments = ["evaluate", "--map", "room.svg", "--controller", "rl", "--policy", "room.safetensors", "--json"];
-    let live = ferry(&[&arguments[..], &["--episodes", "4"]].concat(), folder.path());
+    let live = run_in(&[&arguments[..], &["--episodes", "4"]].concat(), folder.path());
     let table: serde_json::Value = serde_json::from_slice(&live.stdout).unwrap();
     assert_eq!(table["rows"][0]["controller"], "rl");
     assert_eq!(table["rows"][0]["episodes"], 4);
@@ -98,7 +97,7 @@ fn a_bad_recipe_or_policy_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("torn.safetensors"), b"torn").unwrap();
     let last = |arguments: &[&str]| {
-        let said = ferry(arguments, folder.path());
+        let said = run_in(arguments, folder.path());
         assert!(!said.status.success());
         String::from_utf8(said.stderr).unwrap().lines().last().unwrap_or_default().to_owned()
     };

@@ -5,8 +5,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tokio_tungstenite::connect_async;
 
-use crate::determinism::gpu;
-use crate::laboratory::{Browser, Laboratory};
+use crate::support::{Browser, Laboratory, gpu};
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_class_opens_sessions_by_name_up_to_the_cap() {

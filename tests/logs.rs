@@ -13,7 +13,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use crate::determinism::gpu;
+use crate::support::gpu;
 
 /// Sessions that the long test records; `FERRY_SESSIONS` makes them fewer.
 fn sessions() -> u64 {

@@ -1,7 +1,6 @@
 //! Tests of the whole, in one binary so that a small machine links once.
 
 mod access;
-mod answers;
 mod calculator;
 mod cases;
 mod circles;
@@ -27,4 +26,5 @@ mod reference;
 mod rendering;
 mod sights;
 mod stopping;
+mod support;
 mod viewer;

@@ -8,9 +8,7 @@ use futures_util::{SinkExt, StreamExt};
 use serde_json::json;
 use tokio_tungstenite::tungstenite::Message;
 
-use crate::access::{exchange, read_answer};
-use crate::determinism::gpu;
-use crate::laboratory::Laboratory;
+use crate::support::{Laboratory, exchange, gpu, read_answer};
 
 /// Connections that say nothing.
 const IDLE: usize = 2000;

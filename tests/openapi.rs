@@ -2,8 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::answers::Answer;
-use crate::laboratory::Laboratory;
+use crate::support::{Answer, Laboratory};
 
 fn problem(answer: &Answer) -> Value {
     assert_eq!(answer.header("content-type"), Some("application/problem+json"));

@@ -1,37 +1,10 @@
 //! A closed session's recording is whole, and shows the arm moving: asked of Rerun's own tools.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
-use crate::laboratory::Laboratory;
-
-/// A tool from PyPI, `rerun-sdk` at the crate's version; `make test` installs it.
-pub fn tool(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/venv/bin").join(name);
-    assert!(path.exists(), "{} is missing; `make test` installs it", path.display());
-    path
-}
-
-fn ferry() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_ferry"))
-}
-
-pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
-    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut found: Vec<_> = paths.filter(|path| path.extension().is_some_and(|found| found == ending)).collect();
-    found.sort();
-    found
-}
-
-/// What Rerun's own reader finds in files.
-pub fn read(files: &[PathBuf]) -> Vec<Value> {
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/read_recording.py");
-    let read = Command::new(tool("python")).arg(script).args(files).output().unwrap();
-    assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
-    serde_json::from_slice(&read.stdout).unwrap()
-}
+use crate::support::{Laboratory, ferry, files, read, tool};
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
@@ -76,7 +49,7 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
     // The command, with the log's decisions and with the camera's.
     let log = file.with_extension("ferry");
     for options in [&[][..], &["--camera"]] {
-        let replayed = ferry().arg("replay").args(options).arg(&log).output().unwrap();
+        let replayed = ferry(&[]).arg("replay").args(options).arg(&log).output().unwrap();
         let told = String::from_utf8_lossy(&replayed.stdout);
         assert!(replayed.status.success(), "{}", String::from_utf8_lossy(&replayed.stderr));
         assert!(told.contains("600 ticks (4.8 s) of 2 trials replayed"), "{told}");

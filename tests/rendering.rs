@@ -13,7 +13,7 @@ use ferry::trial::Arena;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::determinism::gpu;
+use crate::support::gpu;
 
 /// Heights at which a pixel's ray is held against the walls.
 const SLICES: u32 = 12;

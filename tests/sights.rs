@@ -3,7 +3,7 @@
 use ferry::camera::{AdapterChoice, Gpu};
 use serde_json::{Value, json};
 
-use crate::laboratory::{Laboratory, browser_parameters};
+use crate::support::Laboratory;
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_session_goes_on_when_its_graphics_device_is_lost() {
@@ -58,7 +58,7 @@ async fn plans_and_flow_are_told() {
 async fn a_moved_camera_is_obeyed_shown_and_refused_when_absurd() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
-    let parameters = browser_parameters(&lab).await;
+    let parameters = lab.default_parameters().await;
     for (field, value) in [
         ("camera_field_of_view_rad", 0.0),
         ("camera_field_of_view_rad", 3.0),

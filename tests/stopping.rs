@@ -1,9 +1,9 @@
 //! SIGTERM: everything is held, written and said within two seconds, whatever goes on.
 
-use std::io::{BufRead, BufReader, Write};
-use std::net::{SocketAddr, TcpStream};
+use std::io::Write;
+use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use ferry::http::Token;
@@ -14,42 +14,24 @@ use serde_json::json;
 use tokio_tungstenite::connect_async;
 use tokio_tungstenite::tungstenite::Message;
 
-use crate::access::exchange;
-use crate::laboratory::Browser;
-use crate::recordings::{files, tool};
+use crate::support::{Browser, Ferry, exchange, ferry, files, tool};
 
 const WITHIN: Duration = Duration::from_secs(2);
 
-/// A server that does not outlive its test.
-struct Ferry(Child);
-
-impl Drop for Ferry {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-fn serve(data: &Path, change: impl FnOnce(&mut Command)) -> (Ferry, SocketAddr) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_ferry"));
-    command.args(["serve", "--bind", "127.0.0.1:0", "--data"]).arg(data);
+fn serve(data: &Path, change: impl FnOnce(&mut Command)) -> Ferry {
+    let mut command = ferry(&["serve", "--bind", "127.0.0.1:0", "--data"]);
+    command.arg(data);
     // A pipe that nobody reads would fill up.
-    let log = std::fs::File::create(data.join("log")).unwrap();
-    command.stdout(Stdio::piped()).stderr(log);
+    command.stderr(std::fs::File::create(data.join("log")).unwrap());
     change(&mut command);
-    let mut child = command.spawn().unwrap();
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-    let address = line.trim().strip_prefix("listening on http://").expect("it tells its address").parse().unwrap();
-    (Ferry(child), address)
+    Ferry::start(&mut command)
 }
 
 /// How long the server took to end, and what it had logged.
 fn terminate(mut ferry: Ferry, data: &Path) -> (Duration, String) {
     let asked = Instant::now();
-    kill_process(Pid::from_child(&ferry.0), Signal::TERM).unwrap();
-    let status = ferry.0.wait().unwrap();
+    kill_process(Pid::from_child(&ferry.child), Signal::TERM).unwrap();
+    let status = ferry.child.wait().unwrap();
     let took = asked.elapsed();
     let log = std::fs::read_to_string(data.join("log")).unwrap();
     assert!(status.success(), "{log}");
@@ -59,7 +41,8 @@ fn terminate(mut ferry: Ferry, data: &Path) -> (Duration, String) {
 #[tokio::test(flavor = "multi_thread")]
 async fn whatever_goes_on_it_ends_within_two_seconds_and_files_are_whole() {
     let data = tempfile::tempdir().unwrap();
-    let (child, address) = serve(data.path(), |_| ());
+    let child = serve(data.path(), |_| ());
+    let address = child.address;
     let mut browsers = Vec::new();
     for name in ["anna", "bert", "main"] {
         let page = format!("GET /s/{name} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n");
@@ -122,9 +105,10 @@ async fn whatever_goes_on_it_ends_within_two_seconds_and_files_are_whole() {
 async fn the_token_is_in_no_log_and_in_no_file() {
     let data = tempfile::tempdir().unwrap();
     let token = Token::generate().unwrap();
-    let (child, address) = serve(data.path(), |command| {
+    let child = serve(data.path(), |command| {
         command.env("FERRY_TOKEN", &token).env("FERRY_LOG", "trace").env("FERRY_LOG_FORMAT", "json");
     });
+    let address = child.address;
     let asked = {
         let token = token.clone();
         tokio::task::spawn_blocking(move || {
@@ -194,14 +178,14 @@ fn settings_that_do_not_go_together_are_refused_before_anything_begins() {
         (vec![], vec![("FERRY_LOG_FORMAT", "xml")], &["FERRY_LOG_FORMAT", "\"xml\""]),
         (vec![], vec![("FERRY_ADAPTER", "abacus")], &["abacus", "vulkan"]),
     ] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ferry"));
+        let mut command = ferry(&[]);
         command.args(["serve", "--bind", "127.0.0.1:0"]);
         if !arguments.contains(&"--data") {
             command.arg("--data").arg(data.path().join("data"));
         }
         // The later of two is meant.
         if arguments.contains(&"--bind") {
-            command = Command::new(env!("CARGO_BIN_EXE_ferry"));
+            command = ferry(&[]);
             command.args(["serve", "--data"]).arg(data.path().join("data"));
         }
         let output = command.args(&arguments).envs(variables).output().unwrap();

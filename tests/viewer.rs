@@ -2,9 +2,7 @@
 
 use std::io::Read;
 
-use crate::answers::Answer;
-use crate::laboratory::Laboratory;
-use crate::recordings::files;
+use crate::support::{Answer, Laboratory, files};
 
 fn unpacked(answer: &Answer) -> Vec<u8> {
     let mut plain = Vec::new();

@@ -53,7 +53,7 @@ pub struct Hub {
     closing: watch::Sender<bool>,
     /// The newest comparison, ready to send; empty before the first.
     comparison: watch::Sender<Utf8Bytes>,
-    /// Forks begun; an older one stops when it is no longer the last.
+    /// Comparisons begun; an older one stops when it is no longer the last.
     comparisons: AtomicU64,
     /// The place of the one that runs.
     comparing: Arc<Semaphore>,

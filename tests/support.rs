@@ -1,0 +1,22 @@
+//! What several tests need: servers, browsers, child processes, recordings' files.
+
+mod browser;
+mod child;
+mod laboratory;
+mod plain;
+mod recordings;
+
+use std::sync::{Arc, OnceLock};
+
+use ferry::camera::{AdapterChoice, Gpu};
+
+pub use browser::Browser;
+pub use child::{Ferry, ferry};
+pub use laboratory::{Answer, Laboratory};
+pub use plain::{exchange, read_answer};
+pub use recordings::{files, read, tool};
+
+pub fn gpu() -> Arc<Gpu> {
+    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| Gpu::open(AdapterChoice::Auto).expect("tests render: a graphics adapter is needed")).clone()
+}

@@ -1,0 +1,59 @@
+//! A WebSocket, as a browser opens it.
+
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use futures_util::{SinkExt, StreamExt};
+use serde_json::Value;
+use tokio::net::TcpStream;
+use tokio_tungstenite::tungstenite::Message;
+use tokio_tungstenite::{MaybeTlsStream, WebSocketStream, connect_async};
+
+/// One WebSocket.
+pub struct Browser {
+    pub socket: WebSocketStream<MaybeTlsStream<TcpStream>>,
+}
+
+impl Browser {
+    /// Of the session `main` of a server.
+    pub async fn at(address: SocketAddr) -> Self {
+        let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
+        Self::of(socket)
+    }
+
+    pub fn of(socket: WebSocketStream<MaybeTlsStream<TcpStream>>) -> Self {
+        Self { socket }
+    }
+
+    pub async fn send(&mut self, message: Value) {
+        self.send_text(&message.to_string()).await;
+    }
+
+    pub async fn send_text(&mut self, text: &str) {
+        self.socket.send(Message::text(text)).await.unwrap();
+    }
+
+    /// The next text message that fits, within 30 s.
+    pub async fn until(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+        let found = async {
+            while let Some(message) = self.socket.next().await {
+                if let Message::Text(text) = message.unwrap() {
+                    let value: Value = serde_json::from_str(&text).unwrap();
+                    if fits(&value) {
+                        return value;
+                    }
+                }
+            }
+            panic!("the server closed before: {what}");
+        };
+        tokio::time::timeout(Duration::from_secs(30), found).await.unwrap_or_else(|_| panic!("waited in vain: {what}"))
+    }
+
+    pub async fn state(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+        self.until(what, |m| m["type"] == "state" && fits(m)).await
+    }
+
+    pub async fn error(&mut self) -> Value {
+        self.until("an error", |m| m["type"] == "error").await
+    }
+}
