@@ -20,6 +20,7 @@ export XDG_RUNTIME_DIR ?= /tmp
 run: system-run
 	cargo run --release -- serve
 
+# One browser test alone: cd web && npx playwright test -g "name" (after cargo build --release).
 test: system-test $(TOOLS)
 	cargo fmt --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
@@ -27,14 +28,14 @@ test: system-test $(TOOLS)
 	cargo test --release --no-run --quiet
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output
-	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
+	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
 
 # Its budgets are strict: let nothing else run meanwhile. SOAK_MINUTES=4 has a shorter look.
 soak: system-test
 	cargo build --release
 	mkdir -p test-output
-	cd web && FERRY_BIN=../target/release/ferry npm run --silent soak
+	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent soak
 	cargo bench --quiet --bench load
 
 # Coverage-guided, `FUZZ_SECONDS` each of `FUZZ_TARGETS`; stops at the first input that panics, takes five seconds or two
