@@ -21,6 +21,7 @@ export XDG_RUNTIME_DIR ?= /tmp
 run: system-run
 	cargo run --release -- serve
 
+# One browser test alone: cd web && npx playwright test -g "name" (after cargo build --release).
 test: system-test $(TOOLS)
 	cargo fmt --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
@@ -28,7 +29,7 @@ test: system-test $(TOOLS)
 	cargo test --release --no-run --quiet
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output
-	cd web && FERRY_BIN=../target/release/ferry npm run --silent e2e
+	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
 
 # An archive with one stripped program for Debian 12 or newer (x86-64). The page, the maps, the policies and Rerun's viewer
@@ -54,7 +55,7 @@ dist: system-run
 soak: system-test
 	cargo build --release
 	mkdir -p test-output
-	cd web && FERRY_BIN=../target/release/ferry npm run --silent soak
+	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent soak
 	cargo bench --quiet --bench load
 
 # Coverage-guided fuzzing: `FUZZ_SECONDS` for each of `FUZZ_TARGETS`. It stops at the first input that panics, takes five

@@ -23,27 +23,22 @@ export default tseslint.config(
     },
   },
   {
-    files: ['vite.config.ts'],
-    extends: [tseslint.configs.strict],
+    files: ['e2e/**/*.ts'],
+    extends: [tseslint.configs.strictTypeChecked, tseslint.configs.stylisticTypeChecked],
+    languageOptions: {
+      parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname },
+    },
+    rules: {
+      eqeqeq: 'error',
+      'max-lines': ['error', 300],
+      // A fixture that uses no other one.
+      'no-empty-pattern': 'off',
+      '@typescript-eslint/no-confusing-void-expression': ['error', { ignoreArrowShorthand: true }],
+      '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true }],
+    },
   },
   {
-    files: ['e2e/**/*.mjs'],
-    languageOptions: {
-      globals: {
-        console: 'readonly',
-        Event: 'readonly',
-        getComputedStyle: 'readonly',
-        localStorage: 'readonly',
-        performance: 'readonly',
-        requestAnimationFrame: 'readonly',
-        window: 'readonly',
-        MutationObserver: 'readonly',
-        document: 'readonly',
-        fetch: 'readonly',
-        process: 'readonly',
-        setTimeout: 'readonly',
-        URL: 'readonly',
-      },
-    },
+    files: ['vite.config.ts', 'playwright.config.ts'],
+    extends: [tseslint.configs.strict],
   },
 );

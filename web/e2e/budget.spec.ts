@@ -1,0 +1,62 @@
+// What the page may weigh, cost and lag. Other tests run meanwhile: the times may be LENIENCY times as long, so that a
+// fault shows and a busy minute does not.
+
+import { gzipSync } from 'node:zlib';
+import type { Response } from '@playwright/test';
+import { Lab, expect, test } from './fixtures';
+import { Meter, figuresOf, overruns, stepThrough, words } from './support/meter';
+import { must, until } from './support/wait';
+
+const MOST_GZIP_BYTES = 500_000;
+const LENIENCY = 3;
+const RUN_TICKS = 625;
+const STEPS = 30;
+/** What takes the processors for some seconds is not the page's fault. */
+const ATTEMPTS = 3;
+
+test('weighs at most 500 kB before anything is opened', async ({ page, session }) => {
+  const parts: Response[] = [];
+  page.on('response', (response) => {
+    const kind = response.request().resourceType();
+    if (['document', 'script', 'stylesheet', 'font'].includes(kind)) parts.push(response);
+  });
+  await page.goto(session.url);
+  await page.getByTestId('tick').waitFor();
+  await page.waitForLoadState('load');
+  let bytes = 0;
+  for (const part of parts) bytes += gzipSync(await part.body()).length;
+  expect(parts.length).toBeGreaterThan(2);
+  expect(bytes).toBeLessThanOrEqual(MOST_GZIP_BYTES);
+});
+
+/** The figures of a page that steps, and then runs. */
+async function measured(meter: Meter, lab: Lab) {
+  await lab.reset();
+  await stepThrough(lab, 3);
+  await meter.start();
+  await stepThrough(lab, STEPS);
+  const { step_to_frame_p95_ms } = figuresOf([await meter.stop()]);
+  await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1), 'a goal'));
+  await lab.run();
+  await until('a second', () => lab.state.sim_time_s > 1);
+  await meter.start();
+  await lab.later(RUN_TICKS);
+  const figures = { ...figuresOf([await meter.stop()]), step_to_frame_p95_ms };
+  await lab.pause();
+  expect(figures.states).toBeGreaterThan(20);
+  expect(step_to_frame_p95_ms).toBeGreaterThan(0);
+  return figures;
+}
+
+test('keeps its budgets of time', async ({ page, session }, testInfo) => {
+  const meter = await Meter.attach(page);
+  const lab = await Lab.attach(page, session.url);
+  let over: string[] = [];
+  for (let attempt = 0; attempt < ATTEMPTS; attempt++) {
+    const figures = await measured(meter, lab);
+    testInfo.annotations.push({ type: 'figures', description: words(figures) });
+    over = overruns(figures, LENIENCY);
+    if (over.length === 0) break;
+  }
+  expect(over, `${LENIENCY} times the budget`).toEqual([]);
+});

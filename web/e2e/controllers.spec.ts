@@ -1,0 +1,177 @@
+// What each of the controllers shows: the policy's quantiles, ERRT's plan, the attractor's flow.
+
+import { type Lab, expect, test } from './fixtures';
+import type { PointLike } from './support/table';
+import { must, until } from './support/wait';
+
+/** The server looks at a map from every free centimetre before it first sends values. */
+const FIRST_VALUES_MS = 60_000;
+const WITHOUT_GOAL = /Place a goal/i;
+
+/** Showing a layer changes one of a few places, and hiding it changes them back. */
+async function shows(lab: Lab, layer: string, points: readonly PointLike[]) {
+  await lab.layer(layer, false);
+  const bare = await lab.look(...points);
+  await lab.layer(layer);
+  await until(`the layer ${layer}`, async () => (await lab.look(...points)) !== bare);
+  await lab.layer(layer, false);
+  await until(`no layer ${layer}`, async () => (await lab.look(...points)) === bare);
+  await lab.layer(layer);
+}
+
+test('shows the values of a policy', async ({ lab }) => {
+  const { page } = lab;
+  await lab.map('colon');
+  await lab.controller('RL');
+  let requests = 0;
+  page.on('request', (request) => {
+    if (request.url().endsWith('/values')) requests += 1;
+  });
+
+  // The legend is as high without values as with them: the map does not move under the points.
+  const legend = page.getByRole('group', { name: 'Values' });
+  await lab.layer('Value');
+  await expect(legend).toContainText(WITHOUT_GOAL);
+  const bead = await lab.bead();
+  const goal = must(lab.freePoints(bead, 0.25, 0.4).at(-1), 'a goal');
+  const places = lab.freePoints(bead, 0.06, 0.2).slice(0, 3);
+  const bare = await until('a picture that does not change', async () => {
+    const first = await lab.look(...places);
+    return first === (await lab.look(...places)) && first;
+  });
+  await lab.click(goal);
+  await expect(page.getByTestId('value-least')).toHaveCount(1, { timeout: FIRST_VALUES_MS });
+  expect(await lab.number('value-least')).toBeLessThan(await lab.number('value-greatest'));
+  await until('the layer Value', async () => (await lab.look(...places)) !== bare);
+
+  await lab.tune('Threshold T', '8');
+  await lab.label('Shield').uncheck();
+  await until('no shield', () => !lab.scene.parameters.rl_shield);
+  expect(requests, 'requests for one goal').toBe(1);
+  await lab.label('Policy').selectOption('Colon');
+  await until('the policy', () => lab.scene.parameters.rl_policy === 'colon');
+  await until('values by that policy', () => requests === 2);
+  await lab.restoreDefaults();
+  expect(lab.scene.parameters.rl_shield && lab.scene.parameters.rl_policy).toBe('auto');
+  await lab.layer('Value', false);
+  await expect(legend).toHaveCount(0);
+});
+
+test('decides by quantiles', async ({ lab }) => {
+  const { page } = lab;
+  await lab.reset({ map: 'colon', speed: '8' });
+  await lab.controller('RL');
+  await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1), 'a goal'));
+  await lab.run();
+  await until('a judgement', () => lab.overlay?.judgement);
+  await lab.pause();
+  const names = ['plus-x', 'minus-x', 'plus-y', 'minus-y'];
+  // What is shown may be a frame behind what has come.
+  const { values, judgement } = await until('the values that came', async () => {
+    const came = lab.overlay;
+    const now = await Promise.all(names.map((name) => lab.number(`rl-value-${name}`)));
+    const isSame = now.every(
+      (value, index) => Math.abs(value - (came?.judgement?.values[index] ?? NaN)) < 0.001,
+    );
+    return (
+      came?.judgement &&
+      came === lab.overlay &&
+      isSame && { values: now, judgement: came.judgement }
+    );
+  });
+  const { taken, trained_on } = judgement;
+  const best = values.indexOf(Math.max(...values));
+  const words = await page.getByText('Taken:').innerText();
+  expect(words).toContain(['+x', '−x', '+y', '−y'][taken]);
+  expect(words.includes('next best'), `${values.join()}, but ${words}`).toBe(best !== taken);
+  await expect(page.getByTestId('rl-trained-on')).toHaveText(trained_on.join(', '));
+  await expect(page.getByTestId('rl-unseen')).toHaveCount(0);
+
+  await lab.speed('64');
+  await lab.run();
+  await lab.delivered(1);
+  await lab.pause();
+  await lab.controller('Attractor');
+  await expect(page.getByTestId('rl-taken')).toHaveCount(0);
+});
+
+test('reports that the policy has not been trained on a map', async ({ lab }) => {
+  await lab.map('attractor-example-arm');
+  await lab.controller('RL');
+  await lab.setGoal(lab.freePoints(await lab.bead(), 0.06, 0.2)[0]);
+  await lab.run();
+  await lab.page.getByTestId('rl-unseen').waitFor();
+  await lab.pause();
+  expect(lab.overlay?.judgement?.trained_on).not.toContain(lab.scene.map);
+});
+
+test('carries the bead along a planned path', async ({ lab }) => {
+  await lab.reset({ map: 'colon', speed: '4' });
+  await lab.controller('ERRT');
+  await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1), 'a goal'));
+  await lab.run();
+  await until('a plan', async () => (await lab.number('plan-plans')) >= 1);
+  await expect(lab.page.getByTestId('plan-way')).toHaveText(/cm$/);
+  await until('some of the path', () => (lab.overlay?.plan?.way.length ?? 0) > 1);
+  await lab.pause();
+
+  const { way, obstacles } = must(lab.overlay?.plan, 'a plan');
+  await shows(lab, 'Plan', way.slice(0, 3));
+  const largest = obstacles
+    .map(({ x_min_m, x_max_m, y_min_m, y_max_m }) => ({
+      at: [x_max_m, (y_min_m + y_max_m) / 2] as const,
+      area: (x_max_m - x_min_m) * (y_max_m - y_min_m),
+    }))
+    .sort((a, b) => b.area - a.area)
+    .slice(0, 3);
+  await shows(
+    lab,
+    'Obstacles',
+    largest.map(({ at }) => at),
+  );
+  await lab.layer('Obstacles', false);
+  await lab.speed('64');
+  await lab.run();
+  await lab.delivered(1);
+  await lab.pause();
+  await lab.controller('Attractor');
+  await expect(lab.page.getByTestId('plan-plans')).toHaveCount(0);
+});
+
+test('shows where the attractor leads', async ({ lab }) => {
+  const legend = lab.page.getByRole('group', { name: 'Arrows and dots' });
+  await lab.layer('Attractor flow');
+  await expect(legend).toContainText(WITHOUT_GOAL);
+  const goal = lab.freePoints(await lab.bead(), 0.3, 0.5)[0];
+  await lab.setGoal(goal);
+  await expect(lab.page.getByTestId('flow-traps')).toHaveText(/\d|none/);
+  await expect(legend).toContainText(/where the attractor leads/);
+
+  // Places of the grid: an arrow goes through each, unless it is over a wall.
+  const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;
+  const spacing_m = Math.max(x_max_m - x_min_m, y_max_m - y_min_m) / 40;
+  const across = Math.floor((y_max_m - y_min_m) / spacing_m + 1e-9);
+  const margin_m = (y_max_m - y_min_m - across * spacing_m) / 2;
+  await shows(
+    lab,
+    'Attractor flow',
+    [8, 20, 32].map((column) => [
+      x_min_m + column * spacing_m,
+      y_min_m + margin_m + 11 * spacing_m,
+    ]),
+  );
+
+  // A click beside the menu closes it, and places no goal.
+  await lab.button('Layers').click();
+  const menu = lab.page.getByRole('group', { name: 'Layers' });
+  await menu.waitFor();
+  lab.sent = {};
+  // On the left, where the menu covers nothing.
+  const beside = lab.freePoints(goal, 0.1, 0.6).find(([x]) => x < x_min_m + 0.1);
+  await lab.click(must(beside, 'a point on the left'));
+  await expect(menu).toHaveCount(0);
+  // The next message: what the click would have sent would have been sent before.
+  await lab.button('Step').click();
+  await until('a step', () => lab.sent.step);
+  expect(lab.sent.set_goal, 'the click placed a goal').toBeUndefined();
+});

@@ -1,0 +1,167 @@
+// Rows of the table of controls: the bars, the workspace, tabs and layers.
+
+import { expect } from '@playwright/test';
+import type { Hand } from '../support/hands';
+import type { ControllerLabel, Lab } from '../support/lab';
+import { openMap } from '../support/maps';
+import { nearby, open, pause, run, withGoal, withHistory } from '../support/moments';
+import { must, until } from '../support/wait';
+import { RESTORE } from './parameters';
+import { type Row, type Section, expanded, toggle, view } from './row';
+
+const isSelected: Row['see'] = (_lab, locator) => locator.getAttribute('aria-selected');
+const theme = (lab: Lab) => lab.page.evaluate(() => document.documentElement.dataset.theme);
+const shownView = (lab: Lab) => lab.page.locator('[aria-current=page]').innerText();
+const role = (lab: Lab) => lab.text('role');
+const trial = (lab: Lab) => lab.scene.trial;
+const layers = (lab: Lab) =>
+  lab.page.evaluate(() => {
+    const stored = JSON.parse(localStorage.getItem('ferry.layers') ?? 'null') as string[] | null;
+    return stored?.sort() ?? null;
+  });
+
+const wearing = (wish: 'light' | 'dark') => async (lab: Lab) => {
+  const button = lab.button(`Use ${wish} colours`);
+  if (await button.count()) await button.click();
+};
+const controller = (wish: ControllerLabel): Row => ({
+  see: (lab) => lab.state.controller,
+  after: (lab) => until(wish, () => lab.state.controller === wish.toLowerCase()),
+});
+const backToPosts = (lab: Lab) => lab.map('posts');
+
+async function typeSeed(hand: Hand, locator: Parameters<Hand['press']>[0]) {
+  const { keyboard } = hand.page;
+  const seed = Number(await locator.inputValue());
+  // Leaving the field does not reset a trial: Enter does.
+  await locator.focus();
+  if (hand.name === 'keyboard') await keyboard.press('ArrowUp');
+  else {
+    await hand.press(locator);
+    await keyboard.press('Control+a');
+    await keyboard.type(String((seed + 1) % 1000));
+  }
+  await keyboard.press('Enter');
+}
+
+const VIEWS: Section = {
+  name: 'views, colours and control',
+  rows: {
+    'button Laboratory': { see: shownView, ready: view('Recordings') },
+    'button Recordings': { see: shownView, after: view('Laboratory') },
+    'button Evaluate': { see: shownView, after: view('Laboratory') },
+    'button Use light colours': { see: theme, ready: wearing('dark') },
+    'button Use dark colours': { see: theme, ready: wearing('light') },
+    'button Release control': { see: role },
+    'button Take control': { see: role },
+    'tab Events': { see: isSelected },
+    'tab Lessons': { see: isSelected },
+    'tab Compare': { see: isSelected },
+    'tab Magnet': { see: isSelected },
+    'tab Plots': { see: isSelected },
+    'button Share': toggle(expanded),
+    'button Layers': toggle(expanded),
+    'button Disturb': toggle(expanded),
+    'radio RL': controller('RL'),
+    'radio ERRT': controller('ERRT'),
+    'radio Attractor': controller('Attractor'),
+  },
+};
+
+const WORKSPACE: Section = {
+  name: 'the workspace',
+  rows: {
+    'application Workspace': [
+      { see: (lab) => lab.state.goal_m, act: (hand) => hand.placeGoal(nearby(hand.lab)) },
+      {
+        see: (lab) => lab.state.bead_m,
+        act: (hand) => hand.dragBead(),
+        after: (lab) => until('no hand', () => !lab.state.hand_m),
+      },
+    ],
+    'button Clear goal': { see: (lab) => lab.state.goal_m, ready: withGoal },
+    'button Dismiss': {
+      see: (lab) => lab.notice('workspace').count(),
+      ready: async (lab) => {
+        await lab.click(lab.wallPoint());
+        await lab.notice('workspace').waitFor();
+      },
+    },
+    'combobox Blocks': {
+      see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d'),
+      ready: async (lab) => {
+        if (!(await lab.page.getByTestId('blocks').count())) await lab.button('Step').click();
+        await lab.page.getByTestId('blocks').waitFor();
+        await lab.label('Blocks').selectOption('none');
+      },
+    },
+  },
+};
+
+const PLAYBACK: Section = {
+  name: 'the playback bar',
+  rows: {
+    'button Run': { see: (lab) => lab.state.running, ready: pause },
+    'button Pause': { see: (lab) => lab.state.running, ready: run, after: pause },
+    'button Step ¼ s': { see: (lab) => lab.state.tick },
+    'button Step': { see: (lab) => lab.state.tick },
+    'slider Timeline': { see: (lab) => lab.state.tick, ready: withHistory },
+    'button Reset': { see: trial },
+    'combobox Speed': { see: (lab) => lab.state.speed_target },
+    'spinbutton Seed': { see: (lab) => lab.scene.seed, act: typeSeed },
+    'button New seed': { see: (lab) => lab.scene.seed },
+  },
+};
+
+const EXPERIMENTS: Section = {
+  name: 'maps and presets',
+  rows: {
+    'combobox Map': { see: (lab) => lab.scene.map, after: backToPosts },
+    'button Open map…': {
+      see: (lab) => lab.scene.map,
+      act: (hand, locator) => openMap(hand.page, () => hand.press(locator)),
+      // Other tests of this server find the maps that they know.
+      after: async (lab) => {
+        const name = lab.scene.map;
+        await backToPosts(lab);
+        const { origin } = new URL(lab.page.url());
+        const removed = await lab.page.request.delete(`${origin}/api/maps/${name}`);
+        expect(removed.status()).toBe(204);
+        await until('no more of it', () => !lab.scene.maps.includes(name));
+      },
+    },
+    'button Restore defaults': RESTORE,
+    'combobox Preset': { see: trial },
+  },
+};
+
+const LAYER_NAMES = [
+  'Trails',
+  'Capture',
+  'Field and pull',
+  'Ghosts',
+  'Camera field',
+  'Sensed',
+  'Seen so far',
+  'Quadtree',
+  'Rectangles',
+  'Value',
+  'Plan',
+  'Obstacles',
+  'Attractor flow',
+  'Singularity',
+];
+
+const LAYERS: Section = {
+  name: 'layers',
+  ready: async (lab) => {
+    // Nothing is stored before something is chosen.
+    await lab.layer('Trails', false);
+    await lab.layer('Trails');
+    must(await layers(lab), 'stored layers');
+  },
+  rowReady: open('Layers'),
+  rows: Object.fromEntries(LAYER_NAMES.map((name) => [`checkbox ${name}`, toggle(layers)])),
+};
+
+export const LABORATORY: readonly Section[] = [VIEWS, WORKSPACE, PLAYBACK, EXPERIMENTS, LAYERS];

@@ -1,0 +1,160 @@
+// The parameters as rows of the table of controls: each by its name on the page and in the messages.
+
+import { expect } from '@playwright/test';
+import type { Hand } from '../support/hands';
+import type { ControllerLabel, Lab } from '../support/lab';
+import { until } from '../support/wait';
+import type { Parameters } from '../support/wire';
+import { type Row, type Rows, type Section, toggle } from './row';
+
+type Name = keyof Parameters;
+type Role = 'spinbutton' | 'slider' | 'combobox' | 'checkbox';
+
+interface Field {
+  readonly name: Name;
+  readonly roles: readonly Role[];
+}
+
+interface Group {
+  readonly name: string;
+  readonly controller?: ControllerLabel;
+  readonly fields: Record<string, Field>;
+}
+
+const number = (name: Name): Field => ({ name, roles: ['spinbutton', 'slider'] });
+const choice = (name: Name): Field => ({ name, roles: ['combobox'] });
+const flag = (name: Name): Field => ({ name, roles: ['checkbox'] });
+
+const GROUPS: readonly Group[] = [
+  {
+    name: 'RL',
+    controller: 'RL',
+    fields: { Policy: choice('rl_policy'), Shield: flag('rl_shield') },
+  },
+  {
+    name: 'ERRT',
+    controller: 'ERRT',
+    fields: {
+      'Goal probability': number('errt_goal_probability'),
+      'Waypoint probability': number('errt_waypoint_probability'),
+      Waypoints: number('errt_waypoints'),
+      'Most β': number('errt_beta_most'),
+      'Edge length': number('errt_step_m'),
+      Clearance: number('errt_clearance_m'),
+      'Ways compared': number('errt_ways'),
+      'Weight of the unseen': number('errt_unseen_weight'),
+      'Edges per step': number('errt_nodes_per_step'),
+      'Cut short': flag('errt_shortcut'),
+    },
+  },
+  {
+    name: 'Attractor dynamics',
+    controller: 'Attractor',
+    fields: {
+      'Attractor law': choice('attractor_law'),
+      'Gain K': number('attractor_gain'),
+      'Safety factor': number('attractor_safety_factor'),
+      'Reactivity ρ': number('attractor_reactivity'),
+      Clearance: number('attractor_clearance_m'),
+    },
+  },
+  {
+    name: 'Switching',
+    fields: {
+      'Switching law': choice('switching_law'),
+      'Threshold T': number('threshold_m'),
+      'Fetch radius': number('fetch_radius_m'),
+    },
+  },
+  {
+    name: 'Speeds',
+    fields: { Approach: number('approach_speed_m_s'), Transport: number('transport_speed_m_s') },
+  },
+  {
+    name: 'Camera',
+    fields: {
+      'Camera height': number('camera_height_m'),
+      'Field of view': number('camera_field_of_view_rad'),
+      'Offset x': number('camera_offset_x_m'),
+      'Offset y': number('camera_offset_y_m'),
+      'Tilt x': number('camera_tilt_x_rad'),
+      'Tilt y': number('camera_tilt_y_rad'),
+      'Magnet in the picture': flag('camera_sees_magnet'),
+      'Obstacle level': number('obstacle_level'),
+      'Smallest block': number('smallest_block_px'),
+    },
+  },
+  {
+    name: 'Magnet and bead',
+    fields: {
+      Block: choice('block_orientation'),
+      Tool: choice('tool_orientation'),
+      'Tool height': number('tool_height_m'),
+      Bead: choice('bead_motion'),
+      'Friction μ': number('friction'),
+      'Rolling resistance': number('rolling_resistance'),
+      'Viscous drag': number('drag_n_s_m'),
+    },
+  },
+  {
+    name: 'Tracker',
+    fields: {
+      'Noise σ': number('tracker_noise_m'),
+      Latency: number('tracker_latency_ticks'),
+      Dropout: number('tracker_dropout'),
+    },
+  },
+];
+
+/** By whatever hand changed something. */
+async function restore(lab: Lab, hand: Hand) {
+  await hand.press(lab.button('Restore defaults'));
+  await until('the defaults', () => {
+    const { defaults, parameters } = lab.scene;
+    return JSON.stringify(parameters) === JSON.stringify(defaults);
+  });
+}
+
+/** A control of one parameter. A slider goes far, and how far others may go depends on it. */
+export const bound = (name: Name, role?: Role): Row => ({
+  see: (lab) => lab.scene.parameters[name],
+  ...(role === 'slider' ? { after: restore } : {}),
+});
+
+export const RESTORE: Row = {
+  see: (lab) => lab.scene.parameters.threshold_m,
+  ready: async (lab) => {
+    await lab.tune('Threshold T', '8');
+    await until('another threshold', () => lab.scene.parameters.threshold_m === 0.08);
+  },
+};
+
+function rowsOf(fields: Record<string, Field>): Rows {
+  const rows: Rows = {};
+  for (const [label, { name, roles }] of Object.entries(fields)) {
+    for (const role of roles) {
+      rows[`${role} ${role === 'slider' ? `${label} slider` : label}`] = bound(name, role);
+    }
+  }
+  return rows;
+}
+
+const summaryOf = (lab: Lab, name: string) =>
+  lab.page.locator('summary').filter({ hasText: new RegExp(`^${name}( ?\\d+ changed)?$`) });
+
+export const PARAMETERS: readonly Section[] = GROUPS.map(({ name, controller, fields }) => ({
+  name: `parameters: ${name}`,
+  ready: async (lab) => {
+    if (controller) await lab.controller(controller);
+    const summary = summaryOf(lab, name);
+    const isOpen = () => summary.evaluate((one) => (one.parentElement as HTMLDetailsElement).open);
+    if (!(await isOpen())) await summary.click();
+    await expect.poll(isOpen).toBe(true);
+  },
+  rows: {
+    [`summary ${name}`]: toggle((_lab, locator) =>
+      locator.evaluate((one) => (one.parentElement as HTMLDetailsElement).open),
+    ),
+    ...rowsOf(fields),
+  },
+}));

@@ -1,0 +1,100 @@
+// What each test gets: a server that a worker shares, a session of its own, and a page on it. At the end of each test
+// the browser must have reported no error and sent no request to another host.
+
+import { type BrowserContextOptions, test as base, expect } from '@playwright/test';
+import { Lab } from './support/lab';
+import { Server } from './support/server';
+import { Watch } from './support/watch';
+
+export { expect } from '@playwright/test';
+export { Lab } from './support/lab';
+
+export interface Session {
+  readonly name: string;
+  readonly url: string;
+}
+
+interface OpenOptions extends BrowserContextOptions {
+  /** The test's session if not set. */
+  readonly url?: string;
+}
+
+interface WorkerFixtures {
+  server: Server;
+}
+
+interface TestFixtures {
+  watch: Watch;
+  /** Named sessions besides the test's own end with the test. */
+  newSession: () => Session;
+  session: Session;
+  /** An operator's page. */
+  lab: Lab;
+  /** Opens another page in a browser context of its own. */
+  openLab: (options?: OpenOptions) => Promise<Lab>;
+}
+
+const NAME_LENGTH = 32;
+let opened = 0;
+
+function newName(title: string) {
+  opened += 1;
+  const number = `-${opened}`;
+  const words = title.toLowerCase().replaceAll(/[^a-z0-9]+/g, '-');
+  return `t-${words}`.slice(0, NAME_LENGTH - number.length) + number;
+}
+
+export const test = base.extend<TestFixtures, WorkerFixtures>({
+  server: [
+    async ({}, use) => {
+      const server = await Server.start();
+      await use(server);
+      await server.stop();
+    },
+    { scope: 'worker' },
+  ],
+
+  watch: [
+    async ({ browser, server }, use, testInfo) => {
+      const watch = new Watch(browser, server.url);
+      await use(watch);
+      watch.close();
+      if (testInfo.status !== testInfo.expectedStatus) {
+        await testInfo.attach('server.log', { body: server.log, contentType: 'text/plain' });
+      }
+      expect.soft(watch.messages, 'messages on the console').toEqual([]);
+      expect.soft(watch.foreign, 'requests to other hosts').toEqual([]);
+    },
+    { auto: true },
+  ],
+
+  newSession: async ({ server }, use, testInfo) => {
+    const names: string[] = [];
+    await use(() => {
+      const name = newName(testInfo.title);
+      names.push(name);
+      return { name, url: `${server.url}/s/${name}` };
+    });
+    // A test may have ended its server.
+    const end = (name: string) => fetch(`${server.url}/api/sessions/${name}`, { method: 'DELETE' });
+    await Promise.allSettled(names.map(end));
+  },
+
+  session: async ({ newSession }, use) => {
+    await use(newSession());
+  },
+
+  lab: async ({ session, page }, use) => {
+    await use(await Lab.attach(page, session.url));
+  },
+
+  openLab: async ({ session, browser }, use) => {
+    const contexts: { close: () => Promise<void> }[] = [];
+    await use(async ({ url = session.url, ...options } = {}) => {
+      const context = await browser.newContext(options);
+      contexts.push(context);
+      return Lab.attach(await context.newPage(), url);
+    });
+    await Promise.all(contexts.map((context) => context.close()));
+  },
+});

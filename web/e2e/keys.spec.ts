@@ -1,0 +1,98 @@
+// Keys that work all over the page, and what the page says to assistive technology.
+
+import { expect, test } from './fixtures';
+import { until } from './support/wait';
+
+const WATCHING = 'You are watching.';
+const IN_CONTROL = 'You have control.';
+const WORKSPACE_KEYS = 'take the bead, let it go';
+/** Announcements come one second apart; a busy page is late. */
+const LEAST_APART_MS = 700;
+
+test('obeys keys all over the page', async ({ lab }) => {
+  const { page } = lab;
+  const { keyboard } = page;
+  await page.getByRole('heading', { name: 'Workspace' }).click();
+  await keyboard.press('.');
+  await expect(page.getByTestId('tick')).toHaveText('tick 1');
+  await keyboard.press(',');
+  await until('the control step', () => lab.state.tick === 32);
+  // What a key does follows from what the page shows, a frame after its WebSocket received it.
+  const speed = lab.label('Speed');
+  await keyboard.press(']');
+  await expect(speed).toHaveValue('2');
+  await keyboard.press('[');
+  await expect(speed).toHaveValue('1');
+  await keyboard.press('2');
+  await until('ERRT', () => lab.state.controller === 'errt');
+  await keyboard.press('3');
+  await until('attractor', () => lab.state.controller === 'attractor');
+  await keyboard.press(' ');
+  await lab.button('Pause').waitFor();
+  await keyboard.press(' ');
+  await lab.button('Run').waitFor();
+
+  // Not while typing.
+  const seed = lab.label('Seed');
+  await seed.focus();
+  for (const key of ['2', 'r', 'g']) await keyboard.press(key);
+  await expect(seed).toBeFocused();
+  await seed.blur();
+  expect(lab.state.controller).toBe('attractor');
+  expect(lab.state.tick, 'a key was obeyed while typing').toBeGreaterThan(0);
+
+  const larger = lab.button('Larger');
+  await larger.focus();
+  await keyboard.press('?');
+  const help = page.getByRole('dialog', { name: 'Keyboard' });
+  await expect(help.getByText(WORKSPACE_KEYS)).toBeVisible();
+  await keyboard.press('r');
+  await keyboard.press('Escape');
+  await expect(help).toBeHidden();
+  expect(lab.state.tick, 'the dialog let a key through').toBeGreaterThan(0);
+  await expect(larger).toBeFocused();
+  await keyboard.press('g');
+  await expect(lab.canvas).toBeFocused();
+  await keyboard.press('r');
+  await until('the start', () => lab.state.tick === 0);
+
+  // They can be switched off.
+  await lab.button('Keyboard shortcuts').click();
+  await help.getByRole('checkbox').uncheck();
+  await keyboard.press('Escape');
+  await keyboard.press('.');
+  await lab.button('Step').click();
+  await until('one tick only', () => lab.state.tick === 1);
+  await lab.button('Keyboard shortcuts').click();
+  await help.getByRole('checkbox').check();
+  await help.getByRole('button', { name: 'Close' }).click();
+});
+
+test('says what happens, one thing at a time', async ({ lab, openLab }) => {
+  const said = await lab.page.getByTestId('live-region').evaluateHandle((region) => {
+    const texts: (readonly [number, string])[] = [];
+    new MutationObserver(() => {
+      texts.push([performance.now(), region.textContent.trim()]);
+    }).observe(region, { characterData: true, childList: true, subtree: true });
+    return texts;
+  });
+  const texts = async () => (await said.jsonValue()).map(([, text]) => text);
+  // Somebody else watches: control that is released stays free.
+  await openLab();
+  await lab.button('Disturb').click();
+  await lab.page.getByLabel('Strength of the kick in mN·s').fill('0.8');
+  await lab.run();
+  for (let i = 0; i < 3; i++) await lab.button('Kick now').click();
+  await until('the kicks', () => lab.state.disturbances >= 3);
+  await lab.pause();
+  await lab.releaseControl();
+  await expect.poll(texts).toContain(WATCHING);
+  await lab.takeControl();
+  await expect.poll(texts).toContain(IN_CONTROL);
+  expect((await texts()).join('|')).toContain('a kick of 0.80 mN·s');
+  const times = (await said.jsonValue()).map(([at]) => at);
+  times.slice(1).forEach((at, index) => {
+    expect(at - (times[index] ?? 0), 'milliseconds apart').toBeGreaterThan(LEAST_APART_MS);
+  });
+  await expect(lab.page.getByRole('log')).toHaveAttribute('aria-live', 'off');
+});

@@ -1,0 +1,148 @@
+// What is drawn below the bead: the magnet's reach and field, singularities, what the camera sees.
+
+import { type Lab, expect, test } from './fixtures';
+import { until } from './support/wait';
+
+const summaryOf = (lab: Lab, name: string) =>
+  lab.page.locator('summary').filter({ hasText: new RegExp(`^${name}`) });
+
+/** In words, once the server has answered. */
+function captureWords(lab: Lab) {
+  return until('a capture', async () => {
+    const text = await lab.text('magnet-capture');
+    return text !== '–' && text;
+  });
+}
+
+test('shows what the magnet can do', async ({ lab }) => {
+  const { mouse } = lab.page;
+  await lab.tab('Magnet').click();
+  await summaryOf(lab, 'Magnet and bead').click();
+  expect(await captureWords(lab)).toBe('4 to 95 mm');
+  const hidden = await lab.page
+    .locator('.magnet-words')
+    .evaluate((words) => words.scrollHeight - words.clientHeight);
+  expect(hidden, 'hidden pixels of the words beside the curves').toBeLessThanOrEqual(0);
+
+  const slider = lab.page.getByRole('slider', { name: 'Friction μ slider' });
+  await slider.scrollIntoViewIfNeeded();
+  const box = await lab.boxOf(slider);
+  const y = box.y + box.height / 2;
+  // The slider reaches from 0 to 1.
+  await mouse.move(box.x + 0.2 * box.width, y);
+  await mouse.down();
+  await mouse.move(box.x + 0.4 * box.width, y, { steps: 5 });
+  await until('less captured', async () => (await captureWords(lab)) !== '4 to 95 mm');
+  expect(lab.scene.parameters.friction, 'the friction before the slider is released').toBe(0.2);
+  await mouse.up();
+  await until('the friction', () => lab.scene.parameters.friction > 0.3);
+  expect(await captureWords(lab)).not.toBe('4 to 95 mm');
+
+  await lab.restoreDefaults();
+  await until('the defaults', async () => (await captureWords(lab)) === '4 to 95 mm');
+});
+
+test('bends the curves of the magnet beside them', async ({ lab }) => {
+  const { page } = lab;
+  await lab.tab('Magnet').click();
+  await summaryOf(lab, 'Magnet and bead').click();
+  const panel = page.getByRole('group', { name: 'Magnet and friction' });
+  const weight = page.getByTestId('magnet-weight');
+  await expect(weight).toContainText('%');
+  const before = await weight.innerText();
+
+  // By keyboard: a press of an arrow is a millimetre, here and in the form.
+  const height = panel.getByRole('slider', { name: 'Height' });
+  await height.focus();
+  for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowRight');
+  await until('105 mm', () => Math.abs(lab.scene.parameters.tool_height_m - 0.105) < 1e-9);
+  await expect(weight).not.toHaveText(before);
+  const inForm = page.getByRole('spinbutton', { name: 'Tool height' });
+  await expect(inForm).toHaveValue('105');
+
+  // And the other way.
+  await inForm.fill('92');
+  await inForm.press('Enter');
+  await expect(weight).toContainText('lifts off');
+  await expect(panel.getByRole('spinbutton', { name: 'Height' })).toHaveValue('92');
+
+  await panel.getByRole('combobox', { name: 'Magnet' }).selectOption('C');
+  await until('block C', () => lab.scene.parameters.block_orientation === 'C');
+  await page.getByRole('radio', { name: 'the bead' }).check();
+  await lab.radio('x').check();
+  await lab.restoreDefaults();
+  expect(lab.scene.parameters.block_orientation).toBe('A');
+});
+
+test('shows singularities', async ({ lab }) => {
+  // Far from all moving parts, and off the grid.
+  const [x, y] = lab.freePoints(await lab.bead(), 0.3, 0.5)[0];
+  const look = () => lab.look([x + 0.007, y + 0.007]);
+  const bare = await look();
+  await lab.layer('Singularity');
+  await until('the layer', async () => (await look()) !== bare);
+  const least = await lab.number('heat-least');
+  expect(least).toBeGreaterThanOrEqual(2);
+  expect(await lab.number('heat-greatest')).toBeGreaterThan(least);
+  await lab.layer('Singularity', false);
+  await until('the bare floor', async () => (await look()) === bare);
+});
+
+test("shows the magnet's field", async ({ lab }) => {
+  // Between the arrows, some centimetres beside the tool.
+  const [x, y] = await lab.bead();
+  const look = () => lab.look([x + 0.04, y - 0.005]);
+  const bare = await look();
+  await lab.layer('Field and pull');
+  await until('the layer', async () => (await look()) !== bare);
+  // The dipole of the block at 10 cm; specification §2 has its pull.
+  const field_mt = await lab.number('field-greatest');
+  expect(field_mt).toBeGreaterThan(1.5);
+  expect(field_mt).toBeLessThan(4);
+  const pull_mn = await lab.number('field-pull');
+  expect(pull_mn).toBeGreaterThan(1);
+  expect(pull_mn).toBeLessThan(3);
+
+  await summaryOf(lab, 'Magnet and bead').click();
+  await lab.tune('Tool height', '150');
+  await until('less of it', async () => (await lab.number('field-greatest')) < 0.5 * field_mt);
+  await lab.restoreDefaults();
+  await until('as before', async () => (await lab.number('field-greatest')) === field_mt);
+  await lab.layer('Field and pull', false);
+  await until('the bare floor', async () => (await look()) === bare);
+});
+
+test('shows what the camera sees', async ({ lab }) => {
+  const { page } = lab;
+  await lab.reset({ map: 'colon', speed: '8' });
+  const blocks = page.getByTestId('blocks');
+  const counts = async () => ((await blocks.textContent())?.match(/\d+/g) ?? []).map(Number);
+  await expect(blocks).toContainText(/\d/);
+  const [rectangles = NaN, alone = NaN] = await counts();
+  expect(rectangles).toBeGreaterThan(0);
+  expect(rectangles).toBeLessThan(alone);
+  await summaryOf(lab, 'Camera').click();
+  await lab.tune('Smallest block', '50');
+  await until('fewer blocks', async () => ((await counts())[0] ?? Infinity) < rectangles);
+
+  // Beside the tool and tilted toward it.
+  const seen = JSON.stringify(lab.scene.camera_sees_m);
+  await lab.tune('Offset y', '8');
+  await lab.tune('Tilt y', '-15');
+  await page.getByLabel('Magnet in the picture').check();
+  await until('another view', () => JSON.stringify(lab.scene.camera_sees_m) !== seen);
+  await lab.label('Blocks').selectOption('rectangles');
+  await lab.run();
+  await until('a second', () => lab.state.sim_time_s > 1);
+  await lab.pause();
+
+  const [x, y] = lab.state.tool_m;
+  const look = () => lab.look([x + 0.25 * (x > 0 ? -1 : 1), y]);
+  const bare = await look();
+  await lab.layer('Seen so far');
+  await until('the unseen in gray', async () => (await look()) !== bare);
+  for (const name of ['Quadtree', 'Rectangles']) await lab.layer(name);
+  await lab.drawn();
+  await lab.restoreDefaults();
+  await until('the usual view', () => JSON.stringify(lab.scene.camera_sees_m) === seen);
+});

@@ -1,0 +1,156 @@
+// The lessons, each to its end: what it claims is what its experiments show.
+
+import { type Lab, expect, test } from './fixtures';
+import { until } from './support/wait';
+
+const LESSON_MS = 90_000;
+
+interface Lesson {
+  readonly title: string;
+  /** The right prediction. */
+  readonly choice: string;
+  readonly runs: number;
+  /** What has to be done in the first run: a button of the lesson, and after which task. */
+  readonly action?: { readonly button: string; readonly after: string; readonly speed: string };
+}
+
+const LESSONS: readonly Lesson[] = [
+  {
+    title: 'Lose the bead',
+    choice: 'It flies to the bead',
+    runs: 1,
+    action: { button: 'Take it away for me', after: 'Time runs', speed: '4' },
+  },
+  {
+    title: 'The threshold T',
+    choice: 'It is fetched more often and arrives later',
+    runs: 2,
+  },
+  { title: 'The law to the letter', choice: 'The two take turns', runs: 2 },
+  { title: 'Why the attractor gets stuck', choice: 'Up to the wall', runs: 2 },
+  {
+    title: 'What ERRT remembers',
+    choice: 'Once',
+    runs: 1,
+    action: { button: 'Send it back', after: 'Delivered there', speed: '64' },
+  },
+  { title: 'What the policy sees', choice: 'It loses its way', runs: 2 },
+  {
+    title: 'Lift-off',
+    choice: 'Soon',
+    runs: 2,
+    action: { button: 'Lower by 2 mm', after: 'Time runs', speed: '4' },
+  },
+];
+const FIRST = {
+  title: /^Meet the magnet/i,
+  choices: [/^Right below/i, /^A little behind/i],
+  task: /carried for 10 cm/i,
+} as const;
+const VIEWER_LESSON = { title: /^Lose the bead/i, choice: /^It stops until the bead is back/i };
+const WATCHING = /You are watching: take control/i;
+
+const tasksOf = (lab: Lab) => lab.page.locator('.lesson-tasks li.done');
+
+async function next(lab: Lab) {
+  await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
+  await lab.button('Next').click();
+}
+
+async function setUp(lab: Lab, press: () => Promise<unknown>) {
+  const { trial } = lab.scene;
+  await press();
+  await until('another trial', () => lab.scene.trial !== trial && lab.state.tick === 0);
+  // Its tasks are followed from the start on.
+  await lab.button('Set it up again').waitFor();
+}
+
+/** Presses the button of a lesson until its task is done: once, or step by step. */
+async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
+  await tasksOf(lab).getByText(after).waitFor({ timeout: LESSON_MS });
+  await lab.button(button).click();
+  if (!button.startsWith('Lower')) return;
+  await until(
+    button,
+    async () => {
+      if (await lab.button('Next').isEnabled()) return true;
+      const height_m = lab.scene.parameters.tool_height_m;
+      await lab.button(button).click();
+      await until('a lower tool', () => lab.scene.parameters.tool_height_m !== height_m);
+      // Time enough to see what it does.
+      await lab.later(300);
+      return false;
+    },
+    LESSON_MS,
+  );
+}
+
+for (const { title, choice, runs, action } of LESSONS) {
+  test(`the lesson “${title}” shows what it claims`, async ({ lab }) => {
+    await lab.tab('Lessons').click();
+    await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
+    await lab.page.getByRole('radio', { name: choice }).check();
+    await next(lab);
+    for (let run = 0; run < runs; run += 1) {
+      await setUp(lab, () => lab.button('Set it up').click());
+      await lab.speed(run === 0 && action ? action.speed : '64');
+      await lab.run();
+      if (run === 0 && action) await act(lab, action);
+      await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
+      await lab.pause();
+      await next(lab);
+    }
+    await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
+    await lab.button('Finish').click();
+    await expect(lab.page.getByText('1 of 8 done')).toBeVisible();
+    await lab.button('Start over').click();
+    await expect(lab.page.getByText('0 of 8 done')).toBeVisible();
+  });
+}
+
+test('teaches the first lesson by keyboard, and remembers it', async ({ lab }) => {
+  const { page } = lab;
+  const { keyboard } = page;
+  const [first, second] = FIRST.choices;
+  await lab.tab('Events').focus();
+  await keyboard.press('ArrowRight');
+  await page.getByRole('button', { name: FIRST.title }).focus();
+  await keyboard.press('Enter');
+  await expect(lab.button('Next'), 'without a prediction').toBeDisabled();
+  await page.getByLabel(first).focus();
+  await keyboard.press(' ');
+  await keyboard.press('ArrowDown');
+  await expect(page.getByLabel(second)).toBeChecked();
+  await lab.button('Next').press('Enter');
+  await setUp(lab, () => lab.button('Set it up').press('Enter'));
+  expect(lab.scene.map).toBe('open');
+  await until('its goal', () => lab.state.goal_m);
+  await lab.speed('8');
+  await lab.canvas.focus();
+  await keyboard.press(' ');
+  await tasksOf(lab).getByText(FIRST.task).waitFor({ timeout: LESSON_MS });
+  await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
+  await keyboard.press(' ');
+  await lab.button('Next').press('Enter');
+  await expect(page.getByTestId('lesson-outcome')).toHaveText(second);
+  await lab.button('Finish').press('Enter');
+  await expect(page.getByText('1 of 8 done')).toBeVisible();
+
+  await page.reload();
+  await lab.live();
+  await lab.tab('Lessons').click();
+  await expect(page.getByText('1 of 8 done')).toBeVisible();
+  await page.getByRole('button', { name: FIRST.title }).click();
+  await expect(page.getByLabel(second)).toBeChecked();
+});
+
+test('lets a viewer predict', async ({ lab, openLab }) => {
+  const viewer = await openLab();
+  await viewer.tab('Lessons').click();
+  await viewer.page.getByRole('button', { name: VIEWER_LESSON.title }).click();
+  await viewer.page.getByLabel(VIEWER_LESSON.choice).check();
+  await next(viewer);
+  await expect(viewer.button('Set it up')).toBeDisabled();
+  await expect(viewer.page.getByText(WATCHING)).toBeVisible();
+  await lab.isRole('operator');
+});

@@ -1,0 +1,132 @@
+// A page left open while a session runs: its budgets, and whether it or its server grows.
+// `[SOAK_MINUTES=30] npm run soak`
+
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+import { Lab, expect, test } from './fixtures';
+import { Meter, type Count, figuresOf, overruns, stepThrough, words } from './support/meter';
+import { must } from './support/wait';
+
+const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
+const MINUTES = Number(process.env.SOAK_MINUTES ?? 30);
+const MINUTE_MS = 60_000;
+/** What is kept has an end: the log's lines, the moments to go back to. First, all of it is filled. */
+const KEPT_S = 620;
+const KEPT_LINES = 300;
+const MOST_FILLING_MS = 5 * MINUTE_MS;
+const SETTLED_MINUTES = Math.max(1, Math.min(5, Math.floor(MINUTES / 2)));
+const COMPARED_MINUTES = 5;
+const MOST_GROWTH = 0.1;
+const STEPS = 100;
+const SEED = 7;
+const GROWS = ['heap_bytes', 'dom_nodes', 'listeners', 'server_rss_bytes'] as const;
+
+type Sample = { minute: number } & Record<(typeof GROWS)[number], number>;
+
+/** Numbers from 0 to 1, the same ones each time (mulberry32). */
+function random(seed: number) {
+  let state = seed;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+async function rssBytes(pid: number | undefined) {
+  const status = await readFile(`/proc/${must(pid, 'a process')}/status`, 'utf8');
+  return 1024 * Number(/VmRSS:\s+(\d+)/.exec(status)?.[1]);
+}
+
+/** What an operator does: another goal, now and then the bead taken away. */
+async function play(lab: Lab, chance: () => number, pause_ms: number) {
+  const bead = await lab.bead();
+  const near = (least_m: number, most_m: number) => {
+    const points = lab.freePoints(bead, least_m, most_m);
+    return points[Math.floor(chance() * points.length)] ?? points[0];
+  };
+  if (chance() < 0.25) {
+    const { mouse } = lab.page;
+    await mouse.move(...(await lab.px(bead)));
+    await mouse.down();
+    await mouse.move(...(await lab.px(near(0.04, 0.15))), { steps: 10 });
+    await mouse.up();
+  } else {
+    await lab.click(near(0.1, 0.5));
+  }
+  // Nothing is waited for here: the page is left alone.
+  await new Promise((resolve) => setTimeout(resolve, pause_ms));
+}
+
+/** As fast as it goes, until no more is kept than before. */
+async function fill(lab: Lab, chance: () => number) {
+  const end = Date.now() + MOST_FILLING_MS;
+  await lab.speed('64');
+  const lines = lab.page.getByRole('log').locator('.log-line');
+  const isFull = async () => lab.state.sim_time_s > KEPT_S && (await lines.count()) >= KEPT_LINES;
+  while (!(await isFull()) && Date.now() < end) await play(lab, chance, 100);
+  await lab.speed('1');
+  console.log(`filled: ${lab.state.sim_time_s.toFixed(0)} s, ${await lines.count()} lines`);
+}
+
+function median(samples: readonly Sample[], name: keyof Sample) {
+  const sorted = samples.map((sample) => sample[name]).sort((a, b) => a - b);
+  return sorted[Math.floor(sorted.length / 2)] ?? NaN;
+}
+
+/** What grew by more than it may since things had settled: the median of some minutes, since one alone may be odd. */
+function growth(samples: readonly Sample[]) {
+  const from = samples.findIndex(({ minute }) => minute === SETTLED_MINUTES);
+  const settled = samples.slice(from, from + COMPARED_MINUTES);
+  const last = samples.slice(-COMPARED_MINUTES);
+  return GROWS.filter((name) => median(last, name) > median(settled, name) * (1 + MOST_GROWTH)).map(
+    (name) => `${name} went from ${median(settled, name)} to ${median(last, name)}`,
+  );
+}
+
+test('keeps its budgets and does not grow', async ({ page, session, server }) => {
+  const meter = await Meter.attach(page);
+  const lab = await Lab.attach(page, session.url);
+  await lab.isRole('operator');
+  await lab.reset();
+  await lab.run();
+  const chance = random(SEED);
+  await fill(lab, chance);
+  const counts: Count[] = [];
+  const samples: Sample[] = [];
+  for (let minute = 1; minute <= MINUTES; minute++) {
+    const end = Date.now() + MINUTE_MS;
+    await meter.start();
+    while (Date.now() < end) await play(lab, chance, 3000 + 5000 * chance());
+    const count = await meter.stop();
+    counts.push(count);
+    const sample = {
+      minute,
+      ...(await meter.memory()),
+      server_rss_bytes: await rssBytes(server.pid),
+      ...figuresOf([count]),
+    };
+    samples.push(sample);
+    const mb = (bytes: number) => (bytes / 1e6).toFixed(1);
+    console.log(
+      `${String(minute).padStart(3)} min: heap ${mb(sample.heap_bytes)} MB, ${sample.dom_nodes} nodes, ` +
+        `${sample.listeners} listeners, server ${mb(sample.server_rss_bytes)} MB; ${words(sample)}`,
+    );
+  }
+  await lab.pause();
+  await meter.start();
+  await stepThrough(lab, STEPS);
+  const { step_to_frame_p95_ms } = figuresOf([await meter.stop()]);
+  const figures = { ...figuresOf(counts), step_to_frame_p95_ms };
+  const faults = [...overruns(figures), ...growth(samples)];
+  await mkdir(OUTPUT, { recursive: true });
+  await writeFile(
+    `${OUTPUT}soak.json`,
+    `${JSON.stringify({ minutes: MINUTES, seed: SEED, figures, faults, samples }, null, 2)}\n`,
+  );
+  console.log(
+    `in all: ${words(figures)}, step to frame p95 ${step_to_frame_p95_ms?.toFixed(1) ?? '–'} ms`,
+  );
+  expect(faults).toEqual([]);
+});

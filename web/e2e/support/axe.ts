@@ -1,0 +1,40 @@
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import type { Page } from '@playwright/test';
+import type { AxeResults, RunOptions } from 'axe-core';
+
+declare global {
+  interface Window {
+    axe: { run: (where: Document, options: RunOptions) => Promise<AxeResults> };
+  }
+}
+
+const source = await readFile(
+  createRequire(import.meta.url).resolve('axe-core/axe.min.js'),
+  'utf8',
+);
+const GRAVE = ['serious', 'critical'];
+
+/** One line for each serious or critical violation: the rule, the first elements, why. */
+export async function violations(page: Page) {
+  // The page's policy forbids foreign scripts as elements; the debugger may evaluate.
+  if (!(await page.evaluate('typeof axe === "object"'))) await page.evaluate(source);
+  const found = await page.evaluate(async () => {
+    const { violations: all } = await window.axe.run(document, {
+      resultTypes: ['violations'],
+      iframes: false,
+      preload: false,
+    });
+    return all.map(({ id, impact, nodes }) => ({
+      id,
+      impact,
+      nodes: nodes.map(({ target, any, all: every, none }) => ({
+        target: target.join(' '),
+        why: [...any, ...every, ...none][0]?.message ?? '',
+      })),
+    }));
+  });
+  return found
+    .filter(({ impact }) => GRAVE.includes(impact ?? ''))
+    .flatMap(({ id, nodes }) => nodes.map(({ target, why }) => `${id}: ${target}: ${why}`));
+}

@@ -1,0 +1,260 @@
+// The page as an operator uses it. Read are only the page itself and the messages of its WebSocket.
+
+import { type Locator, type Page, expect } from '@playwright/test';
+import { Messages } from './messages';
+import { type Point, type PointLike, distance, freePoints, wallPoint } from './table';
+import { must, until } from './wait';
+
+const GOAL_RADIUS_M = 0.02;
+const DELIVERY_MS = 60_000;
+const OPEN_MS = 30_000;
+
+export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor';
+
+export class Lab extends Messages {
+  readonly canvas: Locator;
+  downloads = 0;
+
+  constructor(readonly page: Page) {
+    super(page);
+    this.canvas = page.getByLabel('Workspace', { exact: true });
+    page.on('download', () => (this.downloads += 1));
+  }
+
+  /** Goes to a session's page and waits until it is connected. */
+  static async attach(page: Page, url: string) {
+    const lab = new Lab(page);
+    await page.goto(url);
+    await lab.live();
+    return lab;
+  }
+
+  async live() {
+    await until('the first messages', () => this.isComplete, OPEN_MS);
+    await expect(this.page.getByTestId('connection')).toHaveText('live', { timeout: OPEN_MS });
+  }
+
+  /** What has come over the WebSocket is on the page when this returns: it is drawn in a frame. */
+  drawn() {
+    return this.page.evaluate(
+      () =>
+        new Promise<void>((done) => {
+          requestAnimationFrame(() =>
+            requestAnimationFrame(() => {
+              done();
+            }),
+          );
+        }),
+    );
+  }
+
+  async text(testid: string) {
+    await this.drawn();
+    return this.page.getByTestId(testid).innerText();
+  }
+
+  async number(testid: string) {
+    return Number((await this.text(testid)).replace('−', '-'));
+  }
+
+  async isRole(role: 'operator' | 'viewer') {
+    await expect(this.page.getByTestId('role')).toHaveText(role, { timeout: OPEN_MS });
+  }
+
+  button(name: string) {
+    return this.page.getByRole('button', { name, exact: true });
+  }
+
+  tab(name: string) {
+    return this.page.getByRole('tab', { name, exact: true });
+  }
+
+  view(name: string) {
+    return this.page
+      .getByRole('navigation', { name: 'Views' })
+      .getByRole('button', { name, exact: true });
+  }
+
+  radio(name: string) {
+    return this.page.getByRole('radio', { name, exact: true });
+  }
+
+  spin(name: string) {
+    return this.page.getByRole('spinbutton', { name, exact: true });
+  }
+
+  label(name: string) {
+    return this.page.getByLabel(name, { exact: true });
+  }
+
+  notice(place: string) {
+    return this.page.locator(`[data-place=${place}] .notice`);
+  }
+
+  /** Where the canvas draws the bead or the goal. */
+  async point(name: 'bead' | 'goal'): Promise<Point | undefined> {
+    await this.drawn();
+    const text = await this.canvas.getAttribute(`data-${name}`);
+    const [x, y] = text?.split(',').map(Number) ?? [];
+    return x === undefined || y === undefined ? undefined : [x, y];
+  }
+
+  async bead() {
+    return must(await this.point('bead'), 'the bead');
+  }
+
+  /** Where something is on the page, once that does not change from frame to frame. */
+  async boxOf(locator: Locator) {
+    await locator.scrollIntoViewIfNeeded();
+    let before = '';
+    return until('a place on the page', async () => {
+      await this.drawn();
+      const box = await locator.boundingBox();
+      const isSame = JSON.stringify(box) === before;
+      before = JSON.stringify(box);
+      return isSame && box;
+    });
+  }
+
+  /** Position on the page, in CSS pixels, of a point of the table. */
+  async px([x, y]: PointLike): Promise<[number, number]> {
+    await expect(this.canvas).toHaveAttribute('data-px-per-m');
+    const box = await this.boxOf(this.canvas);
+    const [originX, originY, pxPerM] = await this.canvas.evaluate(({ dataset }) =>
+      [dataset.originX, dataset.originY, dataset.pxPerM].map(Number),
+    );
+    return [
+      box.x + (originX ?? NaN) + x * (pxPerM ?? NaN),
+      box.y + (originY ?? NaN) - y * (pxPerM ?? NaN),
+    ];
+  }
+
+  /** The pixels of the page around some points of the table, and between them. */
+  async look(...points: readonly PointLike[]) {
+    const at: Point[] = [];
+    for (const point of points) at.push(await this.px(point));
+    const [left, top] = [0, 1].map((axis) =>
+      Math.round(Math.min(...at.map((one) => one[axis] ?? 0))),
+    );
+    const [right, bottom] = [0, 1].map((axis) =>
+      Math.round(Math.max(...at.map((one) => one[axis] ?? 0))),
+    );
+    const [x, y] = [left ?? 0, top ?? 0];
+    const clip = { x, y, width: (right ?? 0) - x + 2, height: (bottom ?? 0) - y + 2 };
+    return (await this.page.screenshot({ clip })).toString('base64');
+  }
+
+  /** Shows or hides a layer, and leaves the menu closed: it covers a part of the map. */
+  async layer(name: string, on = true) {
+    await this.button('Layers').click();
+    const layers = this.page.getByRole('group', { name: 'Layers' });
+    await layers.getByLabel(name, { exact: true }).setChecked(on);
+    await this.page.keyboard.press('Escape');
+    await expect(layers).toHaveCount(0);
+  }
+
+  async click(point: PointLike) {
+    await this.page.mouse.click(...(await this.px(point)));
+  }
+
+  /** Clicks a free point and waits until it is the goal. */
+  async setGoal(goal: PointLike) {
+    await this.click(goal);
+    return until('the goal', () => {
+      const set = this.state.goal_m;
+      return set && distance(set, goal) < 0.005 && set;
+    });
+  }
+
+  async map(name: string) {
+    if (this.scene.map === name) return;
+    await this.label('Map').selectOption(name);
+    await until(`map ${name}`, () => this.scene.map === name);
+  }
+
+  async reset({ speed = '1', map = 'posts' } = {}) {
+    await this.map(map);
+    // It may be at tick 0 already.
+    const { trial } = this.scene;
+    await this.button('Reset').click();
+    await until('another trial', () => this.scene.trial !== trial && this.state.tick === 0);
+    await expect(this.page.getByTestId('tick')).toHaveText('tick 0');
+    await this.speed(speed);
+  }
+
+  async speed(factor: string) {
+    await this.label('Speed').selectOption(factor);
+  }
+
+  async controller(name: ControllerLabel) {
+    await this.radio(name).check();
+    await until(name, () => this.state.controller === name.toLowerCase());
+  }
+
+  /** Waits for the goal that is the `count`th since the reset. */
+  async delivered(count: number) {
+    await expect(this.page.getByTestId('deliveries')).toHaveText(String(count), {
+      timeout: DELIVERY_MS,
+    });
+    const left = distance(await this.bead(), must(await this.point('goal'), 'the goal'));
+    expect(left, 'distance of the bead from the goal in metres').toBeLessThanOrEqual(GOAL_RADIUS_M);
+  }
+
+  async run() {
+    await this.button('Run').click();
+    await until('running', () => this.state.running);
+  }
+
+  async pause() {
+    await this.button('Pause').click();
+    await until('paused', () => !this.state.running);
+  }
+
+  /** Waits for a later tick: `ticks` of 8 ms, at the speed that is set. */
+  async later(ticks: number) {
+    const { tick } = this.state;
+    await until(`${ticks} ticks later`, () => this.state.tick >= tick + ticks);
+  }
+
+  async releaseControl() {
+    await this.button('Release control').click();
+    await this.isRole('viewer');
+  }
+
+  async takeControl() {
+    await this.button('Take control').click();
+    await this.isRole('operator');
+  }
+
+  async restoreDefaults() {
+    await this.button('Restore defaults').click();
+    await until('the defaults', () => {
+      const { defaults, parameters } = this.scene;
+      return JSON.stringify(parameters) === JSON.stringify(defaults);
+    });
+    await this.drawn();
+  }
+
+  /** Types a parameter into its field. */
+  async tune(name: string, value: string) {
+    await this.spin(name).fill(value);
+    await this.spin(name).press('Enter');
+  }
+
+  freePoints(from: PointLike, least_m: number, most_m: number) {
+    return freePoints(this.scene, from, least_m, most_m);
+  }
+
+  wallPoint() {
+    return wallPoint(this.scene);
+  }
+
+  /** Presses the mouse on the bead and moves it to a point of the table, still pressed. */
+  async pull(to: PointLike) {
+    const { mouse } = this.page;
+    await mouse.move(...(await this.px(await this.bead())));
+    await mouse.down();
+    await mouse.move(...(await this.px(to)), { steps: 6 });
+    await until('the hand', () => this.state.hand_m);
+  }
+}

@@ -1,0 +1,16 @@
+import { Buffer } from 'node:buffer';
+import type { Page } from '@playwright/test';
+
+export const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="-300 210 580 330">
+  <circle cx="-200" cy="305" r="22"/>
+  <rect x="40" y="300" width="60" height="80"/>
+</svg>`;
+
+/** Opens the file dialog by `press` and gives it a drawing. */
+export async function openMap(page: Page, press: () => Promise<unknown>, text = DRAWING) {
+  const coming = page.waitForEvent('filechooser');
+  await press();
+  const chooser = await coming;
+  const file = { name: 'mine.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(text) };
+  await chooser.setFiles(file);
+}

@@ -1,0 +1,84 @@
+import type { Page, WebSocket } from '@playwright/test';
+import { must } from './wait';
+import type {
+  ClientMessage,
+  ComparisonMessage,
+  EventMessage,
+  Hello,
+  OverlayMessage,
+  SceneMessage,
+  ServerMessage,
+  StateMessage,
+} from './wire';
+
+/** The last message of each type that the page sent. */
+type Sent = { [T in ClientMessage['type']]?: Extract<ClientMessage, { type: T }> };
+
+/** The messages of a page's WebSocket, both ways. */
+export class Messages {
+  sent: Sent & Record<string, ClientMessage | undefined> = {};
+  readonly events: EventMessage[] = [];
+  overlay: OverlayMessage | undefined;
+  comparison: ComparisonMessage | undefined;
+  private lastHello: Hello | undefined;
+  private lastScene: SceneMessage | undefined;
+  private lastState: StateMessage | undefined;
+
+  constructor(page: Page) {
+    page.on('websocket', (socket) => {
+      this.listen(socket);
+    });
+  }
+
+  get hello() {
+    return must(this.lastHello, 'the message hello');
+  }
+
+  get scene() {
+    return must(this.lastScene, 'the message scene');
+  }
+
+  get state() {
+    return must(this.lastState, 'the message state');
+  }
+
+  /** Whether a state and a scene have come. */
+  get isComplete() {
+    return this.lastState !== undefined && this.lastScene !== undefined;
+  }
+
+  private listen(socket: WebSocket) {
+    socket.on('framesent', ({ payload }) => {
+      const message = JSON.parse(String(payload)) as ClientMessage;
+      this.sent[message.type] = message as never;
+      if (message.type === 'fork') this.comparison = undefined;
+    });
+    socket.on('framereceived', ({ payload }) => {
+      if (typeof payload === 'string') this.take(JSON.parse(payload) as ServerMessage);
+    });
+  }
+
+  private take(message: ServerMessage) {
+    switch (message.type) {
+      case 'hello':
+        this.lastHello = message;
+        break;
+      case 'scene':
+        this.lastScene = message;
+        break;
+      case 'state':
+        this.lastState = message;
+        break;
+      case 'overlay':
+        this.overlay = message;
+        break;
+      case 'comparison':
+        this.comparison = message;
+        break;
+      case 'event':
+        this.events.push(message);
+        break;
+      default:
+    }
+  }
+}

@@ -1,0 +1,16 @@
+// The types of the messages: the only import from the page's sources.
+
+export type {
+  ClientMessage,
+  ComparisonMessage,
+  ControllerName,
+  EvaluationReport,
+  Evaluations,
+  EventMessage,
+  Hello,
+  OverlayMessage,
+  Parameters,
+  SceneMessage,
+  ServerMessage,
+  StateMessage,
+} from '../../src/net/protocol.gen';

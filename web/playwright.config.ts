@@ -1,0 +1,33 @@
+import { defineConfig } from '@playwright/test';
+import { CHROMIUM_ARGUMENTS } from './e2e/support/browser';
+
+/** `FERRY_BIN` is the server that is tested, `target/release/ferry` if not set. */
+export default defineConfig({
+  testDir: 'e2e',
+  outputDir: '../test-output/browser',
+  fullyParallel: true,
+  workers: 2,
+  retries: 0,
+  forbidOnly: true,
+  timeout: 120_000,
+  expect: { timeout: 20_000 },
+  reporter: [['list'], ['./e2e/support/totals.ts']],
+  use: {
+    viewport: { width: 1280, height: 800 },
+    colorScheme: 'dark',
+    actionTimeout: 20_000,
+    navigationTimeout: 30_000,
+    launchOptions: {
+      executablePath: '/usr/bin/chromium',
+      args: [...CHROMIUM_ARGUMENTS, '--disable-gpu'],
+    },
+    screenshot: 'only-on-failure',
+    // Pictures of each action would cost more than the tests: the snapshots of the page show the same.
+    trace: { mode: 'retain-on-failure', screenshots: false },
+  },
+  projects: [
+    { name: 'browser', testIgnore: 'soak.spec.ts' },
+    // Half an hour: `npm run soak`.
+    ...(process.env.FERRY_SOAK ? [{ name: 'soak', testMatch: 'soak.spec.ts', timeout: 0 }] : []),
+  ],
+});
