@@ -1,6 +1,6 @@
 //! A trial on a real clock, in a thread of its own: commands in, views and records out.
 //!
-//! The thread is the only one that touches the trial. Whoever holds a [`Session`] may send commands
+//! The thread is the only one that touches the trial. Holders of a [`Session`] may send commands
 //! (bounded; a full queue refuses) and watch. A slow watcher sees the newest view and no other.
 
 mod branch_point;
@@ -36,7 +36,7 @@ const EVENT_QUEUE: usize = 256;
 pub const JOURNAL: usize = 500;
 /// Most ticks of one `Step`.
 const STEP_MAX: u32 = 12_500;
-/// Longer than the most steps take on a slow machine: a session that hangs must not hold whoever asks it.
+/// Longer than the maximum number of steps takes on a slow machine; a session that hangs must not block its callers.
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 
 /// What a session can be told.

@@ -72,9 +72,7 @@ pub enum TrialError {
     },
     /// The script has more entries than allowed.
     #[error("script has {entries} disturbances, the limit is {}", crate::scenario::SCRIPT_LIMIT)]
-    LongScript {
-        entries: usize,
-    },
+    LongScript { entries: usize },
     /// The state in a file is not a valid state.
     #[error(transparent)]
     State(#[from] StateError),

@@ -45,7 +45,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     );
 
     browser.send(json!({"type": "load_scenario", "map": "posts", "start_m": [-0.25, -0.38], "seed": 5})).await;
-    // While time stands, and after a step back.
+    // While paused, and after a rewind.
     browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.34})).await;
     browser.send(json!({"type": "step", "ticks": 200})).await;
     browser.send(json!({"type": "rewind", "tick": 0})).await;

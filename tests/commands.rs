@@ -61,7 +61,7 @@ fn every_controller_meets_the_same_trials_and_pushes_and_each_trial_is_kept() {
     assert_eq!(comparisons.len(), 4);
     assert_eq!((&comparisons[0]["controller"], &comparisons[0]["against"]), (&"errt".into(), &"attractor".into()));
 
-    // The pushes, as they were logged: the n-th puts the bead in the same place, whoever carries it.
+    // The logged displacements: the n-th one puts the bead at the same place for every controller.
     let places = |name: &str| -> Vec<[f64; 2]> {
         let bytes = std::fs::read(record.join(format!("{name}.ferry"))).unwrap();
         let log = InputLog::read(&bytes).unwrap();

@@ -1,4 +1,4 @@
-//! The paper's examples end at their goals, whoever draws them; and what cannot be reached is said to be so.
+//! The paper's examples are delivered with every graphics adapter, and unreachable goals are reported.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

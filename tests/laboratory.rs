@@ -167,14 +167,14 @@ async fn a_hand_leaves_nothing_behind() {
     let drag = |x_m: f64, y_m: f64, lift: bool| json!({"type": "drag", "x_m": x_m, "y_m": y_m, "lift": lift});
     browser.send(json!({"type": "load_scenario", "map": "colon", "start_m": [0.0, -0.475]})).await;
     browser.state("the colon", |m| m["tool_m"][0].as_f64().unwrap().abs() < 1e-6).await;
-    // Deep in a wall, while time stands: put down at the nearest place with room.
+    // Deep in a wall, while paused: placed at the nearest free position.
     browser.send(drag(0.0, -0.3, false)).await;
     browser.state("the hand", |m| !m["hand_m"].is_null()).await;
     browser.send(json!({"type": "release"})).await;
     let put = browser.state("no hand", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64() > Some(-0.474)).await;
     assert!(put["bead_m"][1].as_f64().unwrap() < -0.4, "{put}");
 
-    // Lifted over a wall while time runs, and let go there.
+    // Lifted over a wall while running, and released there.
     browser.send(json!({"type": "run"})).await;
     browser.send(drag(0.0, -0.3, true)).await;
     browser.state("over the wall", |m| m["bead_m"][1].as_f64() > Some(-0.31)).await;

@@ -127,7 +127,7 @@ async fn uploaded_maps_are_kept_found_and_taken_out_again() {
     let (status, made) = lab.ask("POST", "/api/maps", drawing).await;
     assert_eq!((status, &made["name"]), (201, &json!("map-1")), "{made}");
     let knows = |m: &Value| m["type"] == "scene" && m["maps"].as_array().unwrap().contains(&json!("map-1"));
-    anna.until("a session where time stands hears of it", knows).await;
+    anna.until("a paused session receives it", knows).await;
     let (status, problem) = lab.ask("POST", "/api/maps", "<svg").await;
     assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("map_refused"), &json!("map")));
     let mut browser = lab.browser().await;

@@ -52,7 +52,7 @@ fn action(rng: &mut impl Rng, tick: u64) -> Command {
             let kept = Kept { controller: true, parameters: true, seed: false };
             return Command::Load { scenario: Box::new(scenario), kept };
         }
-        // While time runs, inputs come between any two ticks.
+        // In a running session inputs arrive between any two ticks.
         _ => return Command::Run,
     })
 }

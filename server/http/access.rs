@@ -67,7 +67,7 @@ pub struct Access {
 }
 
 impl Access {
-    /// The page's address for whoever asks for it under `host`.
+    /// The page's address for a client that used `host`.
     pub fn address_of(&self, host: &str) -> String {
         self.origins.address_of(host)
     }
@@ -116,7 +116,7 @@ impl Access {
             (Some(token), Some(presented)) if token.matches(presented) => (stranger, true),
             (Some(_), Some(_)) => return Err(self.wrong_token(&stranger)),
             (Some(_), None) => match self.cookie_key.as_ref().and_then(|key| login::known(headers, key)) {
-                // A cookie is sent by the browser, whoever asks it to; the origin says who that was.
+                // A browser sends the cookie for any site's request; the origin tells which site it was.
                 Some(_) if origin.is_none() && changes_something(request) => {
                     let detail = "a request with the cookie must say its Origin; programs send the token instead, as \
                                   Authorization: Bearer";

@@ -25,7 +25,7 @@ pub async fn main_session(State(server): State<Arc<Server>>, headers: HeaderMap)
     Ok(send("index.html", &headers))
 }
 
-/// `GET /s/{name}`: the page with a session of that name, which is opened where there is none.
+/// `GET /s/{name}`: the page with the session of that name, which is created if it does not exist.
 pub async fn named_session(
     State(server): State<Arc<Server>>,
     Path(name): Path<String>,

@@ -188,7 +188,7 @@ impl Connection {
                     }
                 }
                 () = hand.silenced.notified() => {
-                    let message = format!("nothing was heard from the hand for {} s: it let go, and time stands", hand::SILENCE.as_secs());
+                    let message = format!("nothing was heard from the hand for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
                     self.refuse("hand_silent", &message, None).await?;
                 }
                 _ = beat.tick() => {

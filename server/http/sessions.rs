@@ -40,7 +40,7 @@ pub struct Sessions {
     /// A session that nobody has looked at for so long is parked.
     park_after: Duration,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
-    /// Held by whoever opens a session, so that two who ask for one name get one session.
+    /// Held while a session opens, so that two requests for one name get the same session.
     opening: tokio::sync::Mutex<()>,
     /// Sessions made so far, for their names.
     made: AtomicU64,
@@ -89,7 +89,7 @@ impl Sessions {
         self.hubs.read().unwrap_or_else(PoisonError::into_inner).get(id).cloned()
     }
 
-    /// The session of a name, a new one where there is none or where it has ended.
+    /// The session of a name; a new one if it does not exist or has ended.
     pub async fn open(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
         // Who looks at a session that lives does not wait for those that begin one.
         match self.find(name).filter(|hub| !hub.has_ended()) {
@@ -205,7 +205,7 @@ impl Sessions {
         }
     }
 
-    /// Parks the sessions that nobody looks at: their time stands.
+    /// Parks the sessions without viewers: they pause.
     pub async fn park(&self) {
         for hub in self.all() {
             if hub.unwatched_for() >= self.park_after && !hub.is_parked() {
@@ -255,7 +255,7 @@ mod tests {
     use super::*;
 
     #[tokio::test(flavor = "multi_thread")]
-    async fn a_session_that_a_fault_has_ended_is_begun_anew_by_whoever_opens_it() {
+    async fn reopening_a_session_that_ended_by_a_fault_restarts_it() {
         let folder = tempfile::tempdir().unwrap();
         let archive = Archive::new(folder.path().to_owned(), crate::recording::Retention::default());
         let gpu = Gpu::open(Default::default()).unwrap();

@@ -65,7 +65,7 @@ pub struct PlanLayer {
     /// Both ends of every edge, x, y, x, y in metres; 4000 at most.
     #[schema(value_type = Vec<Numbers4>)]
     pub tree: Vec<[f64; 4]>,
-    /// Corners of the way, start and goal included; empty while there is none.
+    /// Corners of the path, including start and goal; empty without a path.
     #[schema(value_type = Vec<Numbers2>)]
     pub way: Vec<[f64; 2]>,
     /// Distance that the way keeps from walls away from its ends.

@@ -16,8 +16,8 @@ use crate::map::{MAX_SVG_BYTES, WALL_HEIGHT_M};
 use crate::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
 use crate::plant::PositionerKind;
 use crate::scenario::{
-    ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT,
-    Scenario, Scripted, When,
+    ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scenario,
+    Scripted, When,
 };
 use crate::session::SPEED_MAX;
 use crate::trial::{EventKind, GOAL_RADIUS_M};

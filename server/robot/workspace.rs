@@ -51,9 +51,7 @@ pub enum WorkspaceError {
     },
     /// The cells have no size.
     #[error("a cell's side is {cell_m} m")]
-    EmptyCell {
-        cell_m: f64,
-    },
+    EmptyCell { cell_m: f64 },
     /// More than [`MOST_CELLS`].
     #[error("{cells:.0} cells are more than {MOST_CELLS}")]
     TooManyCells {

@@ -21,7 +21,7 @@ impl<E: Eye> Worker<E> {
         let is_present = tick == self.trial.state().world.tick;
         let state = match which {
             Recalled::Present if is_present => self.trial.snapshot(),
-            // It starts now, with all that it was told while time stands.
+            // It starts now, with all inputs received while paused.
             Recalled::Step if is_present && step_is_due(tick) => self.trial.snapshot(),
             _ => self.moment(tick)?.clone(),
         };

@@ -149,7 +149,7 @@ impl<E: Eye> Worker<E> {
         }
     }
 
-    /// Whoever asked may have left, so that nobody takes the answer.
+    /// The caller may be gone; then the answer is dropped.
     fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
         match request {
             Request::Obey { command, answer } => {
@@ -374,7 +374,7 @@ impl<E: Eye> Worker<E> {
         }
     }
 
-    /// To whoever listens, and into the journal.
+    /// Sends an event to all subscribers and stores it in the journal.
     fn tell(&mut self, event: Event) {
         // Once only: a control step that was gone back to happens again at its own tick.
         if !self.journal.contains(&event) {

@@ -10,7 +10,7 @@ use crate::map::Map;
 use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
 use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters};
 
-/// Most inputs before one tick: a quarter of an hour of dragging while time stands. All stand in the log.
+/// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
 const WAITING_MOST: usize = 50_000;
 
 /// One action; stands in the log at the tick that follows it.
@@ -35,7 +35,7 @@ pub enum Input {
         /// Whether it carries the bead over walls.
         lift: bool,
     },
-    /// While time stands, the hand puts the bead down somewhere else at once.
+    /// While paused, the hand places the bead at once.
     Place {
         /// x.
         x_m: f64,
@@ -97,8 +97,8 @@ pub enum InputError {
     /// A disturbance that cannot be.
     #[error("disturbance: {0}")]
     Disturbance(#[from] DisturbanceError),
-    /// Time stands, and what was told already waits for the next tick.
-    #[error("time stands, and {WAITING_MOST} inputs wait for its next tick; let it run first")]
+    /// Too many inputs are waiting for the next tick of a paused session.
+    #[error("the session is paused and {WAITING_MOST} inputs wait for its next tick; run it first")]
     TooManyWait,
 }
 
@@ -168,7 +168,7 @@ impl Trial {
 
     /// Applies one input between two ticks, or refuses it and changes nothing.
     pub fn apply(&mut self, input: Input) -> Result<(), InputError> {
-        // A hand may always let go; while time stands it puts the bead down.
+        // A release is always allowed; while paused it places the bead.
         let holds = self.state.world.plant.hand.is_some();
         let lets_go = holds && matches!(input, Input::Release | Input::Place { .. });
         if self.inputs.len() >= WAITING_MOST && !lets_go {

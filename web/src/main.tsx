@@ -7,7 +7,7 @@ import { carriesToken, takeToken } from './net/loginToken';
 
 // A link to log in with, in a browser that has: nothing of it may stay in the address.
 takeToken(window);
-// The same link followed in this very tab: as if it had been opened anew, in front of whoever reads the address.
+// The same link followed in this tab: reload, so that the token disappears from the address.
 window.addEventListener('hashchange', (event) => {
   if (!carriesToken(window)) return;
   event.stopImmediatePropagation();

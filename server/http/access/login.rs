@@ -49,7 +49,7 @@ pub async fn login(
     let Login { token: presented } = parse(&body)?;
     let access = &server.access;
     let (Some(token), Some(key)) = (&access.token, &access.cookie_key) else {
-        let detail = "this laboratory has no token: whoever can reach it is in";
+        let detail = "this laboratory has no token: every client that can reach it is let in";
         return Err(Problem::new(StatusCode::CONFLICT, "no_login", detail));
     };
     let origin = headers.get(header::ORIGIN).and_then(|origin| origin.to_str().ok());

@@ -14,7 +14,7 @@ const REQUESTS_BURST: NonZeroU32 = NonZeroU32::new(2000).unwrap();
 const WRONG_PER_MINUTE: NonZeroU32 = NonZeroU32::new(10).unwrap();
 const WRONG_OF_ALL_PER_MINUTE: NonZeroU32 = NonZeroU32::new(100).unwrap();
 
-/// Who asks: whoever has logged in is known by that, all others by their address.
+/// The client: identified by its login, or by its address without a login.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Client {
     /// The number in the cookie.

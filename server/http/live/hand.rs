@@ -13,7 +13,8 @@ use crate::trial::Input;
 
 /// Looks so often whether somebody has left without a word.
 const BEAT: Duration = Duration::from_secs(1);
-/// A hand that holds the bead says so again at least twice a second; silent for so long, it lets go, and time stands.
+/// A page whose hand holds the bead repeats that at least twice a second. After this silence the bead is released and
+/// the session pauses.
 pub const SILENCE: Duration = Duration::from_secs(5);
 
 /// Shared by a browser's connection and by who looks after its hand.

@@ -57,9 +57,10 @@ pub struct Hub {
     comparisons: AtomicU64,
     /// The place of the one that runs.
     comparing: Arc<Semaphore>,
-    /// When the last browser left, or somebody asked without one. Shared by its connections and by whoever parks.
+    /// Time of the last disconnect or of the last request without a connection. Shared with the connections and the
+    /// parking task.
     watched: Mutex<Instant>,
-    /// Nobody looked for long: its time stands.
+    /// Paused because it had no viewers for long.
     parked: AtomicBool,
 }
 
@@ -125,7 +126,7 @@ impl Hub {
         self.closing.send_replace(true);
     }
 
-    /// The same, and ends the session, whoever still holds on to it. Blocks until its files are closed.
+    /// Also ends the session, even if other references to it exist. Blocks until its files are closed.
     pub fn shut(&self) {
         self.close();
         self.session.close();

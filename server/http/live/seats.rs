@@ -87,7 +87,7 @@ impl Seats {
         self.commanded = now;
     }
 
-    /// Whoever asked takes the seat of an operator who has done nothing since.
+    /// Gives the operator's seat to the requesting client if the operator has not reacted to the request.
     pub fn take_if_unanswered(&mut self, connection: u64, now: Instant) {
         let waits = now.saturating_duration_since(self.asked.max(self.commanded));
         if self.asking == Some(connection) && waits >= ANSWER_WITHIN {

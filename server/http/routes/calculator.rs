@@ -88,7 +88,7 @@ struct InverseRequest {
     poses: Vec<Pose>,
 }
 
-/// Answer of `POST /api/kinematics/inverse`: up to eight solutions a pose, none where there is none.
+/// Answer of `POST /api/kinematics/inverse`: up to eight solutions per pose; an empty list if the pose is unreachable.
 #[derive(Serialize, ToSchema)]
 pub struct InverseAnswer {
     #[schema(value_type = Vec<Vec<Numbers6>>)]
@@ -221,7 +221,7 @@ struct FieldRequest {
     moment_a_m2: f64,
 }
 
-/// What B means inside the magnet, for whoever asks there.
+/// Definition of B inside the magnet.
 const CONVENTION: &str = "b_t is the flux density B; inside the magnet B = mu0*H + J with the polarization J, a face counts \
                           as outside; force_n is m*grad|B| and no sphere fits where is_inside is true";
 

@@ -58,7 +58,7 @@ pub async fn file(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let evaluation = find(&server, &id)?;
-    // Whoever reads it came by this address.
+    // The link uses the address of this request.
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
     let address = server.access.address_of(host);
     let file_name = format!("{id}-{name}");

@@ -37,7 +37,7 @@ pub struct SessionSummary {
     recording: String,
     /// Browsers that look at it.
     viewers: usize,
-    /// Nobody looked for long: its time stands.
+    /// Paused because it had no viewers for long.
     parked: bool,
     /// Why it ended, if it has.
     ended: Option<String>,

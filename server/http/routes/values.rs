@@ -22,7 +22,7 @@ use crate::policy::Policy;
 use crate::protocol::{ValueMap, ValueQuery};
 use crate::trial::Arena;
 
-/// Whoever asks waits for the maps that others asked for before.
+/// Requests for value maps run one at a time.
 const PAINTER_WAITS: Duration = Duration::from_secs(60);
 /// Atlases that are kept; one has a few megabytes, thirty with early fusion.
 const KEPT: usize = 4;

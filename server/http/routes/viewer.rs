@@ -17,12 +17,12 @@ const FILES: [(&str, &str, &[u8]); 2] = [
     ("re_viewer_bg.wasm", "application/wasm", include_bytes!(concat!(env!("OUT_DIR"), "/rerun/re_viewer_bg.wasm.gz"))),
 ];
 
-/// The same unpacked, for whoever takes no gzip: forty megabytes, once for all.
+/// The unpacked file for clients without gzip: forty megabytes, unpacked once.
 static PLAIN: [LazyLock<Bytes>; 2] = [LazyLock::new(|| unpack(FILES[0].2)), LazyLock::new(|| unpack(FILES[1].2))];
 
 /// A file of Rerun's viewer.
 #[utoipa::path(get, path = "/rerun/{file}", tag = "page", params(ViewerPath), operation_id = "viewer_file",
-    responses((status = 200, description = "The file, packed with gzip for whoever takes it.",
+    responses((status = 200, description = "The file, compressed with gzip if the client accepts it.",
             content((String = "text/javascript"), ("application/wasm"))),
         (status = 304, description = "The file is the one that the browser has."), NotFound))]
 pub async fn file(Path(ViewerPath { file: name }): Path<ViewerPath>, headers: HeaderMap) -> Result<Response, Problem> {

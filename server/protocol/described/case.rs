@@ -89,7 +89,7 @@ pub enum Input {
         /// Whether it carries the bead over walls.
         lift: bool,
     },
-    /// While time stands, the hand puts the bead down somewhere else at once.
+    /// While paused, the hand places the bead at once.
     Place {
         /// x.
         x_m: f64,

@@ -47,7 +47,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const stale = (): string | undefined => {
     const ended = lab.ended();
     if (ended !== undefined)
-      return `The session has ended: ${ended}; reloading the page begins it anew.`;
+      return `The session has ended: ${ended}; reload the page to restart it.`;
     return lab.connection().kind === 'live'
       ? undefined
       : 'No connection: this is the last state received.';

@@ -1,4 +1,4 @@
-// Whoever works by keyboard stays where they are when the control under their hand goes away.
+// Keeps the keyboard focus near its place when the focused control is removed.
 
 const FOCUSABLE =
   ':is(button, input, select, textarea, summary, a[href], [tabindex="0"]):not(:disabled)';

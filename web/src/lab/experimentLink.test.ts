@@ -185,7 +185,7 @@ describe('a link', () => {
     });
   });
 
-  it('may be percent-encoded by whoever passed it on', () => {
+  it('may be percent-encoded', () => {
     const read = experimentFrom('#v=1&map=colon&controller=errt&seed=7&goal=-0.24%2C-0.27', KNOWN);
     expect(read).toMatchObject({ experiment: { goal_m: [-0.24, -0.27] } });
   });

@@ -47,7 +47,7 @@ export class History {
   }
 
   /**
-   * Takes the newest state. One of the same tick replaces it: while time stands, a hand can still
+   * Takes the newest state. One of the same tick replaces it: while paused, a hand can still
    * move the bead. An older one is a look back and is not stored.
    */
   push(state: StateMessage): void {

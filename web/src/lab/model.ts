@@ -269,7 +269,7 @@ export function reduce(model: Model, input: Input): Model {
     case 'sent': {
       // A new attempt: what the last one met is no longer news.
       const place = PLACE_OF_COMMAND[input.command];
-      // The end of a hold is none: why it ended stays.
+      // A release is not an attempt: the notice about the hold stays.
       if (input.command === 'release') return { ...model, lastCommand: input.command };
       return { ...withoutNotice(model, place), lastCommand: input.command };
     }

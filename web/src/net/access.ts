@@ -1,4 +1,4 @@
-// Whether the server still lets this page in: a login ends, and whoever asks next hears of it.
+// Whether the server still accepts this page: a login ends, and the next request is refused.
 
 import { createSignal } from 'solid-js';
 import { problemText } from './problem';
@@ -9,7 +9,7 @@ const [loggedOut, setLoggedOut] = createSignal(false);
 /** The server wants the token shown again. */
 export { loggedOut };
 
-/** Asks for a page anew: its session is opened where there is none. */
+/** Requests the page again, which creates its session if it does not exist. */
 export async function openPage(
   path: string,
 ): Promise<{ readonly isOpen: boolean; readonly why?: string | undefined }> {

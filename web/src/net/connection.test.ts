@@ -107,7 +107,7 @@ describe('a connection', () => {
     expect(socket().sent).toEqual([{ type: 'run' }]);
   });
 
-  it('asks for its session before it is tried again, and says why there is none', async () => {
+  it('requests its session before it reconnects, and reports why there is no session', async () => {
     const answers = [{ isOpen: false, why: 'no room' }, { isOpen: false }, { isOpen: true }];
     const reopen = vi.fn(() => Promise.resolve(answers.shift() ?? { isOpen: true }));
     open({ reopen });

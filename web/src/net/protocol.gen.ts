@@ -600,7 +600,7 @@ export type PlanLayer = {
  */
 tree: Array<[number, number, number, number]>, 
 /**
- * Corners of the way, start and goal included; empty while there is none.
+ * Corners of the path, including start and goal; empty without a path.
  */
 way: Array<[number, number]>, 
 /**

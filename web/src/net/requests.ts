@@ -40,7 +40,7 @@ export class Asker<A> {
     this.limiter.offer(key === undefined ? [question] : [question, key]);
   }
 
-  /** Whoever asked is not interested any more. */
+  /** The caller no longer needs the answer. */
   forget(): void {
     this.answered = this.asked;
   }

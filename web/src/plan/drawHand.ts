@@ -66,7 +66,7 @@ export interface Spring {
   readonly bead_m: Vec2;
   readonly hand_m: Vec2;
   readonly force_n: number;
-  /** What else is worth knowing: that the bead is lifted, or, while time stands, when it moves. */
+  /** A remark: the bead is lifted, or, while paused, it moves on release. */
   readonly remark: string;
 }
 

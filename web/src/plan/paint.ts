@@ -23,7 +23,7 @@ export interface Picture {
 
 type Ctx = CanvasRenderingContext2D;
 
-/** What is worth knowing about a hold: that the bead is lifted, or, while time stands, when it moves. */
+/** A remark about a hold: the bead is lifted, or, while paused, it moves on release. */
 export function remarkOf(drag: DragState, state: StateMessage): string {
   const remarks: string[] = [];
   if (drag.kind === 'held' && drag.lift) remarks.push('lifted');

@@ -29,7 +29,7 @@ describe('a release', () => {
     );
   });
 
-  it('by the capture of another pointer is none', () => {
+  it('ignores the capture of another pointer', () => {
     for (const drag of [IDLE, PRESSED, DRAGGED]) {
       expect(ends('capture lost', drag, 2)).toBe(false);
     }

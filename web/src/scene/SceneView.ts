@@ -85,7 +85,7 @@ export class SceneView {
     /** Called when the view of the table has changed. */
     private readonly onView: (view: TableView) => void,
   ) {
-    // Asked for here, because the library complains aloud when there is none.
+    // Requested here, because the library writes to the console if WebGL is missing.
     const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
     if (!context) throw new NoWebGl();
     this.renderer = new WebGLRenderer({ canvas, context });

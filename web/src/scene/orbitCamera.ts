@@ -117,7 +117,7 @@ export class OrbitCamera {
     return hidingAt(this.controls.getPolarAngle());
   }
 
-  /** The table as it is seen now, and the matrix of the mapping for whoever reads the page. */
+  /** The table as it is seen now, and the matrix of the mapping for tools that read the page. */
   view(): { view: TableView; pxFromTable: readonly number[] } {
     const { camera, clipFromBase, width_px, height_px } = this;
     camera.updateMatrixWorld();

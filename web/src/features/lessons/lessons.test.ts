@@ -111,7 +111,7 @@ describe('progress', () => {
     '{"done":{"magnet":true},"choices":"errt"}',
     '{"done":["flying",null,3],"choices":{"errt":"perhaps","flying":"once","magnet":7}}',
     '{"choices":{"__proto__":{"errt":"once"}}}',
-  ])('is none in %s', (text) => {
+  ])('rejects the text of %s', (text) => {
     expect(progressFrom(text, LESSONS)).toEqual({ done: [], choices: {} });
   });
 });

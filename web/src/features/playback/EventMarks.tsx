@@ -17,7 +17,7 @@ import type { Events } from '../../lab/slices';
 /** The side of a mark, as `--target` has it. */
 const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
 /**
- * While time runs all marks move, a little at each state: hundreds of them, which nobody needs sixty
+ * In a running session all marks move a little at each state: hundreds of them, which need not move sixty
  * times a second.
  */
 const LAYOUTS_PER_S = 4;
@@ -70,7 +70,7 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
   };
   return (
     <div ref={bar} class="event-marks" role="toolbar" aria-label="Events in time" onKeyDown={onKey}>
-      {/* By place and not by value: while time runs, every mark moves. */}
+      {/* Keyed by index and not by value, because every mark moves in a running session. */}
       <Index each={found()}>
         {(cluster, index) => (
           <button

@@ -69,7 +69,7 @@ export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element 
           onPointerCancel={letGo}
           onKeyDown={(event) => {
             if (event.key !== 'ArrowRight' && event.key !== 'ArrowUp') return;
-            // One can go to control steps only: the next tick is none.
+            // Only control steps can be selected, and the next tick is not one.
             event.preventDefault();
             const now = tick();
             const next = now + ticksToControlStep(now, lab.scene()?.tick_s ?? Infinity);

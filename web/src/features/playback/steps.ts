@@ -7,7 +7,7 @@ export const SPEEDS: readonly number[] = [0.125, 0.25, 0.5, 1, 2, 4, 8, SPEED_MA
 /** Below this share of what was asked, the machine is at its limit. */
 const LIMITED = 0.85;
 
-/** The next speed up (1) or down (−1); the same where there is none. */
+/** The next higher (1) or lower (−1) speed; the same at the end of the list. */
 export function nextSpeed(target: number, direction: 1 | -1): number {
   const further = SPEEDS.filter((factor) => (factor - target) * direction > 0);
   return (direction > 0 ? further[0] : further.at(-1)) ?? target;

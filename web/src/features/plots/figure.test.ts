@@ -29,7 +29,7 @@ describe('the window', () => {
     expect(shownWindow('all', 100, 20)).toEqual({ from_s: 0, to_s: 100 });
   });
 
-  it('stands still while time is turned back within it, and goes along beyond', () => {
+  it('keeps its window after a rewind within it and moves beyond', () => {
     expect(shownWindow('60', 100, 50)).toEqual({ from_s: 40, to_s: 100 });
     expect(shownWindow('10', 100, 50)).toEqual({ from_s: 45, to_s: 55 });
     expect(shownWindow('10', 100, 2)).toEqual({ from_s: 0, to_s: 10 });

@@ -36,7 +36,7 @@ function drawApproaches(u: uPlot, context: PlotContext): void {
   });
 }
 
-/** Across the lines: disturbances, the threshold, and where time stands when it was turned back. */
+/** Marks over the lines: disturbances, the threshold, and the current time after a rewind. */
 function drawMarks(u: uPlot, part: Part, context: PlotContext): void {
   const sample = context.sample();
   const palette = context.palette();

@@ -37,7 +37,7 @@ export function ShareButton(props: { links: PageExperiment }): JSX.Element {
     setCopied('selected');
   };
   const copy = (): void => {
-    // There is none on a page that came by plain HTTP from another machine.
+    // The clipboard does not exist on a page loaded by plain HTTP from another machine.
     const clipboard = navigator.clipboard as Clipboard | undefined;
     if (!clipboard) {
       select();

@@ -40,7 +40,7 @@ describe('the legend', () => {
 });
 
 describe('the picture', () => {
-  it('stands upright around its cells, with nothing where there is none', () => {
+  it('covers its cells and is transparent elsewhere', () => {
     const picture = valuePicture(MAP, RAMP);
     expect([picture?.columns, picture?.rows]).toEqual([2, 2]);
     expect(picture?.corner_m[0]).toBeCloseTo(0.1);
@@ -54,7 +54,7 @@ describe('the picture', () => {
     expect(pixel(3)).toEqual([100, 100, 100, 255]);
   });
 
-  it('is none without cells', () => {
+  it('does not exist without cells', () => {
     expect(valuePicture(NONE, RAMP)).toBeUndefined();
   });
 });

@@ -113,7 +113,7 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
       <div class="why-body">
         <p class="why-sentence">{sentence(props.event.text)}</p>
         <Show when={isPast()}>
-          <p class="hint">What runs now took another course: this is none of its past.</p>
+          <p class="hint">The session was rewound and then took another course; this event is not part of it.</p>
         </Show>
         <Switch fallback={<p class="hint">Looking back …</p>}>
           <Match when={moment.error as unknown}>
