@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     "web/index.html",
     "web/package.json",
     "web/package-lock.json",
@@ -15,6 +15,7 @@ const SOURCES: [&str; 9] = [
     "web/src",
     "web/viewer",
     "web/login",
+    "web/refused",
 ];
 
 fn main() {

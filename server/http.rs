@@ -38,55 +38,55 @@ use routes::maps::Maps;
 use routes::values::Atlases;
 use sessions::Sessions;
 
-/// Answers that take long to work out, at once; more wait.
+/// Long computations that run at the same time; others wait.
 const WORKERS: usize = 4;
-/// For so long at most.
+/// Maximum waiting time.
 const WORK_WAITS: Duration = Duration::from_secs(10);
-/// Parked sessions and clients of long ago are looked for so often.
+/// Interval of parking sessions and forgetting old clients.
 const SWEEP_EVERY: Duration = Duration::from_secs(10);
-/// When the server stops, browsers have so long to take the last word, and sessions to close their files.
+/// When the server stops, browsers have this long to receive the last message and sessions to close their files.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 const LAST_WRITES: Duration = Duration::from_millis(1000);
 
-/// Why the server could not start or go on.
+/// Why the server could not start or had to stop.
 #[derive(Debug, thiserror::Error)]
 pub enum ServeError {
-    /// The address is taken or not ours.
+    /// The address is in use or not available.
     #[error("cannot listen on {address}: {error}; choose another with --bind, as in --bind 127.0.0.1:0")]
     Bind {
-        /// The address asked for.
+        /// The requested address.
         address: SocketAddr,
-        /// What the system said.
+        /// The system's message.
         error: std::io::Error,
     },
     /// A session could not start.
     #[error(transparent)]
     Trial(#[from] TrialError),
-    /// The server itself.
+    /// The server failed.
     #[error("server: {0}")]
     Io(#[from] std::io::Error),
 }
 
-/// What a server is set up with.
+/// Settings of a server.
 pub struct Settings {
     /// Folder of recordings, uploaded maps and sweeps.
     pub data: PathBuf,
-    /// What is kept of old recordings.
+    /// Limits for old recordings.
     pub retention: Retention,
-    /// Sessions at once, 1 or more.
+    /// Maximum number of sessions, at least 1.
     pub sessions: usize,
-    /// A session that nobody has looked at for so long is parked.
+    /// A session without viewers is parked after this time.
     pub park_after: Duration,
 }
 
 impl Settings {
-    /// The defaults, in a folder.
+    /// The defaults, with this data folder.
     pub fn in_folder(data: PathBuf) -> Self {
         Self { data, retention: Retention::default(), sessions: 8, park_after: Duration::from_secs(600) }
     }
 }
 
-/// What every request sees.
+/// State shared by all requests.
 pub struct Server {
     gpu: Arc<Gpu>,
     access: Access,
@@ -94,18 +94,18 @@ pub struct Server {
     /// The sessions' recordings.
     recordings: Arc<Archive>,
     maps: Maps,
-    /// Maps as policies see them.
+    /// Images of maps for value maps.
     atlases: Atlases,
     /// Evaluations in the background.
     evaluations: Queue,
     sessions: Arc<Sessions>,
-    /// Places for what takes long to work out.
+    /// Permits for long computations.
     workers: Arc<Semaphore>,
-    /// The place of who looks at a whole map.
+    /// Permit for taking the images of a whole map.
     painter: Arc<Semaphore>,
-    /// WebSockets that are open.
+    /// Open WebSockets.
     sockets: TaskTracker,
-    /// Turns true when the server is to stop; every WebSocket watches it.
+    /// Becomes true when the server stops; every WebSocket watches it.
     stopping: watch::Receiver<bool>,
 }
 
@@ -138,7 +138,7 @@ impl Server {
         }))
     }
 
-    /// Works something out that takes long or blocks, beside a few others; who comes when many wait is sent away.
+    /// Runs a long or blocking computation. Returns 503 if the queue is full.
     async fn work<T: Send + 'static>(
         self: &Arc<Self>,
         work: impl FnOnce(&Arc<Self>) -> T + Send + 'static,
@@ -146,7 +146,7 @@ impl Server {
         self.work_at(&self.workers, WORK_WAITS, work).await
     }
 
-    /// The same at a place of others.
+    /// The same with another set of permits.
     async fn work_at<T: Send + 'static>(
         self: &Arc<Self>,
         places: &Arc<Semaphore>,
@@ -160,14 +160,14 @@ impl Server {
         let place = place.map_err(Problem::internal)?;
         let server = self.clone();
         let working = tokio::task::spawn_blocking(move || {
-            // Its own: who asked may have gone, and the work goes on.
+            // The permit belongs to the work, which continues even if the client has disconnected.
             let _place = place;
             work(&server)
         });
         working.await.map_err(Problem::internal)
     }
 
-    /// Parks and forgets, again and again.
+    /// Parks sessions and forgets old clients, periodically.
     async fn sweep(&self) {
         loop {
             tokio::time::sleep(SWEEP_EVERY.min(self.sessions.park_after())).await;
@@ -177,19 +177,19 @@ impl Server {
     }
 }
 
-/// All that is served, for those who may ask.
+/// All routes, behind the access check.
 pub fn router(server: Arc<Server>) -> Router {
     let guard = axum::middleware::from_fn_with_state(server.clone(), access::guard);
     routes::served().layer(guard).with_state(server)
 }
 
-/// Opens the listener, or says what to do instead.
+/// Opens the listener; the error suggests what to do.
 pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
     TcpListener::bind(address).await.map_err(|error| ServeError::Bind { address, error })
 }
 
-/// Serves until `stopping` turns true; then holds every session, sends the browsers away, closes the recordings, and
-/// breaks off what is evaluated, all within two seconds.
+/// Serves until `stopping` becomes true. Then pauses every session, disconnects the browsers, closes the recordings and
+/// cancels evaluations, all within two seconds.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     accept::raise_file_limit();
     let sweeper = server.clone();
@@ -197,7 +197,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     let connections = accept::serve(listener, router(server.clone()), server.counters.clone(), server.stopping.clone());
     let holder = server.clone();
     let holding = async move {
-        // An error means that nobody can ask to stop any more, which is as good as asking.
+        // An error means that the sender is gone, which also means stop.
         drop(holder.stopping.clone().wait_for(|&stop| stop).await);
         holder.evaluations.stop();
         let hubs = holder.sessions.hold().await;
@@ -209,7 +209,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     };
     let ((), hubs) = tokio::join!(connections, holding);
     sweeping.abort();
-    // Joining threads and closing files blocks; each session has files of its own.
+    // Joining threads and closing files blocks; each session has separate files.
     let mut closing: tokio::task::JoinSet<()> = tokio::task::JoinSet::new();
     for hub in hubs {
         closing.spawn_blocking(move || hub.shut());

@@ -1,7 +1,7 @@
-//! A trial on a real clock, in a thread of its own: commands in, views and records out.
+//! A trial on a real clock, in a separate thread: commands in, views and records out.
 //!
-//! The thread is the only one that touches the trial. Holders of a [`Session`] may send commands
-//! (bounded; a full queue refuses) and watch. A slow watcher sees the newest view and no other.
+//! Only this thread accesses the trial. Holders of a [`Session`] send commands through a
+//! bounded queue (a full queue refuses) and watch views. A slow watcher sees only the newest view.
 
 mod branch_point;
 #[cfg(test)]
@@ -28,39 +28,39 @@ use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, T
 pub use branch_point::{BranchPoint, Progress};
 pub use pacing::{SPEED_MAX, SPEED_MIN};
 
-/// Commands that may wait.
+/// Maximum number of waiting commands.
 const COMMAND_QUEUE: usize = 256;
-/// Events that a watcher may lag behind before it loses the oldest.
+/// Number of events that a slow watcher may lag behind before it loses the oldest.
 const EVENT_QUEUE: usize = 256;
-/// Events that a browser that comes later is told of.
+/// Number of past events that a new browser receives.
 pub const JOURNAL: usize = 500;
-/// Most ticks of one `Step`.
+/// Maximum ticks of one `Step`.
 const STEP_MAX: u32 = 12_500;
 /// Longer than the maximum number of steps takes on a slow machine; a session that hangs must not block its callers.
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 
-/// What a session can be told.
+/// Commands of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Something that the trial can be told.
+    /// An input of the trial.
     Input(Input),
-    /// Lets time run.
+    /// Runs.
     Run,
-    /// Stops time.
+    /// Pauses.
     Pause,
-    /// Advances so many ticks, then stops.
+    /// Advances this many ticks, then pauses.
     Step(u32),
-    /// Simulated seconds a second.
+    /// Sets the speed, in simulated seconds per second.
     SetSpeed(f64),
-    /// Back to the start; with another seed, or the same.
+    /// Back to the start, with a new seed or the same one.
     Reset(Option<u64>),
-    /// Another trial: this scenario, but for what is kept.
+    /// A new trial of this scenario, except for the kept parts.
     Load { scenario: Box<Scenario>, kept: Kept },
-    /// Back to the last control step at or before this tick; stops time.
+    /// Back to the last control step at or before this tick; pauses.
     Rewind(u64),
 }
 
-/// What of a session stays as it is when another scenario is loaded.
+/// What a session keeps when another scenario is loaded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kept {
     pub controller: bool,
@@ -68,47 +68,47 @@ pub struct Kept {
     pub parameters: bool,
 }
 
-/// Why a command was refused; the session is as it was.
+/// Why a command was refused; the session is unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum CommandError {
-    /// The trial refused it.
+    /// The trial refused the input.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The map was refused.
+    /// The map is invalid or unknown.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// The trial could not be set up.
+    /// The trial could not be created.
     #[error(transparent)]
     Trial(#[from] TrialError),
     /// Out of range.
     #[error("{field} is {value}, it must be {allowed}")]
     Range {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// The allowed range.
         allowed: String,
     },
-    /// The trial began longer ago than is kept.
+    /// The start of the trial is no longer kept.
     #[error("the trial's beginning is kept no more; reset, and keep a case within ten minutes")]
     Forgotten,
-    /// No goal, nothing to carry the bead to.
+    /// There is no goal.
     #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare")]
     NoGoal {
-        /// The tick asked for.
+        /// The requested tick.
         tick: u64,
     },
-    /// Nothing to expect of a case.
+    /// A test case would have nothing to expect.
     #[error("tick {tick}: nothing was carried up to then, so a case would expect nothing; let time run first")]
     NothingCarried {
         /// The tick of the session.
         tick: u64,
     },
-    /// More commands than the session can take.
+    /// The command queue is full.
     #[error("the session is busy: more than {COMMAND_QUEUE} commands wait")]
     Busy,
-    /// Nothing came back.
+    /// The session did not answer.
     #[error("the session has not answered for {} s; what was asked may still happen", ANSWER_WITHIN.as_secs())]
     Unanswered,
     /// The session has ended.
@@ -116,22 +116,22 @@ pub enum CommandError {
     Ended,
 }
 
-/// What stands still between two loads.
+/// The static part of a view, constant between two loads.
 #[derive(Clone, Debug)]
 pub struct Scenery {
-    /// Raised at each change.
+    /// Incremented at each change.
     pub version: u64,
-    /// Raised when a trial is set up anew.
+    /// Incremented for each new trial.
     pub trial: u64,
     /// Maps that can be loaded.
     pub known_maps: Arc<Library>,
     /// Map and free space.
     pub arena: Arc<Arena>,
-    /// How the trial was set up.
+    /// The trial's scenario.
     pub scenario: Scenario,
-    /// What carries the magnet.
+    /// The positioner.
     pub positioner: PositionerKind,
-    /// Parameters in force.
+    /// Current parameters.
     pub parameters: Parameters,
 }
 
@@ -149,58 +149,58 @@ impl Scenery {
     }
 }
 
-/// The newest state, for watchers.
+/// The newest state of a session, for watchers.
 #[derive(Clone, Debug)]
 pub struct View {
     /// The trial.
     pub moment: Moment,
     /// World hash.
     pub world_hash: u64,
-    /// Whether time runs.
+    /// Whether the session is running.
     pub running: bool,
-    /// Asked simulated seconds a second.
+    /// Requested speed, simulated seconds per second.
     pub speed_target: f64,
-    /// Achieved ones, over the last half second; 0 while paused.
+    /// Achieved speed over the last half second; 0 while paused.
     pub speed_achieved: f64,
-    /// How late the latest tick of the last half second came; zero while paused.
+    /// Delay of the latest tick of the last half second; zero while paused.
     pub lateness: Duration,
-    /// How often the session fell so far behind that lost time was let go, since it began.
+    /// How often the session fell behind so far that it skipped the lost time.
     pub missed_deadlines: u64,
-    /// Ticks that a rewind reaches, first and last.
+    /// First and last tick that a rewind reaches.
     pub rewind_ticks: (u64, u64),
-    /// What stands still.
+    /// The static part.
     pub scenery: Arc<Scenery>,
-    /// What was last seen, and when.
+    /// The last observation with its tick.
     pub sight: Arc<(u64, Sight)>,
-    /// What happened in the trial, oldest first, [`JOURNAL`] events at most; without what a rewind undid.
+    /// Events of the trial, oldest first, at most [`JOURNAL`]; without those that a rewind undid.
     pub journal: Arc<Vec<Event>>,
-    /// `recording`, or why not.
+    /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
     pub ended: Option<String>,
 }
 
-/// A running session. Dropping it ends the thread, after the sink.
+/// A running session. Dropping it closes the sink and ends the thread.
 pub struct Session {
-    /// None once it was closed.
+    /// `None` after closing.
     commands: Mutex<Option<SyncSender<Request>>>,
     view: watch::Receiver<Arc<View>>,
     events: broadcast::Sender<Event>,
     thread: Mutex<Option<JoinHandle<()>>>,
-    /// Shared with the thread, which looks at it before each step that a command asks for.
+    /// Shared with the thread, which checks it before each tick of a `Step`.
     interrupted: Arc<AtomicBool>,
 }
 
-/// Which moment is meant by a tick.
+/// How a tick selects a moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Recalled {
     /// The start of the last control step at or before it.
     Step,
-    /// The same, or the present if it is that.
+    /// The same, or the present state if it belongs to that tick.
     Present,
 }
 
-/// What is asked of the thread, and where the answer goes.
+/// A request to the thread, with the channel for its answer.
 enum Request {
     Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
     Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<BranchPoint, CommandError>> },
@@ -230,21 +230,21 @@ impl Session {
         Ok(Self { commands: Mutex::new(Some(commands)), view, events, thread: Mutex::new(Some(thread)), interrupted })
     }
 
-    /// Sends a command and waits for its answer, on a runtime with a clock.
+    /// Sends a command and waits for its answer. Needs a tokio runtime with time.
     pub async fn send(&self, command: Command) -> Result<(), CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Obey { command, answer })?;
         answer_of(answered).await
     }
 
-    /// A moment that is kept; changes nothing.
+    /// A kept moment. The session does not change.
     pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<BranchPoint, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Recall { tick, moment, answer })?;
         answer_of(answered).await
     }
 
-    /// The trial and all that it was told, as a case; changes nothing.
+    /// The trial with all its inputs as a test case. The session does not change.
     pub async fn case(&self) -> Result<Case, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.ask(Request::Case { answer })?;
@@ -272,12 +272,12 @@ impl Session {
 }
 
 impl Session {
-    /// Breaks off steps asked for: the session is to end.
+    /// Interrupts a running `Step`, because the session ends.
     pub fn interrupt(&self) {
         self.interrupted.store(true, Ordering::Relaxed);
     }
 
-    /// Ends the thread after the tick that it computes at the moment, and closes the sink. Blocks; does nothing the
+    /// Ends the thread after the current tick and closes the sink. Blocks; does nothing when called the
     /// second time.
     pub fn close(&self) {
         self.interrupt();

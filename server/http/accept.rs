@@ -1,4 +1,4 @@
-//! Connections: how many, how long one may take to say what it wants, and how they end.
+//! Connections: their number, their time limits, and how they end.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -18,23 +18,23 @@ use tower::ServiceExt;
 
 use super::metrics::Counters;
 
-/// Connections at once, idle ones too.
+/// Maximum number of connections, including idle ones.
 pub const CONNECTION_CAP: usize = 4096;
-/// A connection says in this time what it wants, at first and after each answer, or is closed.
+/// Time for the next request of a connection; then it is closed.
 const HEAD_WITHIN: Duration = Duration::from_secs(10);
-/// Largest request line with all its headers.
+/// Maximum size of the request line with all headers.
 const HEAD_BYTES: usize = 64 << 10;
 const HEADERS: usize = 64;
-/// What the system keeps for a browser that does not read; the rest waits with us, where newer takes its place.
+/// Send buffer in the kernel for a browser that does not read. Newer messages replace older ones before they reach it.
 const SEND_BUFFER_BYTES: usize = 256 << 10;
-/// A peer that takes nothing for so long is gone.
+/// A peer that receives nothing for this long counts as disconnected.
 const SILENCE: Duration = Duration::from_secs(60);
-/// Requests that run when the server stops have so long to end.
+/// Time for running requests when the server stops.
 const LAST_ANSWERS: Duration = Duration::from_millis(500);
-/// A wait when the system has no room for another connection.
+/// Pause when the system cannot accept another connection.
 const NO_ROOM: Duration = Duration::from_millis(50);
 
-/// Serves connections until `stopping` turns true; then those that answer something may end it.
+/// Serves connections until `stopping` becomes true; then running answers may finish.
 pub async fn serve(listener: TcpListener, app: Router, counters: Arc<Counters>, mut stopping: watch::Receiver<bool>) {
     let places = Arc::new(Semaphore::new(CONNECTION_CAP));
     let mut connections = tokio::task::JoinSet::new();
@@ -48,9 +48,9 @@ pub async fn serve(listener: TcpListener, app: Router, counters: Arc<Counters>, 
                     continue;
                 }
             },
-            // An error means that nobody can ask to stop any more, which is as good as asking.
+            // An error means that the sender is gone, which also means stop.
             () = async { drop(stopping.wait_for(|&stop| stop).await) } => break,
-            // What has ended is let go.
+            // Removes finished connections.
             Some(_) = connections.join_next() => continue,
         };
         let Ok(place) = places.clone().try_acquire_owned() else {
@@ -81,7 +81,7 @@ pub async fn serve(listener: TcpListener, app: Router, counters: Arc<Counters>, 
                     connection.await
                 }
             };
-            // The peer may be gone at any time, or say what is no HTTP; it has been told where that was possible.
+            // The peer may disconnect at any time or send invalid HTTP; it has been answered if possible.
             if let Err(error) = ended {
                 tracing::debug!(%error, %address, "connection");
             }
@@ -116,7 +116,7 @@ fn prepare(stream: &TcpStream) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Lets this process have as many open files as the system allows it: each connection is one.
+/// Raises the limit of open files to the system's maximum: each connection is an open file.
 pub fn raise_file_limit() {
     #[cfg(unix)]
     {

@@ -1,5 +1,5 @@
-//! Who may ask. Host and Origin are checked on every route, so that no other site's page, and no name that resolves to
-//! this machine, can reach the laboratory; with a token, nobody gets in who has not shown it.
+//! Access control. Host and Origin are checked on every route, so that neither another site's page nor a foreign name that
+//! resolves to this machine can reach the laboratory. With a token, every client must present it.
 
 pub mod login;
 mod origins;
@@ -29,36 +29,36 @@ const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 const FETCH_MODE: HeaderName = HeaderName::from_static("sec-fetch-mode");
 const FETCH_DEST: HeaderName = HeaderName::from_static("sec-fetch-dest");
 
-/// Why the settings do not go together.
+/// Why the settings are inconsistent.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum AccessError {
-    /// Others could reach it, and anyone of them would get in.
+    /// Other machines could connect without a token.
     #[error(
         "--bind {address} lets other machines in: give a token too, in the file of --token-file or as FERRY_TOKEN (`ferry token` makes one)"
     )]
     NoToken {
-        /// The address asked for.
+        /// The requested address.
         address: SocketAddr,
     },
-    /// A proxy would let others in.
+    /// A proxy would let other machines connect without a token.
     #[error(
         "--origin {origin} lets other machines in: give a token too, in the file of --token-file or as FERRY_TOKEN (`ferry token` makes one)"
     )]
     NoTokenForOrigin {
-        /// The origin asked for.
+        /// The requested origin.
         origin: String,
     },
-    /// Under which name do browsers ask?
+    /// The name that browsers use is unknown.
     #[error(
         "--bind {address} has no name of its own: say under which one browsers ask, as in --origin http://lab.local:8080"
     )]
     NoOrigin {
-        /// The address asked for.
+        /// The requested address.
         address: SocketAddr,
     },
 }
 
-/// Who may ask, and how often. Shared by all connections.
+/// Access rules and rate limits. Shared by all connections.
 pub struct Access {
     token: Option<Token>,
     cookie_key: Option<cookie::Key>,
@@ -72,10 +72,10 @@ impl Access {
         self.origins.address_of(host)
     }
 
-    /// For a listener at `address`, and browsers that know it by `origins` too.
+    /// For a listener at `address` that browsers also reach by `origins`.
     ///
     /// # Errors
-    /// When other machines could get in without a token, or browsers under no name.
+    /// Other machines could connect without a token, or no origin is allowed.
     pub fn new(address: SocketAddr, token: Option<Token>, origins: &[Origin]) -> Result<Self, AccessError> {
         if !address.ip().is_loopback() && token.is_none() {
             return Err(AccessError::NoToken { address });
@@ -99,12 +99,12 @@ impl Access {
         Ok(Self { token, cookie_key, origins: Origins::new(&all), rates: Rates::default() })
     }
 
-    /// Forgets clients who have not asked for long.
+    /// Forgets clients without recent requests.
     pub fn forget(&self) {
         self.rates.forget();
     }
 
-    /// Lets a request in, or says why not.
+    /// Admits a request, or returns why not.
     fn admit(&self, request: &Request, address: IpAddr) -> Result<Client, Problem> {
         let headers = request.headers();
         self.check_host(request)?;
@@ -134,7 +134,7 @@ impl Access {
         Err(Problem::new(StatusCode::UNAUTHORIZED, "no_token", detail).field("Authorization"))
     }
 
-    /// Exactly one Host, and one of ours; what stands in the request line counts too.
+    /// There must be exactly one Host, and it must be allowed; the one in the request line counts, too.
     fn check_host(&self, request: &Request) -> Result<(), Problem> {
         let mut hosts = request.headers().get_all(header::HOST).iter();
         let host = hosts.next().and_then(|value| value.to_str().ok()).unwrap_or_default();
@@ -181,22 +181,22 @@ fn bearer(headers: &HeaderMap) -> Option<&str> {
     scheme.eq_ignore_ascii_case("bearer").then(|| token.trim())
 }
 
-/// Whether it does more than read; a WebSocket does.
+/// Whether the request can change something; a WebSocket can.
 fn changes_something(request: &Request) -> bool {
     !matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS)
         || request.headers().contains_key(header::UPGRADE)
 }
 
-/// What one may see before one has shown the token: that the server lives, and how to log in.
+/// What is public without the token: health and the login page.
 fn is_open(path: &str) -> bool {
     matches!(path, "/healthz" | "/login") || path.starts_with("/assets/")
 }
 
-/// Browsers say from where a request comes, also where they send no Origin. Another site may link here, and no more.
+/// Browsers report the source of a request in `Sec-Fetch-Site`, also without Origin. Another site may only link here.
 fn check_site(headers: &HeaderMap, method: &Method) -> Result<(), Problem> {
     let says = |name: &HeaderName| headers.get(name).and_then(|value| value.to_str().ok());
     let is_foreign = matches!(says(&FETCH_SITE), Some("cross-site" | "same-site"));
-    // A frame navigates too, and an opened session stays.
+    // A frame navigates, too, and would open a session.
     let is_link = says(&FETCH_MODE) == Some("navigate") && says(&FETCH_DEST) == Some("document");
     if !is_foreign || is_link && *method == Method::GET {
         return Ok(());
@@ -205,7 +205,7 @@ fn check_site(headers: &HeaderMap, method: &Method) -> Result<(), Problem> {
     Err(Problem::new(StatusCode::FORBIDDEN, "foreign_site", detail).field("Sec-Fetch-Site"))
 }
 
-/// Lets requests in, and sets the headers that keep the page to itself.
+/// Admits requests and sets the security headers.
 pub async fn guard(
     State(server): State<Arc<Server>>,
     ConnectInfo(address): ConnectInfo<SocketAddr>,
@@ -222,7 +222,7 @@ pub async fn guard(
         }
         Err(problem) => {
             server.counters.refuse(problem.code());
-            // Who opens the page without having logged in gets the page to log in with.
+            // Without a login, a request for the page returns the login page.
             if problem.code() == "no_token" && method == Method::GET && is_page(&path) {
                 super::assets::login_page(StatusCode::UNAUTHORIZED)
             } else {
@@ -236,7 +236,7 @@ pub async fn guard(
     server.counters.answer(response.status());
     tracing::debug!(%method, path, status = response.status().as_u16(), %address, took = ?began.elapsed(), "request");
     let headers = response.headers_mut();
-    // The viewer's page has a policy of its own.
+    // The viewer's page has its own policy.
     headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(POLICY));
     headers.insert(header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
     headers.insert(header::REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
@@ -244,7 +244,7 @@ pub async fn guard(
     response
 }
 
-/// Whether a browser asks for something to show in its window.
+/// Whether a browser requests a document to show.
 fn is_read_by_a_person(request: &Request) -> bool {
     let accepts = request.headers().get(header::ACCEPT).and_then(|value| value.to_str().ok());
     *request.method() == Method::GET
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn others_get_in_only_with_a_token_and_under_a_name() {
+    fn other_machines_need_a_token_and_an_allowed_name() {
         assert!(access("127.0.0.1:8080", false, &[]).is_ok());
         assert!(access("[::1]:8080", true, &["https://lab.example.org"]).is_ok());
         assert!(access("10.0.0.7:8080", true, &[]).is_ok());
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn loopback_is_known_by_its_three_names_and_its_port() {
+    fn loopback_has_three_names_with_its_port() {
         let access = access("127.0.0.1:8080", false, &[]).unwrap();
         for host in ["127.0.0.1:8080", "localhost:8080", "[::1]:8080"] {
             assert!(access.origins.has_host(host) && access.origins.has_origin(&format!("http://{host}")), "{host}");

@@ -11,7 +11,7 @@ use super::Server;
 use super::problem::Problem;
 use super::sessions::MAIN;
 
-/// What the viewer's page may do: compile WebAssembly, and be framed by our own page.
+/// Policy of the viewer's page: it may compile WebAssembly and be framed by our own page.
 const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
                           frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
 
@@ -19,7 +19,7 @@ const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-
 #[folder = "$OUT_DIR/web"]
 struct Page;
 
-/// `GET /`: the page with the session `main`, begun anew if a fault has ended it.
+/// `GET /`: the page with the session `main`, which is restarted if a fault has ended it.
 pub async fn main_session(State(server): State<Arc<Server>>, headers: HeaderMap) -> Result<Response, Problem> {
     server.sessions.open(MAIN).await?;
     Ok(send("index.html", &headers))
@@ -35,7 +35,7 @@ pub async fn named_session(
     Ok(send("index.html", &headers))
 }
 
-/// The page to log in with, in place of what may not be seen without.
+/// The login page, instead of a page that needs a login.
 pub fn login_page(status: StatusCode) -> Response {
     let mut response = send("login/index.html", &HeaderMap::new());
     *response.status_mut() = status;
@@ -43,11 +43,11 @@ pub fn login_page(status: StatusCode) -> Response {
     response
 }
 
-/// A refusal as a page, where it was to be a page that it refuses.
+/// A refusal as a page, if a page was requested.
 pub fn turn_into_page(response: &mut Response, problem: &Problem) {
     let file = Page::get("refused/index.html").expect("the page is built in");
     let page = String::from_utf8_lossy(&file.data);
-    // Names that a client chose stand in it.
+    // It contains names chosen by a client.
     let reason = maud::html! { (problem.detail()) }.into_string();
     *response.body_mut() = Body::from(page.replace("{{reason}}", &reason));
     let headers = response.headers_mut();

@@ -1,4 +1,4 @@
-//! Bodies of requests, with refusals that are problem details as all others, and of answers that are files.
+//! Bodies of requests, refused with problem details, and bodies of file answers.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::problem::Problem;
 
-/// A body is whole in this time, or it is not waited for.
+/// Time limit for a complete body.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
 
 /// The whole body, within the route's limit.

@@ -1,4 +1,4 @@
-//! The WebSocket: newest state out, commands in.
+//! The WebSocket: sends the newest state, receives commands.
 
 mod comparison;
 mod hand;
@@ -35,16 +35,16 @@ use crate::session::CommandError;
 
 /// Largest message from a browser.
 const MESSAGE_LIMIT: usize = 64 * 1024;
-/// What may wait for a browser on our side; one set of the newest messages is smaller.
+/// Maximum size of pending messages for a browser; a set of the newest messages is smaller.
 const WRITE_LIMIT: usize = 4 << 20;
-/// Messages of one browser: more are read later, so that nothing is lost.
+/// Message rate of one browser; further messages are read later, so that nothing is lost.
 const MESSAGES_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
 const MESSAGES_BURST: NonZeroU32 = NonZeroU32::new(1000).unwrap();
-/// Code 1001 of RFC 6455: the server goes away.
+/// Close code 1001 of RFC 6455: the server is going away.
 const GOING_AWAY: u16 = 1001;
-/// Looks so often whether somebody has left without a word.
+/// Interval of checks for silent connections.
 const BEAT: Duration = Duration::from_secs(1);
-/// Asks a browser so often whether it lives, and lets it go when it has been silent for so long.
+/// Interval of pings, and the silence after which a browser is disconnected.
 const PING_EVERY: Duration = Duration::from_secs(15);
 const SILENCE: Duration = Duration::from_secs(45);
 
@@ -80,7 +80,7 @@ pub async fn live(
     })
 }
 
-/// A place among a session's browsers, given back when it is dropped: also when the upgrade comes to nothing.
+/// A place among a session's browsers. Dropping it frees the place, also if the upgrade fails.
 struct Seat {
     own: u64,
     hub: Arc<Hub>,
@@ -103,15 +103,15 @@ struct Connection {
     hub: Arc<Hub>,
     socket: WebSocket,
     hand: Arc<Hand>,
-    /// Its last sign of life, and our last question for one.
+    /// Times of its last message and of our last ping.
     heard: Instant,
     pinged: Instant,
     messages: DefaultDirectRateLimiter,
-    /// It sends too much: nothing is read before.
+    /// It sends too much: nothing is read before this time.
     deaf_until: Instant,
 }
 
-/// What of the newest messages this browser has.
+/// Versions of the newest messages that this browser has received.
 #[derive(Default)]
 struct Sent {
     scene_version: u64,
@@ -128,7 +128,7 @@ impl Connection {
     }
 
     async fn serve(mut self, stopping: watch::Receiver<bool>) {
-        // The browser may be gone at any await; the reason is of no use to anybody.
+        // The browser may disconnect at any await; the reason does not matter.
         let looking_after = tokio::spawn(self.hand.clone().look_after());
         let _ = self.run(stopping).await;
         looking_after.abort();
@@ -153,14 +153,14 @@ impl Connection {
         loop {
             tokio::select! {
                 changed = encoded.changed(), if goes_on => {
-                    // One that has ended is still shown, with the reason.
+                    // An ended session is still shown, with the reason.
                     goes_on = changed.is_ok();
                     let newest = encoded.borrow_and_update().clone();
                     self.send_newest(&newest, &mut sent).await?;
                 }
                 event = events.recv() => match event {
                     Ok(event) => self.say(&ServerMessage::Event(EventMessage::from(&event))).await?,
-                    // Too slow for each of them; the newest follow.
+                    // The browser is too slow for every message; the newest ones follow.
                     Err(RecvError::Lagged(_)) => {}
                     Err(RecvError::Closed) => return self.close("the session has ended").await,
                 },
@@ -203,7 +203,7 @@ impl Connection {
         }
     }
 
-    /// Returns whether the browser stays.
+    /// Returns whether the connection stays open.
     async fn take_in(&mut self, message: Message) -> Result<bool, axum::Error> {
         self.heard = Instant::now();
         if let Err(until) = self.messages.check() {
@@ -247,7 +247,7 @@ impl Connection {
         self.socket.flush().await
     }
 
-    /// What happened before this browser came.
+    /// Events before this browser connected.
     async fn send_history(
         &mut self,
         comparison: &mut watch::Receiver<axum::extract::ws::Utf8Bytes>,
@@ -330,7 +330,7 @@ impl Connection {
     }
 }
 
-/// The next message, not before a time.
+/// The next message, read not before a given time.
 async fn receive(socket: &mut WebSocket, not_before: Instant) -> Option<Result<Message, axum::Error>> {
     tokio::time::sleep_until(not_before).await;
     socket.recv().await

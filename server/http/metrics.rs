@@ -1,4 +1,4 @@
-//! `/metrics` for Prometheus, and what is counted for it.
+//! `/metrics` for Prometheus.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use super::problem::Problem;
 type Labels = Vec<(&'static str, String)>;
 type Floats = Gauge<f64, std::sync::atomic::AtomicU64>;
 
-/// What has happened since the server began. Counted by all connections.
+/// Counters since the server started, updated by all connections.
 #[derive(Default)]
 pub struct Counters {
     answers: Family<Labels, Counter>,
@@ -32,7 +32,7 @@ impl Counters {
         self.answers.get_or_create(&vec![("status", status.as_u16().to_string())]).inc();
     }
 
-    /// Somebody was not let in; the codes are our own, so there are few.
+    /// A request was refused; the set of codes is small.
     pub fn refuse(&self, code: &str) {
         self.refusals.get_or_create(&vec![("code", code.to_owned())]).inc();
     }
@@ -46,13 +46,13 @@ impl Counters {
         self.connections.inc_by(change);
     }
 
-    /// A connection that there was no room for.
+    /// A connection was refused because of the limit.
     pub fn turn_away(&self) {
         self.turned_away.inc();
     }
 }
 
-/// Figures for Prometheus.
+/// Metrics for Prometheus.
 #[utoipa::path(get, path = "/metrics", tag = "server", responses((status = 200, description = "Families of figures.",
     content_type = "application/openmetrics-text; version=1.0.0; charset=utf-8", body = String)))]
 pub async fn metrics(State(server): State<Arc<Server>>) -> Result<impl IntoResponse, Problem> {
@@ -61,7 +61,7 @@ pub async fn metrics(State(server): State<Arc<Server>>) -> Result<impl IntoRespo
     Ok(([(header::CONTENT_TYPE, "application/openmetrics-text; version=1.0.0; charset=utf-8")], text))
 }
 
-/// Made anew for each who asks: sessions come and go.
+/// Built for each request, because sessions come and go.
 fn registry(server: &Server) -> Registry {
     let mut registry = Registry::with_prefix("ferry");
     let counters = &server.counters;

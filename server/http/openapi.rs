@@ -1,4 +1,4 @@
-//! The API's description, made of the routes themselves.
+//! The OpenAPI description, generated from the routes.
 
 mod messages;
 
@@ -14,7 +14,7 @@ use super::problem::Problem;
 use super::refusals::{ForeignHost, ForeignOrigin, Malformed, TooLarge, TooMany, TooSlow, Unauthorized};
 use crate::protocol::{ClientMessage, ServerMessage};
 
-/// What does not come from the routes.
+/// The parts that do not come from the routes.
 #[derive(utoipa::OpenApi)]
 #[openapi(
     info(
@@ -26,12 +26,12 @@ use crate::protocol::{ClientMessage, ServerMessage};
 )]
 struct Base;
 
-/// To which the routes add themselves.
+/// The description to which the routes are added.
 pub fn base() -> OpenApi {
     Base::openapi()
 }
 
-/// Gives the formats of unsigned integers their registered names, which the derive misspells, and says how much fits.
+/// Sets the registered format names of unsigned integers, which the derive misspells, and their ranges.
 fn bound(part: &mut Value) {
     match part {
         Value::Object(fields) => {
@@ -53,12 +53,12 @@ fn bound(part: &mut Value) {
     }
 }
 
-/// The routes' description with what all of them share, as JSON.
+/// The routes' description with everything that they share, as JSON.
 pub fn text(routes: OpenApi) -> String {
     let mut document =
         serde_json::to_value(complete(routes)).expect("a description is made of maps with text for keys");
     bound(&mut document);
-    // Rustdoc's links mean nothing here.
+    // Rustdoc links have no meaning here.
     document.to_string().replace("[`", "`").replace("`]", "`")
 }
 
@@ -74,7 +74,7 @@ fn complete(mut document: OpenApi) -> OpenApi {
     let cookie = ApiKey::Cookie(ApiKeyValue::new("ferry"));
     components.add_security_scheme("token", SecurityScheme::Http(token));
     components.add_security_scheme("cookie", SecurityScheme::ApiKey(cookie));
-    // A server that only this machine reaches asks for neither.
+    // A server on loopback needs neither.
     let either = ["token", "cookie"].map(|name| SecurityRequirement::new(name, [""; 0]));
     document.security = Some([SecurityRequirement::default()].into_iter().chain(either).collect());
     document
@@ -85,7 +85,7 @@ fn operations(item: &mut PathItem) -> impl Iterator<Item = &mut Operation> {
     [get, put, post, delete, options, head, patch, trace].into_iter().flatten()
 }
 
-/// Describes a success with the summary where nothing else is said, and adds what `access`, `Path` and `WholeBody` may answer.
+/// Describes a success by the summary if it has no text, and adds the answers of `access`, `Path` and `WholeBody`.
 fn complete_operation(path: &str, operation: &mut Operation) {
     let mut shared =
         vec![Unauthorized::responses(), ForeignOrigin::responses(), ForeignHost::responses(), TooMany::responses()];
@@ -129,21 +129,21 @@ mod tests {
     }
 
     #[test]
-    fn every_path_that_is_served_is_described() {
-        // The router says its paths to nobody but who debugs it: `paths: {RouteId(0): "/healthz", …}`.
+    fn every_route_is_described() {
+        // The router shows its paths only in its debug output: `paths: {RouteId(0): "/healthz", …}`.
         let told = format!("{:?}", crate::http::routes::served());
         let routes = told.split("RouteId(").filter_map(|part| part.split_once("): \""));
         let served: BTreeSet<&str> = routes.map(|(_, path)| path.split('"').next().unwrap()).collect();
         let document = described();
         let paths: BTreeSet<&str> = document["paths"].as_object().unwrap().keys().map(String::as_str).collect();
         assert!(served.len() > 25, "only {served:?} were found");
-        // What is served where there is no route: the page.
+        // The fallback is the page.
         let fallbacks = BTreeSet::from(["/", "/s/{name}", "/{*__private__axum_fallback}"]);
         assert_eq!(served.difference(&fallbacks).copied().collect::<BTreeSet<_>>(), paths);
     }
 
     #[test]
-    fn operations_have_names_of_their_own_and_say_what_they_refuse() {
+    fn operations_have_unique_names_and_describe_refusals() {
         let document = described();
         let operations = all_operations(&document);
         let names: BTreeSet<&str> =
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_referred_to_is_there_and_integers_are_bounded() {
+    fn references_resolve_and_integers_are_bounded() {
         fn walk(part: &Value, document: &Value, seen: &mut [usize; 2]) {
             if let Some(target) = part["$ref"].as_str() {
                 assert!(document.pointer(target.trim_start_matches('#')).is_some(), "{target}");

@@ -1,4 +1,4 @@
-//! Parameters of the path, with refusals that are problem details as all others.
+//! Path parameters, refused with problem details.
 
 use axum::extract::{FromRequestParts, Path as AxumPath};
 use axum::http::request::Parts;
@@ -33,7 +33,7 @@ pub struct MapPath {
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 pub struct SessionPath {
-    /// Name of a session; `main` is there from the start.
+    /// Name of a session; `main` always exists.
     #[param(example = "main")]
     pub id: String,
 }
@@ -41,10 +41,10 @@ pub struct SessionPath {
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 pub struct MomentPath {
-    /// Name of a session; `main` is there from the start.
+    /// Name of a session; `main` always exists.
     #[param(example = "main")]
     pub id: String,
-    /// A tick; what is asked for is the control step at or before it.
+    /// A tick; it selects the control step at or before it.
     #[param(example = 0)]
     pub tick: u64,
 }

@@ -12,7 +12,7 @@ use crate::session::CommandError;
 /// A refusal (RFC 9457).
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub struct Problem {
-    /// Always `about:blank`: `code` says what it is.
+    /// Always `about:blank`: `code` identifies the problem.
     #[serde(rename = "type")]
     kind: &'static str,
     /// The status in words.
@@ -23,10 +23,10 @@ pub struct Problem {
     detail: String,
     /// For programs, such as `out_of_range`.
     code: String,
-    /// The field at fault.
+    /// The invalid field.
     #[serde(skip_serializing_if = "Option::is_none")]
     field: Option<String>,
-    /// Seconds after which it is worth to come again.
+    /// Seconds after which a retry makes sense.
     #[serde(skip)]
     retry_after_s: Option<u32>,
 }
@@ -73,7 +73,7 @@ impl Problem {
     }
 }
 
-/// A path that is served, but not with this method.
+/// The path exists, but not with this method.
 pub async fn method_not_allowed(method: Method, uri: Uri) -> Problem {
     let detail = format!("{} cannot be asked with {method}", uri.path());
     Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", detail)
@@ -103,7 +103,7 @@ impl IntoResponse for Problem {
         if status == StatusCode::UNAUTHORIZED {
             response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
         }
-        // Who wants to read it, and not to parse it, gets it as a page.
+        // A browser gets it as a page.
         response.extensions_mut().insert(self);
         response
     }

@@ -1,4 +1,4 @@
-//! The sessions of a server: opened by name, parked when nobody looks, forgotten when others need their place.
+//! The sessions of a server: opened by name, parked without viewers, closed when others need their place.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -21,11 +21,11 @@ use crate::trial::{Nowhere, Sink, TrialError};
 pub const MAIN: &str = "main";
 /// Longest name of a session.
 const NAME_LENGTH: usize = 32;
-/// How names begin that the server gives.
+/// Prefix of names given by the server.
 const NUMBERED: &str = "session-";
-/// One that takes longer to begin hangs.
+/// A session that takes longer to start hangs.
 const BEGIN_WITHIN: Duration = Duration::from_secs(30);
-/// Who ends a session waits so long for it, and then goes on without.
+/// Maximum time to wait for a session to end.
 const END_WITHIN: Duration = Duration::from_secs(5);
 
 /// All sessions, by id.
@@ -33,20 +33,20 @@ pub struct Sessions {
     gpu: Arc<Gpu>,
     archive: Arc<Archive>,
     known_maps: Arc<Library>,
-    /// Another number after each change of the maps' names.
+    /// Changes whenever the list of maps changes.
     maps: watch::Receiver<u64>,
-    /// Sessions at once; each has a thread, a camera and a recording.
+    /// Maximum number of sessions; each has a thread, a camera and a recording.
     most: usize,
-    /// A session that nobody has looked at for so long is parked.
+    /// A session without viewers is parked after this time.
     park_after: Duration,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// Held while a session opens, so that two requests for one name get the same session.
     opening: tokio::sync::Mutex<()>,
-    /// Sessions made so far, for their names.
+    /// Number of sessions created so far, for their names.
     made: AtomicU64,
 }
 
-/// Whether a text can be a session's name: it becomes a part of addresses and of recordings' names.
+/// Whether a text is a valid session name: it becomes part of addresses and of recordings' names.
 fn is_name(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     (1..=NAME_LENGTH).contains(&name.len()) && name.chars().all(fits) && !name.starts_with('-')
@@ -91,7 +91,7 @@ impl Sessions {
 
     /// The session of a name; a new one if it does not exist or has ended.
     pub async fn open(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
-        // Who looks at a session that lives does not wait for those that begin one.
+        // Requests for a live session do not wait for a session that is starting.
         match self.find(name).filter(|hub| !hub.has_ended()) {
             Some(hub) => {
                 hub.touch();
@@ -127,7 +127,7 @@ impl Sessions {
         }
     }
 
-    /// A session of a name that the server gives.
+    /// A session with a name given by the server.
     pub async fn create(self: &Arc<Self>, scenario: Scenario) -> Result<Arc<Hub>, Problem> {
         let sessions = self.clone();
         to_its_end(async move {
@@ -141,7 +141,7 @@ impl Sessions {
     async fn make(self: &Arc<Self>, name: String, scenario: Scenario) -> Result<Arc<Hub>, Problem> {
         self.make_room().await?;
         let (sessions, id) = (self.clone(), name.clone());
-        // It makes a file, a camera and a thread.
+        // This creates a file, a camera and a thread.
         let starting = tokio::task::spawn_blocking(move || sessions.start(&id, scenario));
         let Ok(started) = tokio::time::timeout(BEGIN_WITHIN, starting).await else {
             tracing::error!(session = name, "session does not begin: it is left behind");
@@ -157,7 +157,7 @@ impl Sessions {
         self.hubs.write().unwrap_or_else(PoisonError::into_inner).insert(hub.id.clone(), hub.clone());
     }
 
-    /// Where all places are taken, the session goes that has been parked longest; its recordings stay.
+    /// If all places are taken, closes the session that has been parked longest; its recordings stay.
     async fn make_room(&self) -> Result<(), Problem> {
         let all = self.all();
         if all.len() < self.most {
@@ -179,7 +179,7 @@ impl Sessions {
     }
 
     fn start(&self, id: &str, scenario: Scenario) -> Result<Arc<Hub>, TrialError> {
-        // A recording that cannot begin is shown, and the session runs without.
+        // If the recording cannot start, the page shows that and the session runs without it.
         let sink: Box<dyn Sink> = match Recorder::in_archive(&self.archive, id, Options::LIVE) {
             Ok(recorder) => Box::new(recorder),
             Err(error) => {
@@ -192,7 +192,7 @@ impl Sessions {
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))
     }
 
-    /// Ends a session and sends its browsers away.
+    /// Ends a session and disconnects its browsers.
     pub async fn end(&self, hub: Arc<Hub>) {
         let id = hub.id.clone();
         self.hubs.write().unwrap_or_else(PoisonError::into_inner).remove(&id);
@@ -210,33 +210,33 @@ impl Sessions {
         for hub in self.all() {
             if hub.unwatched_for() >= self.park_after && !hub.is_parked() {
                 hub.set_parked();
-                // One that has ended needs no parking; one that hangs must not keep the others from it.
+                // An ended session needs no parking; a hanging one must not block the others.
                 let _ = tokio::time::timeout(END_WITHIN, hub.session.send(Command::Pause)).await;
                 tracing::info!(session = hub.id, "session parked: nobody looks");
             }
         }
     }
 
-    /// Stops all time, and takes the sessions out.
+    /// Pauses and removes all sessions.
     pub async fn hold(&self) -> Vec<Arc<Hub>> {
         let hubs = std::mem::take(&mut *self.hubs.write().unwrap_or_else(PoisonError::into_inner));
         let hubs: Vec<_> = hubs.into_values().collect();
         hubs.iter().for_each(|hub| hub.session.interrupt());
         let holding = futures_util::future::join_all(hubs.iter().map(|hub| hub.session.send(Command::Pause)));
-        // A session that hangs must not keep the others from closing.
+        // A hanging session must not keep the others from closing.
         let _ = tokio::time::timeout(Duration::from_millis(300), holding).await;
         hubs
     }
 }
 
-/// Also when who asked for it has gone meanwhile.
+/// Completes even if the client has disconnected.
 async fn to_its_end<T: Send + 'static>(
     work: impl Future<Output = Result<T, Problem>> + Send + 'static,
 ) -> Result<T, Problem> {
     tokio::spawn(work).await.map_err(Problem::internal)?
 }
 
-/// A scenario that cannot be set up is the asker's fault; a camera or a thread that is not to be had is not.
+/// An impossible scenario is the client's fault; a missing camera or thread is not.
 fn not_opened(error: TrialError) -> Problem {
     match error {
         TrialError::Camera(_) | TrialError::Thread(_) => Problem::internal(error),
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[tokio::test(flavor = "multi_thread")]
-    async fn a_session_that_hangs_is_left_behind_and_keeps_nobody_waiting() {
+    async fn a_hanging_session_does_not_block_the_others() {
         let folder = tempfile::tempdir().unwrap();
         let archive = Archive::new(folder.path().to_owned(), crate::recording::Retention::default());
         let gpu = Gpu::open(Default::default()).unwrap();
@@ -285,7 +285,7 @@ mod tests {
         crate::faults::arm("session carl", "hang");
         hung.session.send(Command::Run).await.unwrap();
         let mut views = hung.session.watch();
-        // Its next step never comes.
+        // Its next step never returns.
         while tokio::time::timeout(Duration::from_secs(2), views.changed()).await.is_ok() {}
         let other = sessions.open("dora").await.unwrap();
         other.session.send(Command::Run).await.unwrap();
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_parts_of_addresses_and_files_and_nothing_else() {
+    fn session_names_are_valid_in_addresses_and_file_names() {
         for good in ["anna", "group-7", "2026", &"x".repeat(32)] {
             assert!(is_name(good), "{good}");
         }

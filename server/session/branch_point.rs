@@ -1,5 +1,5 @@
-//! A moment of a session, taken out of it: to look at again, or to run on under another controller. Both run the same
-//! trial as the session, beside it, and change nothing in it.
+//! A moment taken out of a session, to explain it or to continue from it under other controllers. Both run the same
+//! trial as the session, beside it, and do not change the session.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -11,20 +11,20 @@ use crate::trial::{
     Arena, Counters, Input, InputError, Moment, Source, Tally, TickRecord, Trial, TrialError, TrialState,
 };
 
-/// A branch runs for so long at most.
+/// Maximum duration of a branch.
 const HORIZON_S: f64 = 60.0;
 
-/// A moment, and what the session was told after it.
+/// A snapshot of a session, and the inputs after it.
 #[derive(Clone, Debug)]
 pub struct BranchPoint {
     scenario: Scenario,
     arena: Arc<Arena>,
     state: TrialState,
-    /// Inputs with the tick before which they came, later than the state's.
+    /// Inputs after the snapshot, with the tick before which they were applied.
     inputs: Vec<(u64, Input)>,
 }
 
-/// How far a branch has come.
+/// Progress of a branch.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
     /// Its last tick.
@@ -33,7 +33,7 @@ pub struct Progress<'a> {
     pub tally: &'a Tally,
     /// Tick of its first delivery.
     pub delivered_tick: Option<u64>,
-    /// Whether it runs no further.
+    /// Whether it has ended.
     pub done: bool,
 }
 
@@ -52,7 +52,7 @@ impl BranchPoint {
         self.tick() + (HORIZON_S / SERVO_PERIOD_S) as u64
     }
 
-    /// Counters then.
+    /// Counters at the moment.
     pub fn counters(&self) -> Counters {
         self.state.world.counters
     }
@@ -62,22 +62,22 @@ impl BranchPoint {
         self.state.controller
     }
 
-    /// Where it took place.
+    /// The arena.
     pub fn arena(&self) -> &Arc<Arena> {
         &self.arena
     }
 
-    /// Parameters then.
+    /// Parameters at the moment.
     pub fn parameters(&self) -> &Parameters {
         &self.state.world.parameters
     }
 
-    /// A camera of its own.
+    /// A separate camera.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, TrialError> {
         Ok(self.arena.camera(gpu)?)
     }
 
-    /// Whether there is a goal then, or comes one before [`Self::until_tick`].
+    /// Whether a goal is set at the moment or before [`Self::until_tick`].
     pub fn has_goal(&self) -> bool {
         let comes =
             |&(tick, ref input): &(u64, Input)| tick < self.until_tick() && matches!(input, Input::SetGoal { .. });
@@ -91,16 +91,16 @@ impl BranchPoint {
         Ok(trial)
     }
 
-    /// The moment, and what was seen and decided at it: a control step starts there.
+    /// The moment with the observation and decision of its control step.
     pub fn relive(&self, eye: &mut dyn Eye) -> Result<(Moment, TickRecord), TrialError> {
         let mut trial = self.trial()?;
         let before = trial.moment();
         Ok((before, trial.tick(Source::Eye(eye))?))
     }
 
-    /// Runs on from here under a controller, with the hand's and the script's disturbances as they came, until all
-    /// is delivered or [`Self::until_tick`]; `watch` sees every tick and may stop it. What the session was told of
-    /// controllers is left out; what the branch's course makes impossible does not happen in it.
+    /// Continues from here under a controller, with the disturbances of hand and script at their ticks, until all goals
+    /// are delivered or until [`Self::until_tick`]. `watch` is called after every tick and may stop it. Inputs that select
+    /// controllers are omitted; inputs that are impossible in the branch are skipped.
     pub fn branch(
         &self,
         controller: ControllerName,
@@ -119,7 +119,7 @@ impl BranchPoint {
         loop {
             let tick = trial.state().world.tick;
             while let Some((_, input)) = inputs.next_if(|(at, _)| *at <= tick) {
-                // A bead that is elsewhere may, for instance, not fit where the hand put the other one.
+                // For example, the bead may not fit where the hand put it in the session.
                 let _: Result<(), InputError> = trial.apply(input.clone());
             }
             let record = trial.tick(Source::Eye(eye))?;

@@ -1,4 +1,4 @@
-//! Any commands in any order: the arm stays within its limits, and what is refused changes nothing.
+//! Random commands in random order: the arm stays within its limits, and refused commands change nothing.
 
 use std::sync::Arc;
 
@@ -19,10 +19,10 @@ use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripte
 use crate::trial::{Arena, Input, Nowhere};
 
 const SIDE_PX: u32 = 480;
-/// Rounding of what was computed in another order.
+/// Tolerance for rounding.
 const SLACK: f64 = 1e-9;
 
-/// How many commands; `FERRY_COMMANDS=10000000` is what was promised.
+/// Number of commands, set by `FERRY_COMMANDS`.
 fn commands() -> u64 {
     std::env::var("FERRY_COMMANDS").map_or(60_000, |count| count.parse().expect("FERRY_COMMANDS is a count"))
 }
@@ -31,7 +31,7 @@ fn seed() -> u64 {
     std::env::var("FERRY_SEED").map_or(1, |seed| seed.parse().expect("FERRY_SEED is a seed"))
 }
 
-/// Sees walls that come and go with the place, so that every controller meets refusals; drawn once.
+/// A camera whose walls depend on the position, so that every controller meets refusals.
 struct MadeUp(Vec<Picture>);
 
 impl MadeUp {
@@ -60,7 +60,7 @@ impl Eye for MadeUp {
     }
 }
 
-/// Mostly around the table; sometimes what no arm can do.
+/// Mostly points near the table, sometimes impossible ones.
 fn number(rng: &mut impl Rng, least: f64, most: f64) -> f64 {
     const ODD: [f64; 12] = [
         f64::NAN,
@@ -178,13 +178,13 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
         950..990 => return Command::SetSpeed(number(rng, 0.1, 70.0)),
         990..997 => return Command::Rewind(rng.random_range(0..newest + 10)),
         997..999 => return Command::Reset(rng.random_bool(0.5).then(|| rng.random_range(0..100))),
-        // Reading a map takes as long as thousands of commands.
+        // Loading a map takes as long as thousands of commands.
         _ if rng.random_bool(0.1) => return load(rng, present),
         _ => return Command::Rewind(u64::MAX),
     })
 }
 
-/// All that a refused command must leave as it was.
+/// Everything that a refused command must leave unchanged.
 fn fingerprint(worker: &Worker<MadeUp>) -> (u64, u64, bool, f64, Option<(u64, u64)>, u64) {
     let view = worker.view();
     let state = worker.trial.state();
@@ -192,7 +192,7 @@ fn fingerprint(worker: &Worker<MadeUp>) -> (u64, u64, bool, f64, Option<(u64, u6
     (world, controller_state, view.running, view.speed_target, Some(view.rewind_ticks), view.scenery.version)
 }
 
-/// Where the arm is and is meant to be; what it may have done since.
+/// The positions and limits of the last check.
 struct Watch {
     trial: u64,
     tick: u64,
@@ -230,7 +230,7 @@ impl Watch {
         }
         let bead = world.plant.bead.position_m;
         assert!(bead.x.is_finite() && bead.y.is_finite() && map.workspace().contains(bead), "the bead is at {bead}");
-        // Time that goes back, and another trial, put the arm where it then was.
+        // A rewind or a new trial moves the arm to another state.
         if now.trial != self.trial || now.tick <= self.tick {
             return;
         }
@@ -247,7 +247,7 @@ impl Watch {
 }
 
 #[test]
-fn any_commands_keep_the_limits_and_refused_ones_change_nothing() {
+fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
     let mut rng = ChaCha8Rng::seed_from_u64(seed());
     let arena = Arena::open("posts").unwrap();
     let make_eye = Box::new(|_: &Arena| Ok(MadeUp::new()));

@@ -1,19 +1,19 @@
-//! Simulated time against the wall clock: when the next tick is due, and how fast it really goes.
+//! Pacing of simulated time by the wall clock: when the next tick is due, and the achieved speed.
 
 use std::time::{Duration, Instant};
 
 use crate::robot::ur5::SERVO_PERIOD_S;
 
-/// Slowest simulated second a second.
+/// Minimum speed, simulated seconds per second.
 pub const SPEED_MIN: f64 = 0.125;
-/// Fastest asked for; what is achieved is shown.
+/// Maximum requested speed; the achieved speed may be lower.
 pub const SPEED_MAX: f64 = 64.0;
-/// A session that falls further behind lets the lost time go.
+/// A session that falls behind further than this skips the lost time.
 const CATCH_UP: Duration = Duration::from_millis(100);
 /// Span over which the achieved speed is measured.
 const WINDOW: Duration = Duration::from_millis(500);
 
-/// When ticks are due.
+/// Schedule of ticks.
 #[derive(Debug)]
 pub struct Pace {
     factor: f64,
@@ -21,14 +21,14 @@ pub struct Pace {
     window_start: Instant,
     window_ticks: u32,
     achieved: f64,
-    /// Latest tick of this window, and of the last.
+    /// Latest tick of this window and of the previous one.
     latest: Duration,
     lateness: Duration,
     missed: u64,
 }
 
 impl Pace {
-    /// A pace that starts now.
+    /// A schedule that starts now.
     pub fn new(factor: f64, now: Instant) -> Self {
         Self {
             factor,
@@ -42,32 +42,32 @@ impl Pace {
         }
     }
 
-    /// The factor asked for.
+    /// The requested speed.
     pub fn factor(&self) -> f64 {
         self.factor
     }
 
-    /// The factor achieved over the last half second.
+    /// The speed achieved over the last half second.
     pub fn achieved(&self) -> f64 {
         self.achieved
     }
 
-    /// How late the latest tick of the last half second came.
+    /// Delay of the latest tick of the last half second.
     pub fn lateness(&self) -> Duration {
         self.lateness
     }
 
-    /// How often lost time was let go.
+    /// How often lost time was skipped.
     pub fn missed(&self) -> u64 {
         self.missed
     }
 
-    /// Another factor, from now on.
+    /// Changes the speed.
     pub fn set_factor(&mut self, factor: f64, now: Instant) {
         *self = Self { achieved: self.achieved, missed: self.missed, ..Self::new(factor, now) };
     }
 
-    /// Starts again after a pause.
+    /// Restarts the schedule after a pause.
     pub fn restart(&mut self, now: Instant) {
         *self = Self { missed: self.missed, ..Self::new(self.factor, now) };
     }
@@ -77,7 +77,7 @@ impl Pace {
         self.due.saturating_duration_since(now)
     }
 
-    /// A tick was done.
+    /// Notes a finished tick.
     pub fn ticked(&mut self, now: Instant) {
         self.latest = self.latest.max(now.saturating_duration_since(self.due));
         self.due += Duration::from_secs_f64(SERVO_PERIOD_S / self.factor);
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_come_at_the_asked_rate_and_lost_time_is_let_go() {
+    fn ticks_come_at_the_requested_rate_and_lost_time_is_skipped() {
         let start = Instant::now();
         let mut pace = Pace::new(2.0, start);
         for _ in 0..10 {
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_achieved_factor_is_simulated_time_over_wall_time() {
+    fn the_achieved_speed_is_simulated_time_over_wall_time() {
         let start = Instant::now();
         let mut pace = Pace::new(1.0, start);
         for tick in 1..=63 {

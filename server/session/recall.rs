@@ -1,4 +1,4 @@
-//! What the session's thread tells of moments gone by.
+//! Kept moments and test cases of the session's thread.
 
 use super::worker::Worker;
 use super::{BranchPoint, CommandError, Recalled};
@@ -7,7 +7,7 @@ use crate::control::step_is_due;
 use crate::trial::{Case, Timed, TrialState};
 
 impl<E: Eye> Worker<E> {
-    /// The trial as a case, with all that it was told.
+    /// The trial as a test case, with all its inputs.
     pub(super) fn case(&self) -> Result<Case, CommandError> {
         let tick = self.trial.state().world.tick;
         let told = self.timeline.inputs_from_start().ok_or(CommandError::Forgotten)?;
@@ -29,7 +29,7 @@ impl<E: Eye> Worker<E> {
         Ok(BranchPoint::new(&self.trial, state, inputs))
     }
 
-    /// The last state kept at or before a tick that is not later than all of them.
+    /// The last kept state at or before a tick; `None` for a tick after the newest state.
     pub(super) fn moment(&self, tick: u64) -> Result<&TrialState, CommandError> {
         let (first, last) = self.timeline.range().unwrap_or_default();
         let last = last.max(self.trial.state().world.tick);

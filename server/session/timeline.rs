@@ -1,24 +1,24 @@
-//! Moments to go back to: a snapshot before each control step of the last ten minutes, and what was told since.
+//! Moments for rewinding: a snapshot before each control step of the last ten minutes, and the inputs since then.
 
 use std::collections::VecDeque;
 
 use crate::trial::{Input, TrialState};
 
-/// Four snapshots a second for ten minutes, a few kilobytes each.
+/// Four snapshots per second for ten minutes, a few kilobytes each.
 const MOST: usize = 2400;
-/// More inputs than a hand gives in ten minutes, sixty times a second; a few hundred bytes each.
+/// More than a hand sends in ten minutes at sixty inputs per second; a few hundred bytes each.
 const MOST_INPUTS: usize = 50_000;
 
 /// Snapshots in order of tick.
 #[derive(Debug, Default)]
 pub struct Timeline {
     moments: VecDeque<TrialState>,
-    /// Inputs with the tick before which they came.
+    /// Inputs with the tick before which they were applied.
     inputs: VecDeque<(u64, Input)>,
 }
 
 impl Timeline {
-    /// Keeps a state; what lay after it happens anew.
+    /// Keeps a state and drops later ones.
     pub fn keep(&mut self, state: TrialState) {
         self.forget_after(state.world.tick);
         if self.moments.back().is_some_and(|last| last.world.tick == state.world.tick) {
@@ -30,7 +30,7 @@ impl Timeline {
         }
     }
 
-    /// Notes inputs that came before a tick.
+    /// Notes inputs that were applied before a tick.
     pub fn note(&mut self, tick: u64, inputs: &[Input]) {
         self.inputs.extend(inputs.iter().map(|input| (tick, input.clone())));
         while self.inputs.len() > MOST_INPUTS && self.moments.len() > 1 {
@@ -38,7 +38,7 @@ impl Timeline {
         }
     }
 
-    /// A moment, and the inputs that only it needs.
+    /// A moment with the inputs after it.
     fn drop_oldest(&mut self) {
         self.moments.pop_front();
         let oldest = self.moments.front().map_or(0, |state| state.world.tick);
@@ -47,25 +47,25 @@ impl Timeline {
         }
     }
 
-    /// Inputs that a state of this tick does not hold yet.
+    /// Inputs that a state of this tick does not contain yet.
     pub fn inputs_after(&self, tick: u64) -> Vec<(u64, Input)> {
         let after = self.inputs.partition_point(|&(at, _)| at <= tick);
         self.inputs.range(after..).cloned().collect()
     }
 
-    /// All inputs since the trial was set up, while its beginning is kept.
+    /// All inputs since the start of the trial; `None` if the start is no longer kept.
     pub fn inputs_from_start(&self) -> Option<Vec<(u64, Input)>> {
         let (first, _) = self.range()?;
         (first == 0).then(|| self.inputs.iter().cloned().collect())
     }
 
-    /// Whether anything lies after a tick.
+    /// Whether there are moments after a tick.
     pub fn reaches_past(&self, tick: u64) -> bool {
         self.moments.back().is_some_and(|last| last.world.tick > tick)
             || self.inputs.back().is_some_and(|&(at, _)| at > tick)
     }
 
-    /// Drops what lies after a tick.
+    /// Drops the moments after a tick.
     pub fn forget_after(&mut self, tick: u64) {
         while self.moments.back().is_some_and(|last| last.world.tick > tick) {
             self.moments.pop_back();

@@ -18,12 +18,12 @@ use crate::map::Library;
 use crate::scenario::Scenario;
 use crate::trial::{Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError};
 
-/// Watchers get about sixty views a second, and one more after each command.
+/// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
-/// While ticks are due without a pause, commands still wait no longer than this.
+/// Maximum waiting time of commands while ticks are always due.
 const DRAIN_EVERY: Duration = Duration::from_millis(4);
 
-/// Makes a camera that looks at an arena.
+/// Creates a camera for an arena.
 pub(super) type MakeEye<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
 
 pub(super) struct Worker<E> {
@@ -36,13 +36,13 @@ pub(super) struct Worker<E> {
     pub(super) scenery: Arc<Scenery>,
     sight: Arc<(u64, Sight)>,
     pub(super) running: bool,
-    /// Whether the trial's hand is that of a moment gone back to, which holds nothing any more.
+    /// Whether the trial's hand comes from a rewind and no longer belongs to a pointer.
     hand_is_stale: bool,
     pace: Pace,
     journal: Arc<Vec<Event>>,
-    /// A command was carried out as far as this let it: the session ends.
+    /// The session ends while a command is carried out.
     pub(super) broken: Option<TrialError>,
-    /// The session is to end: nothing more is begun.
+    /// The session ends; no further work is started.
     pub(super) interrupted: Arc<AtomicBool>,
 }
 
@@ -99,8 +99,8 @@ impl<E: Eye> Worker<E> {
         }
     }
 
-    /// Runs until every sender of commands is gone. A panic or a lost camera ends this session with a
-    /// message, and no other.
+    /// Runs until every sender of commands is dropped. A panic or a lost camera ends only this session, with a
+    /// message.
     pub(super) fn run(mut self, inbox: &Receiver<Request>, publish: &watch::Sender<Arc<View>>) {
         let outcome = catch_unwind(AssertUnwindSafe(|| self.serve(inbox, publish)));
         let reason = match outcome {
@@ -143,7 +143,7 @@ impl<E: Eye> Worker<E> {
             let now = Instant::now();
             if now >= publish_at {
                 publish.send_replace(Arc::new(self.view()));
-                // Ticks come every 8 ms: what is due between two of them must not wait for the third.
+                // Ticks come every 8 ms; a view that is due between two of them must not wait for the third.
                 publish_at = (publish_at + PUBLISH_EVERY).max(now - PUBLISH_EVERY / 2);
             }
         }
@@ -232,7 +232,7 @@ impl<E: Eye> Worker<E> {
 
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
         let tick = self.trial.state().world.tick;
-        // Hashes cost more than most inputs, and matter only where time was gone back in.
+        // Hashes cost more than most inputs and are needed only after a rewind.
         let before = self.timeline.reaches_past(tick).then(|| self.hashes());
         let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
@@ -267,7 +267,7 @@ impl<E: Eye> Worker<E> {
     }
 
     fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
-        // A name only: no client path touches the file system.
+        // Only a name: no path from a client touches the file system.
         let arena = Arena::of(self.scenery.known_maps.find(&scenario.map)?);
         let present = self.trial.state();
         if kept.controller {
@@ -313,7 +313,7 @@ impl<E: Eye> Worker<E> {
         Scenery::of(&self.trial, self.scenery.known_maps.clone(), version, trial)
     }
 
-    /// Shows what the camera sees now, without a control step.
+    /// Publishes the current camera image, without a control step.
     fn look(&mut self) {
         match self.trial.look(&mut self.eye) {
             Ok(sight) => self.sight = Arc::new((self.trial.state().world.tick, sight)),
@@ -325,7 +325,7 @@ impl<E: Eye> Worker<E> {
         (self.trial.state().world_hash(), self.trial.state().controller_hash())
     }
 
-    /// The hand of a moment gone back to lets go as soon as something new happens.
+    /// The hand of a rewound state releases the bead as soon as the session continues.
     fn drop_stale_hand(&mut self) -> Result<(), InputError> {
         if std::mem::take(&mut self.hand_is_stale) {
             self.trial.apply(Input::Release)?;
@@ -355,7 +355,7 @@ impl<E: Eye> Worker<E> {
         Ok(())
     }
 
-    /// Sends events of inputs at once when no tick will carry them.
+    /// Sends events of inputs at once if no tick will carry them.
     fn announce(&mut self) {
         if self.running {
             return;
@@ -366,7 +366,7 @@ impl<E: Eye> Worker<E> {
         }
     }
 
-    /// What lay after a tick happens anew, or never.
+    /// Drops everything after a tick.
     fn forget_after(&mut self, tick: u64) {
         self.timeline.forget_after(tick);
         if self.journal.iter().any(|told| told.tick > tick) {
@@ -376,7 +376,7 @@ impl<E: Eye> Worker<E> {
 
     /// Sends an event to all subscribers and stores it in the journal.
     fn tell(&mut self, event: Event) {
-        // Once only: a control step that was gone back to happens again at its own tick.
+        // Only once: after a rewind a control step happens again at its tick.
         if !self.journal.contains(&event) {
             let journal = Arc::make_mut(&mut self.journal);
             if journal.len() == JOURNAL {

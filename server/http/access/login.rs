@@ -1,4 +1,4 @@
-//! The token is shown once, for a cookie that scripts cannot read and other sites cannot use.
+//! Login: the token is exchanged once for a cookie that scripts cannot read and other sites cannot use.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -19,25 +19,24 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, TooMany};
 
 const NAME: &str = "ferry";
-/// A login lasts a term's half.
+/// A login lasts sixty days.
 const LASTS: Duration = Duration::from_secs(60 * 24 * 3600);
 
-/// What is shown to get in.
+/// The secrets of access.
 #[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Login {
-    /// The laboratory's token.
     token: String,
 }
 
-/// The page that asks for the token.
+/// The login page.
 #[utoipa::path(get, path = "/login", tag = "access",
     responses((status = 200, description = "The page.", content_type = "text/html", body = String)))]
 pub async fn form() -> Response {
     login_page(StatusCode::OK)
 }
 
-/// The token for a cookie, as the page asks for it.
+/// Exchanges the token for a cookie.
 #[utoipa::path(post, path = "/login", tag = "access", request_body = Login,
     responses((status = 204, description = "The cookie stands in `Set-Cookie`."), Conflict, TooMany))]
 pub async fn login(
@@ -73,14 +72,14 @@ pub async fn login(
     Ok(set(cookie.build(), key))
 }
 
-/// Takes the cookie back from this browser.
+/// Deletes the cookie in this browser.
 #[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "It is gone.")))]
 pub async fn logout() -> Response {
     let gone = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
     (StatusCode::NO_CONTENT, [(header::SET_COOKIE, gone.removal().build().to_string())]).into_response()
 }
 
-/// A number of its own, and when it ends.
+/// A random number and the time when the login ends.
 fn value(ends: SystemTime) -> Result<String, std::io::Error> {
     let mut number = [0; 16];
     getrandom::fill(&mut number)?;
@@ -98,7 +97,7 @@ fn set(cookie: Cookie<'static>, key: &Key) -> Response {
     (StatusCode::NO_CONTENT, [(header::SET_COOKIE, written)]).into_response()
 }
 
-/// The number in a cookie that we have signed and that lasts still.
+/// The number in a cookie that we signed and that has not expired.
 pub fn known(headers: &HeaderMap, key: &Key) -> Option<String> {
     let texts = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
     let signed = texts.flat_map(Cookie::split_parse).flatten().filter(|cookie| cookie.name() == NAME);
@@ -132,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cookie_counts_until_it_ends_and_under_its_own_key() {
+    fn a_cookie_is_valid_until_it_expires_and_with_its_key_only() {
         let (now, hour, key) = (SystemTime::now(), Duration::from_secs(3600), self::key());
         let lasting = sent(&cookie(now + hour, &key));
         let number = known(&lasting, &key).unwrap();

@@ -1,4 +1,4 @@
-//! Under which names the laboratory may be asked for, and from which pages.
+//! The allowed names of the laboratory and the allowed origins of pages.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -7,15 +7,15 @@ use std::str::FromStr;
 
 use axum::http::Uri;
 
-/// Why a text is no origin.
+/// Why a text is not an origin.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("origin {text:?}: it must be a scheme and a host, as in https://lab.example.org or http://10.0.0.7:8080")]
 pub struct OriginError {
-    /// What was given.
+    /// The given text.
     pub text: String,
 }
 
-/// Where a page comes from: scheme, host and port (RFC 6454).
+/// The origin of a page: scheme, host and port (RFC 6454).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     is_https: bool,
@@ -24,7 +24,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// The one of a plain server at an address.
+    /// The origin of an HTTP server at an address.
     pub fn of(address: SocketAddr) -> Self {
         let host = match address {
             SocketAddr::V4(v4) => v4.ip().to_string(),
@@ -33,7 +33,7 @@ impl Origin {
         Self { is_https: false, host, port: address.port() }
     }
 
-    /// Whether it is of the machine that asks.
+    /// Whether it is on loopback.
     pub fn is_loopback(&self) -> bool {
         let name = self.host.trim_start_matches('[').trim_end_matches(']');
         name == "localhost" || name.parse::<std::net::IpAddr>().is_ok_and(|ip| ip.is_loopback())
@@ -43,7 +43,7 @@ impl Origin {
         if self.is_https { 443 } else { 80 }
     }
 
-    /// What a browser writes after `Host:`, and what a proxy may make of it.
+    /// The forms that a browser or a proxy may write after `Host:`.
     fn hosts(&self) -> Vec<String> {
         let full = format!("{}:{}", self.host, self.port);
         if self.port == self.default_port() { vec![self.host.clone(), full] } else { vec![full] }
@@ -78,7 +78,7 @@ impl FromStr for Origin {
     }
 }
 
-/// The allow-lists: exact, and made once.
+/// The exact allow-lists, built once at the start.
 #[derive(Debug)]
 pub struct Origins {
     hosts: BTreeSet<String>,
@@ -97,7 +97,7 @@ impl Origins {
         self.hosts.contains(&host.to_ascii_lowercase())
     }
 
-    /// The page's address where it is asked for under `host`: of a name that is known with TLS and without, the former.
+    /// The page's address for `host`; if the name is known with and without TLS, the address with TLS.
     pub fn address_of(&self, host: &str) -> String {
         let host = host.to_ascii_lowercase();
         let secure = format!("https://{}", host.strip_suffix(":443").unwrap_or(&host));
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn an_origin_is_scheme_host_and_port_and_nothing_else() {
+    fn an_origin_consists_of_scheme_host_and_port() {
         for (text, written) in [
             ("http://Lab.example.org", "http://lab.example.org"),
             ("http://lab:80/", "http://lab"),

@@ -1,4 +1,4 @@
-//! How often one client may ask.
+//! Rate limits per client.
 
 use std::net::IpAddr;
 use std::num::NonZeroU32;
@@ -7,23 +7,23 @@ use std::time::Duration;
 use governor::clock::{Clock, DefaultClock};
 use governor::{DefaultDirectRateLimiter, DefaultKeyedRateLimiter, Quota, RateLimiter};
 
-/// Requests of one client: far more than the page makes, far fewer than a machine can.
+/// Request rate of one client: far more than the page needs, far fewer than a program can send.
 const REQUESTS_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
 const REQUESTS_BURST: NonZeroU32 = NonZeroU32::new(2000).unwrap();
-/// Wrong tokens from one address, and from all.
+/// Wrong tokens per address, and in total.
 const WRONG_PER_MINUTE: NonZeroU32 = NonZeroU32::new(10).unwrap();
 const WRONG_OF_ALL_PER_MINUTE: NonZeroU32 = NonZeroU32::new(100).unwrap();
 
 /// The client: identified by its login, or by its address without a login.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Client {
-    /// The number in the cookie.
+    /// The number in its cookie.
     Login(String),
     Address(IpAddr),
 }
 
 impl Client {
-    /// Who has one IPv6 address has 2^64 of them.
+    /// The /64 prefix of an IPv6 address: a client can have 2^64 addresses.
     pub fn at(address: IpAddr) -> Self {
         Self::Address(match address {
             IpAddr::V6(v6) if v6.to_ipv4_mapped().is_none() => IpAddr::V6((u128::from(v6) & (u128::MAX << 64)).into()),
@@ -32,11 +32,11 @@ impl Client {
     }
 }
 
-/// Too often: when to come again.
+/// Too many requests: when to retry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooOften(pub Duration);
 
-/// What clients have asked for lately. Shared by all connections.
+/// Recent requests of clients. Shared by all connections.
 pub struct Rates {
     requests: DefaultKeyedRateLimiter<Client>,
     wrong: DefaultKeyedRateLimiter<Client>,
@@ -54,19 +54,19 @@ impl Default for Rates {
 }
 
 impl Rates {
-    /// A request.
+    /// Counts a request.
     pub fn request(&self, client: &Client) -> Result<(), TooOften> {
         self.requests.check_key(client).map_err(|until| TooOften(until.wait_time_from(DefaultClock::default().now())))
     }
 
-    /// A wrong token. Right ones are not counted, so that nobody can lock others out by guessing.
+    /// Counts a wrong token. Right tokens are not counted, so guessing cannot lock others out.
     pub fn wrong_token(&self, client: &Client) -> Result<(), TooOften> {
         let now = DefaultClock::default().now();
         self.wrong.check_key(client).map_err(|until| TooOften(until.wait_time_from(now)))?;
         self.wrong_of_all.check().map_err(|until| TooOften(until.wait_time_from(now)))
     }
 
-    /// Forgets who has not asked for long, so that memory does not grow with the number of clients.
+    /// Forgets clients without recent requests, so that memory stays bounded.
     pub fn forget(&self) {
         self.requests.retain_recent();
         self.wrong.retain_recent();
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_client_does_not_use_up_anothers_share() {
+    fn clients_have_separate_limits() {
         let rates = Rates::default();
         let [one, other] = ["10.0.0.1", "10.0.0.2"].map(|text| Client::at(text.parse().unwrap()));
         assert!((0..10).all(|_| rates.wrong_token(&one).is_ok()));
@@ -86,7 +86,7 @@ mod tests {
         assert!(wait > Duration::ZERO && wait <= Duration::from_secs(6), "{wait:?}");
         assert!(rates.wrong_token(&other).is_ok());
         assert!((0..2000).all(|_| rates.request(&one).is_ok()));
-        // Some come back while they are counted.
+        // Some clients return meanwhile.
         assert!((0..2000).any(|_| rates.request(&one).is_err()));
         assert!(rates.request(&other).is_ok());
     }

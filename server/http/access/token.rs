@@ -1,4 +1,4 @@
-//! The token that lets other machines in.
+//! The token that gives other machines access.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,11 +8,11 @@ use subtle::ConstantTimeEq;
 /// Bytes of a token: 256 bits.
 const BYTES: usize = 32;
 
-/// Why a text is no token. It never repeats the text: that may be a token with a slip in it.
+/// Why a text is not a token. The message never contains the text, which may be a mistyped token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the token must be {} hexadecimal digits, as `ferry token` prints them; this has {characters} characters", 2 * BYTES)]
 pub struct TokenError {
-    /// How long it is.
+    /// Its length.
     pub characters: usize,
 }
 
@@ -21,22 +21,22 @@ pub struct TokenError {
 pub struct Token([u8; BYTES]);
 
 impl Token {
-    /// A new one from the system's generator, as text: the one place where a token is shown.
+    /// A new token from the system's generator, as text. This is the only place that shows a token.
     ///
     /// # Errors
-    /// When the system has no randomness.
+    /// The system provides no random numbers.
     pub fn generate() -> std::io::Result<String> {
         let mut bytes = [0; BYTES];
         getrandom::fill(&mut bytes)?;
         Ok(hex::encode(bytes))
     }
 
-    /// Whether a text is this token; takes as long for every text that is a token.
+    /// Whether a text is this token. The comparison takes the same time for every well-formed token.
     pub fn matches(&self, presented: &str) -> bool {
         presented.parse::<Self>().is_ok_and(|other| self.0.ct_eq(&other.0).into())
     }
 
-    /// The key that signs the cookies of those who have shown it.
+    /// The key that signs login cookies.
     pub fn cookie_key(&self) -> cookie::Key {
         cookie::Key::derive_from(&self.0)
     }
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refused_is_not_repeated() {
+    fn errors_do_not_repeat_the_text() {
         let error = "secret-but-short".parse::<Token>().unwrap_err();
         assert_eq!(error, TokenError { characters: 16 });
         assert!(!error.to_string().contains("secret"));

@@ -1,4 +1,4 @@
-//! Runs a moment on under several controllers and tells how each fares.
+//! Runs a comparison: continues from a moment under several controllers and sends their progress.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use crate::scenario::ControllerName;
 use crate::session::BranchPoint;
 use crate::trial::TrialError;
 
-/// Ghosts grow on the page so often.
+/// Interval of progress messages.
 const TELL_EVERY: Duration = Duration::from_millis(250);
 
-/// Blocks until all branches have ended, or `is_wanted` turns false: then the page is told nothing more.
+/// Blocks until all branches have ended or `is_wanted` returns false; then no more messages are sent.
 pub fn compare(
     point: &BranchPoint,
     trial: u64,
@@ -48,7 +48,7 @@ pub fn compare(
         }
         Ok(())
     };
-    // A panic in a controller ends the comparison with a message, and nothing else.
+    // A panic in a controller only ends the comparison, with a message.
     let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
     comparison.running = false;
     comparison.failed = match outcome {

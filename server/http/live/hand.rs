@@ -1,5 +1,5 @@
-//! The hand of one browser, and who looks after it: also while the browser takes nothing in and its connection waits to
-//! send.
+//! The hand of one browser and its watchdog. The watchdog works even while the connection blocks on
+//! sending.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -11,24 +11,24 @@ use super::hub::Hub;
 use crate::session::Command;
 use crate::trial::Input;
 
-/// Looks so often whether somebody has left without a word.
+/// Interval of the watchdog.
 const BEAT: Duration = Duration::from_secs(1);
 /// A page whose hand holds the bead repeats that at least twice a second. After this silence the bead is released and
 /// the session pauses.
 pub const SILENCE: Duration = Duration::from_secs(5);
 
-/// Shared by a browser's connection and by who looks after its hand.
+/// Shared by a browser's connection and the watchdog.
 pub struct Hand {
     own: u64,
     hub: Arc<Hub>,
     holds: Mutex<Holds>,
-    /// It was made to let go, since it had said nothing.
+    /// The bead was released because of the silence.
     pub silenced: Notify,
 }
 
 struct Holds {
     bead: bool,
-    /// The browser's last valid command.
+    /// Time of the browser's last valid command.
     commanded: Instant,
 }
 
@@ -42,18 +42,18 @@ impl Hand {
         self.holds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A valid command; `bead` says whether the hand holds the bead after it, where it says anything of that.
+    /// Notes a valid command; `bead` is whether the hand holds the bead after it, if the command affects that.
     pub fn commanded(&self, bead: Option<bool>) {
         let mut holds = self.holds();
         holds.commanded = Instant::now();
         holds.bead = bead.unwrap_or(holds.bead);
     }
 
-    /// Lets go, if it holds; returns whether it did.
+    /// Releases the bead if the hand holds it; returns whether it did.
     pub async fn let_go(&self) -> bool {
         let held = std::mem::take(&mut self.holds().bead);
         if held {
-            // The session may have ended, and with it the hand.
+            // The session may have ended, together with the hand.
             let _ = self.hub.session.send(Command::Input(Input::Release)).await;
         }
         held
@@ -64,7 +64,7 @@ impl Hand {
         holds.bead && holds.commanded.elapsed() > SILENCE
     }
 
-    /// For as long as the connection lasts.
+    /// Runs as long as the connection.
     pub async fn look_after(self: Arc<Self>) {
         loop {
             tokio::time::sleep(BEAT).await;
@@ -72,7 +72,7 @@ impl Hand {
             if self.hub.seats().borrow().operator != Some(self.own) {
                 self.let_go().await;
             } else if self.is_silent() && self.let_go().await {
-                // One that has ended holds anyway.
+                // An ended session is paused anyway.
                 let _ = self.hub.session.send(Command::Pause).await;
                 self.silenced.notify_one();
             }

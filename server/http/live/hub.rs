@@ -1,4 +1,4 @@
-//! One session and all its browsers: each message is encoded once, and one browser is the operator.
+//! One session and its browsers. Each message is encoded once, and one browser is the operator.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,7 +20,7 @@ use crate::protocol::{
 use crate::scenario::ControllerName;
 use crate::session::{CommandError, Recalled, Session, View};
 
-/// Camera frames go out at most thirty times a second.
+/// Camera frames are sent at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
 const JPEG_QUALITY: u8 = 85;
 
@@ -29,15 +29,15 @@ const JPEG_QUALITY: u8 = 85;
 pub struct Encoded {
     pub state: Utf8Bytes,
     pub scene: Utf8Bytes,
-    /// Raised when `scene` changes.
+    /// Incremented when `scene` changes.
     pub scene_version: u64,
     pub overlay: Utf8Bytes,
     pub seen: Utf8Bytes,
-    /// Raised when `seen` changes.
+    /// Incremented when `seen` changes.
     pub seen_version: u64,
     pub camera: Bytes,
     pub observation: Bytes,
-    /// Raised when overlay, camera or observation change.
+    /// Incremented when overlay, camera or observation change.
     pub sight_version: u64,
 }
 
@@ -49,13 +49,13 @@ pub struct Hub {
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
     encoder: Mutex<Option<tokio::task::JoinHandle<()>>>,
-    /// Turns true when the session is deleted; its browsers watch it.
+    /// Becomes true when the session is deleted; its connections watch it.
     closing: watch::Sender<bool>,
     /// The newest comparison, ready to send; empty before the first.
     comparison: watch::Sender<Utf8Bytes>,
-    /// Comparisons begun; an older one stops when it is no longer the last.
+    /// Number of comparisons started; an older one stops when it is no longer the last.
     comparisons: AtomicU64,
-    /// The place of the one that runs.
+    /// Permit of the running comparison.
     comparing: Arc<Semaphore>,
     /// Time of the last disconnect or of the last request without a connection. Shared with the connections and the
     /// parking task.
@@ -65,7 +65,7 @@ pub struct Hub {
 }
 
 impl Hub {
-    /// Starts encoding a session's views; `maps` is another number after each change of their names.
+    /// Starts encoding a session's views; `maps` changes whenever the list of maps changes.
     pub fn start(id: &str, session: Session, mut maps: watch::Receiver<u64>, gpu: Arc<Gpu>) -> Arc<Self> {
         let now = Instant::now();
         let views = session.watch();
@@ -93,18 +93,18 @@ impl Hub {
         self.watched.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Somebody asks about the session without a browser.
+    /// Notes a request about the session without a connection.
     pub fn touch(&self) {
         *self.watched() = Instant::now();
         self.parked.store(false, Ordering::Relaxed);
     }
 
-    /// For how long no browser has been there.
+    /// Time without connections.
     pub fn unwatched_for(&self) -> Duration {
         if self.seats.borrow().viewers > 0 { Duration::ZERO } else { self.watched().elapsed() }
     }
 
-    /// A fault has ended it.
+    /// Whether a fault has ended the session.
     pub fn has_ended(&self) -> bool {
         self.session.watch().borrow().ended.is_some()
     }
@@ -121,7 +121,7 @@ impl Hub {
         self.seats.borrow().viewers
     }
 
-    /// Sends every browser away.
+    /// Disconnects every browser.
     pub fn close(&self) {
         self.closing.send_replace(true);
     }
@@ -144,7 +144,7 @@ impl Hub {
         self.comparison.subscribe()
     }
 
-    /// Starts a comparison, which tells of itself.
+    /// Starts a comparison, which sends its own messages.
     pub async fn compare(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
         let point = self.session.recall(tick, Recalled::Present).await?;
         if !point.has_goal() {
@@ -154,7 +154,7 @@ impl Hub {
         let trial = self.session.watch().borrow().scenery.trial;
         let hub = self.clone();
         tokio::spawn(async move {
-            // The one before hears at its next tick that it is no longer the last.
+            // The previous one stops at its next tick.
             let Ok(place) = hub.comparing.clone().acquire_owned().await else { return };
             let comparing = tokio::task::spawn_blocking(move || {
                 let _place = place;
@@ -166,7 +166,7 @@ impl Hub {
                     hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
                 });
             });
-            // It catches panics itself.
+            // The function catches panics.
             let _ = comparing.await;
         });
         Ok(())
@@ -176,7 +176,7 @@ impl Hub {
         self.seats.subscribe()
     }
 
-    /// Changes the seats, and tells the browsers when that changes who operates or asks.
+    /// Changes the seats and informs the browsers if the operator or a pending request changes.
     pub fn reseat<T>(&self, change: impl FnOnce(&mut Seats, Instant) -> T) -> T {
         let mut done = None;
         self.seats.send_if_modified(|seats| {
@@ -211,7 +211,7 @@ impl Drop for Hub {
     }
 }
 
-/// Each of `maps` is of other names of maps.
+/// Each value of `maps` stands for another list of maps.
 async fn encode_all(
     mut views: watch::Receiver<Arc<View>>,
     mut maps: watch::Receiver<u64>,
@@ -220,11 +220,11 @@ async fn encode_all(
     let mut encoder = Encoder { last: Some(publish.borrow().clone()), ..Encoder::default() };
     let mut camera_sent = Instant::now();
     loop {
-        // A frame that came too soon after the last is sent when its time comes, unless superseded.
+        // A frame that came too soon after the last one is sent later, unless a newer one replaces it.
         let camera_next = camera_sent + CAMERA_EVERY;
         tokio::select! {
             changed = views.changed() => if changed.is_err() { return },
-            // The page lists them.
+            // The page lists the maps.
             Ok(()) = maps.changed() => {}
             () = tokio::time::sleep_until(camera_next), if encoder.owes_sight => {}
         }
@@ -242,7 +242,7 @@ async fn encode_all(
 #[derive(Default)]
 struct Encoder {
     last: Option<Encoded>,
-    /// Versions of what stands still and of the maps.
+    /// Versions of the static parts and of the list of maps.
     scene_version: Option<(u64, u64)>,
     sight: Option<Arc<(u64, crate::trial::Sight)>>,
     owes_sight: bool,

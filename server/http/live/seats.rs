@@ -1,27 +1,27 @@
-//! Who of a session's browsers is the operator. Pure: the time is told.
+//! Which browser of a session is the operator. Pure: the time is an argument.
 
 use std::time::Duration;
 
 use tokio::time::Instant;
 
-/// Browsers of one session.
+/// Maximum number of browsers per session.
 const VIEWERS: usize = 128;
-/// An operator who is asked to make way and does nothing for so long has left.
+/// An operator who does nothing for this long after a request for control loses the seat.
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 
-/// Who sits where. The operator's seat is a lease: it passes on when its holder leaves, makes way, or does not answer.
+/// The operator's seat is a lease: it passes on when its holder leaves, releases control, or does not answer a request.
 #[derive(Clone, Copy, Debug)]
 pub struct Seats {
-    /// Connection that is the operator.
+    /// Connection of the operator.
     pub operator: Option<u64>,
-    /// Raised whenever another connection becomes the operator: a command that was meant under another is refused.
+    /// Incremented when another connection becomes the operator; commands with an older epoch are refused.
     pub epoch: u64,
-    /// Connection that last asked an operator to make way.
+    /// Connection that last requested control.
     pub asking: Option<u64>,
-    /// Browsers there are.
+    /// Number of browsers.
     pub viewers: usize,
     next: u64,
-    /// The operator's last command, or since when there is one.
+    /// Time of the operator's last command, or of the start of the lease.
     commanded: Instant,
     asked: Instant,
 }
@@ -37,7 +37,7 @@ impl Seats {
         self.commanded = now;
     }
 
-    /// A new connection, if there is room; it becomes the operator if nobody is.
+    /// Adds a connection, if there is room; it becomes the operator if there is none.
     pub fn join(&mut self, now: Instant) -> Option<u64> {
         if self.viewers == VIEWERS {
             return None;
@@ -50,13 +50,13 @@ impl Seats {
         Some(self.next)
     }
 
-    /// A connection ends.
+    /// Removes a connection.
     pub fn leave(&mut self, connection: u64, now: Instant) {
         self.viewers -= 1;
         self.release(connection, now);
     }
 
-    /// A connection stops operating, or asking; who asks takes over from who operates.
+    /// A connection releases control or withdraws its request; a pending request then takes over.
     pub fn release(&mut self, connection: u64, now: Instant) {
         if self.asking == Some(connection) {
             self.asking = None;
@@ -67,13 +67,13 @@ impl Seats {
         }
     }
 
-    /// Takes the operator's seat if it is free, asks its holder otherwise.
+    /// Takes the operator's seat if it is free, else requests it from its holder.
     pub fn take(&mut self, connection: u64, now: Instant) {
         match self.operator {
             Some(operator) if operator == connection => {}
             Some(_) if self.asking == Some(connection) => {}
             Some(_) => {
-                // Who asks in another's place goes on waiting where that one was: else two by turns wait for ever.
+                // A new request takes over the waiting time of the old one, or two requests by turns would wait for ever.
                 if self.asking.replace(connection).is_none() {
                     self.asked = now;
                 }
@@ -82,7 +82,7 @@ impl Seats {
         }
     }
 
-    /// The operator gave a command.
+    /// Notes a command of the operator.
     pub fn command(&mut self, now: Instant) {
         self.commanded = now;
     }
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_operates_and_who_asks_follows() {
+    fn the_first_browser_operates_and_a_request_is_next() {
         let now = Instant::now();
         let mut seats = Seats::new(now);
         let [one, two, three] = [(); 3].map(|()| seats.join(now).unwrap());
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn an_operator_who_does_not_answer_loses_the_seat_and_one_who_works_does_not() {
+    fn only_an_idle_operator_loses_the_seat() {
         let start = Instant::now();
         let later = |seconds| start + Duration::from_secs(seconds);
         let mut seats = Seats::new(start);
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn two_who_ask_by_turns_do_not_keep_an_absent_operator_seated() {
+    fn alternating_requests_do_not_keep_an_absent_operator() {
         let start = Instant::now();
         let later = |seconds| start + Duration::from_secs(seconds);
         let mut seats = Seats::new(start);
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn there_is_room_for_so_many_and_no_more() {
+    fn the_number_of_browsers_is_limited() {
         let now = Instant::now();
         let mut seats = Seats::new(now);
         let last = (0..VIEWERS).map(|_| seats.join(now).unwrap()).last().unwrap();

@@ -1,4 +1,4 @@
-//! `POST /api/kinematics/…` and `POST /api/magnetics/…`: the arm and the magnet as a calculator.
+//! `POST /api/kinematics/…` and `POST /api/magnetics/…`: calculations for arm and magnet.
 
 use std::sync::Arc;
 
@@ -26,9 +26,9 @@ use crate::protocol::{
 use crate::robot::workspace::WorkspaceError;
 use crate::robot::{Joints, forward, inverse};
 
-/// Most items of one request.
+/// Maximum number of items per request.
 const BATCH_LIMIT: usize = 10_000;
-/// A rotation's rows may miss orthonormality by this much: what single precision loses.
+/// Tolerance for the orthonormality of a rotation's rows: single precision.
 const ORTHONORMAL_SLACK: f64 = 1e-6;
 
 /// Body of `POST /api/kinematics/forward`.
@@ -114,7 +114,7 @@ fn solutions(body: &[u8]) -> Result<InverseAnswer, Problem> {
             Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "not_a_rotation", detail)
                 .field(&format!("poses[{index}].rotation"))
         })?;
-        // Where θ6 is free, any will do: zero.
+        // If θ6 is free, it is zero.
         let found = inverse::solutions(&flange, &[0.0; 6]);
         solutions.push(found.map_or_else(|_| Vec::new(), |found| found.to_vec()));
     }
@@ -135,7 +135,7 @@ fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
     Ok(Isometry3::from_parts(Vector3::from(pose.position_m).into(), rotation))
 }
 
-/// The arm's manipulability over the table: the singularity-free workspace is where it is not small.
+/// The arm's manipulability over the table; the singularity-free workspace is where it is not small.
 #[utoipa::path(post, path = "/api/kinematics/workspace", tag = "calculator", request_body = WorkspaceQuery,
     responses((status = 200, body = WorkspaceMap), OutOfRange, Unavailable))]
 pub async fn workspace(
@@ -143,7 +143,7 @@ pub async fn workspace(
     WholeBody(body): WholeBody,
 ) -> Result<Json<WorkspaceMap>, Problem> {
     let WorkspaceQuery { area, cell_m, tool_height_m, tool_orientation } = parse(&body)?;
-    // A tenth of a second for the largest.
+    // Up to a tenth of a second.
     let making = move || manipulability_map(&area, cell_m, tool_height_m, tool_orientation);
     let made = server.work(move |_| making()).await?;
     let map = made.map_err(|error| {
@@ -175,12 +175,12 @@ pub async fn plane(State(server): State<Arc<Server>>, WholeBody(body): WholeBody
     plane.map(|plane| Json(plane.into())).map_err(|error| no_curve(&error))
 }
 
-/// How far and how fast the block drags the bead, over its height.
+/// Reach and maximum speed of the drag over the block's height.
 #[utoipa::path(post, path = "/api/magnetics/reach", tag = "calculator", request_body = ReachQuery,
     responses((status = 200, body = ReachCurve), OutOfRange, Unavailable))]
 pub async fn reach(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<ReachCurve>, Problem> {
     let query: ReachQuery = parse(&body)?;
-    // Some tenths of a millisecond a height.
+    // Some tenths of a millisecond per height.
     let curve = server.work(move |_| curves::reach(&query.into())).await?;
     curve.map(|curve| Json(curve.into())).map_err(|error| no_curve(&error))
 }

@@ -1,4 +1,4 @@
-//! `/api/evaluations`: the paper's experiment in the background.
+//! `/api/evaluations`: evaluations in the background.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
 use crate::protocol::{EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations};
 
-/// The evaluations: what runs, waits, and ended last.
+/// The evaluations: running, waiting, and the last ended ones.
 #[utoipa::path(get, path = "/api/evaluations", tag = "evaluations", operation_id = "evaluations",
     responses((status = 200, body = Evaluations)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
@@ -23,21 +23,21 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
     Json(Evaluations { evaluations: all.iter().map(|evaluation| EvaluationSummary::from(&**evaluation)).collect() })
 }
 
-/// Begins an evaluation, or lets it wait.
+/// Starts an evaluation or queues it.
 #[utoipa::path(post, path = "/api/evaluations", tag = "evaluations", operation_id = "create_evaluation",
     request_body = EvaluationQuery,
     responses((status = 201, body = EvaluationSummary, headers(("Location" = String, description = "Its path."))),
         OutOfRange, TooMany, Unavailable))]
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: EvaluationQuery = parse(&body)?;
-    // Reading the maps that it names blocks.
+    // Reading the maps blocks.
     let evaluation = server.work(move |server| server.evaluations.submit(query.into(), &server.maps.all)).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())
 }
 
-/// An evaluation, with its rows and failures up to now.
+/// An evaluation with its rows and failures so far.
 #[utoipa::path(get, path = "/api/evaluations/{id}", tag = "evaluations", params(EvaluationPath), operation_id = "evaluation",
     responses((status = 200, body = EvaluationReport), NotFound))]
 pub async fn report(
@@ -47,7 +47,7 @@ pub async fn report(
     Ok(Json(EvaluationReport::from(&*find(&server, &id)?)))
 }
 
-/// The same as a file, as `ferry evaluate` writes it.
+/// The report as a file, as `ferry evaluate` writes it.
 #[utoipa::path(get, path = "/api/evaluations/{id}/{file}", tag = "evaluations", params(ReportPath),
     operation_id = "evaluation_file",
     responses((status = 200, description = "The report.", content((String = "text/html"), (String = "text/csv"),
@@ -66,7 +66,7 @@ pub async fn file(
     Ok(attachment(kind, &file_name, text))
 }
 
-/// A report in one of its formats, with figures and links to a laboratory.
+/// A report in one of its formats, with figures and experiment links.
 fn written(
     server: &Server,
     evaluation: &Evaluation,
@@ -83,7 +83,7 @@ fn written(
     })
 }
 
-/// Breaks an evaluation off; what it came to stays.
+/// Cancels an evaluation; its results so far are kept.
 #[utoipa::path(delete, path = "/api/evaluations/{id}", tag = "evaluations", params(EvaluationPath),
     operation_id = "cancel_evaluation", responses((status = 202, body = EvaluationSummary), NotFound, Conflict))]
 pub async fn cancel(

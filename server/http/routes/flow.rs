@@ -1,4 +1,4 @@
-//! Flow fields: where attractor dynamics lead from every place.
+//! Flow fields of the attractor dynamics.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange};
 use crate::protocol::{FLOW_SPACING_M, FlowField, FlowQuery};
 
-/// Where attractor dynamics would lead.
+/// The flow field of the attractor dynamics.
 #[utoipa::path(post, path = "/api/sessions/{id}/flow", tag = "sessions", params(SessionPath), request_body = FlowQuery,
     responses((status = 200, body = FlowField), NotFound, OutOfRange))]
 pub async fn flow(

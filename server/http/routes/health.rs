@@ -9,7 +9,7 @@ use crate::http::Server;
 use crate::http::problem::Problem;
 use crate::http::refusals::Unavailable;
 
-/// Whether the server answers, and means to go on.
+/// Whether the server is running and not stopping.
 #[utoipa::path(get, path = "/healthz", tag = "server",
     responses((status = 200, description = "It does.", content_type = "text/plain", body = String), Unavailable))]
 pub async fn health(State(server): State<Arc<Server>>) -> Result<&'static str, Problem> {

@@ -1,4 +1,4 @@
-//! `/api/maps`: those that come with Ferry, and those that were uploaded, which are kept in the data folder.
+//! `/api/maps`: shipped maps and uploaded ones, which are kept in the data folder.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,14 +18,14 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, TooMany, Unavailable};
 use crate::map::{Library, MAX_SVG_BYTES, MapError};
 
-/// A drawing that is a map.
+/// A drawing of a map.
 fn example() -> serde_json::Value {
     let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\
                        <rect x=\"-20\" y=\"300\" width=\"40\" height=\"30\"/></svg>";
     drawing.into()
 }
 
-/// Where uploaded maps are kept.
+/// The folder of uploaded maps.
 pub struct Maps {
     pub all: Arc<Library>,
     folder: PathBuf,
@@ -33,10 +33,10 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// The library, with what is in the folder. A file that is no map any more is left out, and said.
+    /// The library with the maps of the folder. An invalid file is skipped with a warning.
     pub fn in_folder(folder: PathBuf) -> Self {
         let library = Arc::new(Library::default());
-        // No folder, no maps.
+        // Without the folder there are no uploaded maps.
         let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten();
         let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
         paths.sort();
@@ -52,7 +52,7 @@ impl Maps {
         Self { all: library, folder, version: watch::Sender::new(0) }
     }
 
-    /// Another number after each change of the names.
+    /// Changes whenever the list of maps changes.
     pub fn changes(&self) -> watch::Receiver<u64> {
         self.version.subscribe()
     }
@@ -100,7 +100,7 @@ pub struct MapNames {
     maps: Vec<String>,
 }
 
-/// The maps: those that come with Ferry, then those that were uploaded.
+/// The shipped maps, then the uploaded ones.
 #[utoipa::path(get, path = "/api/maps", tag = "maps", operation_id = "maps", responses((status = 200, body = MapNames)))]
 pub async fn list(State(server): State<Arc<Server>>) -> Json<MapNames> {
     Json(MapNames { maps: server.maps.all.names() })
@@ -109,7 +109,7 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<MapNames> {
 /// Answer of `POST /api/maps`.
 #[derive(Serialize, ToSchema)]
 pub struct NewMap {
-    /// By which it is loaded from now on.
+    /// Name of the new map.
     name: String,
 }
 
@@ -127,7 +127,7 @@ pub async fn add(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) 
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(NewMap { name })).into_response())
 }
 
-/// A map's drawing, as a file to be kept.
+/// A map's drawing as a file.
 #[utoipa::path(get, path = "/api/maps/{name}", tag = "maps", operation_id = "map", params(MapPath),
     responses((status = 200, description = "SVG in millimetres.", content_type = "image/svg+xml", body = String), NotFound))]
 pub async fn file(
@@ -138,7 +138,7 @@ pub async fn file(
     Ok(attachment("image/svg+xml", &format!("{}.svg", map.name()), map.svg().to_owned()))
 }
 
-/// Takes an uploaded map out; sessions that have loaded it keep it.
+/// Deletes an uploaded map; sessions that have loaded it keep it.
 #[utoipa::path(delete, path = "/api/maps/{name}", tag = "maps", operation_id = "delete_map", params(MapPath),
     responses((status = 204, description = "It is gone."), NotFound, Unavailable))]
 pub async fn delete(

@@ -1,4 +1,4 @@
-//! Moments of a session that are still held: what was seen and decided at a control step.
+//! Kept moments of a session: observation and decision of a control step.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::protocol::MomentMessage;
 use crate::session::{BranchPoint, CommandError, Recalled};
 use crate::trial::{Case, Moment, TickRecord, TrialError};
 
-/// The moment, lived through again beside the session.
+/// Repeats the moment beside the session.
 async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(BranchPoint, Moment, TickRecord), Problem> {
     let point = find(server, id)?.session.recall(tick, Recalled::Step).await.map_err(|error| problem(&error))?;
     let relived = server.work(move |server| {
@@ -29,7 +29,7 @@ async fn relive(server: &Arc<Server>, id: &str, tick: u64) -> Result<(BranchPoin
     relived.await?.map_err(Problem::internal)
 }
 
-/// A moment that is not held is not there; the rest is as for a command.
+/// A moment that is no longer kept is not found; other errors are those of commands.
 fn problem(error: &CommandError) -> Problem {
     match error {
         CommandError::Range { field, .. } => {
@@ -44,7 +44,7 @@ fn no_step(tick: u64) -> Problem {
         .field("tick")
 }
 
-/// A control step lived through again: what was seen, weighed and decided.
+/// A repeated control step: observation, switching and decision.
 #[utoipa::path(get, path = "/api/sessions/{id}/moments/{tick}", tag = "sessions", params(MomentPath),
     responses((status = 200, body = MomentMessage), NotFound, Unavailable))]
 pub async fn moment(
@@ -69,7 +69,7 @@ pub async fn camera(
     png(server.work(move |_| sight.frame.picture.to_png()).await?)
 }
 
-/// What the policy was shown of it.
+/// The policy's observation at a control step.
 #[utoipa::path(get, path = "/api/sessions/{id}/moments/{tick}/observation.png", tag = "sessions", params(MomentPath),
     operation_id = "moment_observation",
     responses((status = 200, description = "Both channels, 84 × 84 pixels each, side by side.", content(("image/png"))), NotFound, Unavailable))]
@@ -82,7 +82,7 @@ pub async fn observation(
     png(server.work(move |_| sight.observation().side_by_side().to_png()).await?)
 }
 
-/// The trial with all that it was told, to be kept among `tests/cases`.
+/// The trial with all its inputs as a test case for `tests/cases`.
 #[utoipa::path(get, path = "/api/sessions/{id}/case.json", tag = "sessions", params(SessionPath),
     responses((status = 200, body = Case), NotFound, OutOfRange, Unavailable))]
 pub async fn case(

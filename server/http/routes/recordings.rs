@@ -1,4 +1,4 @@
-//! The list of recordings, and their files.
+//! The list of recordings and their files.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::http::refusals::{NotFound, Unavailable};
 use crate::protocol::{RecordingFile, RecordingList};
 use crate::recording::Listed;
 
-/// A recording is read in pieces of this size.
+/// Chunk size for reading recordings.
 const CHUNK_BYTES: usize = 64 << 10;
 
 /// The recordings.
@@ -37,20 +37,20 @@ impl From<Listed> for RecordingFile {
     }
 }
 
-/// A recording: Rerun's file, or the input log.
+/// A recording: Rerun's file or the input log.
 #[utoipa::path(get, path = "/api/recordings/{file}", tag = "recordings", params(RecordingPath),
     responses((status = 200, description = "What is written up to now.", content(("application/octet-stream"))), NotFound, Unavailable))]
 pub async fn recording(
     State(server): State<Arc<Server>>,
     Path(RecordingPath { file: name }): Path<RecordingPath>,
 ) -> Result<Response, Problem> {
-    // Only names that the list holds are opened, so that no client path touches the file system.
+    // Only listed names are opened, so that no path from a client touches the file system.
     let asked = name.clone();
     let found = server.work(move |server| server.recordings.file(&asked)).await?;
     let path = found.map_err(Problem::internal)?;
     let path = path.ok_or_else(|| Problem::not_found("recording", &name))?;
     let opened = tokio::fs::File::open(path).await.map_err(Problem::internal)?;
-    // What is written while it is sent is left out, so that the length told is the length sent.
+    // Bytes written during the transfer are omitted, so that the announced length is correct.
     let bytes = opened.metadata().await.map_err(Problem::internal)?.len();
     let body = Body::from_stream(ReaderStream::with_capacity(opened.take(bytes), CHUNK_BYTES));
     let mut response = attachment("application/octet-stream", &name, body);

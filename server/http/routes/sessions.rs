@@ -1,4 +1,4 @@
-//! Sessions, and what they show now.
+//! Sessions and their current state.
 
 use std::sync::Arc;
 
@@ -31,11 +31,11 @@ pub struct SessionSummary {
     controller: ControllerName,
     /// Ticks since the start of the trial.
     tick: u64,
-    /// Whether time runs.
+    /// Whether the session is running.
     running: bool,
-    /// `recording`, or why it is not recorded.
+    /// `recording`, or why nothing is recorded.
     recording: String,
-    /// Browsers that look at it.
+    /// Number of connected browsers.
     viewers: usize,
     /// Paused because it had no viewers for long.
     parked: bool,
@@ -74,7 +74,7 @@ pub async fn sessions(State(server): State<Arc<Server>>) -> Json<Sessions> {
     Json(Sessions { sessions })
 }
 
-/// Body of `POST /api/sessions`; everything may be left out.
+/// Body of `POST /api/sessions`; all fields are optional.
 #[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 struct NewSession {
@@ -93,7 +93,7 @@ impl Default for NewSession {
     }
 }
 
-/// Makes a session.
+/// Creates a session.
 #[utoipa::path(post, path = "/api/sessions", tag = "sessions", request_body = Option<NewSession>,
     responses((status = 201, body = SessionSummary, headers(("Location" = String, description = "Its path."))),
         OutOfRange, TooMany))]
@@ -136,7 +136,7 @@ pub async fn delete_session(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// What moves in a session, now.
+/// The current state of a session.
 #[utoipa::path(get, path = "/api/sessions/{id}/state", tag = "sessions", params(SessionPath),
     responses((status = 200, body = StateMessage), NotFound))]
 pub async fn state(
@@ -159,7 +159,7 @@ pub async fn camera(
     Ok(([(header::CONTENT_TYPE, "image/png")], png).into_response())
 }
 
-/// What the policy is shown of it.
+/// The policy's current observation.
 #[utoipa::path(get, path = "/api/sessions/{id}/observation.png", tag = "sessions", params(SessionPath),
     responses((status = 200, description = "Both channels, 84 × 84 pixels each, side by side.", content(("image/png"))), NotFound, Unavailable))]
 pub async fn observation(
@@ -176,7 +176,7 @@ pub fn view(server: &Server, id: &str) -> Result<Arc<View>, Problem> {
     Ok(find(server, id)?.session.watch().borrow().clone())
 }
 
-/// A session that somebody asks about, so that it is not parked.
+/// A requested session; the request keeps it from being parked.
 pub fn find(server: &Server, id: &str) -> Result<Arc<Hub>, Problem> {
     let hub = server.sessions.find(id).ok_or_else(|| Problem::not_found("session", id))?;
     hub.touch();

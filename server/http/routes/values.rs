@@ -1,4 +1,4 @@
-//! Value maps: what a session's policy thinks of every place.
+//! Value maps: the values of a session's policy over the map.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -24,23 +24,23 @@ use crate::trial::Arena;
 
 /// Requests for value maps run one at a time.
 const PAINTER_WAITS: Duration = Duration::from_secs(60);
-/// Atlases that are kept; one has a few megabytes, thirty with early fusion.
+/// Number of kept atlases; one has a few megabytes, thirty with early fusion.
 const KEPT: usize = 4;
 
-/// The atlases made last, the newest at the end.
+/// The newest atlases, the newest one last.
 pub struct Atlases {
     folder: PathBuf,
     kept: Mutex<Vec<(String, Arc<Atlas>)>>,
 }
 
 impl Atlases {
-    /// None yet; their images are kept in a folder.
+    /// An empty cache; images are kept in a folder.
     pub fn in_folder(folder: PathBuf) -> Self {
         Self { folder, kept: Mutex::default() }
     }
 
-    /// The atlas of a map by a policy. Blocks, for seconds the first time; others then wait, rather than look at the
-    /// same map a second time.
+    /// The atlas of a map for a policy. Blocks, the first time for seconds; other requests wait instead of taking the
+    /// same images again.
     fn of(&self, arena: &Arena, policy: &Arc<Policy>, gpu: &Arc<Gpu>) -> Result<Arc<Atlas>, NoValues> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let is_same =
@@ -48,7 +48,7 @@ impl Atlases {
         let known = match kept.iter().position(is_same) {
             Some(index) => kept.remove(index),
             None => {
-                // Live sessions go on beside it.
+                // Live sessions continue meanwhile.
                 let pool = gentle_pool("values")?;
                 let atlas = pool.install(|| Atlas::of(arena, policy.clone(), gpu, &self.folder))?;
                 (arena.map.svg().to_owned(), Arc::new(atlas))
@@ -99,7 +99,7 @@ pub async fn values(
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("goal_m"));
     }
     let policy = arena.policy(view.scenery.parameters.rl_policy).map_err(Problem::internal)?;
-    // One at a time, so that other long computations find their places.
+    // One at a time, so that other long computations get permits.
     let judged = server.work_at(&server.painter, PAINTER_WAITS, move |server| {
         let atlas = server.atlases.of(&arena, &policy, &server.gpu)?;
         let judged = atlas.judge(goal_m)?;

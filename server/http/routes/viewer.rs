@@ -1,5 +1,5 @@
-//! Rerun's viewer, of the version that records: its two files, embedded as gzip. The page that starts it is ours
-//! (`web/viewer`), since Rerun's own loads fonts from elsewhere.
+//! Rerun's viewer, of the same version as the recorder: two files, embedded as gzip. The page that starts it is ours
+//! (`web/viewer`), because Rerun's own page loads fonts from other servers.
 
 use std::io::Read;
 use std::sync::LazyLock;
@@ -30,7 +30,7 @@ pub async fn file(Path(ViewerPath { file: name }): Path<ViewerPath>, headers: He
     let index = known.ok_or_else(|| Problem::not_found("file of the viewer", &name))?;
     let (_, kind, packed) = FILES[index];
     let tag = tag(packed);
-    // The address is the same at every version, so a browser asks each time, and is told that it has it.
+    // The address is the same for every version, so browsers revalidate each time.
     let head = [
         (header::CONTENT_TYPE, kind),
         (header::CACHE_CONTROL, "no-cache"),
@@ -47,7 +47,7 @@ pub async fn file(Path(ViewerPath { file: name }): Path<ViewerPath>, headers: He
     Ok((head, plain).into_response())
 }
 
-/// A gzip stream ends with checksum and length of its contents. Weak, because both encodings share it.
+/// Made from checksum and length at the end of the gzip stream. Weak, because both encodings share it.
 fn tag(packed: &[u8]) -> String {
     let end = packed.last_chunk::<8>().expect("a gzip stream has at least eight bytes");
     format!("W/\"{:016x}\"", u64::from_le_bytes(*end))
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn gzip_is_sent_to_those_who_take_it() {
+    fn gzip_is_sent_to_clients_that_accept_it() {
         let accepts = |value: &str| {
             let mut headers = HeaderMap::new();
             headers.insert(header::ACCEPT_ENCODING, value.parse().unwrap());
