@@ -1,5 +1,5 @@
-//! Every message of the WebSocket, once, and its translation to and from `session`'s types; and what else
-//! the page asks for.
+//! The wire types: every message of the WebSocket and every body of the API, with the conversions from and to the types of
+//! the lower modules.
 //!
 //! Text frames are JSON objects tagged by `type`. Binary frames carry pictures: one byte
 //! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
@@ -39,7 +39,7 @@ pub use recordings::{RecordingFile, RecordingList};
 pub use server::{EventMessage, Hello, Role, SceneMessage, ServerMessage, StateMessage};
 pub use workspace::{ManipulabilityMap, WorkspaceMap, WorkspaceQuery};
 
-/// Raised when an old page could misread the server.
+/// Protocol version. Increase it when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 6;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;

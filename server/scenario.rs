@@ -73,7 +73,7 @@ pub struct Scenario {
     pub map: String,
     /// Sub-controller 2.
     pub controller: ControllerName,
-    /// What carries the magnet; left out, what the map is made for.
+    /// The positioner; if omitted, the one that the map is made for.
     #[serde(default)]
     pub positioner: Option<PositionerKind>,
     /// Seed of everything random in the trial.
@@ -81,16 +81,16 @@ pub struct Scenario {
     /// Parameters at the start.
     #[serde(default)]
     pub parameters: Parameters,
-    /// Bead at the start, the tool above it; left out, a random free point.
+    /// Bead at the start, with the tool above it; if omitted, a random free point.
     #[serde(default)]
     pub start_m: Option<Point2<f64>>,
-    /// Goal at the start; left out, none: the arm holds.
+    /// Goal at the start; if omitted, the arm holds.
     #[serde(default)]
     pub goal_m: Option<Point2<f64>>,
-    /// How often the bead is lifted away at random during transport (specification §2).
+    /// Number of random displacements of the bead during transport.
     #[serde(default)]
     pub disturbances: u32,
-    /// Disturbances at set times, [`SCRIPT_LIMIT`] at most.
+    /// Scripted disturbances, at most [`SCRIPT_LIMIT`].
     #[serde(default)]
     pub script: Vec<Scripted>,
 }

@@ -5,12 +5,12 @@ use serde::Serialize;
 use super::statistics::{PairedCounts, mean95};
 use super::{Cell, Episode};
 
-/// The first controller against the second, trial by trial: the same start, goal, seed and pushes.
+/// Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Map.
     pub map: String,
-    /// Scripted disturbances a trial.
+    /// Scripted disturbances per trial.
     pub disturbances: u32,
     /// The first.
     pub controller: String,
@@ -18,13 +18,13 @@ pub struct Comparison {
     pub against: String,
     /// Trials.
     pub episodes: u32,
-    /// Trials that both delivered.
+    /// Trials delivered by both.
     pub both: u32,
-    /// That the first alone delivered.
+    /// Trials delivered by the first only.
     pub first_only: u32,
-    /// That the second alone delivered.
+    /// Trials delivered by the second only.
     pub second_only: u32,
-    /// That neither delivered.
+    /// Trials delivered by neither.
     pub neither: u32,
     /// Share delivered by the first minus that by the second.
     pub delivered_difference: f64,
@@ -32,9 +32,9 @@ pub struct Comparison {
     pub delivered_difference95: [f64; 2],
     /// Control steps of the first minus those of the second, where both delivered.
     pub steps: Option<PairedMean>,
-    /// The same of the mean distance of tool and bead during transport.
+    /// The same for the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: Option<PairedMean>,
-    /// The same of the way over the shortest.
+    /// The same for path ÷ shortest path.
     pub path_ratio: Option<PairedMean>,
 }
 

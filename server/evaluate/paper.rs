@@ -7,7 +7,7 @@ use crate::scenario::ControllerName;
 /// The paper's numbers for a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperRow {
-    /// Where they stand.
+    /// Source in the paper.
     pub section: String,
     /// Trials.
     pub episodes: u32,

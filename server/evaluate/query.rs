@@ -18,7 +18,7 @@ pub struct EvaluationQuery {
     pub controllers: Vec<ControllerName>,
     /// Names of maps, shipped or added.
     pub maps: Vec<String>,
-    /// Scripted disturbances a trial, 0 to 10.
+    /// Scripted disturbances per trial, 0 to 10.
     pub disturbances: Vec<u32>,
     /// Trials a cell, 1 to 1000.
     pub episodes: u32,
@@ -26,14 +26,14 @@ pub struct EvaluationQuery {
     pub seed: u64,
 }
 
-/// What one row of the table is about.
+/// The subject of one row of the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,
     /// Map.
     pub map: String,
-    /// Scripted disturbances a trial.
+    /// Scripted disturbances per trial.
     pub disturbances: u32,
 }
 
@@ -43,13 +43,13 @@ pub enum QueryError {
     /// Nothing to run.
     #[error("{field} is empty, it must name at least one")]
     Empty {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
     },
     /// The same twice.
     #[error("{field}[{index}] is {value:?}, which is in the list already")]
     Twice {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
         /// Which item.
         index: usize,
@@ -67,7 +67,7 @@ pub enum QueryError {
     /// Out of range.
     #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
     Range {
-        /// The field at fault.
+        /// The invalid field.
         field: String,
         /// Its value.
         value: u32,
@@ -83,7 +83,7 @@ pub enum QueryError {
 }
 
 impl QueryError {
-    /// The field at fault.
+    /// The invalid field.
     pub fn field(&self) -> String {
         match self {
             Self::Empty { field } => (*field).to_owned(),

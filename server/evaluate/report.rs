@@ -6,20 +6,20 @@ use serde::Serialize;
 
 use super::{Cell, Comparison, Episode, Failure, PaperRow, Row};
 
-/// A table of rows, and what belongs to it.
+/// The report of an evaluation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// Version of Ferry.
     pub ferry: String,
-    /// What rendered.
+    /// Graphics adapter.
     pub adapter: String,
     /// Seed of the trials.
     pub seed: u64,
     /// Rows in the order of the cells.
     pub rows: Vec<Row>,
-    /// Every two controllers of the same map and disturbances.
+    /// Every pair of controllers on the same map with the same disturbances.
     pub comparisons: Vec<Comparison>,
-    /// Trials whose bead did not arrive.
+    /// Trials that did not deliver.
     pub failures: Vec<Failure>,
     /// One a row: the paper's numbers.
     #[serde(skip)]

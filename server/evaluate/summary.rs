@@ -13,7 +13,7 @@ pub struct Row {
     pub controller: String,
     /// Map.
     pub map: String,
-    /// Scripted disturbances a trial.
+    /// Scripted disturbances per trial.
     pub disturbances: u32,
     /// Trials.
     pub episodes: u32,
@@ -27,23 +27,23 @@ pub struct Row {
     pub wilson95: [f64; 2],
     /// Mean over trials of the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
-    /// Mean over trials of the mean difference in x during transport, without its sign.
+    /// Mean over trials of the mean absolute difference in x during transport.
     pub tracking_error_mean_x_m: f64,
     /// The same in y.
     pub tracking_error_mean_y_m: f64,
-    /// Mean over trials of the largest difference in x during transport.
+    /// Mean over trials of the maximum difference in x during transport.
     pub tracking_error_max_x_m: f64,
     /// The same in y.
     pub tracking_error_max_y_m: f64,
-    /// Mean over trials that delivered of the tool's way over the shortest; none if none did.
+    /// Mean over delivered trials of the tool's path divided by the shortest path; missing without a delivery.
     pub path_ratio_mean: Option<f64>,
     /// Mean control steps.
     pub steps_mean: f64,
     /// Mean switches.
     pub switches_mean: f64,
-    /// Disturbances that struck, all trials together.
+    /// Disturbances applied in all trials together.
     pub disturbances_struck: u32,
-    /// Median milliseconds a control step, camera included.
+    /// Median duration of a control step in milliseconds, including the camera.
     pub decision_ms_p50: f64,
     /// 99th percentile.
     pub decision_ms_p99: f64,
@@ -89,7 +89,7 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// A trial whose bead did not arrive, with what it takes to set it up again.
+/// A trial that did not deliver, with everything needed to repeat it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failure {
     /// Sub-controller 2.
@@ -98,7 +98,7 @@ pub struct Failure {
     pub map: String,
     /// Scripted disturbances.
     pub disturbances: u32,
-    /// Which trial of the evaluation's seed.
+    /// Index of the trial.
     pub index: u32,
     /// Seed of the trial itself.
     pub seed: u64,
@@ -110,15 +110,15 @@ pub struct Failure {
     pub reached: bool,
     /// How it ended.
     pub outcome: String,
-    /// What kept sub-controller 2 from the goal, if anything did.
+    /// What kept sub-controller 2 from the goal, if anything.
     pub trouble: Option<String>,
-    /// Why the arm held in the end, if it did.
+    /// Why the arm held at the end, if it did.
     pub refusal: Option<String>,
     /// Control steps.
     pub steps: u32,
-    /// Disturbances that struck.
+    /// Disturbances applied.
     pub disturbances_struck: u32,
-    /// The trial as the part of the page's address after `#`; none for a map that the page does not have.
+    /// The trial as an experiment link, from `#` on; missing if the page does not have the map.
     pub link: Option<String>,
 }
 

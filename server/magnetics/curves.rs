@@ -45,24 +45,24 @@ pub enum CurveError {
     },
 }
 
-/// What [`pull`] is drawn for.
+/// Query of [`pull`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PullQuery {
-    /// How the block hangs.
+    /// Orientation of the block.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
     pub lower_face_height_m: f64,
-    /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+    /// Direction of the bead from below the block's middle: from the block's x toward its y.
     pub direction_rad: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
-    /// The greatest offset, m.
+    /// Maximum offset, m.
     pub farthest_m: f64,
-    /// Number of offsets, from zero on, evenly spaced.
+    /// Number of evenly spaced offsets, starting at zero.
     pub count: u32,
 }
 
-/// The pull on a bead over its horizontal offset: an entry an offset in every array.
+/// The pull on a bead over its horizontal offset; every array has one entry per offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PullCurve {
     /// Offset from below the block's middle, m.
@@ -71,12 +71,12 @@ pub struct PullCurve {
     pub lift_ratio: Vec<f64>,
     /// Pull in the table's plane over W.
     pub lateral_ratio: Vec<f64>,
-    /// (W − Fz)/W: what remains of the weight.
+    /// (W − Fz)/W: the remaining weight.
     pub weight_ratio: Vec<f64>,
-    /// Whether the bead lifts off: nothing remains of its weight.
+    /// Whether the bead lifts off because no weight remains.
     pub is_lifted: Vec<bool>,
-    /// Pull in the table's plane over what friction can hold, friction·(W − Fz): from 1 on the bead
-    /// follows. `None` where friction holds nothing, because it is zero or the bead lifts off.
+    /// Pull in the table's plane divided by the maximum friction, friction·(W − Fz): from 1 on the bead
+    /// follows. `None` if there is no friction, because the coefficient is zero or the bead lifts off.
     pub drag_ratio: Vec<Option<f64>>,
     /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
     pub capture_m: Option<(f64, f64)>,
@@ -106,26 +106,26 @@ pub fn pull(query: &PullQuery) -> Result<PullCurve, CurveError> {
     })
 }
 
-/// What [`reach`] is drawn for.
+/// Query of [`reach`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReachQuery {
-    /// How the block hangs.
+    /// Orientation of the block.
     pub orientation: Orientation,
-    /// Least height of its lower face above the table, m: at least the bead's diameter.
+    /// Minimum height of its lower face above the table, m: at least the bead's diameter.
     pub lowest_m: f64,
-    /// Greatest such height, m.
+    /// Maximum height, m.
     pub highest_m: f64,
-    /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+    /// Direction of the bead from below the block's middle: from the block's x toward its y.
     pub direction_rad: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
-    /// Viscous drag on the bead, N·s/m: not zero, else no speed is too large.
+    /// Viscous drag on the bead, N·s/m; not zero, since without drag the speed is unlimited.
     pub drag_n_s_m: f64,
     /// Number of heights, evenly spaced.
     pub count: u32,
 }
 
-/// How far and how fast the block drags a bead, over its height: an entry a height in every array.
+/// Reach and speed of the drag over the block's height; every array has one entry per height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReachCurve {
     /// Lower face above the table, m.
@@ -134,13 +134,13 @@ pub struct ReachCurve {
     pub capture_m: Vec<Option<(f64, f64)>>,
     /// Fz/W right below the block's middle.
     pub lift_ratio: Vec<f64>,
-    /// The greatest Fz/W of any offset in the direction; 1 lifts the bead.
+    /// Maximum Fz/W over the offsets in the direction; 1 lifts the bead.
     pub greatest_lift_ratio: Vec<f64>,
-    /// The greatest speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
-    /// the pull less friction equals the drag. `None` where no pull exceeds friction.
+    /// Maximum speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
+    /// the pull minus friction equals the drag. `None` if the pull never exceeds friction.
     pub largest_speed_m_s: Vec<Option<f64>>,
     /// Height of the lower face, m, below which a bead right below the block's middle lifts off. In C the
-    /// lift is greatest beside the middle, and a bead there lifts off from some tenths of a millimetre higher.
+    /// lift is greatest beside the middle, where a bead lifts off a few tenths of a millimetre higher.
     pub lift_off_m: f64,
 }
 

@@ -8,20 +8,20 @@ use crate::geometry::Vector3;
 /// Most places of a row.
 pub const ROW_LIMIT: u32 = 101;
 
-/// What [`plane`] is computed for.
+/// Query of [`plane`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneQuery {
-    /// How the block hangs.
+    /// Orientation of the block.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
     pub lower_face_height_m: f64,
-    /// How far the square reaches from below the block's middle, m, along the block's x and y.
+    /// Half side of the square around the point below the block's middle, m, along the block's x and y.
     pub reach_m: f64,
-    /// Places of a row and of a column, evenly spaced, the first and the last at the edges.
+    /// Number of points per row and column, evenly spaced, the first and last ones at the edges.
     pub count: u32,
 }
 
-/// The field in a square around the block: an entry a place, row by row from the least x and y.
+/// The field in a square around the block: one entry per point, row by row from the minimum x and y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     /// |B|, T.

@@ -1,4 +1,4 @@
-//! What a browser sends.
+//! Messages from a browser.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -12,7 +12,7 @@ use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripte
 use crate::session::{Command, Kept};
 use crate::trial::Input;
 
-/// What a browser may send. Fields are named and measured as everywhere: metres in `base`.
+/// A message from a browser. Positions are in metres in `base`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[ts(tag = "type", rename_all = "snake_case")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -21,7 +21,7 @@ pub enum ClientMessage {
     SetGoal { x_m: f64, y_m: f64 },
     /// Removes the goal: the arm holds.
     ClearGoal {},
-    /// The hand holds the bead and wants it here. `lift` carries it over walls.
+    /// The hand holds the bead and pulls it here. `lift` carries it over walls.
     Drag {
         x_m: f64,
         y_m: f64,
@@ -29,19 +29,19 @@ pub enum ClientMessage {
         #[ts(optional, as = "Option<bool>")]
         lift: bool,
     },
-    /// The hand lets go.
+    /// The hand releases the bead.
     Release {},
-    /// Chooses sub-controller 2.
+    /// Selects sub-controller 2.
     SelectController { controller: ControllerName },
-    /// Replaces the parameters; what is outside its range is refused, all or nothing.
+    /// Replaces all parameters; one invalid value refuses all of them.
     Configure { parameters: Parameters },
-    /// Lets time run.
+    /// Runs.
     Run {},
-    /// Stops time.
+    /// Pauses.
     Pause {},
-    /// Advances by so many ticks of 8 ms while paused.
+    /// Advances this many ticks of 8 ms while paused.
     Step { ticks: u32 },
-    /// Simulated seconds a second, 0.125 to 64.
+    /// Speed in simulated seconds per second, 0.125 to 64.
     SetSpeed { factor: f64 },
     /// Back to the start, with this seed or the same one.
     Reset {
@@ -49,9 +49,9 @@ pub enum ClientMessage {
         #[ts(optional, type = "number")]
         seed: Option<u64>,
     },
-    /// Another map. Controller, seed and parameters stay as they are where they are left out; the positioner is
-    /// then what the map is made for, the start is random, and there is neither goal nor disturbance. A seed may be
-    /// text, since a number of JavaScript does not hold every one.
+    /// Loads a map. Omitted controller, seed and parameters keep their values. An omitted positioner is the map's,
+    /// an omitted start is random; omitted goal and disturbances mean none. A seed may be
+    /// text, because a JavaScript number cannot represent every seed.
     LoadScenario {
         map: String,
         #[serde(default)]
@@ -82,15 +82,15 @@ pub enum ClientMessage {
         #[ts(optional, as = "Option<Vec<Scripted>>")]
         script: Vec<Scripted>,
     },
-    /// Disturbs the bead, or what is known of it, now.
+    /// Applies a disturbance of the bead or of the tracker now.
     Disturb { disturbance: Disturbance },
-    /// Back to an earlier tick that is still held (see `state.oldest_tick`); pauses.
+    /// Rewinds to an earlier tick that is still kept (see `state.oldest_tick`); pauses.
     Rewind {
         #[ts(type = "number")]
         tick: u64,
     },
-    /// Runs the control step at or before a tick that is still held on under these controllers, all of them when
-    /// left out, beside the session; the answer is a `comparison`. A new one takes an older one's place.
+    /// Compares controllers: continues from the control step at or before a kept tick under each of these controllers (all
+    /// if omitted), beside the session. The answer is a `comparison`; a new one replaces an older one.
     #[serde(rename = "fork")]
     #[ts(rename = "fork")]
     Compare {
@@ -100,14 +100,14 @@ pub enum ClientMessage {
         #[ts(optional, as = "Option<Vec<ControllerName>>")]
         controllers: Vec<ControllerName>,
     },
-    /// Asks to be the operator.
+    /// Requests control.
     TakeControl {},
-    /// Stops being the operator.
+    /// Releases control.
     ReleaseControl {},
 }
 
 impl ClientMessage {
-    /// The command for the session; `None` for what concerns the connection, or runs beside the session.
+    /// The command for the session; `None` for messages about the connection or the comparison.
     pub fn command(self) -> Option<Command> {
         let point = |[x, y]: [f64; 2]| Point2::new(x, y);
         Some(match self {

@@ -1,4 +1,4 @@
-//! Moments gone by: why the arm did what it did, and what another controller would have done from there.
+//! Moments and comparisons: why the arm acted as it did, and what other controllers would have done.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -14,23 +14,23 @@ use crate::trial::{Moment, Motion, TickRecord};
 /// Ticks between two samples of a branch: 25 Hz of simulated time.
 pub const TICKS_A_SAMPLE: u64 = 5;
 
-/// Answer of `GET /api/sessions/{id}/moments/{tick}`: the control step at or before a tick, lived through again.
+/// Answer of `GET /api/sessions/{id}/moments/{tick}`: the repeated control step at or before a tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct MomentMessage {
     /// Tick of the control step.
     #[ts(type = "number")]
     pub tick: u64,
-    /// The same in seconds.
+    /// The tick in seconds.
     pub sim_time_s: f64,
-    /// Active sub-controller from then on, 1 or 2.
+    /// Active sub-controller after the step, 1 or 2.
     pub mode: u8,
-    /// Whether it was the other one before.
+    /// Whether the step switched the sub-controller.
     pub switched: bool,
-    /// Why, one plain sentence.
+    /// Why, in one sentence.
     pub reason: String,
     /// e: distance from tool to tracked bead in the plane.
     pub error_m: f64,
-    /// What e was held against: T, or the fetch radius during a fetch.
+    /// The limit for e: T, or the fetch radius during a fetch.
     pub threshold_m: f64,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
@@ -39,26 +39,26 @@ pub struct MomentMessage {
     /// Tool point.
     #[schema(value_type = Numbers2)]
     pub tool_m: [f64; 2],
-    /// Bead, the truth.
+    /// True position of the bead.
     #[schema(value_type = Numbers2)]
     pub bead_m: [f64; 2],
-    /// Bead as tracked.
+    /// Position of the bead from the tracker.
     #[schema(value_type = Numbers2)]
     pub bead_tracked_m: [f64; 2],
-    /// Goal, if there is one.
+    /// Goal, if set.
     #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<[f64; 2]>,
-    /// Next tool target, if it goes to one.
+    /// Next tool target, if any.
     #[schema(value_type = Option<Numbers2>)]
     pub target_m: Option<[f64; 2]>,
     /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
-    /// What the controller saw and made of it.
+    /// The controller's observation and layers.
     pub overlay: Box<OverlayMessage>,
 }
 
 impl MomentMessage {
-    /// Of a moment and the control step that started there; `None` when none did.
+    /// From a moment and the control step that started there; `None` if none did.
     pub fn of(point: &BranchPoint, before: &Moment, record: &TickRecord) -> Option<Self> {
         let (decision, sight) = (record.decision.as_ref()?, record.sight.as_ref()?);
         let overlay =
@@ -87,7 +87,7 @@ impl MomentMessage {
     }
 }
 
-/// A moment run on under several controllers, each from the same state with the same disturbances.
+/// A comparison: one moment continued under several controllers, from the same state with the same disturbances.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ComparisonMessage {
     /// Number of the trial, as in the scene.
@@ -96,25 +96,25 @@ pub struct ComparisonMessage {
     /// Tick of the moment.
     #[ts(type = "number")]
     pub tick: u64,
-    /// The same in seconds.
+    /// The tick in seconds.
     pub sim_time_s: f64,
     /// Tick at which branches end at the latest.
     #[ts(type = "number")]
     pub until_tick: u64,
-    /// Sub-controller 2 at that moment: its branch is what happens without a change.
+    /// Sub-controller 2 at that moment; its branch repeats the session.
     pub controller: ControllerName,
     /// Ticks between two samples.
     #[ts(type = "number")]
     pub ticks_a_sample: u64,
     /// Whether branches still run.
     pub running: bool,
-    /// Why it came to a halt, if it did.
+    /// Why it failed, if it did.
     pub failed: Option<String>,
-    /// One a controller, in the order asked for; those not begun yet are left out.
+    /// One branch per controller, in the requested order; branches that have not started are omitted.
     pub branches: Vec<Branch>,
 }
 
-/// What one controller makes of the moment.
+/// One controller's run in a comparison.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Branch {
     /// The controller.
@@ -124,14 +124,14 @@ pub struct Branch {
     pub samples: Vec<[f64; 4]>,
     /// Whether it has ended.
     pub done: bool,
-    /// What the arm did last, as in the state.
+    /// Last phase, as in the state.
     pub phase: String,
     /// Tick of the first delivery after the moment.
     #[ts(type = "number | null")]
     pub delivered_tick: Option<u64>,
     /// Mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
-    /// Largest difference in x during transport.
+    /// Maximum difference in x during transport.
     pub tracking_error_max_x_m: f64,
     /// The same in y.
     pub tracking_error_max_y_m: f64,

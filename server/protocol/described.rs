@@ -1,5 +1,5 @@
-//! Types of lower modules that go on the wire as their files have them, described for the page and the API. Each has a
-//! mirror here, and serde's `remote` makes the compiler compare the fields of both.
+//! Types of lower modules whose file format is also their wire format, described for the page and the API. Each has a
+//! mirror here, and serde's `remote` makes the compiler compare the fields.
 
 #![allow(dead_code, reason = "a mirror is only described, never made")]
 

@@ -7,14 +7,14 @@ use utoipa::ToSchema;
 use crate::session::CommandError;
 use crate::trial::{InputError, TrialError};
 
-/// See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
+/// See [`ServerMessage::Error`]; an HTTP problem has the same fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ErrorMessage {
     /// For programs, such as `in_wall`.
     pub code: String,
     /// For people: names the field and the value.
     pub message: String,
-    /// The field at fault.
+    /// The invalid field.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub field: Option<String>,

@@ -1,4 +1,4 @@
-//! Evaluations as the page gets them.
+//! Evaluations.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -20,7 +20,7 @@ pub struct EvaluationQuery {
     /// Names of maps, shipped or added.
     #[schema(value_type = std::collections::BTreeSet<String>, min_items = 1, example = json!(["posts"]))]
     pub maps: Vec<String>,
-    /// Scripted disturbances a trial, 0 to 10.
+    /// Scripted disturbances per trial, 0 to 10.
     #[schema(schema_with = disturbances)]
     pub disturbances: Vec<u32>,
     /// Trials a cell, 1 to 1000.
@@ -41,21 +41,21 @@ fn disturbances() -> Array {
     ArrayBuilder::new().items(count).unique_items(true).min_items(Some(1)).description(Some(about)).build()
 }
 
-/// What one row of the table is about.
+/// The subject of one row of the table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,
     /// Map.
     pub map: String,
-    /// Scripted disturbances a trial.
+    /// Scripted disturbances per trial.
     pub disturbances: u32,
 }
 
 /// The paper's numbers for a row.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct PaperRow {
-    /// Where they stand.
+    /// Source in the paper.
     pub section: String,
     /// Trials.
     pub episodes: u32,
@@ -74,33 +74,33 @@ pub struct PaperRow {
     pub tracking_error_max_y_m: Option<f64>,
 }
 
-/// How an evaluation stands.
+/// Stage of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EvaluationStage {
-    /// Another one runs.
+    /// Another evaluation is running.
     Waiting,
     /// It runs.
     Running,
-    /// Every cell has its row.
+    /// All cells are complete.
     Done,
-    /// It was broken off.
+    /// It was cancelled.
     Cancelled,
-    /// A trial could not go on.
+    /// A trial failed with an error.
     Failed,
 }
 
-/// A cell of an evaluation, and how far it is.
+/// A cell of an evaluation with its progress.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationCell {
     /// What it is about.
     #[serde(flatten)]
     pub cell: Cell,
-    /// Trials that ended.
+    /// Number of trials that ended.
     pub done: u32,
-    /// Of these, trials whose bead arrived.
+    /// Number of these that delivered.
     pub delivered: u32,
-    /// How long it ran, to the last trial that ended.
+    /// Time until the last trial ended.
     pub elapsed_s: f64,
     /// The paper's numbers for it, if it has any.
     pub paper: Option<PaperRow>,
@@ -111,25 +111,25 @@ pub struct EvaluationCell {
 pub struct EvaluationSummary {
     /// Its name.
     pub id: String,
-    /// What was asked.
+    /// The query.
     pub query: EvaluationQuery,
-    /// How it stands.
+    /// Its stage.
     pub stage: EvaluationStage,
     /// Why it failed, if it did.
     pub message: Option<String>,
-    /// What it comes to, in the order in which it runs.
+    /// Its cells, in the order in which they run.
     pub cells: Vec<EvaluationCell>,
-    /// How many of the cells have their row.
+    /// Number of complete cells.
     pub rows_done: u32,
 }
 
-/// A trial whose bead did not arrive. With map, controller and disturbances of its cell, seed, start and goal set it
+/// A trial that did not deliver. Its seed, start and goal, with map, controller and disturbances of its cell, set it
 /// up again.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationFailure {
     /// Its cell, from 0.
     pub cell: u32,
-    /// Which trial of the evaluation's seed.
+    /// Index of the trial.
     pub index: u32,
     /// Seed of the trial itself, as text.
     pub seed: String,
@@ -143,34 +143,34 @@ pub struct EvaluationFailure {
     pub reached: bool,
     /// How it ended.
     pub outcome: String,
-    /// What kept sub-controller 2 from the goal, if anything did.
+    /// What kept sub-controller 2 from the goal, if anything.
     pub trouble: Option<String>,
-    /// Why the arm held in the end, if it did.
+    /// Why the arm held at the end, if it did.
     pub refusal: Option<String>,
     /// Control steps.
     pub steps: u32,
-    /// Disturbances that struck.
+    /// Disturbances applied.
     pub disturbances: u32,
 }
 
 /// Answer of `GET /api/evaluations/{id}`.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationReport {
-    /// How it stands.
+    /// Its stage.
     #[serde(flatten)]
     pub summary: EvaluationSummary,
-    /// Rows of the cells that are through, in the order of the cells; those of `ferry evaluate --json`.
+    /// Rows of the complete cells, in their order, as in `ferry evaluate --json`.
     pub rows: Vec<Row>,
-    /// Every two controllers of the same map and disturbances among them.
+    /// Every pair of controllers on the same map with the same disturbances.
     pub comparisons: Vec<Comparison>,
-    /// Their trials whose bead did not arrive.
+    /// Trials that did not deliver.
     pub failures: Vec<EvaluationFailure>,
 }
 
 /// Answer of `GET /api/evaluations`.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct Evaluations {
-    /// In the order in which they were asked for.
+    /// In the order of submission.
     pub evaluations: Vec<EvaluationSummary>,
 }
 

@@ -1,4 +1,4 @@
-//! What the page can lay over its pictures: what the camera tells, what ERRT plans, where the attractor leads.
+//! Data of the page's layers: camera, ERRT's plan, values, attractor flow.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -17,7 +17,7 @@ use crate::scenario::RlPolicy;
 use crate::session::{Scenery, View};
 use crate::trial::{Arena, Motion, Sight};
 
-/// An obstacle as the attractor sees it: a superellipse of exponent 4.
+/// An obstacle as sensed for the attractor: a superellipse of exponent 4.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct SensedObstacle {
     /// Centre.
@@ -48,18 +48,18 @@ pub struct OverlayMessage {
     /// Next tool target.
     #[schema(value_type = Option<Numbers2>)]
     pub target_m: Option<[f64; 2]>,
-    /// Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's picture.
+    /// Homography from (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's image.
     #[schema(value_type = Rows3)]
     pub picture_from_table: [[f64; 3]; 3],
-    /// What the image is made of.
+    /// Blocks of the image.
     pub blocks: BlocksLayer,
-    /// What ERRT plans, while it is sub-controller 2.
+    /// ERRT's plan, while it is sub-controller 2.
     pub plan: Option<PlanLayer>,
-    /// What the policy thinks, while it is sub-controller 2.
+    /// The policy's quantiles, while it is sub-controller 2.
     pub judgement: Option<JudgementLayer>,
 }
 
-/// ERRT's last search, and the way that is followed.
+/// ERRT's last search and the path that is followed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct PlanLayer {
     /// Both ends of every edge, x, y, x, y in metres; 4000 at most.
@@ -68,22 +68,22 @@ pub struct PlanLayer {
     /// Corners of the path, including start and goal; empty without a path.
     #[schema(value_type = Vec<Numbers2>)]
     pub way: Vec<[f64; 2]>,
-    /// Distance that the way keeps from walls away from its ends.
+    /// Distance of the path from walls, except near its ends.
     pub clearance_m: Option<f64>,
-    /// Ways planned since the trial began.
+    /// Paths planned since the start of the trial.
     pub plans: u32,
     /// Edges tried in the last search.
     pub attempts: u32,
     /// Weight of the cost from the root in the choice of the nearest node.
     pub beta: f64,
-    /// Obstacles that it plans around, as few rectangles as possible.
+    /// Obstacles for planning, as the fewest rectangles.
     pub obstacles: Vec<Rect>,
 }
 
 /// Column, row, width and height in pixels of a square image of the table, rows counted from the top.
 pub type PixelBlock = [u32; 4];
 
-/// The camera's image as the planner takes it, seen from straight above.
+/// The camera's image as used by the planner, from straight above.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct BlocksLayer {
     /// Upper left corner on the table.
@@ -102,24 +102,24 @@ pub struct BlocksLayer {
     pub rectangles: Vec<PixelBlock>,
 }
 
-/// What the camera has shown of the workspace since the trial began.
+/// The obstacle map observed since the start of the trial.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct SeenMessage {
-    /// Raised with each of the session's.
+    /// Number of the message, increasing within the session.
     #[ts(type = "number")]
     pub number: u64,
-    /// What the grid covers.
+    /// The area of the grid.
     pub workspace: Rect,
     /// Cells along x.
     pub columns: u32,
     /// Cells along y.
     pub rows: u32,
-    /// Equal cells in succession, from the least x and y row by row, which may go on in the next row: 0 for
-    /// unknown, 1 for free, 2 for an obstacle; and how many.
+    /// Runs of equal cells with their length, row by row from the minimum x and y; a run may continue in the next row: 0 for
+    /// unknown, 1 for free, 2 for an obstacle.
     pub runs: Vec<(u8, u32)>,
 }
 
-/// What the policy made of the last image that it judged.
+/// The policy's evaluation of the last image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct JudgementLayer {
     /// Quantiles of the return for +x, −x, +y and −y, at the fractions (k + ½) / K.
@@ -139,18 +139,18 @@ pub struct JudgementLayer {
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({"goal_m": [0.12, -0.33]}))]
 pub struct ValueQuery {
-    /// The goal to judge for.
+    /// The goal.
     #[schema(value_type = Numbers2)]
     pub goal_m: [f64; 2],
 }
 
-/// What the session's policy thinks of every place of the map on the way to a goal, by the default camera's images.
+/// Values of the session's policy for every place of the map and one goal, from images of the default camera.
 /// Places are a centimetre apart, farther where there would be more than 4000.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct ValueMap {
     /// Side of a cell.
     pub spacing_m: f64,
-    /// Cells that keep the policy's distance from the walls.
+    /// Cells with at least the policy's clearance from walls.
     pub cells: Vec<ValueCell>,
     /// Maps that the policy was trained on.
     pub trained_on: Vec<String>,
@@ -168,7 +168,7 @@ pub struct ValueCell {
     pub action: u8,
 }
 
-/// Spacing that a [`FlowQuery`] may ask for.
+/// Allowed spacing of a [`FlowQuery`].
 pub const FLOW_SPACING_M: std::ops::RangeInclusive<f64> = 0.005..=0.05;
 
 /// Body of `POST /api/sessions/{id}/flow`.
@@ -178,25 +178,25 @@ pub struct FlowQuery {
     /// Distance between two places, .005 to .05 m.
     #[schema(minimum = 0.005, maximum = 0.05)]
     pub spacing_m: f64,
-    /// Of the session's `seen` messages the one that the page has. Not looked at: it makes the question a new one
-    /// when more was seen.
+    /// Number of the page's last `seen` message. The server ignores it; it makes the request a new one
+    /// when more was observed.
     #[ts(type = "number")]
     pub seen: u64,
 }
 
-/// Where attractor dynamics lead from each place of the workspace, for goal, parameters and what was seen up to now.
+/// The attractor's flow for goal, parameters and obstacle map.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct FlowField {
     /// Places across.
     pub columns: u32,
     /// Places away from the user.
     pub rows: u32,
-    /// The place of least x and y.
+    /// The place with minimum x and y.
     #[schema(value_type = Numbers2)]
     pub origin_m: [f64; 2],
     /// Distance between two places.
     pub spacing_m: f64,
-    /// Velocities row by row from the least y, each row from the least x; none over a known obstacle. Empty without a
+    /// Velocities row by row from the minimum x and y; `null` over a known obstacle. Empty without a
     /// goal.
     #[schema(value_type = Vec<Option<Numbers2>>)]
     pub velocity_m_s: Vec<Option<[f64; 2]>>,

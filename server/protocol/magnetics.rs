@@ -1,4 +1,4 @@
-//! The magnet's curves and fields, as they are asked and answered.
+//! Queries and answers for the magnet's curves and fields.
 
 use std::f64::consts::TAU;
 
@@ -11,32 +11,32 @@ use super::numbers::Numbers2;
 use crate::magnetics::force::Orientation;
 use crate::magnetics::{curves, plane};
 
-/// The derive takes no constants for limits.
+/// The derive does not accept constants as limits.
 fn direction() -> Object {
     let about = "Where the bead lies, from below the block's middle: along the block's x, turned toward its y.";
     let number = ObjectBuilder::new().schema_type(Type::Number).description(Some(about));
     number.minimum(Some(-TAU)).maximum(Some(TAU)).build()
 }
 
-/// What [`pull`] is drawn for.
+/// Query of [`pull`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PullQuery {
-    /// How the block hangs.
+    /// Orientation of the block.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
     #[schema(minimum = 0.005, maximum = 0.5)]
     pub lower_face_height_m: f64,
-    /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+    /// Direction of the bead from below the block's middle: from the block's x toward its y.
     #[schema(schema_with = direction)]
     pub direction_rad: f64,
     /// Coulomb's coefficient.
     #[schema(minimum = 0, maximum = 1000)]
     pub friction: f64,
-    /// The greatest offset, m.
+    /// Maximum offset, m.
     #[schema(minimum = 0, maximum = 0.5)]
     pub farthest_m: f64,
-    /// Number of offsets, from zero on, evenly spaced.
+    /// Number of evenly spaced offsets, starting at zero.
     #[schema(minimum = 2, maximum = 2000)]
     pub count: u32,
 }
@@ -48,7 +48,7 @@ impl From<PullQuery> for curves::PullQuery {
     }
 }
 
-/// The pull on a bead over its horizontal offset: an entry an offset in every array.
+/// The pull on a bead over its horizontal offset; every array has one entry per offset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct PullCurve {
     /// Offset from below the block's middle, m.
@@ -57,12 +57,12 @@ pub struct PullCurve {
     pub lift_ratio: Vec<f64>,
     /// Pull in the table's plane over W.
     pub lateral_ratio: Vec<f64>,
-    /// (W − Fz)/W: what remains of the weight.
+    /// (W − Fz)/W: the remaining weight.
     pub weight_ratio: Vec<f64>,
-    /// Whether the bead lifts off: nothing remains of its weight.
+    /// Whether the bead lifts off because no weight remains.
     pub is_lifted: Vec<bool>,
-    /// Pull in the table's plane over what friction can hold, friction·(W − Fz): from 1 on the bead
-    /// follows. `None` where friction holds nothing, because it is zero or the bead lifts off.
+    /// Pull in the table's plane divided by the maximum friction, friction·(W − Fz): from 1 on the bead
+    /// follows. `None` if there is no friction, because the coefficient is zero or the bead lifts off.
     pub drag_ratio: Vec<Option<f64>>,
     /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
     #[schema(value_type = Option<Numbers2>)]
@@ -77,25 +77,25 @@ impl From<curves::PullCurve> for PullCurve {
     }
 }
 
-/// What [`reach`] is drawn for.
+/// Query of [`reach`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReachQuery {
-    /// How the block hangs.
+    /// Orientation of the block.
     pub orientation: Orientation,
-    /// Least height of its lower face above the table, m: at least the bead's diameter.
+    /// Minimum height of its lower face above the table, m: at least the bead's diameter.
     #[schema(minimum = 0.005, maximum = 0.5)]
     pub lowest_m: f64,
-    /// Greatest such height, m.
+    /// Maximum height, m.
     #[schema(minimum = 0.005, maximum = 0.5)]
     pub highest_m: f64,
-    /// Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+    /// Direction of the bead from below the block's middle: from the block's x toward its y.
     #[schema(schema_with = direction)]
     pub direction_rad: f64,
     /// Coulomb's coefficient.
     #[schema(minimum = 0, maximum = 1000)]
     pub friction: f64,
-    /// Viscous drag on the bead, N·s/m: not zero, else no speed is too large.
+    /// Viscous drag on the bead, N·s/m; not zero, since without drag the speed is unlimited.
     #[schema(minimum = 0.000001, maximum = 1000)]
     pub drag_n_s_m: f64,
     /// Number of heights, evenly spaced.
@@ -110,7 +110,7 @@ impl From<ReachQuery> for curves::ReachQuery {
     }
 }
 
-/// How far and how fast the block drags a bead, over its height: an entry a height in every array.
+/// Reach and speed of the drag over the block's height; every array has one entry per height.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ReachCurve {
     /// Lower face above the table, m.
@@ -120,13 +120,13 @@ pub struct ReachCurve {
     pub capture_m: Vec<Option<(f64, f64)>>,
     /// Fz/W right below the block's middle.
     pub lift_ratio: Vec<f64>,
-    /// The greatest Fz/W of any offset in the direction; 1 lifts the bead.
+    /// Maximum Fz/W over the offsets in the direction; 1 lifts the bead.
     pub greatest_lift_ratio: Vec<f64>,
-    /// The greatest speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
-    /// the pull less friction equals the drag. `None` where no pull exceeds friction.
+    /// Maximum speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
+    /// the pull minus friction equals the drag. `None` if the pull never exceeds friction.
     pub largest_speed_m_s: Vec<Option<f64>>,
     /// Height of the lower face, m, below which a bead right below the block's middle lifts off. In C the
-    /// lift is greatest beside the middle, and a bead there lifts off from some tenths of a millimetre higher.
+    /// lift is greatest beside the middle, where a bead lifts off a few tenths of a millimetre higher.
     pub lift_off_m: f64,
 }
 
@@ -144,19 +144,19 @@ impl From<curves::ReachCurve> for ReachCurve {
     }
 }
 
-/// What [`plane`] is computed for.
+/// Query of [`plane`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneQuery {
-    /// How the block hangs.
+    /// Orientation of the block.
     pub orientation: Orientation,
     /// Its lower face above the table, m: at least the bead's diameter.
     #[schema(minimum = 0.005, maximum = 0.5)]
     pub lower_face_height_m: f64,
-    /// How far the square reaches from below the block's middle, m, along the block's x and y.
+    /// Half side of the square around the point below the block's middle, m, along the block's x and y.
     #[schema(minimum = 0.001, maximum = 0.5)]
     pub reach_m: f64,
-    /// Places of a row and of a column, evenly spaced, the first and the last at the edges.
+    /// Number of points per row and column, evenly spaced, the first and last ones at the edges.
     #[schema(minimum = 2, maximum = 101)]
     pub count: u32,
 }
@@ -168,7 +168,7 @@ impl From<PlaneQuery> for plane::PlaneQuery {
     }
 }
 
-/// The field in a square around the block: an entry a place, row by row from the least x and y.
+/// The field in a square around the block: one entry per point, row by row from the minimum x and y.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Plane {
     /// |B|, T.

@@ -1,4 +1,4 @@
-//! Arrays of fixed length in the API description: the derive does not keep the length of an array.
+//! Arrays of fixed length in the API description; the derive loses the length of an array.
 //! Use `#[schema(value_type = Numbers2)]` for a field of type `[f64; 2]`.
 
 use std::borrow::Cow;

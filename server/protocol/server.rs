@@ -16,7 +16,7 @@ use crate::trial::{Event, EventKind};
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;
 
-/// Who this browser is.
+/// Role of a browser.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -32,17 +32,17 @@ pub enum Role {
 pub enum ServerMessage {
     /// First message of a connection; sent again when the role changes.
     Hello(Hello),
-    /// What stands still: sent at the start and after each change.
+    /// The static part of a session: sent at the start and after each change.
     Scene(Box<SceneMessage>),
-    /// What moves: at most 60 a second.
+    /// The moving part: at most 60 messages per second.
     State(Box<StateMessage>),
-    /// Something happened once.
+    /// An event.
     Event(EventMessage),
-    /// What the controller made of the last camera frame.
+    /// The controller's layers for the last camera frame.
     Overlay(Box<OverlayMessage>),
-    /// What the camera has shown up to now, when that changed.
+    /// The obstacle map, when it changed.
     Seen(SeenMessage),
-    /// How a fork goes on.
+    /// Progress of a comparison.
     Comparison(Box<ComparisonMessage>),
     /// A message was refused; nothing changed.
     Error(ErrorMessage),
@@ -59,13 +59,13 @@ pub struct Hello {
     pub version: String,
     /// This browser's role.
     pub role: Role,
-    /// Number of the operator's lease; it rises when control passes on. A command may carry it as `epoch`, and is
-    /// refused when it is no longer that.
+    /// Number of the operator's lease; it increases when control passes on. A command may carry it as `epoch`, and is
+    /// refused if it is not the current one.
     #[ts(type = "number")]
     pub epoch: u64,
-    /// Whether anybody is the operator.
+    /// Whether the session has an operator.
     pub operator_present: bool,
-    /// Whether this browser is the operator and another one asks it to make way.
+    /// Whether this browser is the operator and another one requests control.
     pub asked: bool,
     /// Graphics adapter that renders the camera.
     pub adapter: String,
@@ -78,9 +78,9 @@ pub struct SceneMessage {
     pub map: String,
     /// Maps that `load_scenario` knows.
     pub maps: Vec<String>,
-    /// How the trial was set up; controller, goal and parameters may have changed since.
+    /// The trial's scenario; controller, goal and parameters may have changed since.
     pub scenario: Scenario,
-    /// What carries the magnet in this trial.
+    /// The positioner of this trial.
     pub positioner: PositionerKind,
     /// Controllers that `select_controller` knows.
     pub controllers: Vec<ControllerName>,
@@ -88,26 +88,26 @@ pub struct SceneMessage {
     pub workspace: Rect,
     /// Walls inside the workspace, 5 mm high.
     pub walls: Vec<Polygon>,
-    /// Seed in force.
+    /// Current seed.
     #[ts(type = "number")]
     pub seed: u64,
-    /// Parameters in force.
+    /// Current parameters.
     pub parameters: Parameters,
     /// Their defaults.
     pub defaults: Parameters,
     /// Radius of the bead.
     pub bead_radius_m: f64,
-    /// Corners of the part of the table that the camera sees, from the tool.
+    /// Corners of the part of the table that the camera sees, relative to the tool.
     #[schema(value_type = Vec<Numbers2>)]
     pub camera_sees_m: Vec<[f64; 2]>,
-    /// Number of the trial: another one when a trial was set up anew.
+    /// Number of the trial; each new trial has another one.
     #[ts(type = "number")]
     pub trial: u64,
     /// Distances from the tool at which the magnet's pull beats friction, nearest and farthest, for the
-    /// parameters in force, in 72 directions from +x counter-clockwise; none where it never does, and no
-    /// farthest where it always does.
+    /// current parameters, in 72 directions from +x counter-clockwise; `null` if it never does, and no
+    /// farthest distance if it always does.
     pub capture_m: Vec<Option<(f64, Option<f64>)>>,
-    /// Seconds a tick.
+    /// Seconds per tick.
     pub tick_s: f64,
 }
 
@@ -125,58 +125,58 @@ pub struct StateMessage {
     /// Latest tick that `rewind` reaches.
     #[ts(type = "number")]
     pub newest_tick: u64,
-    /// Whether time runs.
+    /// Whether the session is running.
     pub running: bool,
-    /// Asked simulated seconds a second.
+    /// Requested speed, simulated seconds per second.
     pub speed_target: f64,
-    /// Achieved simulated seconds a second.
+    /// Achieved speed, simulated seconds per second.
     pub speed_achieved: f64,
-    /// How late the latest tick of the last half second came, in milliseconds of the clock.
+    /// Maximum delay of a tick in the last half second, wall-clock milliseconds.
     pub lateness_ms: f64,
-    /// How often the session fell so far behind that lost time was let go, since it began.
+    /// How often the session fell behind so far that it skipped the lost time.
     #[ts(type = "number")]
     pub missed_deadlines: u64,
     /// Tool point: the middle of the block's lower face.
     #[schema(value_type = Numbers3)]
     pub tool_m: [f64; 3],
-    /// Centre of the bead, the truth.
+    /// True centre of the bead.
     #[schema(value_type = Numbers3)]
     pub bead_m: [f64; 3],
-    /// The bead as the optical tracker gives it.
+    /// Position of the bead from the tracker.
     #[schema(value_type = Numbers2)]
     pub bead_tracked_m: [f64; 2],
     /// Goal, if one is set.
     #[schema(value_type = Option<Numbers3>)]
     pub goal_m: Option<[f64; 3]>,
-    /// Where the hand wants the bead, while it holds it.
+    /// Target of the hand, while it holds the bead.
     #[schema(value_type = Option<Numbers2>)]
     pub hand_m: Option<[f64; 2]>,
-    /// Force of the hand's spring on the bead (0 when not held).
+    /// Force of the hand's spring on the bead; 0 if not held.
     pub hand_force_n: f64,
-    /// Joint angles; none on the planar stage, which has no arm.
+    /// Joint angles; `null` for the planar stage.
     #[schema(value_type = Option<Numbers6>)]
     pub joints_rad: Option<[f64; 6]>,
     /// Active sub-controller, 1 or 2.
     pub mode: u8,
-    /// Why it is active, one plain sentence.
+    /// Why it is active, in one sentence.
     pub reason: String,
     /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
-    /// What the arm does in words: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
+    /// Phase: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
     pub phase: String,
     /// Tool minus bead, x.
     pub tracking_error_x_m: f64,
     /// Tool minus bead, y.
     pub tracking_error_y_m: f64,
-    /// Its norm: the `e` of the switching law.
+    /// Norm of the tracking error.
     pub tracking_error_m: f64,
     /// Distance from the tool to the goal.
     pub goal_distance_m: Option<f64>,
     /// Horizontal pull of the magnet on the bead.
     pub pull_n: f64,
-    /// Vertical pull in units of the bead's weight; 1 is lift-off.
+    /// Vertical pull in units of the bead's weight; the bead lifts off at 1.
     pub lift_ratio: f64,
     /// Control steps of the current transport leg.
     pub leg_steps: u32,
@@ -190,7 +190,7 @@ pub struct StateMessage {
     pub disturbances: u32,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
-    /// `recording`, or why this session is not recorded.
+    /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
     pub ended: Option<String>,
@@ -206,7 +206,7 @@ pub struct EventMessage {
     pub sim_time_s: f64,
     /// What.
     pub kind: EventKind,
-    /// One plain sentence.
+    /// One sentence.
     pub text: String,
 }
 

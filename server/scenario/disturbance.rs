@@ -37,28 +37,28 @@ pub enum Disturbance {
         x_n: f64,
         /// Along y.
         y_n: f64,
-        /// For so long.
+        /// Duration.
         for_s: f64,
     },
-    /// The optical tracker sees nothing.
+    /// The tracker is blind.
     Dropout {
-        /// For so long.
+        /// Duration.
         for_s: f64,
     },
 }
 
-/// When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
+/// When a scripted disturbance is applied. Those that wait for the bead are applied in the order of the script.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// Before this tick.
     Tick(u64),
-    /// At this control step, 1 to 600, of whichever goal first gets so far.
+    /// At this control step, 1 to 600, of the first goal that reaches it.
     Step(u32),
     /// When the bead's x passes this one, in either direction.
     #[serde(rename = "passes_x_m")]
     PassesXM(f64),
-    /// When the bead comes so near to a place.
+    /// When the bead comes within a distance of a place.
     Near {
         /// x.
         x_m: f64,
@@ -76,7 +76,7 @@ impl When {
     }
 }
 
-/// A disturbance and its time.
+/// A disturbance with its time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scripted {
@@ -90,7 +90,7 @@ pub struct Scripted {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field} is {value}, it must be {allowed}")]
 pub struct DisturbanceError {
-    /// The field at fault.
+    /// The invalid field.
     pub field: &'static str,
     /// Its value.
     pub value: f64,

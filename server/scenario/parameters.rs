@@ -49,7 +49,7 @@ pub enum RlPolicy {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field} is {value}, it must be {allowed}")]
 pub struct ParameterError {
-    /// The field at fault.
+    /// The invalid field.
     pub field: &'static str,
     /// Its value.
     pub value: f64,

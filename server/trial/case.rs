@@ -25,7 +25,7 @@ const BYTES_MOST: u64 = 64 << 20;
 /// Maximum tick in a case: one day.
 const TICKS_MOST: u64 = 24 * 3600 * 125;
 
-/// A trial that can be run again with whatever the controllers have become.
+/// A trial that can be run again with the present controllers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
@@ -42,7 +42,7 @@ pub struct Case {
     pub expect: Option<Expectation>,
 }
 
-/// An input and its time.
+/// An input with its tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
@@ -51,7 +51,7 @@ pub struct Timed {
     pub input: Input,
 }
 
-/// So many deliveries by then.
+/// Expected number of deliveries up to a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {

@@ -45,7 +45,7 @@ impl LoggedBeginning {
     }
 }
 
-/// A map as it was drawn: those that ship with Ferry may change.
+/// A map with its drawing, because shipped maps may change.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoggedMap {
     /// Name, for people.

@@ -8,32 +8,32 @@ use serde::{Deserialize, Serialize};
 pub enum EventKind {
     /// The switching law changed the active sub-controller.
     Switch,
-    /// The bead was taken, displaced or let go.
+    /// The bead was taken, moved or released.
     Disturbance,
     /// The goal was placed or removed.
     Goal,
     /// The tool came within 2 cm of the goal.
     Reached,
-    /// The bead too.
+    /// The bead came within 2 cm of the goal, too.
     Delivered,
     /// The bead jumped to the magnet.
     LiftOff,
     /// A controller or a limit refused a step.
     Refused,
-    /// A limit of steps or time was met.
+    /// A limit of steps or time was exceeded.
     Stopped,
-    /// Anything about the session itself.
+    /// Something about the session itself.
     Session,
 }
 
-/// Something happened once.
+/// An event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
     /// When.
     pub tick: u64,
     /// What.
     pub kind: EventKind,
-    /// One plain sentence.
+    /// One sentence.
     pub text: String,
 }
 

@@ -13,7 +13,7 @@ use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterEr
 /// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
 const WAITING_MOST: usize = 50_000;
 
-/// One action; stands in the log at the tick that follows it.
+/// An input of a trial; it is logged with the tick that follows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
@@ -26,13 +26,13 @@ pub enum Input {
     },
     /// Removes the goal.
     ClearGoal,
-    /// The hand takes the bead, or moves on with it.
+    /// The hand takes the bead or moves it.
     Drag {
         /// Pointer, x.
         x_m: f64,
         /// Pointer, y.
         y_m: f64,
-        /// Whether it carries the bead over walls.
+        /// Whether the bead is lifted over walls.
         lift: bool,
     },
     /// While paused, the hand places the bead at once.
@@ -42,13 +42,13 @@ pub enum Input {
         /// y.
         y_m: f64,
     },
-    /// The hand lets go.
+    /// The hand releases the bead.
     Release,
-    /// Another sub-controller 2.
+    /// Selects sub-controller 2.
     SelectController(ControllerName),
-    /// Other parameters.
+    /// Replaces the parameters.
     Configure(Box<Parameters>),
-    /// A disturbance, now.
+    /// Applies a disturbance now.
     Disturb(Disturbance),
 }
 
@@ -58,7 +58,7 @@ pub enum InputError {
     /// Not a number.
     #[error("{field} is {value}, it must be finite")]
     NotFinite {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
         /// Its value.
         value: f64,
@@ -66,7 +66,7 @@ pub enum InputError {
     /// Not on the table.
     #[error("{field} ({x_m:.3}, {y_m:.3}) m is outside the workspace")]
     OutsideWorkspace {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
         /// x.
         x_m: f64,
@@ -76,7 +76,7 @@ pub enum InputError {
     /// In a wall, or nearer to one than the bead's radius.
     #[error("{field} ({x_m:.3}, {y_m:.3}) m is in a wall or nearer to one than the bead's radius of 2.5 mm")]
     InWall {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
         /// x.
         x_m: f64,
@@ -86,7 +86,7 @@ pub enum InputError {
     /// The arm cannot go there.
     #[error("{field}: {refusal}")]
     Reach {
-        /// The field at fault.
+        /// The invalid field.
         field: &'static str,
         /// Why.
         refusal: Refusal,
@@ -116,7 +116,7 @@ impl InputError {
         }
     }
 
-    /// The field at fault.
+    /// The invalid field.
     pub fn field(&self) -> &'static str {
         match self {
             Self::NotFinite { field, .. }

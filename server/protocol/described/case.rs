@@ -1,4 +1,4 @@
-//! Cases: trials with what an operator did in them.
+//! Test cases: trials with the operator's inputs.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -14,38 +14,38 @@ describe_schema! {
     trial::Input as Input;
 }
 
-/// A trial that can be run again with whatever the controllers have become.
+/// A trial that can be run again with the present controllers.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(remote = "crate::trial::Case")]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// What it shows.
+    /// Description.
     pub about: String,
-    /// How the trial is set up.
+    /// The scenario.
     pub scenario: Scenario,
-    /// Its map, where that does not come with Ferry.
+    /// Its map, if the map does not ship with Ferry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<trial::LoggedMap>,
-    /// What is done in it, in order of ticks.
+    /// The inputs, in order of ticks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<trial::Timed>,
-    /// What must come of it.
+    /// The expected result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<trial::Expectation>,
 }
 
-/// An input and its time.
+/// An input with its tick.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(remote = "crate::trial::Timed")]
 #[serde(deny_unknown_fields)]
 pub struct Timed {
-    /// It comes before the tick after this one.
+    /// The input is applied after this tick and before the next one.
     pub tick: u64,
     /// What.
     pub input: trial::Input,
 }
 
-/// So many deliveries by then.
+/// Expected number of deliveries up to a tick.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(remote = "crate::trial::Expectation")]
 #[serde(deny_unknown_fields)]
@@ -56,7 +56,7 @@ pub struct Expectation {
     pub by_tick: u64,
 }
 
-/// A map as it was drawn: those that ship with Ferry may change.
+/// A map with its drawing, because shipped maps may change.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(remote = "crate::trial::LoggedMap")]
 pub struct LoggedMap {
@@ -66,7 +66,7 @@ pub struct LoggedMap {
     pub svg: String,
 }
 
-/// One action; stands in the log at the tick that follows it.
+/// An input of a trial; it is logged with the tick that follows it.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(remote = "crate::trial::Input")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -80,13 +80,13 @@ pub enum Input {
     },
     /// Removes the goal.
     ClearGoal,
-    /// The hand takes the bead, or moves on with it.
+    /// The hand takes the bead or moves it.
     Drag {
         /// Pointer, x.
         x_m: f64,
         /// Pointer, y.
         y_m: f64,
-        /// Whether it carries the bead over walls.
+        /// Whether the bead is lifted over walls.
         lift: bool,
     },
     /// While paused, the hand places the bead at once.
@@ -96,12 +96,12 @@ pub enum Input {
         /// y.
         y_m: f64,
     },
-    /// The hand lets go.
+    /// The hand releases the bead.
     Release,
-    /// Another sub-controller 2.
+    /// Selects sub-controller 2.
     SelectController(ControllerName),
-    /// Other parameters.
+    /// Replaces the parameters.
     Configure(Box<Parameters>),
-    /// A disturbance, now.
+    /// Applies a disturbance now.
     Disturb(Disturbance),
 }

@@ -27,7 +27,7 @@ pub struct Row {
     pub controller: String,
     /// Map.
     pub map: String,
-    /// Scripted disturbances a trial.
+    /// Scripted disturbances per trial.
     pub disturbances: u32,
     /// Trials.
     pub episodes: u32,
@@ -43,35 +43,35 @@ pub struct Row {
     pub wilson95: [f64; 2],
     /// Mean over trials of the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
-    /// Mean over trials of the mean difference in x during transport, without its sign.
+    /// Mean over trials of the mean absolute difference in x during transport.
     pub tracking_error_mean_x_m: f64,
     /// The same in y.
     pub tracking_error_mean_y_m: f64,
-    /// Mean over trials of the largest difference in x during transport.
+    /// Mean over trials of the maximum difference in x during transport.
     pub tracking_error_max_x_m: f64,
     /// The same in y.
     pub tracking_error_max_y_m: f64,
-    /// Mean over trials that delivered of the tool's way over the shortest; none if none did.
+    /// Mean over delivered trials of the tool's path divided by the shortest path; missing without a delivery.
     pub path_ratio_mean: Option<f64>,
     /// Mean control steps.
     pub steps_mean: f64,
     /// Mean switches.
     pub switches_mean: f64,
-    /// Disturbances that struck, all trials together.
+    /// Disturbances applied in all trials together.
     pub disturbances_struck: u32,
-    /// Median milliseconds a control step, camera included.
+    /// Median duration of a control step in milliseconds, including the camera.
     pub decision_ms_p50: f64,
     /// 99th percentile.
     pub decision_ms_p99: f64,
 }
 
-/// The first controller against the second, trial by trial: the same start, goal, seed and pushes.
+/// Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
 #[derive(Serialize, TS, ToSchema)]
 #[serde(remote = "crate::evaluate::Comparison")]
 pub struct Comparison {
     /// Map.
     pub map: String,
-    /// Scripted disturbances a trial.
+    /// Scripted disturbances per trial.
     pub disturbances: u32,
     /// The first.
     pub controller: String,
@@ -79,13 +79,13 @@ pub struct Comparison {
     pub against: String,
     /// Trials.
     pub episodes: u32,
-    /// Trials that both delivered.
+    /// Trials delivered by both.
     pub both: u32,
-    /// That the first alone delivered.
+    /// Trials delivered by the first only.
     pub first_only: u32,
-    /// That the second alone delivered.
+    /// Trials delivered by the second only.
     pub second_only: u32,
-    /// That neither delivered.
+    /// Trials delivered by neither.
     pub neither: u32,
     /// Share delivered by the first minus that by the second.
     pub delivered_difference: f64,
@@ -94,9 +94,9 @@ pub struct Comparison {
     pub delivered_difference95: [f64; 2],
     /// Control steps of the first minus those of the second, where both delivered.
     pub steps: Option<evaluate::PairedMean>,
-    /// The same of the mean distance of tool and bead during transport.
+    /// The same for the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: Option<evaluate::PairedMean>,
-    /// The same of the way over the shortest.
+    /// The same for path ÷ shortest path.
     pub path_ratio: Option<evaluate::PairedMean>,
 }
 
@@ -111,7 +111,7 @@ pub struct PairedMean {
     pub interval95: [f64; 2],
 }
 
-/// A trial whose bead did not arrive, with what it takes to set it up again.
+/// A trial that did not deliver, with everything needed to repeat it.
 #[derive(Serialize, ToSchema)]
 #[serde(remote = "crate::evaluate::Failure")]
 pub struct Failure {
@@ -121,7 +121,7 @@ pub struct Failure {
     pub map: String,
     /// Scripted disturbances.
     pub disturbances: u32,
-    /// Which trial of the evaluation's seed.
+    /// Index of the trial.
     pub index: u32,
     /// Seed of the trial itself.
     pub seed: u64,
@@ -135,32 +135,32 @@ pub struct Failure {
     pub reached: bool,
     /// How it ended.
     pub outcome: String,
-    /// What kept sub-controller 2 from the goal, if anything did.
+    /// What kept sub-controller 2 from the goal, if anything.
     pub trouble: Option<String>,
-    /// Why the arm held in the end, if it did.
+    /// Why the arm held at the end, if it did.
     pub refusal: Option<String>,
     /// Control steps.
     pub steps: u32,
-    /// Disturbances that struck.
+    /// Disturbances applied.
     pub disturbances_struck: u32,
-    /// The trial as the part of the page's address after `#`; none for a map that the page does not have.
+    /// The trial as an experiment link, from `#` on; missing if the page does not have the map.
     pub link: Option<String>,
 }
 
-/// A table of rows, and what belongs to it.
+/// The report of an evaluation.
 #[derive(Serialize, ToSchema)]
 #[serde(remote = "crate::evaluate::Report")]
 pub struct Report {
     /// Version of Ferry.
     pub ferry: String,
-    /// What rendered.
+    /// Graphics adapter.
     pub adapter: String,
     /// Seed of the trials.
     pub seed: u64,
     /// Rows in the order of the cells.
     pub rows: Vec<evaluate::Row>,
-    /// Every two controllers of the same map and disturbances.
+    /// Every pair of controllers on the same map with the same disturbances.
     pub comparisons: Vec<evaluate::Comparison>,
-    /// Trials whose bead did not arrive.
+    /// Trials that did not deliver.
     pub failures: Vec<evaluate::Failure>,
 }

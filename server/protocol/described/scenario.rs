@@ -1,4 +1,4 @@
-//! What a trial is set up with, and what happens in it.
+//! Scenarios, disturbances and events.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -50,14 +50,14 @@ pub struct Rect {
     pub y_max_m: f64,
 }
 
-/// Which of the two.
+/// The kind of positioner.
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::plant::PositionerKind")]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
     /// The UR5.
     Arm,
-    /// Three axes that reach everywhere and never tilt.
+    /// Three linear axes that reach everywhere and never tilt.
     PlanarStage,
 }
 
@@ -99,29 +99,29 @@ pub enum Disturbance {
         x_n: f64,
         /// Along y.
         y_n: f64,
-        /// For so long.
+        /// Duration.
         for_s: f64,
     },
-    /// The optical tracker sees nothing.
+    /// The tracker is blind.
     Dropout {
-        /// For so long.
+        /// Duration.
         for_s: f64,
     },
 }
 
-/// When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
+/// When a scripted disturbance is applied. Those that wait for the bead are applied in the order of the script.
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::scenario::When")]
 #[serde(rename_all = "snake_case")]
 pub enum When {
     /// Before this tick.
     Tick(#[ts(type = "number")] u64),
-    /// At this control step, 1 to 600, of whichever goal first gets so far.
+    /// At this control step, 1 to 600, of the first goal that reaches it.
     Step(u32),
     /// When the bead's x passes this one, in either direction.
     #[serde(rename = "passes_x_m")]
     PassesXM(f64),
-    /// When the bead comes so near to a place.
+    /// When the bead comes within a distance of a place.
     Near {
         /// x.
         x_m: f64,
@@ -132,7 +132,7 @@ pub enum When {
     },
 }
 
-/// A disturbance and its time.
+/// A disturbance with its time.
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::scenario::Scripted")]
 #[serde(deny_unknown_fields)]
@@ -152,7 +152,7 @@ pub struct Scenario {
     pub map: String,
     /// Sub-controller 2.
     pub controller: scenario::ControllerName,
-    /// What carries the magnet; left out, what the map is made for.
+    /// The positioner; if omitted, the one that the map is made for.
     #[serde(default)]
     pub positioner: Option<plant::PositionerKind>,
     /// Seed of everything random in the trial.
@@ -161,20 +161,20 @@ pub struct Scenario {
     /// Parameters at the start.
     #[serde(default)]
     pub parameters: Parameters,
-    /// Bead at the start, the tool above it; left out, a random free point.
+    /// Bead at the start, with the tool above it; if omitted, a random free point.
     #[serde(default)]
     #[ts(type = "[number, number] | null")]
     #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<Point2<f64>>,
-    /// Goal at the start; left out, none: the arm holds.
+    /// Goal at the start; if omitted, the arm holds.
     #[serde(default)]
     #[ts(type = "[number, number] | null")]
     #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
-    /// How often the bead is lifted away at random during transport (specification §2).
+    /// Number of random displacements of the bead during transport.
     #[serde(default)]
     pub disturbances: u32,
-    /// Disturbances at set times, [`SCRIPT_LIMIT`] at most.
+    /// Scripted disturbances, at most [`SCRIPT_LIMIT`].
     #[serde(default)]
     pub script: Vec<scenario::Scripted>,
 }
@@ -186,20 +186,20 @@ pub struct Scenario {
 pub enum EventKind {
     /// The switching law changed the active sub-controller.
     Switch,
-    /// The bead was taken, displaced or let go.
+    /// The bead was taken, moved or released.
     Disturbance,
     /// The goal was placed or removed.
     Goal,
     /// The tool came within 2 cm of the goal.
     Reached,
-    /// The bead too.
+    /// The bead came within 2 cm of the goal, too.
     Delivered,
     /// The bead jumped to the magnet.
     LiftOff,
     /// A controller or a limit refused a step.
     Refused,
-    /// A limit of steps or time was met.
+    /// A limit of steps or time was exceeded.
     Stopped,
-    /// Anything about the session itself.
+    /// Something about the session itself.
     Session,
 }

@@ -101,7 +101,7 @@ y_max_m: number, };
 export type ControllerName = "rl" | "errt" | "attractor";
 
 /**
- * Which of the two.
+ * The kind of positioner.
  */
 export type PositionerKind = "arm" | "planar_stage";
 
@@ -134,16 +134,16 @@ x_n: number,
  */
 y_n: number, 
 /**
- * For so long.
+ * Duration.
  */
 for_s: number, } } | { "dropout": { 
 /**
- * For so long.
+ * Duration.
  */
 for_s: number, } };
 
 /**
- * When a scripted disturbance strikes. Those that wait for the bead strike in the order of the script.
+ * When a scripted disturbance is applied. Those that wait for the bead are applied in the order of the script.
  */
 export type When = { "tick": number } | { "step": number } | { "passes_x_m": number } | { "near": { 
 /**
@@ -160,7 +160,7 @@ y_m: number,
 within_m: number, } };
 
 /**
- * A disturbance and its time.
+ * A disturbance with its time.
  */
 export type Scripted = { 
 /**
@@ -185,7 +185,7 @@ map: string,
  */
 controller: ControllerName, 
 /**
- * What carries the magnet; left out, what the map is made for.
+ * The positioner; if omitted, the one that the map is made for.
  */
 positioner: PositionerKind | null, 
 /**
@@ -197,29 +197,29 @@ seed: number,
  */
 parameters: Parameters, 
 /**
- * Bead at the start, the tool above it; left out, a random free point.
+ * Bead at the start, with the tool above it; if omitted, a random free point.
  */
 start_m: [number, number] | null, 
 /**
- * Goal at the start; left out, none: the arm holds.
+ * Goal at the start; if omitted, the arm holds.
  */
 goal_m: [number, number] | null, 
 /**
- * How often the bead is lifted away at random during transport (specification §2).
+ * Number of random displacements of the bead during transport.
  */
 disturbances: number, 
 /**
- * Disturbances at set times, [`SCRIPT_LIMIT`] at most.
+ * Scripted disturbances, at most [`SCRIPT_LIMIT`].
  */
 script: Array<Scripted>, };
 
 /**
- * What a browser may send. Fields are named and measured as everywhere: metres in `base`.
+ * A message from a browser. Positions are in metres in `base`.
  */
 export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | { "type": "clear_goal", } | { "type": "drag", x_m: number, y_m: number, lift?: boolean, } | { "type": "release", } | { "type": "select_controller", controller: ControllerName, } | { "type": "configure", parameters: Parameters, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number | string, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
- * Who this browser is.
+ * Role of a browser.
  */
 export type Role = "operator" | "viewer";
 
@@ -249,16 +249,16 @@ version: string,
  */
 role: Role, 
 /**
- * Number of the operator's lease; it rises when control passes on. A command may carry it as `epoch`, and is
- * refused when it is no longer that.
+ * Number of the operator's lease; it increases when control passes on. A command may carry it as `epoch`, and is
+ * refused if it is not the current one.
  */
 epoch: number, 
 /**
- * Whether anybody is the operator.
+ * Whether the session has an operator.
  */
 operator_present: boolean, 
 /**
- * Whether this browser is the operator and another one asks it to make way.
+ * Whether this browser is the operator and another one requests control.
  */
 asked: boolean, 
 /**
@@ -279,11 +279,11 @@ map: string,
  */
 maps: Array<string>, 
 /**
- * How the trial was set up; controller, goal and parameters may have changed since.
+ * The trial's scenario; controller, goal and parameters may have changed since.
  */
 scenario: Scenario, 
 /**
- * What carries the magnet in this trial.
+ * The positioner of this trial.
  */
 positioner: PositionerKind, 
 /**
@@ -299,11 +299,11 @@ workspace: Rect,
  */
 walls: Array<Polygon>, 
 /**
- * Seed in force.
+ * Current seed.
  */
 seed: number, 
 /**
- * Parameters in force.
+ * Current parameters.
  */
 parameters: Parameters, 
 /**
@@ -315,21 +315,21 @@ defaults: Parameters,
  */
 bead_radius_m: number, 
 /**
- * Corners of the part of the table that the camera sees, from the tool.
+ * Corners of the part of the table that the camera sees, relative to the tool.
  */
 camera_sees_m: Array<[number, number]>, 
 /**
- * Number of the trial: another one when a trial was set up anew.
+ * Number of the trial; each new trial has another one.
  */
 trial: number, 
 /**
  * Distances from the tool at which the magnet's pull beats friction, nearest and farthest, for the
- * parameters in force, in 72 directions from +x counter-clockwise; none where it never does, and no
- * farthest where it always does.
+ * current parameters, in 72 directions from +x counter-clockwise; `null` if it never does, and no
+ * farthest distance if it always does.
  */
 capture_m: Array<[number, number | null] | null>, 
 /**
- * Seconds a tick.
+ * Seconds per tick.
  */
 tick_s: number, };
 
@@ -354,23 +354,23 @@ oldest_tick: number,
  */
 newest_tick: number, 
 /**
- * Whether time runs.
+ * Whether the session is running.
  */
 running: boolean, 
 /**
- * Asked simulated seconds a second.
+ * Requested speed, simulated seconds per second.
  */
 speed_target: number, 
 /**
- * Achieved simulated seconds a second.
+ * Achieved speed, simulated seconds per second.
  */
 speed_achieved: number, 
 /**
- * How late the latest tick of the last half second came, in milliseconds of the clock.
+ * Maximum delay of a tick in the last half second, wall-clock milliseconds.
  */
 lateness_ms: number, 
 /**
- * How often the session fell so far behind that lost time was let go, since it began.
+ * How often the session fell behind so far that it skipped the lost time.
  */
 missed_deadlines: number, 
 /**
@@ -378,11 +378,11 @@ missed_deadlines: number,
  */
 tool_m: [number, number, number], 
 /**
- * Centre of the bead, the truth.
+ * True centre of the bead.
  */
 bead_m: [number, number, number], 
 /**
- * The bead as the optical tracker gives it.
+ * Position of the bead from the tracker.
  */
 bead_tracked_m: [number, number], 
 /**
@@ -390,15 +390,15 @@ bead_tracked_m: [number, number],
  */
 goal_m: [number, number, number] | null, 
 /**
- * Where the hand wants the bead, while it holds it.
+ * Target of the hand, while it holds the bead.
  */
 hand_m: [number, number] | null, 
 /**
- * Force of the hand's spring on the bead (0 when not held).
+ * Force of the hand's spring on the bead; 0 if not held.
  */
 hand_force_n: number, 
 /**
- * Joint angles; none on the planar stage, which has no arm.
+ * Joint angles; `null` for the planar stage.
  */
 joints_rad: [number, number, number, number, number, number] | null, 
 /**
@@ -406,7 +406,7 @@ joints_rad: [number, number, number, number, number, number] | null,
  */
 mode: number, 
 /**
- * Why it is active, one plain sentence.
+ * Why it is active, in one sentence.
  */
 reason: string, 
 /**
@@ -418,7 +418,7 @@ refusal: string | null,
  */
 controller: ControllerName, 
 /**
- * What the arm does in words: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
+ * Phase: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
  */
 phase: string, 
 /**
@@ -430,7 +430,7 @@ tracking_error_x_m: number,
  */
 tracking_error_y_m: number, 
 /**
- * Its norm: the `e` of the switching law.
+ * Norm of the tracking error.
  */
 tracking_error_m: number, 
 /**
@@ -442,7 +442,7 @@ goal_distance_m: number | null,
  */
 pull_n: number, 
 /**
- * Vertical pull in units of the bead's weight; 1 is lift-off.
+ * Vertical pull in units of the bead's weight; the bead lifts off at 1.
  */
 lift_ratio: number, 
 /**
@@ -470,7 +470,7 @@ disturbances: number,
  */
 world_hash: string, 
 /**
- * `recording`, or why this session is not recorded.
+ * `recording`, or why nothing is recorded.
  */
 recording: string, 
 /**
@@ -500,12 +500,12 @@ sim_time_s: number,
  */
 kind: EventKind, 
 /**
- * One plain sentence.
+ * One sentence.
  */
 text: string, };
 
 /**
- * An obstacle as the attractor sees it: a superellipse of exponent 4.
+ * An obstacle as sensed for the attractor: a superellipse of exponent 4.
  */
 export type SensedObstacle = { 
 /**
@@ -550,24 +550,24 @@ obstacle: boolean,
  */
 target_m: [number, number] | null, 
 /**
- * Takes (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's picture.
+ * Homography from (x, y, 1) on the table, in metres, to (column, row, 1) times a factor in the camera's image.
  */
 picture_from_table: [[number, number, number], [number, number, number], [number, number, number]], 
 /**
- * What the image is made of.
+ * Blocks of the image.
  */
 blocks: BlocksLayer, 
 /**
- * What ERRT plans, while it is sub-controller 2.
+ * ERRT's plan, while it is sub-controller 2.
  */
 plan: PlanLayer | null, 
 /**
- * What the policy thinks, while it is sub-controller 2.
+ * The policy's quantiles, while it is sub-controller 2.
  */
 judgement: JudgementLayer | null, };
 
 /**
- * The camera's image as the planner takes it, seen from straight above.
+ * The camera's image as used by the planner, from straight above.
  */
 export type BlocksLayer = { 
 /**
@@ -592,7 +592,7 @@ free: Array<[number, number, number, number]>,
 rectangles: Array<[number, number, number, number]>, };
 
 /**
- * ERRT's last search, and the way that is followed.
+ * ERRT's last search and the path that is followed.
  */
 export type PlanLayer = { 
 /**
@@ -604,11 +604,11 @@ tree: Array<[number, number, number, number]>,
  */
 way: Array<[number, number]>, 
 /**
- * Distance that the way keeps from walls away from its ends.
+ * Distance of the path from walls, except near its ends.
  */
 clearance_m: number | null, 
 /**
- * Ways planned since the trial began.
+ * Paths planned since the start of the trial.
  */
 plans: number, 
 /**
@@ -620,20 +620,20 @@ attempts: number,
  */
 beta: number, 
 /**
- * Obstacles that it plans around, as few rectangles as possible.
+ * Obstacles for planning, as the fewest rectangles.
  */
 obstacles: Array<Rect>, };
 
 /**
- * What the camera has shown of the workspace since the trial began.
+ * The obstacle map observed since the start of the trial.
  */
 export type SeenMessage = { 
 /**
- * Raised with each of the session's.
+ * Number of the message, increasing within the session.
  */
 number: number, 
 /**
- * What the grid covers.
+ * The area of the grid.
  */
 workspace: Rect, 
 /**
@@ -645,13 +645,13 @@ columns: number,
  */
 rows: number, 
 /**
- * Equal cells in succession, from the least x and y row by row, which may go on in the next row: 0 for
- * unknown, 1 for free, 2 for an obstacle; and how many.
+ * Runs of equal cells with their length, row by row from the minimum x and y; a run may continue in the next row: 0 for
+ * unknown, 1 for free, 2 for an obstacle.
  */
 runs: Array<[number, number]>, };
 
 /**
- * What one controller makes of the moment.
+ * One controller's run in a comparison.
  */
 export type Branch = { 
 /**
@@ -667,7 +667,7 @@ samples: Array<[number, number, number, number]>,
  */
 done: boolean, 
 /**
- * What the arm did last, as in the state.
+ * Last phase, as in the state.
  */
 phase: string, 
 /**
@@ -679,7 +679,7 @@ delivered_tick: number | null,
  */
 tracking_error_mean_m: number, 
 /**
- * Largest difference in x during transport.
+ * Maximum difference in x during transport.
  */
 tracking_error_max_x_m: number, 
 /**
@@ -696,7 +696,7 @@ steps: number,
 switches: number, };
 
 /**
- * A moment run on under several controllers, each from the same state with the same disturbances.
+ * A comparison: one moment continued under several controllers, from the same state with the same disturbances.
  */
 export type ComparisonMessage = { 
 /**
@@ -708,7 +708,7 @@ trial: number,
  */
 tick: number, 
 /**
- * The same in seconds.
+ * The tick in seconds.
  */
 sim_time_s: number, 
 /**
@@ -716,7 +716,7 @@ sim_time_s: number,
  */
 until_tick: number, 
 /**
- * Sub-controller 2 at that moment: its branch is what happens without a change.
+ * Sub-controller 2 at that moment; its branch repeats the session.
  */
 controller: ControllerName, 
 /**
@@ -728,16 +728,16 @@ ticks_a_sample: number,
  */
 running: boolean, 
 /**
- * Why it came to a halt, if it did.
+ * Why it failed, if it did.
  */
 failed: string | null, 
 /**
- * One a controller, in the order asked for; those not begun yet are left out.
+ * One branch per controller, in the requested order; branches that have not started are omitted.
  */
 branches: Array<Branch>, };
 
 /**
- * Answer of `GET /api/sessions/{id}/moments/{tick}`: the control step at or before a tick, lived through again.
+ * Answer of `GET /api/sessions/{id}/moments/{tick}`: the repeated control step at or before a tick.
  */
 export type MomentMessage = { 
 /**
@@ -745,19 +745,19 @@ export type MomentMessage = {
  */
 tick: number, 
 /**
- * The same in seconds.
+ * The tick in seconds.
  */
 sim_time_s: number, 
 /**
- * Active sub-controller from then on, 1 or 2.
+ * Active sub-controller after the step, 1 or 2.
  */
 mode: number, 
 /**
- * Whether it was the other one before.
+ * Whether the step switched the sub-controller.
  */
 switched: boolean, 
 /**
- * Why, one plain sentence.
+ * Why, in one sentence.
  */
 reason: string, 
 /**
@@ -765,7 +765,7 @@ reason: string,
  */
 error_m: number, 
 /**
- * What e was held against: T, or the fetch radius during a fetch.
+ * The limit for e: T, or the fetch radius during a fetch.
  */
 threshold_m: number, 
 /**
@@ -781,19 +781,19 @@ phase: string,
  */
 tool_m: [number, number], 
 /**
- * Bead, the truth.
+ * True position of the bead.
  */
 bead_m: [number, number], 
 /**
- * Bead as tracked.
+ * Position of the bead from the tracker.
  */
 bead_tracked_m: [number, number], 
 /**
- * Goal, if there is one.
+ * Goal, if set.
  */
 goal_m: [number, number] | null, 
 /**
- * Next tool target, if it goes to one.
+ * Next tool target, if any.
  */
 target_m: [number, number] | null, 
 /**
@@ -801,12 +801,12 @@ target_m: [number, number] | null,
  */
 refusal: string | null, 
 /**
- * What the controller saw and made of it.
+ * The controller's observation and layers.
  */
 overlay: OverlayMessage, };
 
 /**
- * See [`ServerMessage::Error`]; the same fields stand in an HTTP problem.
+ * See [`ServerMessage::Error`]; an HTTP problem has the same fields.
  */
 export type ErrorMessage = { 
 /**
@@ -818,16 +818,16 @@ code: string,
  */
 message: string, 
 /**
- * The field at fault.
+ * The invalid field.
  */
 field?: string, };
 
 /**
- * What [`pull`] is drawn for.
+ * Query of [`pull`].
  */
 export type PullQuery = { 
 /**
- * How the block hangs.
+ * Orientation of the block.
  */
 orientation: Orientation, 
 /**
@@ -835,7 +835,7 @@ orientation: Orientation,
  */
 lower_face_height_m: number, 
 /**
- * Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+ * Direction of the bead from below the block's middle: from the block's x toward its y.
  */
 direction_rad: number, 
 /**
@@ -843,16 +843,16 @@ direction_rad: number,
  */
 friction: number, 
 /**
- * The greatest offset, m.
+ * Maximum offset, m.
  */
 farthest_m: number, 
 /**
- * Number of offsets, from zero on, evenly spaced.
+ * Number of evenly spaced offsets, starting at zero.
  */
 count: number, };
 
 /**
- * The pull on a bead over its horizontal offset: an entry an offset in every array.
+ * The pull on a bead over its horizontal offset; every array has one entry per offset.
  */
 export type PullCurve = { 
 /**
@@ -868,16 +868,16 @@ lift_ratio: Array<number>,
  */
 lateral_ratio: Array<number>, 
 /**
- * (W − Fz)/W: what remains of the weight.
+ * (W − Fz)/W: the remaining weight.
  */
 weight_ratio: Array<number>, 
 /**
- * Whether the bead lifts off: nothing remains of its weight.
+ * Whether the bead lifts off because no weight remains.
  */
 is_lifted: Array<boolean>, 
 /**
- * Pull in the table's plane over what friction can hold, friction·(W − Fz): from 1 on the bead
- * follows. `None` where friction holds nothing, because it is zero or the bead lifts off.
+ * Pull in the table's plane divided by the maximum friction, friction·(W − Fz): from 1 on the bead
+ * follows. `None` if there is no friction, because the coefficient is zero or the bead lifts off.
  */
 drag_ratio: Array<number | null>, 
 /**
@@ -886,23 +886,23 @@ drag_ratio: Array<number | null>,
 capture_m: [number, number] | null, };
 
 /**
- * What [`reach`] is drawn for.
+ * Query of [`reach`].
  */
 export type ReachQuery = { 
 /**
- * How the block hangs.
+ * Orientation of the block.
  */
 orientation: Orientation, 
 /**
- * Least height of its lower face above the table, m: at least the bead's diameter.
+ * Minimum height of its lower face above the table, m: at least the bead's diameter.
  */
 lowest_m: number, 
 /**
- * Greatest such height, m.
+ * Maximum height, m.
  */
 highest_m: number, 
 /**
- * Where the bead lies, from below the block's middle: along the block's x, turned toward its y.
+ * Direction of the bead from below the block's middle: from the block's x toward its y.
  */
 direction_rad: number, 
 /**
@@ -910,7 +910,7 @@ direction_rad: number,
  */
 friction: number, 
 /**
- * Viscous drag on the bead, N·s/m: not zero, else no speed is too large.
+ * Viscous drag on the bead, N·s/m; not zero, since without drag the speed is unlimited.
  */
 drag_n_s_m: number, 
 /**
@@ -919,7 +919,7 @@ drag_n_s_m: number,
 count: number, };
 
 /**
- * How far and how fast the block drags a bead, over its height: an entry a height in every array.
+ * Reach and speed of the drag over the block's height; every array has one entry per height.
  */
 export type ReachCurve = { 
 /**
@@ -935,26 +935,26 @@ capture_m: Array<[number, number] | null>,
  */
 lift_ratio: Array<number>, 
 /**
- * The greatest Fz/W of any offset in the direction; 1 lifts the bead.
+ * Maximum Fz/W over the offsets in the direction; 1 lifts the bead.
  */
 greatest_lift_ratio: Array<number>, 
 /**
- * The greatest speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
- * the pull less friction equals the drag. `None` where no pull exceeds friction.
+ * Maximum speed, m/s, at which a sliding bead can follow at a fixed offset in the direction: there
+ * the pull minus friction equals the drag. `None` if the pull never exceeds friction.
  */
 largest_speed_m_s: Array<number | null>, 
 /**
  * Height of the lower face, m, below which a bead right below the block's middle lifts off. In C the
- * lift is greatest beside the middle, and a bead there lifts off from some tenths of a millimetre higher.
+ * lift is greatest beside the middle, where a bead lifts off a few tenths of a millimetre higher.
  */
 lift_off_m: number, };
 
 /**
- * What [`plane`] is computed for.
+ * Query of [`plane`].
  */
 export type PlaneQuery = { 
 /**
- * How the block hangs.
+ * Orientation of the block.
  */
 orientation: Orientation, 
 /**
@@ -962,16 +962,16 @@ orientation: Orientation,
  */
 lower_face_height_m: number, 
 /**
- * How far the square reaches from below the block's middle, m, along the block's x and y.
+ * Half side of the square around the point below the block's middle, m, along the block's x and y.
  */
 reach_m: number, 
 /**
- * Places of a row and of a column, evenly spaced, the first and the last at the edges.
+ * Number of points per row and column, evenly spaced, the first and last ones at the edges.
  */
 count: number, };
 
 /**
- * The field in a square around the block: an entry a place, row by row from the least x and y.
+ * The field in a square around the block: one entry per point, row by row from the minimum x and y.
  */
 export type Plane = { 
 /**
@@ -1035,7 +1035,7 @@ cell_m: number,
 manipulability_m3: Array<number | null>, };
 
 /**
- * What the policy made of the last image that it judged.
+ * The policy's evaluation of the last image.
  */
 export type JudgementLayer = { 
 /**
@@ -1060,7 +1060,7 @@ trained_on: Array<string>, };
  */
 export type ValueQuery = { 
 /**
- * The goal to judge for.
+ * The goal.
  */
 goal_m: [number, number], };
 
@@ -1082,7 +1082,7 @@ value: number,
 action: number, };
 
 /**
- * What the session's policy thinks of every place of the map on the way to a goal, by the default camera's images.
+ * Values of the session's policy for every place of the map and one goal, from images of the default camera.
  * Places are a centimetre apart, farther where there would be more than 4000.
  */
 export type ValueMap = { 
@@ -1091,7 +1091,7 @@ export type ValueMap = {
  */
 spacing_m: number, 
 /**
- * Cells that keep the policy's distance from the walls.
+ * Cells with at least the policy's clearance from walls.
  */
 cells: Array<ValueCell>, 
 /**
@@ -1108,13 +1108,13 @@ export type FlowQuery = {
  */
 spacing_m: number, 
 /**
- * Of the session's `seen` messages the one that the page has. Not looked at: it makes the question a new one
- * when more was seen.
+ * Number of the page's last `seen` message. The server ignores it; it makes the request a new one
+ * when more was observed.
  */
 seen: number, };
 
 /**
- * Where attractor dynamics lead from each place of the workspace, for goal, parameters and what was seen up to now.
+ * The attractor's flow for goal, parameters and obstacle map.
  */
 export type FlowField = { 
 /**
@@ -1126,7 +1126,7 @@ columns: number,
  */
 rows: number, 
 /**
- * The place of least x and y.
+ * The place with minimum x and y.
  */
 origin_m: [number, number], 
 /**
@@ -1134,7 +1134,7 @@ origin_m: [number, number],
  */
 spacing_m: number, 
 /**
- * Velocities row by row from the least y, each row from the least x; none over a known obstacle. Empty without a
+ * Velocities row by row from the minimum x and y; `null` over a known obstacle. Empty without a
  * goal.
  */
 velocity_m_s: Array<[number, number] | null>, };
@@ -1192,7 +1192,7 @@ controllers: Array<ControllerName>,
  */
 maps: Array<string>, 
 /**
- * Scripted disturbances a trial, 0 to 10.
+ * Scripted disturbances per trial, 0 to 10.
  */
 disturbances: Array<number>, 
 /**
@@ -1205,7 +1205,7 @@ episodes: number,
 seed: number, };
 
 /**
- * What one row of the table is about.
+ * The subject of one row of the table.
  */
 export type Cell = { 
 /**
@@ -1217,12 +1217,12 @@ controller: ControllerName,
  */
 map: string, 
 /**
- * Scripted disturbances a trial.
+ * Scripted disturbances per trial.
  */
 disturbances: number, };
 
 /**
- * How an evaluation stands.
+ * Stage of an evaluation.
  */
 export type EvaluationStage = "waiting" | "running" | "done" | "cancelled" | "failed";
 
@@ -1231,7 +1231,7 @@ export type EvaluationStage = "waiting" | "running" | "done" | "cancelled" | "fa
  */
 export type PaperRow = { 
 /**
- * Where they stand.
+ * Source in the paper.
  */
 section: string, 
 /**
@@ -1264,19 +1264,19 @@ tracking_error_max_x_m: number | null,
 tracking_error_max_y_m: number | null, };
 
 /**
- * A cell of an evaluation, and how far it is.
+ * A cell of an evaluation with its progress.
  */
 export type EvaluationCell = { 
 /**
- * Trials that ended.
+ * Number of trials that ended.
  */
 done: number, 
 /**
- * Of these, trials whose bead arrived.
+ * Number of these that delivered.
  */
 delivered: number, 
 /**
- * How long it ran, to the last trial that ended.
+ * Time until the last trial ended.
  */
 elapsed_s: number, 
 /**
@@ -1292,7 +1292,7 @@ controller: ControllerName,
  */
 map: string, 
 /**
- * Scripted disturbances a trial.
+ * Scripted disturbances per trial.
  */
 disturbances: number, };
 
@@ -1305,11 +1305,11 @@ export type EvaluationSummary = {
  */
 id: string, 
 /**
- * What was asked.
+ * The query.
  */
 query: EvaluationQuery, 
 /**
- * How it stands.
+ * Its stage.
  */
 stage: EvaluationStage, 
 /**
@@ -1317,11 +1317,11 @@ stage: EvaluationStage,
  */
 message: string | null, 
 /**
- * What it comes to, in the order in which it runs.
+ * Its cells, in the order in which they run.
  */
 cells: Array<EvaluationCell>, 
 /**
- * How many of the cells have their row.
+ * Number of complete cells.
  */
 rows_done: number, };
 
@@ -1338,7 +1338,7 @@ controller: string,
  */
 map: string, 
 /**
- * Scripted disturbances a trial.
+ * Scripted disturbances per trial.
  */
 disturbances: number, 
 /**
@@ -1366,7 +1366,7 @@ wilson95: [number, number],
  */
 tracking_error_mean_m: number, 
 /**
- * Mean over trials of the mean difference in x during transport, without its sign.
+ * Mean over trials of the mean absolute difference in x during transport.
  */
 tracking_error_mean_x_m: number, 
 /**
@@ -1374,7 +1374,7 @@ tracking_error_mean_x_m: number,
  */
 tracking_error_mean_y_m: number, 
 /**
- * Mean over trials of the largest difference in x during transport.
+ * Mean over trials of the maximum difference in x during transport.
  */
 tracking_error_max_x_m: number, 
 /**
@@ -1382,7 +1382,7 @@ tracking_error_max_x_m: number,
  */
 tracking_error_max_y_m: number, 
 /**
- * Mean over trials that delivered of the tool's way over the shortest; none if none did.
+ * Mean over delivered trials of the tool's path divided by the shortest path; missing without a delivery.
  */
 path_ratio_mean: number | null, 
 /**
@@ -1394,11 +1394,11 @@ steps_mean: number,
  */
 switches_mean: number, 
 /**
- * Disturbances that struck, all trials together.
+ * Disturbances applied in all trials together.
  */
 disturbances_struck: number, 
 /**
- * Median milliseconds a control step, camera included.
+ * Median duration of a control step in milliseconds, including the camera.
  */
 decision_ms_p50: number, 
 /**
@@ -1420,7 +1420,7 @@ mean: number,
 interval95: [number, number], };
 
 /**
- * The first controller against the second, trial by trial: the same start, goal, seed and pushes.
+ * Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
  */
 export type Comparison = { 
 /**
@@ -1428,7 +1428,7 @@ export type Comparison = {
  */
 map: string, 
 /**
- * Scripted disturbances a trial.
+ * Scripted disturbances per trial.
  */
 disturbances: number, 
 /**
@@ -1444,19 +1444,19 @@ against: string,
  */
 episodes: number, 
 /**
- * Trials that both delivered.
+ * Trials delivered by both.
  */
 both: number, 
 /**
- * That the first alone delivered.
+ * Trials delivered by the first only.
  */
 first_only: number, 
 /**
- * That the second alone delivered.
+ * Trials delivered by the second only.
  */
 second_only: number, 
 /**
- * That neither delivered.
+ * Trials delivered by neither.
  */
 neither: number, 
 /**
@@ -1472,16 +1472,16 @@ delivered_difference95: [number, number],
  */
 steps: PairedMean | null, 
 /**
- * The same of the mean distance of tool and bead during transport.
+ * The same for the mean distance of tool and bead during transport.
  */
 tracking_error_mean_m: PairedMean | null, 
 /**
- * The same of the way over the shortest.
+ * The same for path ÷ shortest path.
  */
 path_ratio: PairedMean | null, };
 
 /**
- * A trial whose bead did not arrive. With map, controller and disturbances of its cell, seed, start and goal set it
+ * A trial that did not deliver. Its seed, start and goal, with map, controller and disturbances of its cell, set it
  * up again.
  */
 export type EvaluationFailure = { 
@@ -1490,7 +1490,7 @@ export type EvaluationFailure = {
  */
 cell: number, 
 /**
- * Which trial of the evaluation's seed.
+ * Index of the trial.
  */
 index: number, 
 /**
@@ -1514,11 +1514,11 @@ reached: boolean,
  */
 outcome: string, 
 /**
- * What kept sub-controller 2 from the goal, if anything did.
+ * What kept sub-controller 2 from the goal, if anything.
  */
 trouble: string | null, 
 /**
- * Why the arm held in the end, if it did.
+ * Why the arm held at the end, if it did.
  */
 refusal: string | null, 
 /**
@@ -1526,7 +1526,7 @@ refusal: string | null,
  */
 steps: number, 
 /**
- * Disturbances that struck.
+ * Disturbances applied.
  */
 disturbances: number, };
 
@@ -1535,15 +1535,15 @@ disturbances: number, };
  */
 export type EvaluationReport = { 
 /**
- * Rows of the cells that are through, in the order of the cells; those of `ferry evaluate --json`.
+ * Rows of the complete cells, in their order, as in `ferry evaluate --json`.
  */
 rows: Array<Row>, 
 /**
- * Every two controllers of the same map and disturbances among them.
+ * Every pair of controllers on the same map with the same disturbances.
  */
 comparisons: Array<Comparison>, 
 /**
- * Their trials whose bead did not arrive.
+ * Trials that did not deliver.
  */
 failures: Array<EvaluationFailure>, 
 /**
@@ -1551,11 +1551,11 @@ failures: Array<EvaluationFailure>,
  */
 id: string, 
 /**
- * What was asked.
+ * The query.
  */
 query: EvaluationQuery, 
 /**
- * How it stands.
+ * Its stage.
  */
 stage: EvaluationStage, 
 /**
@@ -1563,11 +1563,11 @@ stage: EvaluationStage,
  */
 message: string | null, 
 /**
- * What it comes to, in the order in which it runs.
+ * Its cells, in the order in which they run.
  */
 cells: Array<EvaluationCell>, 
 /**
- * How many of the cells have their row.
+ * Number of complete cells.
  */
 rows_done: number, };
 
@@ -1576,6 +1576,6 @@ rows_done: number, };
  */
 export type Evaluations = { 
 /**
- * In the order in which they were asked for.
+ * In the order of submission.
  */
 evaluations: Array<EvaluationSummary>, };
