@@ -56,6 +56,7 @@ test('shows that the bead can be taken', async ({ lab }) => {
 });
 
 test('places the bead while paused', async ({ lab }) => {
+  await lab.reset();
   const to = await take(lab);
   expect(distance(await lab.bead(), to), 'it moves only when released').toBeGreaterThan(0.03);
   await lab.page.mouse.up();
@@ -102,6 +103,7 @@ test('releases the bead when the socket closes', async ({ lab, openLab }) => {
   // Control that is free goes to the next who comes.
   const other = await openLab();
   await other.isRole('operator');
+  await other.reset();
   await take(other);
   await until('the hand, seen from here', () => lab.state.hand_m);
   // The page closes with the bead in the hand.

@@ -46,6 +46,7 @@ const HOLDS = {
 
 for (const [how, { take, end }] of Object.entries(HOLDS)) {
   test(`holds the bead with a still hand by ${how}`, async ({ lab }) => {
+    await lab.reset();
     await take(lab);
     // At speed 1 a tick is 8 ms.
     await lab.later(LONGER_TICKS);
@@ -59,6 +60,7 @@ for (const [how, { take, end }] of Object.entries(HOLDS)) {
 }
 
 test('releases the bead while its page sleeps', async ({ lab }) => {
+  await lab.reset();
   await takeByMouse(lab);
   // The page's thread does something else.
   await lab.page.evaluate((ms) => {

@@ -74,6 +74,7 @@ test('releases the bead when its operator leaves', async ({ lab, openLab }) => {
   await lab.releaseControl();
   const other = await openLab();
   await other.isRole('operator');
+  await other.reset();
   await other.pull(other.freePoints(await other.bead(), 0.05, 0.1)[0]);
   await until('the hand, seen by the viewer', () => lab.state.hand_m);
   await other.page.context().close();

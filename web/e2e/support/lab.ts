@@ -80,7 +80,9 @@ export class Lab extends Messages {
   }
 
   spin(name: string) {
-    return this.page.getByRole('spinbutton', { name, exact: true });
+    // A changed one has a dot after its name.
+    const words = name.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');
+    return this.page.getByRole('spinbutton', { name: new RegExp(`^${words}( •)?$`) });
   }
 
   label(name: string) {

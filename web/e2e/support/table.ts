@@ -22,29 +22,59 @@ export function distanceToSegment(point: PointLike, a: PointLike, b: PointLike) 
   return distance(point, [a[0] + inside * along[0], a[1] + inside * along[1]]);
 }
 
-function crosses(a: Point, b: Point, [x, y]: PointLike) {
-  const isAcross = a[1] > y !== b[1] > y;
-  return isAcross && x < a[0] + ((b[0] - a[0]) * (y - a[1])) / (b[1] - a[1]);
+interface Wall {
+  readonly rings: readonly (readonly Point[])[];
+  readonly box: readonly [number, number, number, number];
 }
 
-function insideWall(scene: SceneMessage, point: PointLike) {
-  return scene.walls.some(({ exterior, holes }) => {
-    const edges = [exterior, ...holes].flatMap((ring) =>
-      ring.map((a, i) => [a, ring[(i + 1) % ring.length] ?? a] as const),
-    );
-    return edges.filter(([a, b]) => crosses(a, b, point)).length % 2 === 1;
+const known = new WeakMap<SceneMessage, readonly Wall[]>();
+
+/** The walls with the rectangles around them: most points are outside. */
+function wallsOf(scene: SceneMessage) {
+  const found = known.get(scene);
+  if (found) return found;
+  const walls = scene.walls.map(({ exterior, holes }): Wall => {
+    const [xs, ys] = [exterior.map(([x]) => x), exterior.map(([, y]) => y)];
+    const box = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)] as const;
+    return { rings: [exterior, ...holes], box };
   });
+  known.set(scene, walls);
+  return walls;
+}
+
+/** Whether the rectangle, grown by `margin_m`, has the point. */
+const isInBox = ({ box }: Wall, [x, y]: PointLike, margin_m = 0) =>
+  x >= box[0] - margin_m &&
+  x <= box[1] + margin_m &&
+  y >= box[2] - margin_m &&
+  y <= box[3] + margin_m;
+
+function isInside(wall: Wall, point: PointLike) {
+  if (!isInBox(wall, point)) return false;
+  const [x, y] = point;
+  let crossings = 0;
+  for (const ring of wall.rings) {
+    let a = ring.at(-1);
+    for (const b of ring) {
+      if (a && a[1] > y !== b[1] > y) {
+        if (x < a[0] + ((b[0] - a[0]) * (y - a[1])) / (b[1] - a[1])) crossings += 1;
+      }
+      a = b;
+    }
+  }
+  return crossings % 2 === 1;
 }
 
 /** Whether a disc of CLEARANCE_M at `point` touches neither wall nor border. */
 function isClear(scene: SceneMessage, point: PointLike) {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
+  const near = wallsOf(scene).filter((wall) => isInBox(wall, point, CLEARANCE_M));
   for (const radius of [0, CLEARANCE_M / 2, CLEARANCE_M]) {
     for (let i = 0; i < 16; i++) {
       const angle = (i * Math.PI) / 8;
       const [x, y] = [point[0] + radius * Math.cos(angle), point[1] + radius * Math.sin(angle)];
       if (x < x_min_m || x > x_max_m || y < y_min_m || y > y_max_m) return false;
-      if (insideWall(scene, [x, y])) return false;
+      if (near.some((wall) => isInside(wall, [x, y]))) return false;
     }
   }
   return true;
@@ -86,6 +116,7 @@ export function freePoints(
 
 /** The middle of a wall that a click can hit. */
 export function wallPoint(scene: SceneMessage): Point {
+  const walls = wallsOf(scene);
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
   for (let x = x_min_m + 0.01; x < x_max_m; x += STEP_M) {
     for (let y = y_min_m + 0.01; y < y_max_m; y += STEP_M) {
@@ -96,7 +127,7 @@ export function wallPoint(scene: SceneMessage): Point {
         [x, y - 0.004],
         [x, y + 0.004],
       ];
-      if (around.every((point) => insideWall(scene, point))) return [x, y];
+      if (walls.some((wall) => around.every((one) => isInside(wall, one)))) return [x, y];
     }
   }
   throw new Error('the map has no wall inside');
