@@ -37,7 +37,7 @@ impl Seats {
         self.commanded = now;
     }
 
-    /// Adds a connection, if there is room; it becomes the operator if there is none.
+    /// Adds a connection, if there is room; it becomes the operator if the seat is free.
     pub fn join(&mut self, now: Instant) -> Option<u64> {
         if self.viewers == VIEWERS {
             return None;
