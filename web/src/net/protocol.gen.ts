@@ -66,7 +66,7 @@ export const MAX_SVG_BYTES = 1048576;
  */
 export type Polygon = { 
 /**
- * Outer ring, `[x_m, y_m]` per vertex.
+ * Outer ring, `[x_m, y_m]` a vertex.
  */
 exterior: Array<[number, number]>, 
 /**
@@ -79,19 +79,19 @@ holes: Array<Array<[number, number]>>, };
  */
 export type Rect = { 
 /**
- * Smallest x.
+ * Least x.
  */
 x_min_m: number, 
 /**
- * Largest x.
+ * Greatest x.
  */
 x_max_m: number, 
 /**
- * Smallest y.
+ * Least y.
  */
 y_min_m: number, 
 /**
- * Largest y.
+ * Greatest y.
  */
 y_max_m: number, };
 
