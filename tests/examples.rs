@@ -98,7 +98,7 @@ fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
             (0..63)
                 .map(|_| {
                     let record = trial.tick(Source::Eye(&mut camera)).unwrap();
-                    searched += u32::from(record.moment.refusal.is_some_and(|why| why.contains("searches")));
+                    searched += u32::from(record.moment.refusal.is_some_and(|why| why.contains("searching")));
                     record.controller_hash
                 })
                 .collect()

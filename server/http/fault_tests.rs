@@ -46,7 +46,7 @@ async fn a_fault_ends_its_session_with_a_message_and_no_other() {
         ("step", "injected: step"),
         ("render", "injected: render"),
         ("inference", "injected: inference"),
-        ("not a number", "the bead's position is not a finite number"),
+        ("not a number", "the bead's position is no longer a finite number"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let archive = Archive::new(folder.path().to_owned(), Retention::default());
