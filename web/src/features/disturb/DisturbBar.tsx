@@ -1,4 +1,4 @@
-// Disturbances by button: a kick, a push, a move, a blind tracker; now, or in the scenario's script.
+// Disturbances by button: a kick, a push, a move, a blind tracker. They happen now or are added to the script.
 
 import { Match, Show, Switch, createSignal, onCleanup, type JSX } from 'solid-js';
 import {
@@ -29,7 +29,7 @@ import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
 import type { Picker } from '../../plan/picker';
 import type { Session, Trial } from '../../lab/slices';
 
-/** An hour of a trial. */
+/** One hour. */
 const LATEST_S = 3600;
 const FARTHEST_CM = 100;
 
@@ -72,7 +72,7 @@ export function DisturbBar(props: {
         return blind(for_s());
     }
   };
-  /** Nothing for now. */
+  /** Undefined means now. */
   const when = (): When | undefined => {
     switch (time()) {
       case 'now':
@@ -242,7 +242,7 @@ export function DisturbBar(props: {
           title={
             time() === 'now'
               ? undefined
-              : 'The script belongs to the start: the trial begins again with the same map, seed, start, controller, parameters and goal'
+              : 'The script is part of the experiment: the trial restarts with the same map, seed, start, controller, parameters and goal'
           }
         >
           {button()}

@@ -1,4 +1,4 @@
-// The disturbances that belong to the scenario: those of its script, and how many at random.
+// The disturbances of the scenario: its script and the number of random ones.
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
 import { describe, describeWhen, MOST_RANDOM, restart } from '../../lab/disturbance';
@@ -46,7 +46,7 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
           type="submit"
           class="small"
           disabled={!lab.canOperate() || random() === inForce()}
-          title="The trial begins again with the same seed"
+          title="The trial restarts with the same seed"
         >
           Set and restart
         </button>

@@ -1,4 +1,4 @@
-// The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
+// The fields of a disturbance: numbers with units, choices, and places that can be picked in the plan view.
 
 import { For, Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import type { Picker } from '../../plan/picker';
@@ -6,7 +6,7 @@ import type { Vec2 } from '../../lab/geometry';
 
 export function Amount(props: {
   name: string;
-  /** What stands before the number. */
+  /** Text before the number. */
   lead?: string;
   unit?: string;
   least?: number;
@@ -19,7 +19,7 @@ export function Amount(props: {
 }): JSX.Element {
   let input!: HTMLInputElement;
   createEffect(() => {
-    // What is being typed says the value already, or nothing yet: written anew, it would lose its sign or its point.
+    // Do not overwrite a field while the user types: it would lose a sign or a decimal point.
     const { value } = props;
     if (!Number.isNaN(value) && input.valueAsNumber !== value) input.value = String(value);
   });
@@ -129,7 +129,7 @@ export function PlaceFields(props: {
         class="small"
         aria-pressed={isPicking()}
         aria-label={`Pick ${props.name} on the map`}
-        title="Click here, then the place"
+        title="Click here, then click the place on the map"
         disabled={props.disabled}
         onClick={() => {
           if (isPicking()) {

@@ -127,7 +127,7 @@ function Explain(props: Props): JSX.Element {
   const { store, lesson } = props;
   const text = (id: string | undefined): string | undefined =>
     lesson.choices.find((choice) => choice.id === id)?.text;
-/** Tracks of all runs, if all were set up since the lesson was opened. */
+  /** Tracks of all runs, if all were set up since the lesson was opened. */
   const tracks = () => {
     const all = store.tracks().filter((track) => track !== undefined);
     return all.length === lesson.runs.length ? all : undefined;

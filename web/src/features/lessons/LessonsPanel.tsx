@@ -9,7 +9,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;
   const cards = new Map<string, HTMLButtonElement>();
   onMount(() => {
-// Focus returns to the lesson that was open.
+    // Focus returns to the lesson that was open.
     const left = untrack(store.left);
     if (left) cards.get(left.id)?.focus();
   });

@@ -32,7 +32,10 @@ export const ATTRACTOR: Lesson = {
       ],
       tasks: [
         RUNNING,
-        { text: track.lingered_s > STUCK_S } => `The tool stays in one place for ${STUCK_S} s`, done: (track) => track.lingered_s > STUCK_S } => track.lingered_s > STUCK_S },
+        {
+          text: `The tool stays in one place for ${STUCK_S} s`,
+          done: (track) => track.lingered_s > STUCK_S,
+        },
       ],
       actions: [],
     },
@@ -150,7 +153,9 @@ export const POLICY: Lesson = {
       link: `#v=1&map=colon&controller=rl&${THERE}&camera_offset_x_m=0.03`,
       speed: 4,
       layers: ['camera', 'trail'],
-      words: ['Only the camera has moved. Press Run and watch how the values of the four steps change.'],
+      words: [
+        'Only the camera has moved. Press Run and watch how the values of the four steps change.',
+      ],
       tasks: [
         RUNNING,
         {

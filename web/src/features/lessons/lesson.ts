@@ -22,15 +22,15 @@ export interface Action {
 
 /** One experiment of a lesson. */
 export interface Run {
-/** Only for lessons with several runs. */
+  /** Only for lessons with several runs. */
   readonly title?: string;
-/** The hash of an experiment link. */
+  /** The hash of an experiment link. */
   readonly link: string;
-/** Playback speed. */
+  /** Playback speed. */
   readonly speed: number;
-/** Layers that are switched on with the run. */
+  /** Layers that are switched on with the run. */
   readonly layers: readonly string[];
-/** Instructions, one paragraph each. */
+  /** Instructions, one paragraph each. */
   readonly words: readonly string[];
   readonly tasks: readonly Task[];
   readonly actions: readonly Action[];
@@ -47,11 +47,11 @@ export interface Lesson {
   readonly question: string;
   readonly choices: readonly Choice[];
   readonly runs: readonly [Run, ...Run[]];
-/** Id of the choice that came true. There is one track per run. */
+  /** Id of the choice that came true. There is one track per run. */
   readonly outcome: (tracks: readonly Track[]) => string;
   readonly facts: (tracks: readonly Track[]) => readonly Fact[];
   readonly why: readonly string[];
-/** Section of the paper. */
+  /** Section of the paper. */
   readonly paper: string;
 }
 

@@ -33,12 +33,12 @@ describe('every lesson', () => {
     expect(ids.length).toBeGreaterThanOrEqual(2);
     expect(ids.length).toBeLessThanOrEqual(4);
     const tracks = one.runs.map(() => START);
-// With any measurement, one of the choices comes true, and there are numbers.
+    // With any measurement, one of the choices comes true, and there are numbers.
     expect(ids).toContain(one.outcome(tracks));
     expect(one.facts(tracks).length).toBeGreaterThan(0);
     for (const run of one.runs) {
       expect(run.tasks.length).toBeGreaterThan(1);
-// No task is done at the start.
+      // No task is done at the start.
       expect(run.tasks.filter((task) => task.done(START))).toEqual([]);
       expect(allDone(run, undefined)).toBe(false);
     }

@@ -77,7 +77,10 @@ export const LIFT_OFF: Lesson = {
       ],
       tasks: [
         RUNNING,
-        { text: 'The magnet lifts 0.9 of the bead’s weight', done: (track) => track.greatestLift > 0.9 },
+        {
+          text: 'The magnet lifts 0.9 of the bead’s weight',
+          done: (track) => track.greatestLift > 0.9,
+        },
         { text: 'The bead has jumped', done: (track) => track.liftedAt_m !== undefined },
       ],
       actions: [
@@ -120,7 +123,10 @@ export const LIFT_OFF: Lesson = {
     return height_m > 0.03 ? 'half' : 'touch';
   },
   facts: ([flat, edge]) => [
-    ['magnet height when the bead jumped', flat?.liftedAt_m ? millimetres(flat.liftedAt_m, 1) : '–'],
+    [
+      'magnet height when the bead jumped',
+      flat?.liftedAt_m ? millimetres(flat.liftedAt_m, 1) : '–',
+    ],
     ['lift / weight on edge at 90 mm', edge ? fixed(edge.greatestLift, 2) : '–'],
   ],
   why: [

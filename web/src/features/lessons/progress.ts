@@ -5,7 +5,7 @@ import type { Lesson } from './lesson';
 
 export interface Progress {
   readonly done: readonly string[];
-/** Id of the choice, by lesson. */
+  /** Id of the choice, by lesson. */
   readonly choices: Readonly<Record<string, string>>;
 }
 
@@ -23,7 +23,7 @@ export function progressFrom(text: string | null, lessons: readonly Lesson[]): P
   try {
     stored = JSON.parse(text ?? 'null');
   } catch {
-// Not written by this page: treat it as empty.
+    // Not written by this page: treat it as empty.
   }
   const done = field(stored, 'done');
   const choices = field(stored, 'choices');

@@ -21,17 +21,17 @@ type Tracks = readonly (Track | undefined)[];
 export interface Lessons {
   readonly progress: Accessor<Progress>;
   readonly lesson: Accessor<Lesson | undefined>;
-/** The lesson that was open before. */
+  /** The lesson that was open before. */
   readonly left: Accessor<Lesson | undefined>;
-/** 0 is Predict, then come the runs, then Explain. */
+  /** 0 is Predict, then come the runs, then Explain. */
   readonly step: Accessor<number>;
   readonly run: Accessor<Run | undefined>;
-/** One per run that was set up. */
+  /** One per run that was set up. */
   readonly tracks: Accessor<Tracks>;
   readonly track: Accessor<Track | undefined>;
-/** Whether the page shows an experiment other than the followed one. */
+  /** Whether the page shows an experiment other than the followed one. */
   readonly isElsewhere: Accessor<boolean>;
-/** Whether the user may go to the next step. */
+  /** Whether the user may go to the next step. */
   readonly mayGoOn: Accessor<boolean>;
   open(lesson: Lesson): void;
   close(): void;
@@ -39,7 +39,7 @@ export interface Lessons {
   choose(choice: string): void;
   /** Loads the run's experiment. */
   setUp(): void;
-/** Marks the lesson as done. */
+  /** Marks the lesson as done. */
   finish(): void;
   startOver(): void;
 }
@@ -52,7 +52,7 @@ function createLessons(lab: LessonsLab): Lessons {
   const [left, setLeft] = createSignal<Lesson>();
   const [step, setStep] = createSignal(0);
   const [tracks, setTracks] = createSignal<Tracks>([]);
-/** Layers that the lesson switched on and has to switch off again. */
+  /** Layers that the lesson switched on and has to switch off again. */
   let lent: readonly string[] = [];
 
   const keep = (next: Progress): void => {
@@ -73,7 +73,7 @@ function createLessons(lab: LessonsLab): Lessons {
     untrack(() => {
       const before = track();
       const follows = before?.trial === scene.trial;
-// Before the first tick, so that nothing is missed.
+      // Before the first tick, so that nothing is missed.
       const isAtStart = isItsTrial() && state.tick === 0;
       if (!follows && !isAtStart) return;
       const next = isAtStart ? beginTrack(frame) : before && observe(before, frame);
@@ -83,7 +83,7 @@ function createLessons(lab: LessonsLab): Lessons {
     });
   });
 
-/** Switches the lesson's layers off, except those in `still`. */
+  /** Switches the lesson's layers off, except those in `still`. */
   const giveBackLayers = (still: readonly string[] = []): void => {
     for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
     lent = lent.filter((layer) => still.includes(layer));

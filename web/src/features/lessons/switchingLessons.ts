@@ -86,7 +86,11 @@ function kickedRun(title: string, link: string): Run {
     words: [
       'Four kicks of 0.5 mN·s push the bead backward, at the steps 4, 10, 16 and 22. Press Run and watch.',
     ],
-    tasks: [RUNNING, { text: 'Four kicks have happened', done: (track) => track.disturbances >= 4 }, DELIVERED],
+    tasks: [
+      RUNNING,
+      { text: 'Four kicks have happened', done: (track) => track.disturbances >= 4 },
+      DELIVERED,
+    ],
     actions: [],
   };
 }
@@ -150,7 +154,7 @@ export const TWO_LAWS: Lesson = {
       tasks: [
         RUNNING,
         { text: 'The bead is lost', done: (track) => track.losses > 0 },
-        { text: track.switches >= MANY } => `${MANY_SWITCHES} switches`, done: (track) => track.switches >= MANY_SWITCHES } => track.switches >= MANY },
+        { text: `${MANY_SWITCHES} switches`, done: (track) => track.switches >= MANY_SWITCHES },
       ],
       actions: [],
     },
@@ -162,11 +166,7 @@ export const TWO_LAWS: Lesson = {
       words: [
         'The same experiment with Ferry’s default law: sub-controller 1 moves the arm until the tool is within 1 cm of the bead.',
       ],
-      tasks: [
-        RUNNING,
-        { text: 'The bead is lost', done: (track) => track.losses > 0 },
-        DELIVERED,
-      ],
+      tasks: [RUNNING, { text: 'The bead is lost', done: (track) => track.losses > 0 }, DELIVERED],
       actions: [],
     },
   ],

@@ -51,7 +51,7 @@ describe('a track', () => {
 
   it('counts losses and keeps the times of the first loss and fetch, also with few frames', () => {
     const marks = [
-// The literal law may start with a fetch.
+      // The literal law may start with a fetch.
       event(1, 'switch', FETCHED),
       event(2, 'switch', LOST),
       event(3.5, 'switch', FETCHED),
@@ -59,7 +59,7 @@ describe('a track', () => {
     ];
     const track = fold([frame(6, { switches: 4 }, marks)]);
     expect(track).toMatchObject({ losses: 2, lostAt_s: 2, fetchedAt_s: 3.5, switches: 4 });
-// The oldest events may be missing.
+    // The oldest events may be missing.
     expect(fold([frame(6, {}, marks), frame(7, {}, marks.slice(3))])).toMatchObject({
       losses: 2,
       lostAt_s: 2,
@@ -86,7 +86,7 @@ describe('a track', () => {
   it('measures how long the tool stayed in one place during a transport', () => {
     const at = (x: number): Partial<StateMessage> => ({ tool_m: [x, 0, 0.1] });
     const frames = [frame(1, at(0.04)), frame(2, at(0.08)), frame(5, at(0.09)), frame(9, at(0.07))];
-// It arrived there at 2 s.
+    // It arrived there at 2 s.
     expect(fold(frames).lingered_s).toBeCloseTo(7, 6);
     const holding = frames.map((frame) => ({
       ...frame,

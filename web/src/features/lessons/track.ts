@@ -20,36 +20,36 @@ export interface Frame {
 
 export interface Delivery {
   readonly time_s: number;
-/** Number of plans that ERRT had made by then. */
+  /** Number of plans that ERRT had made by then. */
   readonly plans: number;
 }
 
 export interface Track {
-/** Number of the followed trial. */
+  /** Number of the followed trial. */
   readonly trial: number;
   readonly time_s: number;
   readonly tool_m: readonly [number, number];
-/** Sum over the received frames: a little too small at high playback speed. */
+  /** Sum over the received frames: a little too small at high playback speed. */
   readonly travelled_m: number;
   readonly goalDistance_m: number | null;
   readonly greatestError_m: number;
-/** The greatest error while sub-controller 2 carried the bead without a disturbance by the hand. */
+  /** The greatest error while sub-controller 2 carried the bead without a disturbance by the hand. */
   readonly carryingError_m: number;
   readonly switches: number;
   readonly losses: number;
-/** Time of the first loss, and of the first fetch after it. */
+  /** Time of the first loss, and of the first fetch after it. */
   readonly lostAt_s: number | undefined;
   readonly fetchedAt_s: number | undefined;
   readonly disturbances: number;
   readonly deliveries: readonly Delivery[];
   readonly stopped: boolean;
-/** Longest time that the tool stayed in one place during a transport. */
+  /** Longest time that the tool stayed in one place during a transport. */
   readonly lingered_s: number;
   readonly plans: number;
   readonly greatestLift: number;
-/** Height of the magnet when the bead jumped to it. */
+  /** Height of the magnet when the bead jumped to it. */
   readonly liftedAt_m: number | undefined;
-/** Where the tool has stayed, and since when. */
+  /** Where the tool has stayed, and since when. */
   readonly anchor: { readonly at: readonly [number, number]; readonly time_s: number };
 }
 
