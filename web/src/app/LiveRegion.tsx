@@ -1,4 +1,4 @@
-// One place that screen readers listen to: switches, deliveries, disturbances, connection, role.
+// The live region for screen readers: switches, deliveries, disturbances, connection, role.
 
 import { createEffect, createSignal, on, type JSX } from 'solid-js';
 import { createSpeaker, heardOf, newsOf, roleWords } from './announce';

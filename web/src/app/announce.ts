@@ -1,9 +1,9 @@
-// What the page says aloud to those who do not see it. Pure.
+// Announcements for screen readers. Pure.
 
 import { type Clock, Limiter } from '../net/limiter';
 import type { LogLine, Model } from '../lab/model';
 
-/** At most so often: speech takes time. */
+/** Smallest time between two announcements, because speech takes time. */
 const EVERY_MS = 1000;
 
 const SPOKEN: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
@@ -15,7 +15,7 @@ const SPOKEN: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
   'connection',
 ]);
 
-/** What was heard already: a line's id and how often it happened. */
+/** The last announced line: its id and how often it happened. */
 export interface Heard {
   readonly id: number;
   readonly count: number;
@@ -26,7 +26,7 @@ export function heardOf(log: readonly LogLine[]): Heard {
   return last ? { id: last.id, count: last.count } : { id: 0, count: 0 };
 }
 
-/** The newest line worth saying that came after `heard`. */
+/** The newest important line after the last announced one. */
 export function newsOf(log: readonly LogLine[], heard: Heard): string | undefined {
   const news = log.filter(
     ({ id, kind, count }) =>
@@ -35,19 +35,19 @@ export function newsOf(log: readonly LogLine[], heard: Heard): string | undefine
   return news.at(-1)?.text;
 }
 
-/** What a change of role is in words; nothing for the first role of a connection's page. */
+/** Text for a change of role; undefined for the first role. */
 export function roleWords(before: Model['hello'], now: Model['hello']): string | undefined {
   if (!before || !now || before.role === now.role) return undefined;
   return now.role === 'operator' ? 'You have control.' : 'You are watching.';
 }
 
-/** Says the newest of what it is given, at most once a second, and the same text twice as two texts. */
+/** Announces the newest text, at most once per second. A repeated text is announced again. */
 export function createSpeaker(say: (text: string) => void, clock?: Clock): (text: string) => void {
   let last = '';
   const limiter = new Limiter<string>(
     EVERY_MS,
     (text) => {
-      // A region is read out when its text changes.
+      // Screen readers read the region when its text changes.
       last = text === last ? `${text}\u00a0` : text;
       say(last);
     },

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { backoffMs, connect, type Line, liveAddress, readPicture } from './connection';
 
-describe('the address of the socket', () => {
+describe('the address of the WebSocket', () => {
   it('is on the host that served the page', () => {
     expect(liveAddress({ protocol: 'http:', host: '127.0.0.1:8080' }, 'main')).toBe(
       'ws://127.0.0.1:8080/api/sessions/main/live',
@@ -11,7 +11,7 @@ describe('the address of the socket', () => {
 });
 
 describe('the pause before another attempt', () => {
-  it('grows from half a second to eight, and is spread', () => {
+  it('grows from half a second to eight seconds, and is random', () => {
     expect(backoffMs(1, 0.5)).toBe(500);
     expect(backoffMs(3, 0.5)).toBe(2000);
     expect(backoffMs(50, 0.5)).toBe(8000);
@@ -28,12 +28,12 @@ describe('a binary frame', () => {
     expect([...(picture?.bytes ?? [])]).toEqual([7, 8]);
   });
 
-  it('is dropped when it is too short', () => {
+  it('is dropped if it is too short', () => {
     expect(readPicture(new ArrayBuffer(7))).toBeUndefined();
   });
 });
 
-/** What the page thinks is a socket; the test is its server. */
+/** A fake WebSocket. The test is its server. */
 class FakeSocket {
   static readonly OPEN = 1;
   static readonly all: FakeSocket[] = [];
@@ -90,7 +90,7 @@ describe('a connection', () => {
     vi.unstubAllGlobals();
   });
 
-  it('acts under the lease that the server told last, on this socket', async () => {
+  it('uses the epoch that the server sent last on this connection', async () => {
     const connection = open();
     socket().onopen?.();
     connection.send({ type: 'pause' });
@@ -107,7 +107,7 @@ describe('a connection', () => {
     expect(socket().sent).toEqual([{ type: 'run' }]);
   });
 
-  it('asks for its session before it is tried again, and says why there is none', async () => {
+  it('requests its session before a new attempt, and reports why the session does not exist', async () => {
     const answers = [{ isOpen: false, why: 'no room' }, { isOpen: false }, { isOpen: true }];
     const reopen = vi.fn(() => Promise.resolve(answers.shift() ?? { isOpen: true }));
     open({ reopen });
@@ -120,7 +120,7 @@ describe('a connection', () => {
     expect(heard).toEqual(['opened', 'lost 1', 'no room', 'lost 2', 'lost 3']);
   });
 
-  it('rests when its session is over', async () => {
+  it('stays closed when its session has ended', async () => {
     open({ isOver: () => true });
     socket().onclose?.();
     await vi.advanceTimersByTimeAsync(60_000);

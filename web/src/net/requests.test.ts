@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { type Answer, Asker } from './requests';
 import { problemText } from './problem';
 
-/** A server whose answers come when the test says so, and a clock on which no time passes. */
+/** A server that answers when the test decides, and a clock that does not advance. */
 function bench() {
   const asked = new Map<string, { yes: (data: number) => void; no: (reason: Error) => void }>();
   const told: Answer<number>[] = [];
@@ -28,14 +28,14 @@ function bench() {
 }
 
 describe('the asker', () => {
-  it('asks the newest question of an interval', () => {
+  it('sends the newest query of an interval', () => {
     const { asker, asked, next } = bench();
     for (const question of ['1', '2', '3']) asker.ask(question);
     next();
     expect([...asked.keys()]).toEqual(['1', '3']);
   });
 
-  it('drops an answer that a later one has overtaken', async () => {
+  it('drops an answer that arrives after a later one', async () => {
     const { asker, asked, told, next, settle } = bench();
     asker.ask('old');
     asker.ask('new');
@@ -47,7 +47,7 @@ describe('the asker', () => {
     expect(told).toEqual([{ data: 2 }]);
   });
 
-  it('keeps the last answer when a question is refused, and says why', async () => {
+  it('keeps the last answer when a query is refused, and reports the reason', async () => {
     const { asker, asked, told, next, settle } = bench();
     asker.ask('good');
     asked.get('good')?.yes(1);
@@ -64,7 +64,7 @@ describe('the asker', () => {
     expect(told.at(-1)).toEqual({ data: 3 });
   });
 
-  it('says with which key the question was asked that it has an answer to', async () => {
+  it('reports the key of the answered query', async () => {
     const { asker, asked, told, next, settle } = bench();
     asker.ask('same', 'colon');
     asked.get('same')?.yes(1);
@@ -77,7 +77,7 @@ describe('the asker', () => {
     expect(told.at(-1)).toEqual({ data: 1, error: 'no room', key: 'posts' });
   });
 
-  it('says nothing to those who are gone', async () => {
+  it('does not report after it was closed', async () => {
     const { asker, asked, told, settle } = bench();
     asker.ask('late');
     asker.forget();
@@ -87,8 +87,8 @@ describe('the asker', () => {
   });
 });
 
-describe('a refusal', () => {
-  it('is told by its detail', () => {
+describe('the text of a refusal', () => {
+  it('is its detail', () => {
     expect(problemText({ detail: 'count must be from 2', field: 'count' })).toMatch(/^count/);
     expect(problemText({ title: 'Bad' })).toBeUndefined();
     expect(problemText(undefined)).toBeUndefined();

@@ -3,14 +3,14 @@
 import type { Vec2 } from '../lab/geometry';
 import { pxFromWorld, type View } from './transform';
 
-/** Head of an arrow: of its length, and not more. */
+/** Size of an arrow's head: a share of its length, up to a maximum. */
 const HEAD = 0.4;
 const MOST_HEAD_PX = 4.5;
 
 export interface Arrow {
   readonly from_m: Vec2;
   readonly to_m: Vec2;
-  /** Whether the camera has shown the place; else it is drawn faint. */
+  /** Whether the camera has shown the place; otherwise the arrow is faint. */
   readonly isSeen: boolean;
 }
 

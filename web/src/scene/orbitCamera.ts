@@ -1,4 +1,4 @@
-// The camera of the scene: mouse and touch turn it (three's OrbitControls), keys and buttons do as well.
+// The scene camera: mouse and touch turn it (OrbitControls of three), keys and buttons too.
 
 import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -24,7 +24,7 @@ export class OrbitCamera {
   private width_px = 1;
   private height_px = 1;
   private workspace: Rect | undefined;
-  /** The viewpoint that nobody has changed since; another size of the picture is another distance then. */
+  /** The chosen viewpoint until the user turns the view. While it is set, its distance follows the canvas size. */
   private viewpoint: ViewpointName | undefined = 'Home';
 
   constructor(canvas: HTMLCanvasElement, onChange: () => void) {
@@ -54,7 +54,7 @@ export class OrbitCamera {
     if (this.viewpoint) this.take(this.viewpoint);
   }
 
-  /** Another workspace is looked at anew, the same one as before. */
+  /** Sets the workspace. A different workspace resets the view. */
   lookAt(workspace: Rect): void {
     const isSame =
       this.workspace !== undefined && JSON.stringify(workspace) === JSON.stringify(this.workspace);
@@ -75,7 +75,7 @@ export class OrbitCamera {
     this.controls.update();
   }
 
-  /** What a key does; false when it means nothing here. */
+  /** Handles a key. Returns false for other keys. */
   key(key: string): boolean {
     switch (key) {
       case '[':
@@ -107,17 +107,17 @@ export class OrbitCamera {
     return true;
   }
 
-  /** An arrow of the screen, along the table. */
+  /** Direction on the table of an arrow on the screen. */
   turned(arrow: Vec2): Vec2 {
     return turnedArrow(arrow, this.controls.getAzimuthalAngle());
   }
 
-  /** How much what stands over the table may hide of it, from 0 to 1: little when seen from above. */
+  /** Opacity of objects over the table, from 0 to 1: low when seen from above. */
   hiding(): number {
     return hidingAt(this.controls.getPolarAngle());
   }
 
-  /** The table as it is seen now, and the matrix of the mapping for whoever reads the page. */
+  /** The present mapping of the table, with its matrix for tools that read the page. */
   view(): { view: TableView; pxFromTable: readonly number[] } {
     const { camera, clipFromBase, width_px, height_px } = this;
     camera.updateMatrixWorld();

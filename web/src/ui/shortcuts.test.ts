@@ -16,30 +16,30 @@ function heard(press: Partial<Press>, focus: Partial<Focus> = {}): string | unde
 }
 
 describe('a shortcut', () => {
-  it('is heard anywhere, in capitals too', () => {
+  it('works everywhere, also with capital letters', () => {
     expect(heard({ key: ' ' })).toBe('run');
     expect(heard({ key: 'R' })).toBe('reset');
     expect(heard({ key: '+' })).toBe('faster');
   });
 
-  it('is not heard where somebody types, nor in a dialog, nor when it repeats', () => {
+  it('does not work in a text field, in a dialog, or as a repeated key', () => {
     expect(heard({ key: 'r' }, { takesText: true })).toBeUndefined();
     expect(heard({ key: 'r' }, { inDialog: true })).toBeUndefined();
     expect(heard({ key: 'r', repeat: true })).toBeUndefined();
   });
 
-  it('leaves Space to what is pressed with it', () => {
+  it('leaves Space to focused buttons', () => {
     expect(heard({ key: ' ' }, { takesSpace: true })).toBeUndefined();
     expect(heard({ key: 'r' }, { takesSpace: true })).toBe('reset');
   });
 
-  it("leaves the browser's own keys alone, and hears AltGr", () => {
+  it("ignores the browser's own keys, but accepts AltGr", () => {
     expect(heard({ key: 'r', ctrlKey: true })).toBeUndefined();
     expect(heard({ key: 'r', metaKey: true })).toBeUndefined();
     expect(heard({ key: ']', ctrlKey: true, altKey: true })).toBe('faster');
   });
 
-  it('leaves to a panel what the panel hears itself', () => {
+  it('leaves keys of a panel to the panel', () => {
     expect(heard({ key: 'd' })).toBeUndefined();
   });
 });

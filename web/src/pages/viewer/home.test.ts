@@ -3,7 +3,7 @@ import { keptAtHome } from './home';
 
 const HOME = 'http://127.0.0.1:8080';
 
-test('asks its own server and nobody else', async () => {
+test('sends requests only to its own server', async () => {
   const asked: string[] = [];
   const kept = keptAtHome((input) => {
     asked.push(input instanceof Request ? input.url : input.toString());

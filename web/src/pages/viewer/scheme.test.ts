@@ -5,7 +5,7 @@ class List extends EventTarget {
   readonly matches = true;
 }
 
-test('answers with the theme and tells of its change', () => {
+test('answers with the theme and reports a change', () => {
   const scheme = new Scheme('dark');
   const matchMedia = scheme.answering(() => new List() as unknown as MediaQueryList);
   const dark = matchMedia('(prefers-color-scheme: dark)');
@@ -18,7 +18,7 @@ test('answers with the theme and tells of its change', () => {
   expect(heard).toEqual([false]);
 });
 
-test('leaves other questions to the browser', () => {
+test('leaves other media queries to the browser', () => {
   const other = new Scheme('light').answering(() => new List() as unknown as MediaQueryList);
   expect(other('(min-width: 100px)').matches).toBe(true);
 });
