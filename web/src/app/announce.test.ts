@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { createSpeaker, heardOf, newsOf, roleWords } from './announce';
+import { createAnnouncer, lastLine, newsOf, roleWords } from './announce';
 import type { LogLine } from '../lab/model';
 import type { Hello } from '../net/protocol.gen';
 
@@ -15,14 +15,14 @@ const line = (id: number, kind: LogLine['kind'], text: string = kind, count = 1)
 describe('announcements', () => {
   it('contain the newest important line, each line once', () => {
     const log = [line(1, 'session'), line(2, 'switch'), line(3, 'delivered'), line(4, 'refused')];
-    const heard = heardOf([]);
-    expect(newsOf(log, heard)).toBe('delivered');
-    expect(newsOf(log, heardOf(log))).toBeUndefined();
+    const announced = lastLine([]);
+    expect(newsOf(log, announced)).toBe('delivered');
+    expect(newsOf(log, lastLine(log))).toBeUndefined();
   });
 
   it('repeat a line when it happens again', () => {
     const before = [line(1, 'disturbance', 'a kick')];
-    expect(newsOf([line(1, 'disturbance', 'a kick', 2)], heardOf(before))).toBe('a kick');
+    expect(newsOf([line(1, 'disturbance', 'a kick', 2)], lastLine(before))).toBe('a kick');
   });
 
   it('report a change of role, but not the first role', () => {
@@ -48,7 +48,7 @@ describe('the announcer', () => {
     let nowMs = 0;
     let later: (() => void) | undefined;
     const said: string[] = [];
-    const say = createSpeaker((text) => said.push(text), {
+    const say = createAnnouncer((text) => said.push(text), {
       nowMs: () => nowMs,
       later: (action) => {
         later = action;

@@ -6,7 +6,7 @@ import type { LogLine, Model } from '../lab/model';
 /** Smallest time between two announcements, because speech takes time. */
 const EVERY_MS = 1000;
 
-const SPOKEN: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
+const ANNOUNCED_KINDS: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
   'switch',
   'disturbance',
   'delivered',
@@ -16,21 +16,22 @@ const SPOKEN: ReadonlySet<LogLine['kind']> = new Set<LogLine['kind']>([
 ]);
 
 /** The last announced line: its id and how often it happened. */
-export interface Heard {
+export interface Announced {
   readonly id: number;
   readonly count: number;
 }
 
-export function heardOf(log: readonly LogLine[]): Heard {
+export function lastLine(log: readonly LogLine[]): Announced {
   const last = log.at(-1);
   return last ? { id: last.id, count: last.count } : { id: 0, count: 0 };
 }
 
 /** The newest important line after the last announced one. */
-export function newsOf(log: readonly LogLine[], heard: Heard): string | undefined {
+export function newsOf(log: readonly LogLine[], announced: Announced): string | undefined {
   const news = log.filter(
     ({ id, kind, count }) =>
-      SPOKEN.has(kind) && (id > heard.id || (id === heard.id && count > heard.count)),
+      ANNOUNCED_KINDS.has(kind) &&
+      (id > announced.id || (id === announced.id && count > announced.count)),
   );
   return news.at(-1)?.text;
 }
@@ -42,7 +43,10 @@ export function roleWords(before: Model['hello'], now: Model['hello']): string |
 }
 
 /** Announces the newest text, at most once per second. A repeated text is announced again. */
-export function createSpeaker(say: (text: string) => void, clock?: Clock): (text: string) => void {
+export function createAnnouncer(
+  say: (text: string) => void,
+  clock?: Clock,
+): (text: string) => void {
   let last = '';
   const limiter = new Limiter<string>(
     EVERY_MS,

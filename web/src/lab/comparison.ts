@@ -61,9 +61,9 @@ export function createComparison(
   const [tick, setTick] = createSignal(0);
   const [playing, setPlaying] = createSignal(false);
   const comparison = createMemo(() => {
-    const [now, gone] = [newest(), hidden()];
+    const [now, cleared] = [newest(), hidden()];
     // The server sends it repeatedly while it runs.
-    return now?.trial === gone?.trial && now?.tick === gone?.tick ? undefined : now;
+    return now?.trial === cleared?.trial && now?.tick === cleared?.tick ? undefined : now;
   });
   let frame = 0;
 

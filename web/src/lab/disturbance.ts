@@ -11,7 +11,7 @@ import type {
 } from '../net/protocol.gen';
 
 /** A larger number would leave no time for anything else. */
-export const MOST_RANDOM = 20;
+export const MAX_RANDOM = 20;
 
 export const DIRECTIONS = [
   ['random', 'random'],

@@ -20,7 +20,7 @@ import { takeControl } from './takeControl';
 
 export interface PageExperiment {
   /** The experiment of the address that is not loaded yet, because a viewer may not load it. */
-  readonly asked: Accessor<Experiment | undefined>;
+  readonly requested: Accessor<Experiment | undefined>;
   /** Why the link is not valid. */
   readonly broken: Accessor<string | undefined>;
   /** The link of the page's present experiment. */
@@ -54,7 +54,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     const scene = known();
     return scene ? experimentFrom(hash(), scene) : { kind: 'none' };
   });
-  const asked = createMemo(() => {
+  const requested = createMemo(() => {
     const now = reading();
     return now.kind === 'experiment' ? now.experiment : undefined;
   });
@@ -70,7 +70,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
   // An operator who opens the page with a link wants to load it. The link is not offered again later.
   let isFirst = true;
   createEffect(() => {
-    const experiment = asked();
+    const experiment = requested();
     if (!lab.scene() || lab.connection().kind !== 'live' || !lab.hello()) return;
     const may = lab.canOperate();
     if (experiment && may && (isFirst || wanted())) {
@@ -85,7 +85,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     return scene && state && linkOf(scene, state);
   });
   return {
-    asked,
+    requested,
     broken: () => {
       const now = reading();
       return now.kind === 'broken' ? now.why : undefined;

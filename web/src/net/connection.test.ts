@@ -51,13 +51,13 @@ class FakeSocket {
     this.sent.push(JSON.parse(text));
   }
 
-  hear(message: object): void {
+  receive(message: object): void {
     this.onmessage?.({ data: JSON.stringify(message) });
   }
 }
 
 describe('a connection', () => {
-  const heard: string[] = [];
+  const calls: string[] = [];
   const open = (line: Partial<Line> = {}): ReturnType<typeof connect> =>
     connect(
       {
@@ -67,10 +67,10 @@ describe('a connection', () => {
         ...line,
       },
       {
-        opened: () => heard.push('opened'),
-        lost: (attempt) => heard.push(`lost ${attempt}`),
-        refused: (why) => heard.push(why),
-        message: ({ type }) => heard.push(type),
+        opened: () => calls.push('opened'),
+        lost: (attempt) => calls.push(`lost ${attempt}`),
+        refused: (why) => calls.push(why),
+        message: ({ type }) => calls.push(type),
         picture: () => undefined,
       },
     );
@@ -83,7 +83,7 @@ describe('a connection', () => {
     vi.useFakeTimers();
     vi.stubGlobal('WebSocket', FakeSocket);
     FakeSocket.all.length = 0;
-    heard.length = 0;
+    calls.length = 0;
   });
   afterEach(() => {
     vi.useRealTimers();
@@ -94,8 +94,8 @@ describe('a connection', () => {
     const connection = open();
     socket().onopen?.();
     connection.send({ type: 'pause' });
-    socket().hear({ type: 'hello', epoch: 3 });
-    socket().hear({ type: 'hello', epoch: 5 });
+    socket().receive({ type: 'hello', epoch: 3 });
+    socket().receive({ type: 'hello', epoch: 5 });
     connection.send({ type: 'run' });
     expect(socket().sent).toEqual([{ type: 'pause' }, { type: 'run', epoch: 5 }]);
 
@@ -117,7 +117,7 @@ describe('a connection', () => {
     await vi.advanceTimersByTimeAsync(20_000);
     expect(reopen).toHaveBeenCalledTimes(3);
     expect(FakeSocket.all).toHaveLength(2);
-    expect(heard).toEqual(['opened', 'lost 1', 'no room', 'lost 2', 'lost 3']);
+    expect(calls).toEqual(['opened', 'lost 1', 'no room', 'lost 2', 'lost 3']);
   });
 
   it('stays closed when its session has ended', async () => {

@@ -4,12 +4,12 @@ import { problemText } from './problem';
 
 /** A server that answers when the test decides, and a clock that does not advance. */
 function bench() {
-  const asked = new Map<string, { yes: (data: number) => void; no: (reason: Error) => void }>();
-  const told: Answer<number>[] = [];
+  const pending = new Map<string, { yes: (data: number) => void; no: (reason: Error) => void }>();
+  const answers: Answer<number>[] = [];
   let later: (() => void)[] = [];
   const asker = new Asker<number>(
-    (question) => new Promise((yes, no) => asked.set(question, { yes, no })),
-    (answer) => told.push(answer),
+    (question) => new Promise((yes, no) => pending.set(question, { yes, no })),
+    (answer) => answers.push(answer),
     undefined,
     {
       nowMs: () => 0,
@@ -24,66 +24,66 @@ function bench() {
     for (const action of due) action();
   };
   const settle = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
-  return { asker, asked, told, next, settle };
+  return { asker, pending, answers, next, settle };
 }
 
 describe('the asker', () => {
   it('sends the newest query of an interval', () => {
-    const { asker, asked, next } = bench();
+    const { asker, pending, next } = bench();
     for (const question of ['1', '2', '3']) asker.ask(question);
     next();
-    expect([...asked.keys()]).toEqual(['1', '3']);
+    expect([...pending.keys()]).toEqual(['1', '3']);
   });
 
   it('drops an answer that arrives after a later one', async () => {
-    const { asker, asked, told, next, settle } = bench();
+    const { asker, pending, answers, next, settle } = bench();
     asker.ask('old');
     asker.ask('new');
     next();
-    asked.get('new')?.yes(2);
+    pending.get('new')?.yes(2);
     await settle();
-    asked.get('old')?.yes(1);
+    pending.get('old')?.yes(1);
     await settle();
-    expect(told).toEqual([{ data: 2 }]);
+    expect(answers).toEqual([{ data: 2 }]);
   });
 
   it('keeps the last answer when a query is refused, and reports the reason', async () => {
-    const { asker, asked, told, next, settle } = bench();
+    const { asker, pending, answers, next, settle } = bench();
     asker.ask('good');
-    asked.get('good')?.yes(1);
+    pending.get('good')?.yes(1);
     await settle();
     asker.ask('bad');
     next();
-    asked.get('bad')?.no(new Error('friction is -1'));
+    pending.get('bad')?.no(new Error('friction is -1'));
     await settle();
-    expect(told.at(-1)).toEqual({ data: 1, error: 'friction is -1' });
+    expect(answers.at(-1)).toEqual({ data: 1, error: 'friction is -1' });
     asker.ask('good again');
     next();
-    asked.get('good again')?.yes(3);
+    pending.get('good again')?.yes(3);
     await settle();
-    expect(told.at(-1)).toEqual({ data: 3 });
+    expect(answers.at(-1)).toEqual({ data: 3 });
   });
 
   it('reports the key of the answered query', async () => {
-    const { asker, asked, told, next, settle } = bench();
+    const { asker, pending, answers, next, settle } = bench();
     asker.ask('same', 'colon');
-    asked.get('same')?.yes(1);
+    pending.get('same')?.yes(1);
     await settle();
-    expect(told.at(-1)).toEqual({ data: 1, key: 'colon' });
+    expect(answers.at(-1)).toEqual({ data: 1, key: 'colon' });
     asker.ask('same', 'posts');
     next();
-    asked.get('same')?.no(new Error('no room'));
+    pending.get('same')?.no(new Error('no room'));
     await settle();
-    expect(told.at(-1)).toEqual({ data: 1, error: 'no room', key: 'posts' });
+    expect(answers.at(-1)).toEqual({ data: 1, error: 'no room', key: 'posts' });
   });
 
   it('does not report after it was closed', async () => {
-    const { asker, asked, told, settle } = bench();
+    const { asker, pending, answers, settle } = bench();
     asker.ask('late');
     asker.forget();
-    asked.get('late')?.yes(1);
+    pending.get('late')?.yes(1);
     await settle();
-    expect(told).toEqual([]);
+    expect(answers).toEqual([]);
   });
 });
 

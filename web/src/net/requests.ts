@@ -14,19 +14,19 @@ export interface Answer<A> {
   readonly key?: string | undefined;
 }
 
-const ASKED_PER_S = 12;
+const QUERIES_PER_S = 12;
 
 /** Sends the newest query, at a limited rate. An answer that arrives after a later one is dropped. */
 export class Asker<A> {
   private readonly limiter: Limiter<readonly [question: string, key?: string]>;
-  private asked = 0;
+  private sent = 0;
   private answered = 0;
   private newest: Answer<A> = {};
 
   constructor(
     private readonly answerTo: (question: string) => Promise<A>,
-    private readonly tell: (answer: Answer<A>) => void,
-    perS = ASKED_PER_S,
+    private readonly report: (answer: Answer<A>) => void,
+    perS = QUERIES_PER_S,
     clock: Clock = browserClock,
   ) {
     this.limiter = new Limiter(
@@ -42,12 +42,12 @@ export class Asker<A> {
 
   /** Stops reporting answers. */
   forget(): void {
-    this.answered = this.asked;
+    this.answered = this.sent;
   }
 
   private async send(question: string, key?: string): Promise<void> {
-    this.asked += 1;
-    const number = this.asked;
+    this.sent += 1;
+    const number = this.sent;
     let answer: Answer<A>;
     try {
       answer = { data: await this.answerTo(question), key };
@@ -57,7 +57,7 @@ export class Asker<A> {
     if (number <= this.answered) return;
     this.answered = number;
     this.newest = answer.error === undefined ? answer : { ...this.newest, ...answer };
-    this.tell(this.newest);
+    this.report(this.newest);
   }
 }
 

@@ -5,7 +5,7 @@ import { pxFromWorld, type View } from './transform';
 
 /** Size of an arrow's head: a share of its length, up to a maximum. */
 const HEAD = 0.4;
-const MOST_HEAD_PX = 4.5;
+const MAX_HEAD_PX = 4.5;
 
 export interface Arrow {
   readonly from_m: Vec2;
@@ -20,7 +20,7 @@ export function arrowPath(view: View, arrows: readonly Arrow[]): Path2D {
     const [from, [x, y]] = [pxFromWorld(view, from_m), pxFromWorld(view, to_m)];
     const [dx, dy] = [x - from[0], y - from[1]];
     const length = Math.hypot(dx, dy);
-    const head = Math.min(MOST_HEAD_PX, HEAD * length) / length;
+    const head = Math.min(MAX_HEAD_PX, HEAD * length) / length;
     path.moveTo(...from);
     path.lineTo(x, y);
     path.moveTo(x - head * (dx - 0.6 * dy), y - head * (dy + 0.6 * dx));

@@ -8,9 +8,9 @@ type Take = (at: Vec2) => void;
 export interface Picker {
   readonly isPicking: Accessor<boolean>;
   /** Passes the next chosen place to `take`. */
-  begin(take: Take): void;
+  start(take: Take): void;
   /** Whether `take` waits for the next place. */
-  asks(take: Take): boolean;
+  isFor(take: Take): boolean;
   /** Offers a place. Returns false if the picker does not wait for one; then the place is a goal. */
   offer(at: Vec2): boolean;
   cancel: () => void;
@@ -20,15 +20,15 @@ export function createPicker(): Picker {
   const [taker, setTaker] = createSignal<{ take: Take }>();
   return {
     isPicking: () => taker() !== undefined,
-    begin(take) {
+    start(take) {
       setTaker({ take });
     },
-    asks: (take) => taker()?.take === take,
+    isFor: (take) => taker()?.take === take,
     offer(at) {
-      const asked = taker();
+      const waiting = taker();
       setTaker(undefined);
-      asked?.take(at);
-      return asked !== undefined;
+      waiting?.take(at);
+      return waiting !== undefined;
     },
     cancel() {
       setTaker(undefined);

@@ -28,7 +28,7 @@ import { Tool } from './tool';
 import { ToolSheet } from './toolSheet';
 import type { TableView, Vec2 } from '../lab/geometry';
 
-const MOST_PIXEL_RATIO = 2;
+const MAX_PIXEL_RATIO = 2;
 const SKY = '#ffffff';
 const SKY_STRENGTH = 1.75;
 /** Light reflected by the table from below. */
@@ -106,7 +106,7 @@ export class SceneView {
     shadow.normalBias = 2e-3;
     shadow.intensity = SHADOW_STRENGTH;
     this.orbit = new OrbitCamera(canvas, () => {
-      this.seeAnew();
+      this.updateView();
     });
     canvas.addEventListener('webglcontextrestored', this.request);
   }
@@ -114,10 +114,10 @@ export class SceneView {
   resize(width_px: number, height_px: number): void {
     if (width_px === 0 || height_px === 0) return;
     this.height_px = height_px;
-    this.renderer.setPixelRatio(Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio));
+    this.renderer.setPixelRatio(Math.min(MAX_PIXEL_RATIO, window.devicePixelRatio));
     this.renderer.setSize(width_px, height_px, false);
     this.orbit.resize(width_px, height_px);
-    this.seeAnew();
+    this.updateView();
   }
 
   recolor(palette: Palette): void {
@@ -262,7 +262,7 @@ export class SceneView {
     this.request();
   }
 
-  private seeAnew(): void {
+  private updateView(): void {
     const { view, pxFromTable } = this.orbit.view();
     this.view = view;
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
@@ -283,11 +283,11 @@ export class SceneView {
     this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera, this.height_px);
     this.renderer.render(this.world, orbit.camera);
-    this.tell(now.state);
+    this.showState(now.state);
   }
 
   /** For tests and other tools that read the page. */
-  private tell(state: StateMessage): void {
+  private showState(state: StateMessage): void {
     const [x, y, z] = state.bead_m;
     const { dataset } = this.canvas;
     dataset.beadPx = this.view?.toPx([x, y], z)?.join(',') ?? '';

@@ -10,7 +10,7 @@ import { Strokes } from './strokes';
 import type { Vec2 } from '../lab/geometry';
 
 /** The bead has a diameter of 5 mm. From a distance it is enlarged to stay visible. */
-const LEAST_RADIUS_PX = 5;
+const MIN_RADIUS_PX = 5;
 const HALO_PX = 13;
 const HALO_OPACITY = 0.4;
 /** The halo of a bead that a press would grab. */
@@ -126,7 +126,7 @@ export class Bead {
     // Sprites without size attenuation are sized for the distance 1.
     this.halo.scale.setScalar(2 * HALO_PX * perPx);
     const depth_m = this.along.copy(this.at).applyMatrix4(camera.matrixWorldInverse).z;
-    const radius_m = Math.max(this.radius_m, -depth_m * perPx * LEAST_RADIUS_PX);
+    const radius_m = Math.max(this.radius_m, -depth_m * perPx * MIN_RADIUS_PX);
     this.ball.scale.setScalar(radius_m);
     this.ball.position.copy(this.at);
     this.ball.position.z += radius_m - this.radius_m;

@@ -10,10 +10,10 @@ import type { TableView, Vec2 } from '../lab/geometry';
 const FIELD_OF_VIEW_DEG = 36;
 const NEAR_M = 0.02;
 const FAR_M = 12;
-const LEAST_DISTANCE_M = 0.06;
-const MOST_DISTANCE_M = 5;
+const MIN_DISTANCE_M = 0.06;
+const MAX_DISTANCE_M = 5;
 /** The table is not seen from below. */
-const MOST_POLAR_RAD = (88 * Math.PI) / 180;
+const MAX_POLAR_RAD = (88 * Math.PI) / 180;
 const KEY_TURN_RAD = Math.PI / 24;
 const KEY_ZOOM = 0.88;
 
@@ -30,9 +30,9 @@ export class OrbitCamera {
   constructor(canvas: HTMLCanvasElement, onChange: () => void) {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.maxPolarAngle = MOST_POLAR_RAD;
-    this.controls.minDistance = LEAST_DISTANCE_M;
-    this.controls.maxDistance = MOST_DISTANCE_M;
+    this.controls.maxPolarAngle = MAX_POLAR_RAD;
+    this.controls.minDistance = MIN_DISTANCE_M;
+    this.controls.maxDistance = MAX_DISTANCE_M;
     this.controls.zoomToCursor = true;
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.addEventListener('start', () => {

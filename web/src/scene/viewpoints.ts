@@ -96,9 +96,9 @@ export function turnedArrow(
 /** Between these angles from the vertical the arm becomes transparent, because from above it would hide the table. */
 const FADED_RAD = 0.3;
 const SOLID_RAD = 0.62;
-const LEAST_HIDING = 0.16;
+const MIN_OPACITY = 0.16;
 
 export function hidingAt(polar_rad: number): number {
   const share = Math.min(1, Math.max(0, (polar_rad - FADED_RAD) / (SOLID_RAD - FADED_RAD)));
-  return LEAST_HIDING + (1 - LEAST_HIDING) * share;
+  return MIN_OPACITY + (1 - MIN_OPACITY) * share;
 }

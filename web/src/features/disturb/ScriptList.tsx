@@ -1,7 +1,7 @@
 // The disturbances of the scenario: its script and the number of random ones.
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
-import { describe, describeWhen, MOST_RANDOM, restart } from '../../lab/disturbance';
+import { describe, describeWhen, MAX_RANDOM, restart } from '../../lab/disturbance';
 import type { Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';
 import type { Session, Trial } from '../../lab/slices';
@@ -35,8 +35,8 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
         <Amount
           name="Number of random moves"
           unit="random moves while the bead is carried"
-          least={0}
-          most={MOST_RANDOM}
+          min={0}
+          max={MAX_RANDOM}
           whole
           value={random()}
           disabled={!lab.canOperate()}

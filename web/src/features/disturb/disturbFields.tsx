@@ -9,8 +9,8 @@ export function Amount(props: {
   /** Text before the number. */
   lead?: string;
   unit?: string;
-  least?: number;
-  most: number;
+  min?: number;
+  max: number;
   /** Whole numbers only. */
   whole?: boolean;
   value: number;
@@ -33,8 +33,8 @@ export function Amount(props: {
         type="number"
         class="number"
         aria-label={props.name}
-        min={props.least ?? 0.01}
-        max={props.most}
+        min={props.min ?? 0.01}
+        max={props.max}
         step={props.whole ? 1 : 'any'}
         required
         disabled={props.disabled}
@@ -94,7 +94,7 @@ export function PlaceFields(props: {
     props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
     button.focus();
   };
-  const isPicking = (): boolean => props.picker.asks(take);
+  const isPicking = (): boolean => props.picker.isFor(take);
   onCleanup(() => {
     if (isPicking()) props.picker.cancel();
   });
@@ -103,8 +103,8 @@ export function PlaceFields(props: {
       <Amount
         name={`x of ${props.name} in metres`}
         lead="x"
-        least={-10}
-        most={10}
+        min={-10}
+        max={10}
         value={props.value.x_m}
         disabled={props.disabled}
         onValue={(x_m) => {
@@ -115,8 +115,8 @@ export function PlaceFields(props: {
         name={`y of ${props.name} in metres`}
         lead="y"
         unit="m"
-        least={-10}
-        most={10}
+        min={-10}
+        max={10}
         value={props.value.y_m}
         disabled={props.disabled}
         onValue={(y_m) => {
@@ -136,7 +136,7 @@ export function PlaceFields(props: {
             props.picker.cancel();
             return;
           }
-          props.picker.begin(take);
+          props.picker.start(take);
           document.querySelector<HTMLElement>('.stage-canvas')?.focus();
         }}
       >

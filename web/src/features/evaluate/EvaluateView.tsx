@@ -57,7 +57,7 @@ export function EvaluateView(props: {
           <header class="panel-head">
             <h2>New evaluation</h2>
           </header>
-          <EvaluationForm lab={props.lab} list={list} measured={all()} onBegun={setChosen} />
+          <EvaluationForm lab={props.lab} list={list} measured={all()} onStarted={setChosen} />
         </section>
         <section class="panel" aria-label="Evaluations">
           <header class="panel-head">

@@ -99,7 +99,7 @@ export function EvaluationForm(props: {
   lab: Session & Trial;
   list: EvaluationList;
   measured: readonly EvaluationSummary[];
-  onBegun: (id: string) => void;
+  onStarted: (id: string) => void;
 }): JSX.Element {
   const { lab } = props;
   const [faults, setFaults] = createSignal<Faults>({});
@@ -116,7 +116,7 @@ export function EvaluationForm(props: {
     const estimate = time_s === undefined ? 'duration not known yet' : `about ${roughly(time_s)}`;
     return `${sizeWords(made.query)}; ${estimate}.`;
   };
-  const begin = async (): Promise<void> => {
+  const start = async (): Promise<void> => {
     const made = queryOf(draft());
     if ('faults' in made) {
       setFaults(made.faults);
@@ -125,7 +125,7 @@ export function EvaluationForm(props: {
     setFaults({});
     setBusy(true);
     try {
-      props.onBegun(await props.list.begin(made.query));
+      props.onStarted(await props.list.start(made.query));
     } catch (reason) {
       setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
     } finally {
@@ -139,7 +139,7 @@ export function EvaluationForm(props: {
       onSubmit={(event) => {
         event.preventDefault();
         // Enter in a field submits the form even when the button is disabled.
-        if (lab.canOperate() && !busy()) void begin();
+        if (lab.canOperate() && !busy()) void start();
       }}
     >
       <Choice

@@ -48,7 +48,7 @@ export interface EvaluationList {
   /** Why the list is out of date, if it is. */
   readonly trouble: Accessor<string | undefined>;
   /** Starts an evaluation and returns its id. */
-  begin(query: EvaluationQuery): Promise<string>;
+  start(query: EvaluationQuery): Promise<string>;
   cancel(id: string): Promise<void>;
 }
 
@@ -56,21 +56,21 @@ export function createEvaluationList(): EvaluationList {
   const [all, setAll] = createSignal<readonly EvaluationSummary[]>();
   const [trouble, setTrouble] = createSignal<string>();
   let timer: ReturnType<typeof setTimeout> | undefined;
-  let asked = 0;
+  let requests = 0;
   let isClosed = false;
 
   const look = async (): Promise<void> => {
     clearTimeout(timer);
     if (isClosed) return;
-    asked += 1;
-    const number = asked;
+    requests += 1;
+    const number = requests;
     try {
       const { evaluations } = await ask<Evaluations>('GET', PATH);
-      if (number !== asked) return;
+      if (number !== requests) return;
       setAll(evaluations);
       setTrouble(undefined);
     } catch (reason) {
-      if (number !== asked) return;
+      if (number !== requests) return;
       setTrouble(reason instanceof Error ? reason.message : String(reason));
     }
     timer = setTimeout(() => void look(), all()?.some(isActive) ? BUSY_MS : IDLE_MS);
@@ -79,14 +79,14 @@ export function createEvaluationList(): EvaluationList {
   onCleanup(() => {
     clearTimeout(timer);
     // A pending answer is ignored.
-    asked += 1;
+    requests += 1;
     isClosed = true;
   });
 
   return {
     all,
     trouble,
-    begin: async (query) => {
+    start: async (query) => {
       const { id } = await ask<EvaluationSummary>('POST', PATH, query);
       await look();
       return id;
@@ -103,22 +103,22 @@ export function createReport(
   summary: Accessor<EvaluationSummary | undefined>,
 ): Accessor<EvaluationReport | undefined> {
   const [report, setReport] = createSignal<EvaluationReport>();
-  let asking: string | undefined;
+  let pending: string | undefined;
   // Each poll of the list requests the report again if the last answer did not arrive.
   createEffect(() => {
     const now = summary();
     const had = report();
-    if (!now || (had && version(had) === version(now)) || asking === version(now)) return;
-    const asked = version(now);
-    asking = asked;
+    if (!now || (had && version(had) === version(now)) || pending === version(now)) return;
+    const requested = version(now);
+    pending = requested;
     void ask<EvaluationReport>('GET', `${PATH}/${now.id}`)
       .then((answer) => {
-        if (asking === asked) setReport(answer);
+        if (pending === requested) setReport(answer);
       })
-      // Why it does not come, the list says.
+      // The list shows the reason of a failure.
       .catch(() => undefined)
       .finally(() => {
-        if (asking === asked) asking = undefined;
+        if (pending === requested) pending = undefined;
       });
   });
   return () => (report()?.id === summary()?.id ? report() : undefined);

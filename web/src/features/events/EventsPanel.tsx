@@ -20,7 +20,7 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
   let box!: HTMLDivElement;
   let following = true;
   /** The session can only rewind to ticks that the timeline still has. */
-  const told = (event: EventMessage | undefined): EventMessage | undefined =>
+  const onTimeline = (event: EventMessage | undefined): EventMessage | undefined =>
     event && lab.marks().includes(event) ? event : undefined;
   createEffect(() => {
     lab.log();
@@ -52,7 +52,7 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
           {(line) => (
             <p class="log-line" data-kind={line.kind}>
               <span class="when number">
-                <Show when={told(line.event)} fallback={when(line)}>
+                <Show when={onTimeline(line.event)} fallback={when(line)}>
                   {(event) => (
                     <button
                       type="button"

@@ -15,8 +15,8 @@ const SPACING_M = (2 * REACH_M) / (COUNT - 1);
 /** Length of the longest arrow, as a share of the distance between two arrows. */
 const LONGEST = 0.9;
 /** No arrow below this share of the greatest pull. */
-const LEAST_PULL = 0.02;
-const MOST_ALPHA = 190;
+const MIN_PULL = 0.02;
+const MAX_ALPHA = 190;
 
 export function planeQuery(parameters: Parameters): PlaneQuery {
   return {
@@ -41,13 +41,13 @@ function offsetOf(place: number): Vec2 {
 /** RGBA, one pixel per place, upper row first. Weak fields are transparent. */
 export function planePixels(plane: Plane, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
   const pixels = new Uint8ClampedArray(4 * COUNT * COUNT);
-  const most_t = greatestField_t(plane);
+  const max_t = greatestField_t(plane);
   plane.field_t.forEach((value_t, place) => {
-    const share = value_t / most_t;
+    const share = value_t / max_t;
     const row = COUNT - 1 - Math.floor(place / COUNT);
     // Round: the corners of the square are too far away.
     const left = 1 - Math.hypot(...offsetOf(place)) / REACH_M;
-    const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MOST_ALPHA;
+    const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MAX_ALPHA;
     pixels.set([...rampColour(ramp, share), alpha], 4 * (row * COUNT + (place % COUNT)));
   });
   return pixels;
@@ -55,13 +55,13 @@ export function planePixels(plane: Plane, ramp: Ramp): Uint8ClampedArray<ArrayBu
 
 /** Arrows of the pull on a bead, relative to the point below the magnet. The strongest pull has the longest arrow. */
 export function planeArrows(plane: Plane): Arrow[] {
-  const most_n = greatestPull_n(plane);
+  const max_n = greatestPull_n(plane);
   return plane.pull_n.flatMap(([x_n, y_n], place) => {
     const isDrawn = (place % COUNT) % EVERY === 2 && Math.floor(place / COUNT) % EVERY === 2;
     const [x_m, y_m] = offsetOf(place);
-    const share = Math.hypot(x_n, y_n) / most_n;
-    if (!isDrawn || share < LEAST_PULL || Math.hypot(x_m, y_m) > REACH_M) return [];
-    const scale = (LONGEST * EVERY * SPACING_M) / most_n;
+    const share = Math.hypot(x_n, y_n) / max_n;
+    if (!isDrawn || share < MIN_PULL || Math.hypot(x_m, y_m) > REACH_M) return [];
+    const scale = (LONGEST * EVERY * SPACING_M) / max_n;
     const to_m: Vec2 = [x_m + scale * x_n, y_m + scale * y_n];
     return [{ from_m: [x_m, y_m], to_m, isSeen: true }];
   });

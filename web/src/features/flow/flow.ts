@@ -24,7 +24,7 @@ const STILL = 0.02;
 const STRIDE = 0.3;
 const AROUND = 1.2;
 const AROUND_STRIDES = 40;
-const MOST_STRIDES = 800;
+const MAX_STRIDES = 800;
 
 export function flowSpacingM(area: Rect): number {
   const side_m = Math.max(area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m);
@@ -53,10 +53,10 @@ function fastest(field: FlowField): number {
 
 /** One arrow per place with a flow; its length grows with the speed. */
 export function flowArrows(field: FlowField, isSeen: IsSeen): Arrow[] {
-  const most_m_s = fastest(field);
-  const half_s = (0.5 * LONGEST * field.spacing_m) / most_m_s;
+  const max_m_s = fastest(field);
+  const half_s = (0.5 * LONGEST * field.spacing_m) / max_m_s;
   return field.velocity_m_s.flatMap((velocity, place) => {
-    if (!velocity || Math.hypot(...velocity) <= STILL * most_m_s) return [];
+    if (!velocity || Math.hypot(...velocity) <= STILL * max_m_s) return [];
     const at = placeM(field, place % field.columns, Math.floor(place / field.columns));
     const [dx, dy] = [velocity[0] * half_s, velocity[1] * half_s];
     const arrow: Arrow = {
@@ -102,7 +102,7 @@ function endFrom(
   const near = Math.max(1, GOAL_RADIUS_M / field.spacing_m);
   let at = start;
   let around = { at, strides: 0 };
-  for (let stride = 0; stride < MOST_STRIDES; stride++) {
+  for (let stride = 0; stride < MAX_STRIDES; stride++) {
     if (distance(at, goal) <= near || !isSeen(placeM(field, ...at))) return undefined;
     const velocity = velocityAt(field, ...at);
     const speed_m_s = velocity ? Math.hypot(...velocity) : 0;

@@ -11,7 +11,7 @@ import { flowKey, flowQuery } from './flow';
 import type { Pictures, Session, Trial } from '../../lab/slices';
 
 /** New camera images change the field ten times per second, which is costly and too fast to read. */
-const ASKED_PER_S = 4;
+const REQUESTS_PER_S = 4;
 
 export const FLOW_LAYER: MapLayer = {
   id: 'flow',
@@ -32,7 +32,7 @@ export const FLOW_LAYER: MapLayer = {
           const [scene, goal_m] = [lab.scene(), lab.goal()];
           return scene && goal_m ? flowKey(scene, goal_m) : '';
         },
-        perS: ASKED_PER_S,
+        perS: REQUESTS_PER_S,
       },
     );
     const answered = createMemo(() => {

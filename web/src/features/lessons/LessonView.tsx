@@ -48,7 +48,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
     const track = store.track();
     return track ? props.run.tasks.filter((task) => task.done(track)).length : 0;
   };
-  const follows = (): boolean => store.track() !== undefined && !store.isElsewhere();
+  const isFollowed = (): boolean => store.track() !== undefined && !store.isElsewhere();
   return (
     <>
       <Show when={props.run.title}>{(title) => <p class="lesson-run">{title()}</p>}</Show>
@@ -57,7 +57,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
         <button
           type="button"
           class="small"
-          classList={{ primary: !follows() }}
+          classList={{ primary: !isFollowed() }}
           disabled={!lab.canOperate()}
           onClick={() => {
             store.setUp();
@@ -70,7 +70,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
             <button
               type="button"
               class="small"
-              disabled={!lab.canOperate() || !follows()}
+              disabled={!lab.canOperate() || !isFollowed()}
               onClick={() => {
                 const [scene, state] = [lab.scene(), lab.state()];
                 if (scene && state) lab.send(action.message(scene, state));

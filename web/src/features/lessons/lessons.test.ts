@@ -3,9 +3,9 @@ import { sceneOf, stateAt } from '../../lab/testing';
 import { allDone } from './lesson';
 import { LESSONS } from './lessons';
 import { progressFrom } from './progress';
-import { beginTrack, type Track } from './track';
+import { startTrack, type Track } from './track';
 
-const START = beginTrack({
+const START = startTrack({
   scene: sceneOf('posts'),
   state: stateAt(0),
   overlay: undefined,

@@ -13,7 +13,7 @@ import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLi
 import { allDone, type Lesson, type Run } from './lesson';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
-import { beginTrack, observe, type Track } from './track';
+import { startTrack, observe, type Track } from './track';
 import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 
 type Tracks = readonly (Track | undefined)[];
@@ -72,11 +72,11 @@ function createLessons(lab: LessonsLab): Lessons {
     const frame = { scene, state, overlay: lab.overlay(), marks: lab.marks() };
     untrack(() => {
       const before = track();
-      const follows = before?.trial === scene.trial;
+      const isFollowed = before?.trial === scene.trial;
       // Before the first tick, so that nothing is missed.
       const isAtStart = isItsTrial() && state.tick === 0;
-      if (!follows && !isAtStart) return;
-      const next = isAtStart ? beginTrack(frame) : before && observe(before, frame);
+      if (!isFollowed && !isAtStart) return;
+      const next = isAtStart ? startTrack(frame) : before && observe(before, frame);
       const all = [...tracks()];
       all[step() - 1] = next;
       setTracks(all);

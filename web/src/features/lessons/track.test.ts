@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { EventKind, EventMessage, StateMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
-import { beginTrack, type Frame, observe, type Track } from './track';
+import { startTrack, type Frame, observe, type Track } from './track';
 
 const scene = sceneOf('posts', 3);
 
@@ -29,7 +29,7 @@ function frame(
 }
 
 function fold(frames: readonly Frame[]): Track {
-  return frames.reduce(observe, beginTrack(frame(0)));
+  return frames.reduce(observe, startTrack(frame(0)));
 }
 
 describe('a track', () => {

@@ -53,7 +53,7 @@ export interface Track {
   readonly anchor: { readonly at: readonly [number, number]; readonly time_s: number };
 }
 
-export function beginTrack({ scene, state }: Frame): Track {
+export function startTrack({ scene, state }: Frame): Track {
   const at = [state.tool_m[0], state.tool_m[1]] as const;
   return {
     trial: scene.trial,

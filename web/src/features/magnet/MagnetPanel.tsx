@@ -52,21 +52,21 @@ function Magnet(props: {
     return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
   });
   // No request without a connection, so that it is sent again on the next connection.
-  const asked =
+  const whenLive =
     <Q,>(question: (parameters: Parameters) => Q) =>
     (): Q | undefined =>
       lab.connection().kind === 'live' ? question(props.parameters) : undefined;
   const pull = createAnswer<PullQuery, PullCurve>(
     '/api/magnetics/pull',
-    asked((parameters) => pullQuery(parameters, direction_rad())),
+    whenLive((parameters) => pullQuery(parameters, direction_rad())),
   );
   const reach = createAnswer<ReachQuery, ReachCurve>(
     '/api/magnetics/reach',
-    asked((parameters) => reachQuery(parameters, direction_rad(), 'all')),
+    whenLive((parameters) => reachQuery(parameters, direction_rad(), 'all')),
   );
   const here = createAnswer<ReachQuery, ReachCurve>(
     '/api/magnetics/reach',
-    asked((parameters) => reachQuery(parameters, direction_rad(), 'here')),
+    whenLive((parameters) => reachQuery(parameters, direction_rad(), 'here')),
   );
   const error = (): string | undefined => pull().error ?? reach().error ?? here().error;
   const hint = (): string =>

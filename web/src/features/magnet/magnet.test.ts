@@ -52,11 +52,11 @@ describe('the breakaway', () => {
 
 describe('the requests', () => {
   it('depend on block, height, friction and direction', () => {
-    const asked = pullQuery(
+    const query = pullQuery(
       parameters({ block_orientation: 'B', tool_height_m: 0.12 }),
       Math.PI / 2,
     );
-    expect(asked).toMatchObject({
+    expect(query).toMatchObject({
       orientation: 'B',
       lower_face_height_m: 0.12,
       friction: 0.2,

@@ -89,8 +89,8 @@ function timePart(part: Part, facts: FigureFacts): string {
   const all = values.flat();
   const [low, high] = partRange(
     part,
-    all.reduce((least, value) => Math.min(least, value), Infinity),
-    all.reduce((most, value) => Math.max(most, value), -Infinity),
+    all.reduce((min, value) => Math.min(min, value), Infinity),
+    all.reduce((max, value) => Math.max(max, value), -Infinity),
     threshold_m,
   );
   const x = (time_s: number): number =>

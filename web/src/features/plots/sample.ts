@@ -11,7 +11,7 @@ export const WINDOWS = [
 export type WindowChoice = (typeof WINDOWS)[number][0];
 
 /** The window covers at least this time, also early in a trial. */
-const LEAST_WINDOW_S = 10;
+const MIN_WINDOW_S = 10;
 /** Number of intervals with extremes: more than the pixels of one part. */
 const INTERVALS = 300;
 /** Columns with peaks. The tool is too slow for peaks. */
@@ -40,11 +40,11 @@ export function shownWindow(
   newest_s: number,
   at_s: number,
 ): { from_s: number; to_s: number } {
-  if (choice === 'all') return { from_s: 0, to_s: Math.max(LEAST_WINDOW_S, newest_s) };
+  if (choice === 'all') return { from_s: 0, to_s: Math.max(MIN_WINDOW_S, newest_s) };
   const width_s = Number(choice);
   const to_s = at_s >= newest_s - width_s ? newest_s : Math.min(newest_s, at_s + width_s / 2);
   const from_s = Math.max(0, to_s - width_s);
-  return { from_s, to_s: Math.max(to_s, from_s + LEAST_WINDOW_S) };
+  return { from_s, to_s: Math.max(to_s, from_s + MIN_WINDOW_S) };
 }
 
 /** Indices of the first sample and the extremes in `columns` of each interval, and of the last sample. */
@@ -61,13 +61,13 @@ export function thinnedIndices(
     const end = Math.floor(((interval + 1) * length) / intervals);
     const picked = new Set([first]);
     for (const column of columns) {
-      let least = first;
-      let most = first;
+      let min = first;
+      let max = first;
       for (let index = first + 1; index < end; index++) {
-        if ((column[index] ?? 0) < (column[least] ?? 0)) least = index;
-        if ((column[index] ?? 0) > (column[most] ?? 0)) most = index;
+        if ((column[index] ?? 0) < (column[min] ?? 0)) min = index;
+        if ((column[index] ?? 0) > (column[max] ?? 0)) max = index;
       }
-      picked.add(least).add(most);
+      picked.add(min).add(max);
     }
     indices.push(...[...picked].sort((a, b) => a - b));
   }

@@ -31,7 +31,7 @@ export function ExperimentNotice(props: { lab: Session; links: PageExperiment })
             </p>
           )}
         </Match>
-        <Match when={links.asked()}>
+        <Match when={links.requested()}>
           {(experiment) => (
             <p>
               <span>

@@ -20,8 +20,8 @@ describe('the request', () => {
   const scene = sceneOf('posts');
 
   it('depends on map, height and orientation', () => {
-    const asked = workspaceQuery(scene, { ...scene.parameters, tool_height_m: 0.15 });
-    expect(asked).toEqual({
+    const query = workspaceQuery(scene, { ...scene.parameters, tool_height_m: 0.15 });
+    expect(query).toEqual({
       area: scene.workspace,
       cell_m: 0.005,
       tool_height_m: 0.15,

@@ -11,15 +11,15 @@ import type {
 import { type Ramp, rampColour } from '../../plan/colourRamp';
 
 /** Fine enough to look smooth on the paper's workspace and on a table of two metres. */
-const LEAST_CELL_M = 0.005;
-const MOST_CELLS_A_SIDE = 120;
+const MIN_CELL_M = 0.005;
+const MAX_CELLS_PER_SIDE = 120;
 
 /** Neighbouring cells of a row: `[row, first column, count]`. */
 export type Run = readonly [number, number, number];
 
 export function cellM(area: Rect): number {
   const side_m = Math.max(area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m);
-  return Math.max(LEAST_CELL_M, side_m / MOST_CELLS_A_SIDE);
+  return Math.max(MIN_CELL_M, side_m / MAX_CELLS_PER_SIDE);
 }
 
 /** Undefined without an arm. */

@@ -18,8 +18,8 @@ function Strip(props: { fan: Fan; axis: Axis }): JSX.Element {
       </Index>
       <rect
         class="all"
-        x={at(props.fan.least)}
-        width={width(props.fan.least, props.fan.greatest)}
+        x={at(props.fan.min)}
+        width={width(props.fan.min, props.fan.greatest)}
         y="5"
         height="10"
       />

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { bestOf, type Fan, fanAxis, fanOf, percentAlong } from './fans';
 
-function fanFrom(least: number, greatest: number): Fan {
-  return { least, lower: least, mean: least, upper: greatest, greatest };
+function fanFrom(min: number, greatest: number): Fan {
+  return { min, lower: min, mean: min, upper: greatest, greatest };
 }
 
 describe('a fan', () => {
@@ -11,7 +11,7 @@ describe('a fan', () => {
       Array.from({ length: 32 }, (_, k) => (k + 0.5) / 32),
       0.5,
     );
-    expect(fan.least).toBeCloseTo(1 / 64);
+    expect(fan.min).toBeCloseTo(1 / 64);
     expect(fan.lower).toBeCloseTo(0.25);
     expect(fan.upper).toBeCloseTo(0.75);
     expect(fan.greatest).toBeCloseTo(63 / 64);
@@ -22,7 +22,7 @@ describe('a fan', () => {
   });
 
   it('is a line with only one quantile', () => {
-    expect(fanOf([2], 2)).toEqual({ least: 2, lower: 2, mean: 2, upper: 2, greatest: 2 });
+    expect(fanOf([2], 2)).toEqual({ min: 2, lower: 2, mean: 2, upper: 2, greatest: 2 });
   });
 });
 

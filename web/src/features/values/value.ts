@@ -9,7 +9,7 @@ import { type Ramp, rampColour } from '../../plan/colourRamp';
 /** Arrow length as a share of the distance between two arrows. */
 const LENGTH = 0.6;
 /** Smallest distance between arrows, so that they stay readable. */
-const LEAST_ARROW_PX = 12;
+const MIN_ARROW_PX = 12;
 
 /** What the values depend on. A reset of the trial does not change them. */
 export function valueKey(scene: SceneMessage, goal_m: Vec2): string {
@@ -61,7 +61,7 @@ export function valuePicture(map: ValueMap, ramp: Ramp): ValuePicture | undefine
 
 /** Arrows of the best step in each cell, or in every n-th cell along x and y if cells are small. */
 export function valueArrows(map: ValueMap, pxPerM: number): Arrow[] {
-  const every = Math.max(1, Math.ceil(LEAST_ARROW_PX / (map.spacing_m * pxPerM)));
+  const every = Math.max(1, Math.ceil(MIN_ARROW_PX / (map.spacing_m * pxPerM)));
   const half_m = (LENGTH / 2) * every * map.spacing_m;
   const { column, row } = latticeOf(map);
   return map.cells.flatMap((cell) => {

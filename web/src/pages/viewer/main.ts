@@ -65,8 +65,8 @@ async function open(recording: string): Promise<void> {
 }
 
 function start(): void {
-  const asked = new URLSearchParams(location.search);
-  const theme = asked.get('theme') === 'light' ? 'light' : 'dark';
+  const query = new URLSearchParams(location.search);
+  const theme = query.get('theme') === 'light' ? 'light' : 'dark';
   const scheme = new Scheme(theme);
   globalThis.fetch = keptAtHome(fetch.bind(globalThis), location.origin);
   globalThis.matchMedia = scheme.answering(matchMedia.bind(globalThis));
@@ -81,7 +81,7 @@ function start(): void {
     document.documentElement.dataset.theme = changed;
     scheme.set(changed);
   });
-  open(asked.get('recording') ?? '').catch((reason: unknown) => {
+  open(query.get('recording') ?? '').catch((reason: unknown) => {
     const why = reason instanceof Error ? reason.message : String(reason);
     show('failed', `The recording could not be opened: ${why}`);
   });

@@ -11,11 +11,11 @@ test('answers with the theme and reports a change', () => {
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const light = matchMedia('(prefers-color-scheme: light)');
   expect([dark.matches, light.matches]).toEqual([true, false]);
-  const heard: boolean[] = [];
-  dark.addEventListener('change', () => heard.push(dark.matches));
+  const results: boolean[] = [];
+  dark.addEventListener('change', () => results.push(dark.matches));
   scheme.set('light');
   expect([dark.matches, light.matches]).toEqual([false, true]);
-  expect(heard).toEqual([false]);
+  expect(results).toEqual([false]);
 });
 
 test('leaves other media queries to the browser', () => {

@@ -7,7 +7,7 @@ const QUERY = /^\(prefers-color-scheme: (dark|light)\)$/;
 
 /** The system's preference, replaced by a theme. */
 export class Scheme {
-  private readonly asked: MediaQueryList[] = [];
+  private readonly lists: MediaQueryList[] = [];
 
   constructor(private theme: Theme) {}
 
@@ -18,7 +18,7 @@ export class Scheme {
       const wanted = QUERY.exec(query)?.[1];
       if (wanted) {
         Object.defineProperty(list, 'matches', { get: () => this.theme === wanted });
-        this.asked.push(list);
+        this.lists.push(list);
       }
       return list;
     };
@@ -27,6 +27,6 @@ export class Scheme {
   /** Changes the theme and calls the listeners. */
   set(theme: Theme): void {
     this.theme = theme;
-    for (const list of this.asked) list.dispatchEvent(new Event('change'));
+    for (const list of this.lists) list.dispatchEvent(new Event('change'));
   }
 }
