@@ -1,4 +1,4 @@
-// The order of the folders: who may import whom, and how large a file may be.
+// The floors of imports, and the size limit of files.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
@@ -15,8 +15,8 @@ const FLOORS: readonly (readonly string[])[] = [
   ['app', 'pages'],
   ['main.tsx', 'house.test.ts'],
 ];
-const MOST_LINES = 300;
-const MOST_LOOSE = 5;
+const MAX_LINES = 300;
+const MAX_LOOSE = 5;
 const IMPORTS = /(?:\bfrom|\bimport\(|^import)\s*['"](\.[^'"]*)['"]/gm;
 
 const files = readdirSync(SRC, { recursive: true, withFileTypes: true })
@@ -35,21 +35,21 @@ function featureOf(file: string): string | undefined {
   return partOf(file) === 'features' ? file.split('/')[1] : undefined;
 }
 
-/** Why `from` may not import `to`, if it may not. */
+/** Why `from` may not import `to`; undefined if it may. */
 function objection(from: string, to: string): string | undefined {
   const [above, below] = [floorOf(from), floorOf(to)];
-  if (below > above) return 'is above it';
-  if (below === above && partOf(from) !== partOf(to)) return 'is beside it';
+  if (below > above) return 'is on a higher floor';
+  if (below === above && partOf(from) !== partOf(to)) return 'is on the same floor';
   const [own, other] = [featureOf(from), featureOf(to)];
   if (own !== undefined && other !== undefined && own !== other) return 'is another feature';
   return undefined;
 }
 
-it('has a floor for every script', () => {
+it('assigns a floor to every script', () => {
   expect(scripts.filter((file) => floorOf(file) < 0)).toEqual([]);
 });
 
-it('imports only from below, and no feature from another', () => {
+it('allows imports only from lower floors, and none between features', () => {
   const wrong = scripts.flatMap((from) =>
     [...read(from).matchAll(IMPORTS)].flatMap(([, path = '']) => {
       const to = normalize(join(dirname(from), path));
@@ -62,7 +62,7 @@ it('imports only from below, and no feature from another', () => {
 
 it('has few loose files', () => {
   const loose = files.filter((file) => !file.includes('/'));
-  expect(loose.length, loose.join(', ')).toBeLessThanOrEqual(MOST_LOOSE);
+  expect(loose.length, loose.join(', ')).toBeLessThanOrEqual(MAX_LOOSE);
 });
 
 it('has no long files', () => {
@@ -70,7 +70,7 @@ it('has no long files', () => {
     (file) =>
       /\.tsx?$/.test(file) &&
       !file.endsWith('.gen.ts') &&
-      read(file).trimEnd().split('\n').length > MOST_LINES,
+      read(file).trimEnd().split('\n').length > MAX_LINES,
   );
   expect(long).toEqual([]);
 });

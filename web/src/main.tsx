@@ -5,9 +5,9 @@ import { keepFocus } from './app/focus';
 import { Page } from './app/Page';
 import { carriesToken, takeToken } from './net/loginToken';
 
-// A link to log in with, in a browser that has: nothing of it may stay in the address.
+// A login link in a browser that is already logged in: remove the token from the address.
 takeToken(window);
-// The same link followed in this tab: reload, so that the token disappears from the address.
+// The same link opened in this tab changes only the hash: load the page as if the link was opened in a new tab.
 window.addEventListener('hashchange', (event) => {
   if (!carriesToken(window)) return;
   event.stopImmediatePropagation();

@@ -1,4 +1,4 @@
-// Beside the workspace: what happened, or a lesson.
+// The panel beside the workspace: events or lessons.
 
 import type { JSX } from 'solid-js';
 import type { Theme } from '../ui/theme';

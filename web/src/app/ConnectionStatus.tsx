@@ -1,4 +1,4 @@
-// Whose page this is, whether it hears of its session, and the way back where it does not.
+// The session's name, the state of the connection, and buttons to restart or log in again.
 
 import { Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import { loggedOut } from '../net/access';
@@ -15,7 +15,7 @@ function connectionText(connection: ConnectionState): string {
     case 'lost':
       return `reconnecting, attempt ${connection.attempt}`;
     case 'outdated':
-      return 'server has another version: reload the page';
+      return 'the server has another version: reload the page';
   }
 }
 
@@ -34,7 +34,7 @@ function Reload(props: { label: string; title: string }): JSX.Element {
   );
 }
 
-/** In the browser's tab, where several sessions may stand beside each other. */
+/** Puts the session's name in the browser tab, because several sessions may be open side by side. */
 function nameTab(session: string): void {
   createEffect(() => {
     const before = document.title;
@@ -69,9 +69,9 @@ export function ConnectionStatus(props: { lab: Session }): JSX.Element {
         </span>
       </div>
       <Show when={hasEnded()}>
-        <Reload label="Begin anew" title="Reloads the page, which begins the session anew" />
+        <Reload label="Restart" title="Reloads the page, which restarts the session" />
       </Show>
-      {/* The region is always there: screen readers announce what appears inside of it. */}
+      {/* The region is always in the document: screen readers announce what appears inside it. */}
       <span class="logged-out" role="alert" aria-label="Login">
         <Show when={loggedOut()}>
           <span>login has ended</span>

@@ -1,4 +1,4 @@
-// What the active controller goes by.
+// Details of the active controller.
 
 import { Show, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';

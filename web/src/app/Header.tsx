@@ -1,4 +1,4 @@
-// Who, what, and how it stands: connection, role, mode, counters.
+// The header: connection, role, mode, counters.
 
 import { For, Show, type JSX } from 'solid-js';
 import type { Theme } from '../ui/theme';
@@ -41,7 +41,7 @@ function RoleBox(props: { lab: Session & Notices }): JSX.Element {
       </button>
       <Show when={operator() && lab.hello()?.asked}>
         <span class="asked" data-testid="asked">
-          another asks for it
+          control requested
         </span>
       </Show>
     </Show>

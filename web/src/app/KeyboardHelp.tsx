@@ -1,4 +1,4 @@
-// All keys of the page in a dialog, and a switch for those of a single character.
+// A dialog with all keys of the page, and a switch for single-character shortcuts.
 
 import { For, createSignal, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
@@ -38,7 +38,7 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
         class="keyboard-help"
         aria-labelledby="keyboard-title"
         onClick={(event) => {
-          // The dialog's own box is all padding: a click on it is one beside the words.
+          // A click on the dialog element itself is a click beside its content.
           if (event.target === dialog) dialog.close();
         }}
       >
@@ -78,7 +78,7 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
                 choose(event.currentTarget.checked);
               }}
             />
-            Keys work all over the page. The workspace hears its own either way.
+            These keys work everywhere on the page. The keys of the workspace always work there.
           </label>
         </form>
       </dialog>

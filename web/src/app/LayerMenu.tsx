@@ -1,4 +1,4 @@
-// The layers, behind a button: more of them than fit beside the title.
+// The menu of layers, opened by a button.
 
 import { For, Show, type JSX } from 'solid-js';
 import { createPopover } from '../ui/popover';
@@ -7,7 +7,7 @@ import type { Lab } from '../lab/slices';
 
 export function LayerMenu(props: {
   lab: Lab;
-  /** In the order of the menu within their group. */
+  /** In menu order within each group. */
   layers: readonly MapLayer[];
 }): JSX.Element {
   let menu!: HTMLDivElement;

@@ -1,18 +1,18 @@
-// One place that screen readers listen to: switches, deliveries, disturbances, connection, role.
+// The live region for screen readers: switches, deliveries, disturbances, connection, role.
 
 import { createEffect, createSignal, on, type JSX } from 'solid-js';
-import { createSpeaker, heardOf, newsOf, roleWords } from './announce';
+import { createAnnouncer, lastLine, newsOf, roleWords } from './announce';
 import type { Events, Session } from '../lab/slices';
 
 export function LiveRegion(props: { lab: Session & Events }): JSX.Element {
   const { lab } = props;
   const [said, setSaid] = createSignal('');
-  const say = createSpeaker(setSaid);
-  let heard = heardOf(lab.log());
+  const say = createAnnouncer(setSaid);
+  let announced = lastLine(lab.log());
   createEffect(
     on(lab.log, (log) => {
-      const news = newsOf(log, heard);
-      heard = heardOf(log);
+      const news = newsOf(log, announced);
+      announced = lastLine(log);
       if (news !== undefined) say(news);
     }),
   );

@@ -1,4 +1,4 @@
-// Below the workspace: the plots against time, what the magnet can do, or how controllers compare.
+// The panel below the workspace: plots, magnet, or comparison.
 
 import { createSignal, type JSX } from 'solid-js';
 import type { Theme } from '../ui/theme';
@@ -20,7 +20,7 @@ export function LowerPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element
           type="button"
           class="small enlarge"
           aria-pressed={large()}
-          title="Gives this panel more of the page's height"
+          title="Makes this panel taller"
           onClick={() => {
             setLarge(!large());
           }}

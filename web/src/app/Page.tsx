@@ -1,4 +1,4 @@
-// Assembles the page: one laboratory, its panels around it.
+// Assembles the page: the laboratory with its panels, and the other views.
 
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { createLab } from '../lab/lab';

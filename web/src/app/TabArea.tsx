@@ -1,4 +1,4 @@
-// Tabs of the laboratory.
+// A tab area of the laboratory.
 
 import type { JSX } from 'solid-js';
 import { Dynamic } from 'solid-js/web';

@@ -1,4 +1,4 @@
-// Head of the plan view: what carries the magnet, which layers are shown, what can be done.
+// The head of the workspace: Positioner, view, layers, goal and disturbance buttons.
 
 import { For, Show, type JSX } from 'solid-js';
 import { LayerMenu } from './LayerMenu';
@@ -6,7 +6,7 @@ import type { MapLayer } from '../plan/layer';
 import { VIEW_MODES, type ViewMode } from './viewMode';
 import type { Lab } from '../lab/slices';
 
-/** Radio buttons, so that arrow keys go between them as everywhere. */
+/** Radio buttons, so that arrow keys switch between them. */
 function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {
   return (
     <fieldset class="view-switch" role="radiogroup" aria-label="View">

@@ -1,4 +1,4 @@
-// The workspace, from above or in space: click places the goal, dragging the bead is the disturbance.
+// The workspace in the plan view or the 3-D view. A click sets the goal; dragging the bead disturbs it.
 
 import { For, Show, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
@@ -26,7 +26,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   const palette = createPalette(() => props.theme());
   const interaction = createInteraction(lab);
   const layers = createLayers(MAP_LAYERS, lab, palette);
-  /** The topmost first. */
+  /** Topmost layer first. */
   const menu = [...layers].reverse();
 
   const readout = createMemo(() => {
@@ -46,11 +46,12 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
   };
   const stale = (): string | undefined => {
     const ended = lab.ended();
-    if (ended !== undefined)
-      return `The session has ended: ${ended}; reload the page to restart it.`;
+    if (ended !== undefined) {
+      return `The session has ended: ${ended}. Reload the page to restart it.`;
+    }
     return lab.connection().kind === 'live'
       ? undefined
-      : 'No connection: this is the last state received.';
+      : 'No connection. This is the last received state.';
   };
   const surfaceProps = { lab, interaction, layers, palette, helpId: HELP_ID };
 
@@ -80,7 +81,7 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
         <Show when={interaction.picker.isPicking()}>
           <p class="picking" role="status">
-            Pick a place: click it, or arrows and Enter. Esc ends.
+            Pick a place: click it, or use the arrow keys and Enter. Esc cancels.
           </p>
         </Show>
         <PlaceNotice lab={lab} place="workspace" />
@@ -90,12 +91,14 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         <p id={HELP_ID} class="hint">
           <Show
             when={mode() === 'scene'}
-            fallback="Click: goal · drag the bead: disturb, Shift lifts it over walls · keys: arrows, Enter, D"
+            fallback="Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Keys: arrows, Enter, D."
           >
-            Click: goal · drag the bead: disturb, Shift lifts · drag, wheel: view · arrows, Enter, D
+            Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Drag
+            elsewhere to turn the view, use the wheel to zoom. Keys: arrows, Enter, D.
             <span class="visually-hidden">
-              · brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home
-              resets it · the right mouse button moves it
+              {' '}
+              Brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home
+              resets it. The right mouse button moves it.
             </span>
           </Show>
         </p>

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { createSpeaker, heardOf, newsOf, roleWords } from './announce';
+import { createAnnouncer, lastLine, newsOf, roleWords } from './announce';
 import type { LogLine } from '../lab/model';
 import type { Hello } from '../net/protocol.gen';
 
@@ -12,20 +12,20 @@ const line = (id: number, kind: LogLine['kind'], text: string = kind, count = 1)
   event: undefined,
 });
 
-describe('the news', () => {
-  it('are the newest worth saying, each once', () => {
+describe('announcements', () => {
+  it('contain the newest important line, each line once', () => {
     const log = [line(1, 'session'), line(2, 'switch'), line(3, 'delivered'), line(4, 'refused')];
-    const heard = heardOf([]);
-    expect(newsOf(log, heard)).toBe('delivered');
-    expect(newsOf(log, heardOf(log))).toBeUndefined();
+    const announced = lastLine([]);
+    expect(newsOf(log, announced)).toBe('delivered');
+    expect(newsOf(log, lastLine(log))).toBeUndefined();
   });
 
-  it('are news again when they happen again', () => {
+  it('repeat a line when it happens again', () => {
     const before = [line(1, 'disturbance', 'a kick')];
-    expect(newsOf([line(1, 'disturbance', 'a kick', 2)], heardOf(before))).toBe('a kick');
+    expect(newsOf([line(1, 'disturbance', 'a kick', 2)], lastLine(before))).toBe('a kick');
   });
 
-  it('tell a change of role, and no first role', () => {
+  it('report a change of role, but not the first role', () => {
     const as = (role: Hello['role']): Hello => ({
       protocol: 1,
       session: 'main',
@@ -43,12 +43,12 @@ describe('the news', () => {
   });
 });
 
-describe('the speaker', () => {
-  it('says the newest once a second, and the same again as something new', () => {
+describe('the announcer', () => {
+  it('announces the newest text once per second, and a repeated text again', () => {
     let nowMs = 0;
     let later: (() => void) | undefined;
     const said: string[] = [];
-    const say = createSpeaker((text) => said.push(text), {
+    const say = createAnnouncer((text) => said.push(text), {
       nowMs: () => nowMs,
       later: (action) => {
         later = action;

@@ -14,7 +14,7 @@ const KNOWN: Known = {
     'open',
     'posts',
     'vessels',
-    // No shipped map has such a name, but one might.
+    // No built-in map has such a name, but a user's map might.
     'Übung & Prüfung #1 = 100 %',
   ],
   controllers: ['rl', 'errt', 'attractor'],
@@ -26,14 +26,14 @@ describe('links that come with the page', () => {
     ...PRESETS.map(({ name, link }) => [name, link] as const),
     ...LESSONS.flatMap(({ title, runs }) => runs.map(({ link }) => [title, link] as const)),
   ];
-  it.each(links)('%s is read, and is what the page would write', (_, link) => {
+  it.each(links)('%s is read and written back unchanged', (_, link) => {
     const read = experimentFrom(link, KNOWN);
     if (read.kind !== 'experiment') throw new Error(read.kind === 'broken' ? read.why : 'nothing');
-    // Else the preset would not be recognised, nor a lesson's experiment.
+    // Otherwise the page would not recognise the preset or the lesson's experiment.
     expect(linkText(read.experiment, defaults)).toBe(link);
   });
 
-  it('have names of their own', () => {
+  it('have unique names', () => {
     expect(new Set(PRESETS.map(({ name }) => name)).size).toBe(PRESETS.length);
     expect(new Set(PRESETS.map(({ link }) => link)).size).toBe(PRESETS.length);
   });

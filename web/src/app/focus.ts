@@ -1,9 +1,9 @@
-// Keeps the keyboard focus near its place when the focused control is removed.
+// Keeps the keyboard focus in place when the focused control is removed.
 
 const FOCUSABLE =
   ':is(button, input, select, textarea, summary, a[href], [tabindex="0"]):not(:disabled)';
 
-/** When what had the focus is taken off the page, gives it to the first control in the nearest part that is left. */
+/** When the focused element is removed, focuses the first control in its nearest remaining ancestor. */
 export function keepFocus(page: Document): void {
   let around: readonly Element[] = [];
   page.addEventListener('focusin', ({ target }) => {

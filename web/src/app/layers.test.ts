@@ -4,13 +4,13 @@ import { MAP_LAYERS } from './layers';
 
 const ids = MAP_LAYERS.map(({ id }) => id);
 
-it('have an id each, as browsers have stored it', () => {
+it('keep the ids that browsers have stored', () => {
   expect(ids.join(' ')).toBe(
     'singularity value seen flow blocks rectangles sensed obstacles plan ghosts field trail camera capture',
   );
 });
 
-it('are first those that cover nothing', () => {
+it('shown by default cover nothing', () => {
   const first = MAP_LAYERS.filter(({ shownAtFirst }) => shownAtFirst).map(({ id }) => id);
   expect(first.sort()).toEqual(['camera', 'capture', 'ghosts', 'plan', 'sensed', 'trail']);
 });

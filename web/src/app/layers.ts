@@ -1,4 +1,4 @@
-// The layers of the map, in the order in which they are drawn.
+// The layers of the map in drawing order.
 
 import { CAMERA_LAYER, SENSED_LAYER } from '../features/camera/cameraLayers';
 import { CAPTURE_LAYER } from '../features/capture/captureLayer';

@@ -5,8 +5,8 @@ import type { Lab } from '../lab/slices';
 
 const run = (): void => undefined;
 
-describe('the list of the page', () => {
-  it('has each key once where it is heard, and a name for each', () => {
+describe('the shortcuts of the page', () => {
+  it('use each key once per area, and each key has a name', () => {
     const all = pageShortcuts({} as Lab, () => true, run);
     const keys = all.filter((shortcut) => shortcut.run).flatMap((shortcut) => shortcut.keys);
     expect(new Set(keys).size).toBe(keys.length);

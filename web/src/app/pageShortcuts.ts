@@ -11,7 +11,7 @@ const OF_FEATURES: readonly FeatureShortcuts[] = [TIME_SHORTCUTS, CONTROLLER_SHO
 
 export function pageShortcuts(
   lab: Lab,
-  /** Whether the laboratory is in view: what is not visible is not changed. */
+  /** Whether the laboratory is visible: keys change only what is visible. */
   isShown: () => boolean,
   help: () => void,
 ): readonly Shortcut[] {
@@ -23,10 +23,10 @@ export function pageShortcuts(
     {
       group: 'Page',
       keys: ['g'],
-      does: 'to the workspace, to place a goal',
+      does: 'go to the workspace to set a goal',
       run: () => document.querySelector<HTMLElement>('.stage-canvas')?.focus(),
     },
-    { group: 'Page', keys: ['?'], does: 'this help', run: help },
+    { group: 'Page', keys: ['?'], does: 'open this help', run: help },
     ...WORKSPACE_SHORTCUTS,
   ];
 }

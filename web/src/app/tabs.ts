@@ -1,4 +1,4 @@
-// The panels that share a place, in the order of their tabs.
+// The panels of the tab areas, in tab order.
 
 import { COMPARE_TAB } from '../features/compare/ComparePanel';
 import { EVENTS_TAB } from '../features/events/EventsPanel';

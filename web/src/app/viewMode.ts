@@ -1,4 +1,4 @@
-// From above or in space: how the workspace is shown, as the person chooses it.
+// The user's choice between the plan view and the 3-D view.
 
 import { recall, remember } from '../ui/storage';
 
@@ -11,7 +11,7 @@ export type ViewMode = (typeof VIEW_MODES)[number][0];
 
 const KEY = 'view';
 
-/** What was stored, or the plan when that is no mode. */
+/** The stored mode, or the plan view if the stored text is not a mode. */
 export function viewModeFrom(text: string | null): ViewMode {
   return VIEW_MODES.find(([mode]) => mode === text)?.[0] ?? 'plan';
 }

@@ -1,4 +1,4 @@
-// The page's views: the laboratory, and what fills the page in its place.
+// The views of the page.
 
 export const VIEWS = [
   ['laboratory', 'Laboratory'],

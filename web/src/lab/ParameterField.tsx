@@ -1,4 +1,4 @@
-// One parameter in a row of a form: its name, its value, and how to change it.
+// One parameter as a row of a form: name, value, input.
 
 import { For, batch, createMemo, createUniqueId, type JSX } from 'solid-js';
 import {
@@ -15,13 +15,13 @@ import type { Parameters, SceneMessage } from '../net/protocol.gen';
 import type { Session, Trial } from './slices';
 
 export interface Form {
-  /** In force, with edits that are on their way on top. */
+  /** The server's values with pending edits. */
   readonly values: () => Parameters;
   readonly defaults: () => Parameters;
   readonly disabled: () => boolean;
-  /** Why a field has no effect now, if it has none. */
+  /** Why a field has no effect now; undefined if it has an effect. */
   readonly idle: (name: keyof Parameters) => string | undefined;
-  /** What a slider shows while it is moved. */
+  /** The value of a slider while the user moves it. */
   readonly moving: () => Partial<Parameters>;
   readonly move: (change: Partial<Parameters>) => void;
   readonly edit: (change: Partial<Parameters>) => void;
@@ -29,12 +29,12 @@ export interface Form {
 
 function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
   const { form, field } = props;
-  // While a slider moves, its number follows; it goes out when the slider is let go.
+  // While a slider moves, its number follows. The value is sent when the slider is released.
   const shown = createMemo(() =>
     shownValue(field, form.moving()[field.name] ?? form.values()[field.name]),
   );
   const max = (): number => shownMost(field, form.values());
-  // A memo, so that news of other parameters does not overwrite what is being typed.
+  // A memo, so that changes of other parameters do not overwrite what the user types.
   const text = createMemo(() => shown().toFixed(digits(field.step)));
   const stored = (value: number): Partial<Parameters> => ({
     [field.name]: storedValue(field, value, form.values()),
@@ -66,7 +66,7 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
           disabled={form.disabled()}
           onChange={(event) => {
             commit(event.currentTarget.valueAsNumber);
-            // What was out of range or no number at all must not stay on display.
+            // Replace a value that is out of range or not a number.
             event.currentTarget.value = text();
           }}
         />
@@ -82,7 +82,7 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
         disabled={form.disabled()}
         onInput={(event) => {
           const change = stored(event.currentTarget.valueAsNumber);
-          // Back where it began it is let go without a change.
+          // Released where it started: no change event.
           form.move(change[field.name] === form.values()[field.name] ? {} : change);
         }}
         onPointerCancel={() => {
@@ -167,7 +167,7 @@ export function createForm(lab: Session & Trial, scene: () => SceneMessage): For
     disabled: () => !lab.canOperate(),
     idle: (name) =>
       name === 'tool_orientation' && scene().positioner === 'planar_stage'
-        ? 'The planar stage always holds the block upright.'
+        ? 'The planar stage always holds the magnet upright.'
         : undefined,
     moving: lab.edits.moving,
     move: (change) => {

@@ -1,4 +1,4 @@
-// The notice of one place of the page.
+// The notice at one place of the page.
 
 import type { JSX } from 'solid-js';
 import { NoticeBar } from '../ui/NoticeBar';

@@ -1,4 +1,4 @@
-// What a policy can do: a step along an axis, in the order of the network's outputs.
+// The actions of a policy: steps along an axis, in the order of the network's outputs.
 
 export const ACTIONS = [
   { id: 'plus-x', arrow: '→', name: '+x', along: [1, 0] },

@@ -19,17 +19,17 @@ test('a ghost is where its branch was, and stays where it ended', () => {
   expect(ghostAt(comparison, short, 111)?.tool_m).toEqual([1, 0]);
   expect(ghostAt(comparison, short, 115)?.tool_m).toEqual([1, 0]);
   expect(ghostAt(comparison, long, 115)?.tool_m).toEqual([0, 2]);
-  // The moment itself is every branch's first sample.
+  // The first sample of each branch is the moment itself.
   expect(ghostAt(comparison, long, 100)?.tool_m).toEqual([0, 0]);
 });
 
-test('a branch that has not begun has no ghost', () => {
+test('a branch that has not started has no ghost', () => {
   const comparison = comparisonOf(100, [branchOf('rl', [])]);
   expect(lastTick(comparison)).toBe(100);
   expect(ghostAt(comparison, branchOf('rl', []), 100)).toBeUndefined();
 });
 
-test('errors are distances of tool and bead', () => {
+test('errors are distances between tool and bead', () => {
   expect(errors_m(short)[0]).toBeCloseTo(0.05);
   expect(errors_m(short)[1]).toBe(0);
 });

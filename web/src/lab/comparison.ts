@@ -1,10 +1,10 @@
-// A moment run on under several controllers: all branches are shown at one time.
+// A comparison: one moment continued under several controllers. All branches are shown at the same time.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import type { Branch, ComparisonMessage } from '../net/protocol.gen';
 import { distance, type Vec2 } from './geometry';
 
-/** Simulated seconds a second while ghosts play. */
+/** Simulated seconds per second while ghosts play. */
 const PLAY_SPEED = 2;
 
 export interface Ghost {
@@ -17,7 +17,7 @@ export function lastTick({ tick, ticks_a_sample, branches }: ComparisonMessage):
   return tick + ticks_a_sample * Math.max(0, ...branches.map(({ samples }) => samples.length));
 }
 
-/** A branch at a tick; at its end when it has ended before. None before its first sample. */
+/** A branch at a tick, or at its end if it ended earlier. Undefined before its first sample. */
 export function ghostAt(
   comparison: ComparisonMessage,
   branch: Branch,
@@ -28,7 +28,7 @@ export function ghostAt(
   return sample && { tool_m: [sample[0], sample[1]], bead_m: [sample[2], sample[3]] };
 }
 
-/** Distances of tool and bead in metres, one a sample. */
+/** Distances between tool and bead in metres, one per sample. */
 export function errors_m(branch: Branch): number[] {
   return branch.samples.map(([toolX, toolY, beadX, beadY]) =>
     distance([toolX, toolY], [beadX, beadY]),
@@ -42,13 +42,13 @@ function continues(now: ComparisonMessage, before: ComparisonMessage): boolean {
 
 export interface Comparison {
   readonly shown: Accessor<ComparisonMessage | undefined>;
-  /** The time at which they are shown. */
+  /** The time at which the branches are shown. */
   readonly tick: Accessor<number>;
   readonly playing: Accessor<boolean>;
   look(tick: number): void;
   play(): void;
   pause(): void;
-  /** Those of this moment, until the next comparison is asked for. */
+  /** The branches of this moment, until the next comparison is requested. */
   hide(): void;
   show(): void;
 }
@@ -61,9 +61,9 @@ export function createComparison(
   const [tick, setTick] = createSignal(0);
   const [playing, setPlaying] = createSignal(false);
   const comparison = createMemo(() => {
-    const [now, gone] = [newest(), hidden()];
-    // It is told of again and again while it runs.
-    return now?.trial === gone?.trial && now?.tick === gone?.tick ? undefined : now;
+    const [now, cleared] = [newest(), hidden()];
+    // The server sends it repeatedly while it runs.
+    return now?.trial === cleared?.trial && now?.tick === cleared?.tick ? undefined : now;
   });
   let frame = 0;
 

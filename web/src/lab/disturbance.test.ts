@@ -18,7 +18,7 @@ describe('a direction', () => {
     expect(unitVector('up', 0.3)).toEqual([0, 1]);
   });
 
-  it('is any one when it is random', () => {
+  it('can be any direction if it is random', () => {
     expect(unitVector('random', 0.25)[1]).toBeCloseTo(1);
     for (const chance of [0, 0.1, 0.37, 0.99]) {
       expect(Math.hypot(...unitVector('random', chance))).toBeCloseTo(1);
@@ -34,15 +34,15 @@ describe('a disturbance', () => {
   });
 });
 
-describe('in words', () => {
-  it('a disturbance has its strength and its direction', () => {
+describe('as text', () => {
+  it('a disturbance has a strength and a direction', () => {
     expect(words(kick(1.5, [0, 1]))).toBe('kick ↑ 1.50 mN·s');
     expect(words(push(2, 3, [-1, 0]))).toBe('push ← 2.0 mN for 3 s');
     expect(words(move(0.1, -0.35))).toBe('move to (0.100, −0.350) m');
     expect(words(blind(4))).toBe('tracker blind for 4 s');
   });
 
-  it('a time is what it waits for', () => {
+  it('a time is shown with its condition', () => {
     expect(describeWhen({ tick: 250 }, 0.008)).toBe('at 2.0 s');
     expect(describeWhen({ step: 29 }, 0.008)).toBe('at step 29');
     expect(describeWhen({ passes_x_m: -0.21 }, 0.008)).toBe('passing x = −0.210 m');
@@ -78,7 +78,7 @@ describe('a restart', () => {
     });
   });
 
-  it('keeps the script, and a goal placed meanwhile; a random start stays with the seed', () => {
+  it('keeps the script and a new goal; a random start still follows from the seed', () => {
     const scene = sceneOf('colon');
     const scenario = { ...scene.scenario, script: [entry] };
     const state = stateAt(700, { goal_m: [0.05, -0.25, 0] });

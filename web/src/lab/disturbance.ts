@@ -1,4 +1,4 @@
-// What the operator can do to the bead besides pulling it by hand, now or by script. Pure.
+// The operator's disturbances besides dragging the bead: now or by script. Pure.
 
 import { clock, fixed } from '../ui/format';
 import type {
@@ -10,8 +10,8 @@ import type {
   When,
 } from '../net/protocol.gen';
 
-/** With more, nothing else would happen. */
-export const MOST_RANDOM = 20;
+/** A larger number would leave no time for anything else. */
+export const MAX_RANDOM = 20;
 
 export const DIRECTIONS = [
   ['random', 'random'],
@@ -109,7 +109,7 @@ export function describeWhen(at: When, tick_s: number): string {
   return `within ${fixed(100 * within_m, 1)} cm of ${place(x_m, y_m)}`;
 }
 
-/** The trial from its start, with other disturbances: all else is as it is now. */
+/** The trial from its start with other disturbances. Everything else stays as it is now. */
 export function restart(
   scene: SceneMessage,
   state: StateMessage,

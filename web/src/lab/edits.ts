@@ -1,18 +1,18 @@
-// Changes of the parameters on their way to the server: made in one place, shown in all.
+// Pending changes of the parameters, shared by all forms of the page.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, type Accessor } from 'solid-js';
 import { withFollowers } from './parameters';
 import type { ClientMessage, Parameters, SceneMessage } from '../net/protocol.gen';
 
-/** An edit that the server has not confirmed by then is shown as not made. */
+/** After this time without a confirmation, the page shows the server's value again. */
 const CONFIRM_MS = 2000;
 
 export interface Edits {
-  /** In force, with edits that are on their way on top. */
+  /** The server's values with pending edits. */
   readonly values: Accessor<Parameters | undefined>;
-  /** The same, with what a slider shows while it is moved. */
+  /** The same with the value of a moving slider. */
   readonly shown: Accessor<Parameters | undefined>;
-  /** What a slider shows while it is moved: nothing of it is sent. */
+  /** The value of a moving slider, which is not sent. */
   readonly moving: Accessor<Partial<Parameters>>;
   move(change: Partial<Parameters>): void;
   /** Sends a change. */
@@ -26,7 +26,7 @@ interface Session {
   send(message: ClientMessage): void;
 }
 
-/** An edit goes when the server's parameters agree with it, or when it refuses. */
+/** An edit is dropped when the server's parameters agree with it or when the server refuses it. */
 export function createEdits(session: Session): Edits {
   const [edits, setEdits] = createSignal<Partial<Parameters>>({});
   const [moving, setMoving] = createSignal<Partial<Parameters>>({});
@@ -45,7 +45,7 @@ export function createEdits(session: Session): Edits {
   );
   createEffect(on(session.refusals, drop, { defer: true }));
   createEffect(() => {
-    // A slider that is disabled under the hand never says that it was let go.
+    // A slider that is disabled while the user moves it reports no release.
     if (!session.canOperate()) setMoving({});
   });
   onCleanup(() => {

@@ -3,16 +3,16 @@ import type { JudgementLayer } from '../net/protocol.gen';
 import { momentOf } from './testing';
 import { eventTitle, marginOf, sentence, whatItSaw } from './eventStory';
 
-test('a title says what and when', () => {
+test('a title has the kind and the time', () => {
   expect(eventTitle({ kind: 'lift_off', sim_time_s: 12.34 })).toBe('Lift-off at 12.3 s');
 });
 
-test('what happened becomes a sentence, and stays one', () => {
+test('a text becomes a sentence, and a sentence stays unchanged', () => {
   expect(sentence('bead lost: 3 mm')).toBe('Bead lost: 3 mm.');
   expect(sentence('Why not?')).toBe('Why not?');
 });
 
-test('a margin says how far and on which side', () => {
+test('a margin has a distance and a side', () => {
   const over = marginOf(momentOf({ error_m: 0.142, threshold_m: 0.1 }));
   expect(over.over_m).toBeCloseTo(0.042);
   expect(over.text).toBe('42 mm over the limit');
@@ -21,19 +21,21 @@ test('a margin says how far and on which side', () => {
   );
 });
 
-test('the active sub-controller tells what it went by', () => {
+test('the story of a sub-controller names its inputs', () => {
   const fetching = whatItSaw(momentOf({ mode: 1, bead_m: [0.1, 0], bead_tracked_m: [0.101, 0] }));
-  expect(fetching).toContain('(0.101, 0.000) m, 1.0 mm from where it was');
-  expect(fetching).toContain('Sub-controller 1 flies after it');
-  expect(whatItSaw(momentOf({ mode: 2, goal_m: null }))).toContain('holds');
+  expect(fetching).toContain('(0.101, 0.000) m, 1.0 mm from its true position');
+  expect(fetching).toContain('Sub-controller 1 flies to the bead');
+  expect(whatItSaw(momentOf({ mode: 2, goal_m: null }))).toContain('does not move the arm');
   const carrying = momentOf({ mode: 2, goal_m: [0.3, 0], tool_m: [0, 0], controller: 'attractor' });
-  expect(whatItSaw(carrying)).toContain('Attractor sensed 0 obstacles in the picture.');
+  expect(whatItSaw(carrying)).toContain('Attractor sensed 0 obstacles in the image.');
   expect(whatItSaw(carrying)).toContain('The goal was 30.0 cm away.');
-  expect(whatItSaw({ ...carrying, controller: 'errt' })).toContain('had no way yet');
-  expect(whatItSaw({ ...carrying, refusal: 'a wall is in the way' })).toMatch(/held: A wall .*\.$/);
+  expect(whatItSaw({ ...carrying, controller: 'errt' })).toContain('had no path yet');
+  expect(whatItSaw({ ...carrying, refusal: 'a wall is in the way' })).toMatch(
+    /did not move: A wall .*\.$/,
+  );
 });
 
-test('a policy tells what it chose and what it thought of it', () => {
+test('the story of a policy names its action and the value', () => {
   const chosen = momentOf({ mode: 2, goal_m: [0.3, 0], controller: 'rl' });
   const judgement: JudgementLayer = {
     quantiles: [[], [], [], []],
@@ -41,6 +43,6 @@ test('a policy tells what it chose and what it thought of it', () => {
     taken: 2,
     trained_on: [],
   };
-  const told = whatItSaw({ ...chosen, overlay: { ...chosen.overlay, judgement } });
-  expect(told).toContain('RL chose ↑ +y, worth 0.90');
+  const story = whatItSaw({ ...chosen, overlay: { ...chosen.overlay, judgement } });
+  expect(story).toContain('RL chose ↑ +y with a value of 0.90');
 });

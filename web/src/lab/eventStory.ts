@@ -1,4 +1,4 @@
-// The story of an event: what stood against what, and what the active sub-controller went by. Pure.
+// The story of an event: error against threshold, and the inputs of the active sub-controller. Pure.
 
 import { ACTIONS } from './actions';
 import { centimetres, clock, counted, fixed, millimetres } from '../ui/format';
@@ -22,7 +22,7 @@ export function eventTitle(event: Pick<EventMessage, 'kind' | 'sim_time_s'>): st
   return `${TITLES[event.kind]} at ${clock(event.sim_time_s)}`;
 }
 
-/** What happened, with a capital and a full stop. */
+/** The text with a capital letter and a full stop. */
 export function sentence(text: string): string {
   const trimmed = text.trim();
   const end = /[.!?]$/.test(trimmed) ? '' : '.';
@@ -32,7 +32,7 @@ export function sentence(text: string): string {
 export interface Margin {
   readonly error_m: number;
   readonly threshold_m: number;
-  /** By how much the switching law was over its threshold; negative when within. */
+  /** Error minus threshold; negative within the limit. */
   readonly over_m: number;
   readonly text: string;
 }
@@ -58,36 +58,36 @@ function transport(moment: MomentMessage): string {
   switch (controller) {
     case 'attractor': {
       const count = overlay.obstacles.length;
-      return `${name} sensed ${counted(count, 'obstacle')} in the picture.`;
+      return `${name} sensed ${counted(count, 'obstacle')} in the image.`;
     }
     case 'errt': {
       const corners = overlay.plan?.way.length ?? 0;
       return corners > 0
-        ? `${name} followed a way of ${corners} points, around all that it had seen.`
-        : `${name} had no way yet.`;
+        ? `${name} followed a path of ${corners} points around the obstacles seen so far.`
+        : `${name} had no path yet.`;
     }
     case 'rl': {
       const judged = overlay.judgement;
       const action = judged && ACTIONS[judged.taken];
-      if (!judged || !action) return `${name} had judged no picture yet.`;
-      return `${name} chose ${action.arrow} ${action.name}, worth ${fixed(judged.values[judged.taken] ?? 0, 2)} of the return.`;
+      if (!judged || !action) return `${name} had not used an image yet.`;
+      return `${name} chose ${action.arrow} ${action.name} with a value of ${fixed(judged.values[judged.taken] ?? 0, 2)} (expected return).`;
     }
   }
 }
 
-/** What the active sub-controller went by, in sentences. */
+/** The inputs of the active sub-controller as sentences. */
 export function whatItSaw(moment: MomentMessage): string {
   const tracker = millimetres(distance(moment.bead_tracked_m, moment.bead_m), 1);
-  const bead = `The tracker had the bead at ${place(moment.bead_tracked_m)}, ${tracker} from where it was.`;
+  const bead = `The tracker reported the bead at ${place(moment.bead_tracked_m)}, ${tracker} from its true position.`;
   const parts = [bead];
   if (moment.mode === 1) {
-    parts.push('Sub-controller 1 flies after it and needs no picture.');
+    parts.push('Sub-controller 1 flies to the bead and does not use the camera.');
   } else if (!moment.goal_m) {
-    parts.push('Without a goal, sub-controller 2 holds.');
+    parts.push('No goal is set, so sub-controller 2 does not move the arm.');
   } else {
     const left = centimetres(distance(moment.tool_m, moment.goal_m));
     parts.push(transport(moment), `The goal was ${left} away.`);
   }
-  if (moment.refusal !== null) parts.push(`The arm held: ${sentence(moment.refusal)}`);
+  if (moment.refusal !== null) parts.push(`The arm did not move: ${sentence(moment.refusal)}`);
   return parts.join(' ');
 }

@@ -23,14 +23,14 @@ const KNOWN: Known = {
     'open',
     'posts',
     'vessels',
-    // No shipped map has such a name, but one might.
+    // No built-in map has such a name, but a user's map might.
     'Übung & Prüfung #1 = 100 %',
   ],
   controllers: ['rl', 'errt', 'attractor'],
   defaults,
 };
 
-/** The same numbers in [0, 1) every time (mulberry32). */
+/** Reproducible numbers in [0, 1) (mulberry32). */
 function chances(seed: number): () => number {
   let state = seed;
   return () => {
@@ -41,7 +41,7 @@ function chances(seed: number): () => number {
   };
 }
 
-/** An experiment with anything in it that a link can hold. */
+/** A random experiment with everything that a link can contain. */
 function anyExperiment(chance: () => number): Experiment {
   const pick = <T>(all: readonly T[]): T => {
     const one = all[Math.floor(chance() * all.length)];
@@ -99,18 +99,18 @@ function why(hash: string): string {
 }
 
 describe('a link', () => {
-  it('gives back what was put in, and the same text again', () => {
+  it('returns the same experiment and the same text', () => {
     const chance = chances(7);
     for (let round = 0; round < 500; round += 1) {
       const experiment = anyExperiment(chance);
       const text = linkText(experiment, defaults);
       expect(experimentFrom(text, KNOWN)).toEqual({ kind: 'experiment', experiment });
-      // A browser may write what stands after # in its own way, but never these letters.
+      // A browser may encode other characters after #, but never these.
       expect(text).toMatch(/^#[\w=&.,:;@%-]+$/);
     }
   });
 
-  it('reads what the server writes beside a failure', () => {
+  it('reads the link that the server writes with a failure', () => {
     // `server/scenario/link.rs` has the same line.
     const text =
       '#v=1&map=colon&controller=errt&seed=9007199254740991&start=-0.1234567890123,-0.3' +
@@ -128,7 +128,7 @@ describe('a link', () => {
     });
   });
 
-  it('reads well', () => {
+  it('is readable', () => {
     const scene = sceneOf('colon');
     scene.seed = 7;
     scene.parameters = { ...scene.parameters, threshold_m: 0.08 };
@@ -138,13 +138,13 @@ describe('a link', () => {
     );
   });
 
-  it('takes seed, parameters, controller and goal as they are, start and script as set up', () => {
+  it('contains the present seed, parameters, controller and goal, and the original start and script', () => {
     const scene = sceneOf('posts');
     scene.scenario.start_m = [0.1, -0.3];
     scene.scenario.disturbances = 2;
     scene.scenario.script = [{ at: { step: 3 }, disturbance: { dropout: { for_s: 2 } } }];
     scene.scenario.positioner = 'planar_stage';
-    // Placed with the mouse.
+    // Set with the mouse.
     const goal_m: [number, number, number] = [0.123456789, -0.3000001, 0];
     expect(experimentOf(scene, stateAt(5, { goal_m, controller: 'rl' }))).toEqual({
       map: 'posts',
@@ -157,13 +157,13 @@ describe('a link', () => {
       disturbances: 2,
       script: scene.scenario.script,
     });
-    // One that came with the scenario is left as it is.
+    // A goal from the scenario is not rounded.
     scene.scenario.goal_m = [0.123456789, -0.3000001];
     expect(experimentOf(scene, stateAt(5, { goal_m })).goal_m).toEqual([0.123456789, -0.3000001]);
     expect(linkAsSetUp(scene)).toContain('&goal=0.123456789,-0.3000001&');
   });
 
-  it('is told as it was set up, whatever was tuned since', () => {
+  it('can be written as it was set up, without later changes', () => {
     const scene = sceneOf('posts');
     const before = linkAsSetUp(scene);
     scene.parameters = { ...scene.parameters, friction: 0.3 };
@@ -171,7 +171,7 @@ describe('a link', () => {
     expect(linkOf(scene, stateAt(1))).toBe(`${before}&friction=0.3`);
   });
 
-  it('becomes the command that sets it up', () => {
+  it('becomes the command that loads it', () => {
     const read = experimentFrom('#v=1&map=open&controller=rl&seed=3&friction=0.5', KNOWN);
     if (read.kind !== 'experiment') throw new Error('not read');
     expect(loadMessage(read.experiment, defaults)).toEqual({
@@ -191,41 +191,44 @@ describe('a link', () => {
   });
 });
 
-describe('what is no experiment', () => {
+describe('an invalid link', () => {
   const GOOD = '#v=1&map=colon&controller=errt&seed=7';
 
-  it('is nothing when there is nothing', () => {
+  it('is not reported if the hash is empty', () => {
     expect(experimentFrom('', KNOWN)).toEqual({ kind: 'none' });
     expect(experimentFrom('#', KNOWN)).toEqual({ kind: 'none' });
   });
 
   it.each([
-    ['#top', '“#top” does not begin with #v=1'],
-    ['#v=2&map=colon', 'v is “2”, this page reads 1'],
+    ['#top', '“#top” does not start with #v=1'],
+    ['#v=2&map=colon', 'v is “2”; this page reads version 1'],
     ['#v=1&controller=errt&seed=7', 'map is missing'],
     [
       '#v=1&map=liver&controller=errt&seed=7',
-      'map is “liver”, it must be one of attractor-example',
+      'map is “liver”; it must be one of attractor-example',
     ],
-    ['#v=1&map=colon&controller=magic&seed=7', 'controller is “magic”, it must be one of rl, errt'],
-    ['#v=1&map=colon&controller=errt&seed=-7', 'seed is “-7”, it must be a whole number from 0'],
+    ['#v=1&map=colon&controller=magic&seed=7', 'controller is “magic”; it must be one of rl, errt'],
+    [
+      '#v=1&map=colon&controller=errt&seed=-7',
+      'seed is “-7”; it must be a whole number, 0 or larger',
+    ],
     ['#v=1&map=colon&controller=errt&seed=1e99', 'seed is “1e99”'],
-    [`${GOOD}&seed=8`, 'seed stands there twice'],
-    [`${GOOD}&goal=0.1`, 'goal is “0.1”, it must be 2 numbers'],
-    [`${GOOD}&goal=0.1,here`, 'goal is “here”, it must be a number'],
-    [`${GOOD}&positioner=crane`, 'positioner is “crane”, it must be one of arm, planar_stage'],
-    [`${GOOD}&friction=much`, 'friction is “much”, it must be a number'],
-    [`${GOOD}&friction=`, 'friction is “”, it must be a number'],
+    [`${GOOD}&seed=8`, 'seed appears twice'],
+    [`${GOOD}&goal=0.1`, 'goal is “0.1”; it must be 2 numbers'],
+    [`${GOOD}&goal=0.1,here`, 'goal is “here”; it must be a number'],
+    [`${GOOD}&positioner=crane`, 'positioner is “crane”; it must be one of arm, planar_stage'],
+    [`${GOOD}&friction=much`, 'friction is “much”; it must be a number'],
+    [`${GOOD}&friction=`, 'friction is “”; it must be a number'],
     [`${GOOD}&friction=Infinity`, 'friction is “Infinity”'],
     [`${GOOD}&friction`, '“friction” has no value'],
-    [`${GOOD}&rl_shield=1`, 'rl_shield is “1”, it must be one of true, false'],
-    [`${GOOD}&switching_law=strict`, 'switching_law is “strict”, it must be one of hysteresis'],
-    [`${GOOD}&gravity=9.81`, 'nothing named “gravity” (its value is “9.81”)'],
-    [`${GOOD}&toString=1`, 'nothing named “toString”'],
-    [`${GOOD}&script=`, 'script is “”, it must be a disturbance, @, and when'],
-    [`${GOOD}&script=hit:1,2@tick:3`, 'script is “hit:1,2”, it must be displace, impulse'],
-    [`${GOOD}&script=dropout:1@noon:12`, 'script is “noon:12”, it must be tick, step'],
-    [`${GOOD}&script=dropout:1@tick:1.5`, 'script is “1.5”, it must be a whole number'],
+    [`${GOOD}&rl_shield=1`, 'rl_shield is “1”; it must be one of true, false'],
+    [`${GOOD}&switching_law=strict`, 'switching_law is “strict”; it must be one of hysteresis'],
+    [`${GOOD}&gravity=9.81`, '“gravity” is not a known name (its value is “9.81”)'],
+    [`${GOOD}&toString=1`, '“toString” is not a known name'],
+    [`${GOOD}&script=`, 'script is “”; it must be a disturbance, @, and when'],
+    [`${GOOD}&script=hit:1,2@tick:3`, 'script is “hit:1,2”; it must be displace, impulse'],
+    [`${GOOD}&script=dropout:1@noon:12`, 'script is “noon:12”; it must be tick, step'],
+    [`${GOOD}&script=dropout:1@tick:1.5`, 'script is “1.5”; it must be a whole number'],
     [`${GOOD}&goal=%E0%A4%A`, '“goal=%E0%A4%A” is damaged'],
   ])('%s is refused with field and value', (hash, words) => {
     expect(why(hash)).toContain(words);

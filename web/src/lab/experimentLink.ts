@@ -1,6 +1,6 @@
-// A whole experiment as the part of an address after `#`, and back. Pure.
+// Converts an experiment to the part of an address after `#`, and back. Pure.
 //
-// `#v=1&map=colon&controller=errt&seed=7&goal=-0.24,-0.27&threshold_m=0.08`: what is not named is at its default.
+// `#v=1&map=colon&controller=errt&seed=7&goal=-0.24,-0.27&threshold_m=0.08`. Missing values are defaults.
 
 import { CONTROLLER_LABELS, FIELDS as FORM_FIELDS } from './parameters';
 import {
@@ -26,27 +26,27 @@ export const LINK_VERSION = 1;
 
 export type Place = readonly [number, number];
 
-/** What a link tells; presets and lessons are such links. */
+/** The content of an experiment link. Presets and lessons are such links. */
 export interface Experiment {
   readonly map: string;
   readonly controller: ControllerName;
-  /** What carries the magnet; null for what the map is made for. */
+  /** Null for the map's own Positioner. */
   readonly positioner: PositionerKind | null;
   readonly seed: number;
-  /** Null for what the seed gives. */
+  /** Null for a start chosen by the seed. */
   readonly start_m: Place | null;
   readonly goal_m: Place | null;
-  /** Those that are not at their defaults. */
+  /** Only parameters that differ from their defaults. */
   readonly parameters: Partial<Parameters>;
-  /** Random ones. */
+  /** Number of random disturbances. */
   readonly disturbances: number;
   readonly script: readonly Scripted[];
 }
 
-/** What this server knows, to hold a link against. */
+/** Maps, controllers and defaults of this server, to check a link. */
 export type Known = Pick<SceneMessage, 'maps' | 'controllers' | 'defaults'>;
 
-/** What of an experiment may be chosen anew while it runs; a `StateMessage` tells it. */
+/** The parts of an experiment that can change while it runs, from a `StateMessage`. */
 export interface Chosen {
   readonly controller: ControllerName;
   readonly goal_m: readonly [number, number, ...number[]] | null;
@@ -58,7 +58,7 @@ export type Reading =
   | { readonly kind: 'broken'; readonly why: string };
 
 const POSITIONERS: readonly PositionerKind[] = ['arm', 'planar_stage'];
-/** What a link tells besides parameters. */
+/** Fields of a link besides parameters. */
 const FIELDS = ['v', 'map', 'controller', 'positioner', 'seed', 'start', 'goal'];
 const LAST_FIELDS = ['disturbances', 'script'];
 
@@ -73,12 +73,12 @@ function tuned(parameters: Parameters, defaults: Parameters): Partial<Parameters
   return Object.fromEntries(differing.map((name) => [name, parameters[name]]));
 }
 
-/** A goal placed by hand to a tenth of a millimetre, which is finer than any hand. */
+/** Rounds a goal set by the user to 0.1 mm. */
 function rounded(goal_m: Place): Place {
   return [Number(goal_m[0].toFixed(4)), Number(goal_m[1].toFixed(4))];
 }
 
-/** As the trial was set up, with controller, goal and parameters as they are now. */
+/** The trial's setup with the present controller, goal and parameters. */
 export function experimentOf(scene: SceneMessage, state: Chosen): Experiment {
   const { scenario } = scene;
   const now = state.goal_m && ([state.goal_m[0], state.goal_m[1]] as const);
@@ -97,7 +97,7 @@ export function experimentOf(scene: SceneMessage, state: Chosen): Experiment {
   };
 }
 
-/** The link of an experiment, `#` included; the same experiment has the same link. */
+/** The link of an experiment with `#`. The same experiment always has the same link. */
 export function linkText(experiment: Experiment, defaults: Parameters): string {
   const { positioner, start_m, goal_m, parameters, disturbances, script } = experiment;
   const pairs: (readonly [string, string])[] = [
@@ -115,18 +115,18 @@ export function linkText(experiment: Experiment, defaults: Parameters): string {
   }
   if (disturbances > 0) pairs.push(['disturbances', String(disturbances)]);
   if (script.length > 0) pairs.push(['script', scriptText(script)]);
-  // What has a meaning in the text stays readable; in names of maps it may not stand bare.
+  // Separators stay readable, but inside a map's name they are encoded.
   const safe = (name: string, value: string): string =>
     name === 'map' ? encodeURIComponent(value) : value;
   return `#${pairs.map(([name, value]) => `${name}=${safe(name, value)}`).join('&')}`;
 }
 
-/** The link of what is on the page now. */
+/** The link of the page's present experiment. */
 export function linkOf(scene: SceneMessage, state: Chosen): string {
   return linkText(experimentOf(scene, state), scene.defaults);
 }
 
-/** The link of the trial as it was set up, before anything was tuned. */
+/** The link of the trial as it was set up, without later changes. */
 export function linkAsSetUp(scene: SceneMessage): string {
   const { controller, parameters, goal_m } = scene.scenario;
   return linkOf({ ...scene, parameters }, { controller, goal_m });
@@ -137,7 +137,7 @@ function oneOf<T extends string>(field: string, value: string, known: readonly T
   return found ?? refuse(field, value, `one of ${known.join(', ')}`);
 }
 
-/** Of the kind that the parameter's default has; whether it is within its range is the server's business. */
+/** A value of the same type as the parameter's default. The server checks the range. */
 function readParameter(
   name: keyof Parameters,
   text: string,
@@ -167,10 +167,10 @@ function readPairs(text: string, known: Known): ReadonlyMap<string, string> {
   for (const piece of text.split('&')) {
     const [name, value] = halves(decoded(piece), '=');
     if (value === undefined) throw new TextError(`“${name}” has no value`);
-    if (pairs.has(name)) throw new TextError(`${name} stands there twice`);
+    if (pairs.has(name)) throw new TextError(`${name} appears twice`);
     const isKnown =
       FIELDS.includes(name) || LAST_FIELDS.includes(name) || isParameter(name, known.defaults);
-    if (!isKnown) throw new TextError(`there is nothing named “${name}” (its value is “${value}”)`);
+    if (!isKnown) throw new TextError(`“${name}” is not a known name (its value is “${value}”)`);
     pairs.set(name, value);
   }
   return pairs;
@@ -204,26 +204,26 @@ function readExperiment(pairs: ReadonlyMap<string, string>, known: Known): Exper
   };
 }
 
-/** What the part of an address after `#` asks for. */
+/** Reads the part of an address after `#`. */
 export function experimentFrom(hash: string, known: Known): Reading {
   const text = hash.replace(/^#/, '');
   if (text === '') return { kind: 'none' };
   const version = /^v=([^&]*)/.exec(text)?.[1];
   try {
     if (version === undefined) {
-      throw new TextError(`“#${text}” does not begin with #v=${LINK_VERSION}`);
+      throw new TextError(`“#${text}” does not start with #v=${LINK_VERSION}`);
     }
     if (version !== String(LINK_VERSION)) {
-      throw new TextError(`v is “${version}”, this page reads ${LINK_VERSION}`);
+      throw new TextError(`v is “${version}”; this page reads version ${LINK_VERSION}`);
     }
     return { kind: 'experiment', experiment: readExperiment(readPairs(text, known), known) };
   } catch (error) {
     if (!(error instanceof TextError)) throw error;
-    return { kind: 'broken', why: `This link is no experiment: ${error.message}.` };
+    return { kind: 'broken', why: `This experiment link is not valid: ${error.message}.` };
   }
 }
 
-/** The command that sets an experiment up. */
+/** The command that loads an experiment. */
 export function loadMessage(experiment: Experiment, defaults: Parameters): ClientMessage {
   const { map, controller, positioner, seed, start_m, goal_m, disturbances, script } = experiment;
   return {
@@ -240,7 +240,6 @@ export function loadMessage(experiment: Experiment, defaults: Parameters): Clien
   };
 }
 
-/** An experiment in a few words. */
 export function experimentWords({ map, controller, seed }: Experiment): string {
   return `map ${map}, ${CONTROLLER_LABELS[controller]}, seed ${seed}`;
 }

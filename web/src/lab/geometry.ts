@@ -4,11 +4,11 @@ import type { Polygon, Rect } from '../net/protocol.gen';
 
 export type Vec2 = readonly [number, number];
 
-/** Between the table and a picture of it, however that shows the table: from above or in perspective. */
+/** Converts between the table and a view of it: from above or in perspective. */
 export interface TableView {
-  /** The point of the table at a pixel; none where the picture shows none, as over the horizon. */
+  /** The point of the table at a pixel; undefined if the view shows no table there, as above the horizon. */
   readonly toWorld: (px: Vec2) => [number, number] | undefined;
-  /** The pixel of a point of the table, or of one above it; none behind the eye. */
+  /** The pixel of a point on or above the table; undefined behind the scene camera. */
   readonly toPx: (point: Vec2, height_m?: number) => [number, number] | undefined;
 }
 

@@ -1,10 +1,10 @@
-// The goal, for what follows from it.
+// The goal as a signal that changes only with the goal.
 
 import { createMemo, type Accessor } from 'solid-js';
 import type { StateMessage } from '../net/protocol.gen';
 import type { Vec2 } from './geometry';
 
-/** A state comes every frame, another goal seldom. */
+/** A state arrives every frame; the goal rarely changes. */
 export function createGoal(state: Accessor<StateMessage | undefined>): Accessor<Vec2 | undefined> {
   return createMemo<Vec2 | undefined>(
     () => {

@@ -17,18 +17,18 @@ describe('History', () => {
     expect(ticks(filled(8, 8))).toEqual([0, 1, 2, 3, 4, 5, 6, 7]);
   });
 
-  it('reaches back to the start however many come, whole at the end and coarser before', () => {
+  it('covers the whole trial, complete at the end and coarser before', () => {
     const kept = ticks(filled(64, 10_000));
     expect(kept.length).toBeLessThanOrEqual(64);
     expect(kept[0]).toBe(0);
     expect(kept.slice(-9)).toEqual([9991, 9992, 9993, 9994, 9995, 9996, 9997, 9998, 9999]);
     const gaps = kept.slice(1).map((tick, index) => tick - (kept[index] ?? 0));
     expect(Math.min(...gaps)).toBe(1);
-    // No hole: the past is as coarse as it has to be, and evenly so.
+    // No gaps: old samples are evenly thinned out.
     expect(Math.max(...gaps)).toBeLessThan(1024);
   });
 
-  it('tells where the bead was before it was struck', () => {
+  it('has the bead position before a disturbance', () => {
     const history = filled(100, 10);
     expect(history.before(5, 'bead_x_m')).toBe(-4);
     expect(history.before(0, 'bead_x_m')).toBe(-0);
@@ -45,7 +45,7 @@ describe('History', () => {
     expect(filled(100, 50).window(90, 100, ['tick'])[0]).toHaveLength(0);
   });
 
-  it('stores nothing while it looks back', () => {
+  it('stores nothing after a rewind', () => {
     const history = filled(100, 10);
     history.push(stateAt(4));
     expect(ticks(history)).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
@@ -58,7 +58,7 @@ describe('History', () => {
     expect(history.window(0, 1, ['bead_x_m'])[0]?.at(-1)).toBe(7);
   });
 
-  it('goes on from a tick that it was cut at', () => {
+  it('continues from the tick at which it was cut', () => {
     const history = filled(100, 10);
     history.cutAfter(4);
     history.push(stateAt(5));
@@ -67,7 +67,7 @@ describe('History', () => {
     expect(history.length).toBe(0);
   });
 
-  it('is cut right also where it is coarse', () => {
+  it('is cut correctly among thinned samples', () => {
     const history = filled(16, 100);
     const before = ticks(history);
     history.cutAfter(60);

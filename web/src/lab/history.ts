@@ -2,7 +2,7 @@
 
 import type { StateMessage } from '../net/protocol.gen';
 
-/** Columns of a sample, in this order; metres and seconds. */
+/** Columns of a sample in this order, in metres and seconds. */
 export const COLUMNS = [
   'tick',
   'sim_time_s',
@@ -17,18 +17,18 @@ export const COLUMNS = [
 ] as const;
 export type Column = (typeof COLUMNS)[number];
 
-/** Every tick of nine minutes, or every frame of eighteen at 1×; after that the past is thinned out. */
+/** Enough for every tick of nine minutes, or every frame of eighteen minutes at 1×. Then old samples are thinned out. */
 export const CAPACITY = 65_536;
-/** Of a full history, this share of the newest samples is kept whole. */
+/** Share of the newest samples of a full history that are not thinned out. */
 const RECENT = 0.25;
-/** A full history is thinned out until it is no fuller than this. */
+/** A full history is thinned out down to this share. */
 const THINNED = 0.875;
 
-/** The states of a trial in columns, from its start on: the longer it takes, the coarser the past. */
+/** The states of a trial from its start, in columns. The longer the trial, the coarser the old samples. */
 export class History {
   private readonly columns: Record<Column, Float64Array>;
   private end = 0;
-  /** Least ticks between two samples of the past. */
+  /** Smallest number of ticks between two old samples. */
   private grainTicks = 1;
 
   constructor(private readonly capacity = CAPACITY) {
@@ -47,8 +47,8 @@ export class History {
   }
 
   /**
-   * Takes the newest state. One of the same tick replaces it: while paused, a hand can still
-   * move the bead. An older one is a look back and is not stored.
+   * Adds the newest state. A state of the same tick replaces the stored one, because the hand can move the bead while
+   * paused. An older state follows a rewind and is not stored.
    */
   push(state: StateMessage): void {
     const newest = this.length > 0 ? this.at('tick', this.length - 1) : -1;
@@ -71,7 +71,7 @@ export class History {
     this.end += 1;
   }
 
-  /** Forgets what lies after `tick`: time was turned back and runs on from there. */
+  /** Removes the samples after `tick`: the session was rewound and continues from there. */
   cutAfter(tick: number): void {
     this.end = this.firstIndex('tick', tick, true);
   }
@@ -88,7 +88,7 @@ export class History {
     return names.map((name) => this.columns[name].subarray(first, Math.max(first, last)));
   }
 
-  /** `name` of the last sample before `tick`, else of the first one. */
+  /** `name` of the last sample before `tick`, otherwise of the first sample. */
   before(tick: number, name: Column): number {
     return this.at(name, Math.max(0, this.firstIndex('tick', tick, false) - 1));
   }
@@ -110,7 +110,7 @@ export class History {
     return low;
   }
 
-  /** Makes the past as coarse as it is already, and coarser only when that leaves too little room. */
+  /** Thins out old samples with the present grain, and with a larger grain only if that frees too little space. */
   private thin(): void {
     for (;;) {
       this.keepApart();
@@ -119,7 +119,7 @@ export class History {
     }
   }
 
-  /** Drops samples of the past that are nearer to the one before than the grain. */
+  /** Drops old samples that are nearer than the grain to the previous sample. */
   private keepApart(): void {
     const ticks = this.columns.tick;
     const recent = Math.floor(this.end * (1 - RECENT));

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { blocksPath, type Homography, pictureFromTable } from './homography';
 
-/** 480 px over 20 cm around (0.1, −0.3), seen from straight above. */
+/** 480 px for 20 cm around (0.1, −0.3), seen vertically from above. */
 const ABOVE: Homography = [
   [2400, 0, 0],
   [0, -2400, -480],
@@ -20,12 +20,12 @@ describe('the picture of the table', () => {
     expect(pictureFromTable(leaning, [0.1, -0.3])[0]).toBeCloseTo(240 / 1.1);
   });
 
-  it('is nowhere at the horizon', () => {
+  it('is undefined at the horizon', () => {
     const level: Homography = [ABOVE[0], ABOVE[1], [0, 0, 0]];
     expect(pictureFromTable(level, [0.1, -0.3])).toEqual([NaN, NaN]);
   });
 
-  it('holds blocks where their pixels are', () => {
+  it('shows blocks at their pixels', () => {
     const layer = { origin_m: [0, -0.2], pixel_m: 0.2 / 480, dark: [], free: [], rectangles: [] };
     const path = blocksPath(ABOVE, { ...layer, origin_m: [0, -0.2] }, [[10, 20, 30, 40]]);
     expect(path).toBe('M10.0 20.0L40.0 20.0L40.0 60.0L10.0 60.0Z');

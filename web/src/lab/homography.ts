@@ -1,4 +1,4 @@
-// Places of the table in the camera's picture, which may lean. Pure.
+// Converts places of the table to pixels of the camera image; the camera may be tilted. Pure.
 
 import type { BlocksLayer, OverlayMessage, Rect } from '../net/protocol.gen';
 import type { Vec2 } from './geometry';
@@ -15,7 +15,7 @@ export function pictureFromTable(homography: Homography, [x_m, y_m]: Vec2): Vec2
   return [column / factor, row / factor];
 }
 
-/** A rectangle of the table as an SVG path in the picture. */
+/** A rectangle of the table as an SVG path in the image. */
 function rectPath(homography: Homography, rect: Rect): string {
   const corners: Vec2[] = [
     [rect.x_min_m, rect.y_max_m],
@@ -35,7 +35,7 @@ export function patchPath(overlay: OverlayMessage): string {
   return rectPath(overlay.picture_from_table, overlay.patch);
 }
 
-/** Blocks of the picture seen from above, as one SVG path in the picture itself. */
+/** Blocks of the image seen from above, as one SVG path in the camera image. */
 export function blocksPath(
   homography: Homography,
   layer: BlocksLayer,

@@ -9,7 +9,7 @@ const state = (tick: number): Input => ({
 });
 
 describe('the queue before a frame', () => {
-  it('keeps the newest state only, after all that came before it', () => {
+  it('keeps only the newest state, after the messages before it', () => {
     const queue: Input[] = [];
     const scene: Input = { type: 'message', message: { type: 'scene', ...sceneOf('posts') } };
     for (const input of [state(1), scene, state(2), state(3)]) enqueue(queue, input);

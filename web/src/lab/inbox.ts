@@ -4,7 +4,7 @@ import type { Input } from './model';
 
 const HIDDEN_FLUSH_MS = 250;
 
-/** Calls `work` before the next frame, or soon when the page is hidden and draws none. */
+/** Calls `work` before the next frame, or soon if the page is hidden and draws no frames. */
 export function frameScheduler(work: () => void): () => void {
   let cancel: (() => void) | undefined;
   const run = (): void => {

@@ -1,6 +1,6 @@
 import type { Session, Trial } from './slices';
 
-/** Starts a trial on another map; what was tuned stays. */
+/** Starts a trial on another map with the present parameters. */
 export function loadMap(lab: Session & Trial, map: string): void {
   const scene = lab.scene();
   const state = lab.state();

@@ -37,7 +37,7 @@ describe('messages', () => {
 });
 
 describe('the timeline', () => {
-  it('forgets marks after a tick to which time was turned back, and no others', () => {
+  it('drops only marks after the tick of a rewind', () => {
     const model = play(state(100), event(40), event(90), event(100), state(50));
     expect(model.marks.map(({ tick }) => tick)).toEqual([40]);
     expect(model.log).toHaveLength(3);
@@ -47,14 +47,14 @@ describe('the timeline', () => {
     expect(play(state(99), event(100), state(100)).marks).toHaveLength(1);
   });
 
-  it('starts anew with a new trial', () => {
+  it('is cleared by a new trial', () => {
     expect(play(event(0, 'goal'), event(0, 'session')).marks.map(({ kind }) => kind)).toEqual([
       'session',
     ]);
     expect(play(event(5, 'goal'), event(9, 'session')).marks).toHaveLength(2);
   });
 
-  it('is empty in another trial, not in the same one', () => {
+  it('is empty in another trial, but not in the same one', () => {
     expect(play(scene(), event(5), scene()).marks).toHaveLength(1);
     expect(play(scene(), event(5), scene('posts', 1)).marks).toHaveLength(0);
   });
@@ -65,7 +65,7 @@ describe('a comparison', () => {
     type: 'connection',
     connection,
   });
-  it('of before the connection was lost is told anew, or is no more', () => {
+  it('from before a lost connection is sent again or dropped', () => {
     const before = play(
       link({ kind: 'live' }),
       scene(),
@@ -79,21 +79,21 @@ describe('a comparison', () => {
 });
 
 describe('the log', () => {
-  it('counts what repeats', () => {
+  it('counts repeated lines', () => {
     const refusal = message({ type: 'error', code: 'in_wall', message: 'In a wall.' });
     const { log, refusals } = play(refusal, refusal, refusal);
     expect(log.map(({ text, count }) => [text, count])).toEqual([['In a wall.', 3]]);
     expect(refusals).toBe(3);
   });
 
-  it('is bounded and gives each line its own id', () => {
+  it('is limited and gives each line a unique id', () => {
     const model = play(...Array.from({ length: LOG_LINES + 50 }, (_, tick) => event(tick)));
     expect(model.log).toHaveLength(LOG_LINES);
     expect(new Set(model.log.map(({ id }) => id)).size).toBe(LOG_LINES);
     expect(model.log.at(-1)?.text).toBe(`at ${LOG_LINES + 49}`);
   });
 
-  it('says once that the connection was lost, and that it is back', () => {
+  it('reports once that the connection was lost, and once that it is back', () => {
     const link = (connection: Model['connection']): Input => ({
       type: 'connection',
       connection,
@@ -115,31 +115,31 @@ describe('a refusal', () => {
     ...(field === undefined ? {} : { field }),
   });
 
-  it('appears where its field is', () => {
+  it('appears at its field', () => {
     const model = play(scene(), { type: 'sent', command: 'run' });
     expect(placeOfError(error('x_m'), model)).toBe('workspace');
     expect(placeOfError(error('parameters.threshold_m'), model)).toBe('controller');
     expect(placeOfError(error('seed'), model)).toBe('playback');
   });
 
-  it('appears at the last command where no field says', () => {
+  it('without a field appears at the last command', () => {
     expect(placeOfError(error(), play({ type: 'sent', command: 'drag' }))).toBe('workspace');
     expect(placeOfError(error(), EMPTY)).toBe('session');
   });
 
-  it('is found by its code where that says more', () => {
+  it('appears at the place of its code, if that is known', () => {
     const stale = { ...error('epoch'), code: 'stale_epoch' };
     expect(placeOfError(stale, play({ type: 'sent', command: 'run' }))).toBe('session');
   });
 
-  it('of a silent hand is counted, and stays when the hold ends', () => {
+  it('because of a silent hand is counted and stays when the hold ends', () => {
     const silent = message({ type: 'error', code: 'hand_silent', message: 'let go' });
     const model = play(silent, { type: 'sent', command: 'release' });
     expect(model.silences).toBe(1);
     expect(model.notices.workspace?.text).toBe('let go');
   });
 
-  it('goes with the next attempt or when it is dismissed, but a newer one stays', () => {
+  it('disappears with the next attempt or when dismissed, but a newer one stays', () => {
     const refused = play(
       { type: 'sent', command: 'set_goal' },
       message({ type: 'error', code: 'in_wall', message: 'In a wall.', field: 'x_m' }),

@@ -1,4 +1,4 @@
-// What the page knows, and how a message changes it. Pure.
+// The page's data model, and how messages change it. Pure.
 
 import {
   type ClientMessage,
@@ -16,9 +16,9 @@ import {
 } from '../net/protocol.gen';
 import type { Notice } from '../ui/NoticeBar';
 
-/** Lines of the log that are kept. */
+/** Largest number of log lines. */
 export const LOG_LINES = 300;
-/** Marks of the timeline that are kept. */
+/** Largest number of marks on the timeline. */
 export const MARKS = 500;
 
 export type ConnectionState =
@@ -33,13 +33,13 @@ export type Place = 'workspace' | 'controller' | 'playback' | 'session' | 'compa
 
 export interface LogLine {
   readonly id: number;
-  /** Simulated time; none for what happened outside of it. */
+  /** Simulated time; undefined for events outside the simulation. */
   readonly sim_time_s: number | undefined;
   readonly kind: EventKind | 'error' | 'connection';
   readonly text: string;
-  /** What happened, when it belongs to the trial. */
+  /** The event of the trial, if the line has one. */
   readonly event: EventMessage | undefined;
-  /** How often in a row. */
+  /** Number of repetitions in a row. */
   readonly count: number;
 }
 
@@ -52,12 +52,12 @@ export interface Model {
   readonly obstacleMap: SeenMessage | undefined;
   readonly log: readonly LogLine[];
   readonly marks: readonly EventMessage[];
-  /** The last fork of this trial, as far as it has come. */
+  /** The last comparison of this trial, possibly still running. */
   readonly comparison: ComparisonMessage | undefined;
   readonly notices: Readonly<Partial<Record<Place, Notice>>>;
-  /** Grows with each refusal and each new connection, so that forms know when to show the server's truth again. */
+  /** Grows with each refusal and each new connection, so that forms show the server's values again. */
   readonly refusals: number;
-  /** Grows when the server has let go of a bead, since it heard nothing of the hand. */
+  /** Grows when the server has released a bead because it received nothing from the hand. */
   readonly silences: number;
   readonly lastCommand: ClientMessage['type'] | undefined;
   readonly nextId: number;
@@ -121,7 +121,7 @@ const PLACE_OF_FIELD: Partial<Record<string, Place>> = {
   ticks: 'playback',
 };
 
-/** The server let go of the bead, since it heard nothing of the hand. */
+/** Error code: the server released the bead because it received nothing from the hand. */
 const HAND_SILENT = 'hand_silent';
 
 const PLACE_OF_CODE: Partial<Record<string, Place>> = {
@@ -129,7 +129,7 @@ const PLACE_OF_CODE: Partial<Record<string, Place>> = {
   [HAND_SILENT]: 'workspace',
 };
 
-/** Where the cause of a refusal is on the page: its code or its field says, else the last command. */
+/** The place of a refusal on the page: from its code or field, otherwise from the last command. */
 export function placeOfError(error: ErrorMessage, model: Model): Place {
   const place = PLACE_OF_CODE[error.code];
   if (place) return place;
@@ -179,14 +179,14 @@ function withoutNotice(model: Model, place: Place): Model {
 function withConnection(model: Model, connection: ConnectionState): Model {
   const next = { ...model, connection };
   if (connection.kind === 'lost' && model.connection.kind === 'live') {
-    // Who has ended closes the socket, and nothing is tried again.
+    // An ended session closes the connection, and the page does not reconnect.
     if (typeof model.state?.ended === 'string') return next;
-    return withLine(next, 'connection', 'Connection lost; trying again.', undefined);
+    return withLine(next, 'connection', 'Connection lost. Trying again.', undefined);
   }
   if (connection.kind === 'live' && model.connection.kind === 'lost') {
-    // The session tells anew what happened in it.
+    // The session sends its events again.
     const own = model.log.filter((line) => line.kind === 'connection' || line.kind === 'error');
-    // What was chosen while the line died may have come to nothing.
+    // Changes made while the connection was lost may not have arrived.
     const refusals = next.refusals + 1;
     const fresh = { ...next, log: own, marks: [], comparison: undefined, refusals };
     return withLine(fresh, 'connection', 'Connected again.', undefined);
@@ -195,10 +195,10 @@ function withConnection(model: Model, connection: ConnectionState): Model {
 }
 
 function withState(model: Model, state: StateMessage): Model {
-  const turnedBack = model.state !== undefined && state.newest_tick < model.state.newest_tick;
-  // What happened since time runs on again may have been told before this state.
+  const isRewound = model.state !== undefined && state.newest_tick < model.state.newest_tick;
+  // Events after the rewind may arrive before this state.
   const kept = Math.max(state.newest_tick, state.tick);
-  const marks = turnedBack ? model.marks.filter((mark) => mark.tick <= kept) : model.marks;
+  const marks = isRewound ? model.marks.filter((mark) => mark.tick <= kept) : model.marks;
   return { ...model, state, marks };
 }
 
@@ -215,7 +215,7 @@ function withMessage(model: Model, message: ServerMessage): Model {
         : next;
     }
     case 'scene': {
-      // Another trial: what was seen, marked and complained about is over.
+      // Another trial: overlays, marks and notices of the old one are dropped.
       const otherTrial = model.scene !== undefined && model.scene.trial !== message.trial;
       return otherTrial
         ? {
@@ -236,7 +236,7 @@ function withMessage(model: Model, message: ServerMessage): Model {
     case 'seen':
       return { ...model, obstacleMap: message };
     case 'event': {
-      // A session says something at tick 0 when it is set up anew: what came before is over.
+      // A session event at tick 0 means a new setup: earlier marks are dropped.
       const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;
       const marked = { ...model, marks: [...before, message].slice(-MARKS) };
       return withLine(marked, message.kind, message.text, message.sim_time_s, message);
@@ -267,9 +267,9 @@ export function reduce(model: Model, input: Input): Model {
     case 'message':
       return withMessage(model, input.message);
     case 'sent': {
-      // A new attempt: what the last one met is no longer news.
+      // A new attempt: drop the notice of the last one.
       const place = PLACE_OF_COMMAND[input.command];
-      // A release is not an attempt: the notice about the hold stays.
+      // The end of a hold is not an attempt: its notice stays.
       if (input.command === 'release') return { ...model, lastCommand: input.command };
       return { ...withoutNotice(model, place), lastCommand: input.command };
     }

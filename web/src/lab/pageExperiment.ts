@@ -1,4 +1,4 @@
-// The experiment that the page's address asks for: loaded once, and only by the operator.
+// The experiment link in the page's address: loaded once, and only by the operator.
 
 import {
   createEffect,
@@ -19,23 +19,23 @@ import type { Notices, Session, Trial } from './slices';
 import { takeControl } from './takeControl';
 
 export interface PageExperiment {
-  /** What the address asks for and has not got: a viewer may not load it. */
-  readonly asked: Accessor<Experiment | undefined>;
-  /** Why what it asks for is no experiment. */
+  /** The experiment of the address that is not loaded yet, because a viewer may not load it. */
+  readonly requested: Accessor<Experiment | undefined>;
+  /** Why the link is not valid. */
   readonly broken: Accessor<string | undefined>;
-  /** The link of what is on the page now. */
+  /** The link of the page's present experiment. */
   readonly now: Accessor<string | undefined>;
-  /** Loads what is asked for, with control taken first where that is possible. */
+  /** Loads the experiment of the address. Takes control first if possible. */
   load(): void;
-  /** Loads a link of this page's own. */
+  /** Loads a link from this page, such as a preset. */
   open(link: string): void;
-  /** The question is not to be asked again. */
+  /** Dismisses the notice. */
   forget(): void;
 }
 
 export function createPageExperiment(lab: Session & Trial & Notices, page: Window): PageExperiment {
   const [hash, setHash] = createSignal(page.location.hash);
-  /** Whether it is to be loaded as soon as this browser may. */
+  /** Whether to load it as soon as this browser is the operator. */
   const [wanted, setWanted] = createSignal(false);
   const onChange = (): void => {
     setHash(page.location.hash);
@@ -46,7 +46,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     page.removeEventListener('hashchange', onChange);
   });
 
-  // Controllers and defaults stay as they are while the server runs; maps come and go.
+  // Controllers and defaults do not change while the server runs, but maps do.
   const known = createMemo(() => lab.scene(), undefined, {
     equals: (a, b) => a?.maps.join() === b?.maps.join(),
   });
@@ -54,7 +54,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     const scene = known();
     return scene ? experimentFrom(hash(), scene) : { kind: 'none' };
   });
-  const asked = createMemo(() => {
+  const requested = createMemo(() => {
     const now = reading();
     return now.kind === 'experiment' ? now.experiment : undefined;
   });
@@ -67,10 +67,10 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     if (scene) lab.send(loadMessage(experiment, scene.defaults));
   };
 
-  // Who opens the page with a link, as its operator, wants it loaded; afterwards it is no question any more.
+  // An operator who opens the page with a link wants to load it. The link is not offered again later.
   let isFirst = true;
   createEffect(() => {
-    const experiment = asked();
+    const experiment = requested();
     if (!lab.scene() || lab.connection().kind !== 'live' || !lab.hello()) return;
     const may = lab.canOperate();
     if (experiment && may && (isFirst || wanted())) {
@@ -85,7 +85,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     return scene && state && linkOf(scene, state);
   });
   return {
-    asked,
+    requested,
     broken: () => {
       const now = reading();
       return now.kind === 'broken' ? now.why : undefined;

@@ -1,4 +1,4 @@
-// A panel that shares its place with others, under a tab.
+// A panel under a tab.
 
 import type { Component } from 'solid-js';
 import type { TabHead } from '../ui/Tabs';
@@ -8,7 +8,7 @@ import type { Lab } from './slices';
 export interface PanelProps<L = Lab> {
   readonly lab: L;
   readonly theme: () => Theme;
-  /** Room for the panel's own controls, beside the tabs. */
+  /** The panel's own controls beside the tabs. */
   readonly tools: HTMLElement;
 }
 

@@ -24,7 +24,7 @@ describe('the form', () => {
     expect(fields.map(({ name }) => name).sort()).toEqual(Object.keys(defaults).sort());
   });
 
-  it('has the defaults in range and shows them without rounding', () => {
+  it('has all defaults in range and shows them without rounding', () => {
     for (const one of numbers) {
       const shown = shownValue(one, defaults[one.name]);
       expect(shown).toBeGreaterThanOrEqual(one.min);
@@ -33,24 +33,24 @@ describe('the form', () => {
     }
   });
 
-  it('stores what it shows, to the bit', () => {
+  it('stores exactly what it shows', () => {
     for (const one of numbers) {
       const stored = defaults[one.name];
       expect(storedValue(one, shownValue(one, stored), defaults)).toBe(stored);
     }
   });
 
-  it('rounds what is counted', () => {
+  it('rounds integer parameters', () => {
     expect(storedValue(field('errt_ways'), 2.6, defaults)).toBe(3);
     expect(storedValue(field('friction'), 0.257, defaults)).toBe(0.257);
   });
 
-  it('keeps to the range, and the fetch radius below T', () => {
+  it('stays in the range and keeps the fetch radius below T', () => {
     expect(storedValue(field('tool_height_m'), 5, defaults)).toBe(0.09);
     expect(storedValue(field('fetch_radius_m'), 15, defaults)).toBe(defaults.threshold_m);
   });
 
-  it('leaves to waypoints what the goal does not take', () => {
+  it('keeps the waypoint probability within what the goal leaves', () => {
     const parameters = { ...defaults, errt_goal_probability: 0.7 };
     const waypoints = field('errt_waypoint_probability');
     expect(shownMost(waypoints, defaults)).toBe(90);
@@ -59,7 +59,7 @@ describe('the form', () => {
     expect(stored + parameters.errt_goal_probability).toBeLessThanOrEqual(1);
   });
 
-  it('takes along what a change leaves no room for', () => {
+  it('also changes parameters that a change pushes out of range', () => {
     const follow = (change: Partial<typeof defaults>): Partial<typeof defaults> =>
       withFollowers(defaults, change);
     expect(follow({ threshold_m: 0.005 })).toEqual({ threshold_m: 0.005, fetch_radius_m: 0.005 });

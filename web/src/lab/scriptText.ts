@@ -2,11 +2,11 @@
 
 import type { Disturbance, Scripted, When } from '../net/protocol.gen';
 
-/** Says what is wrong: field, value, and what is allowed. */
+/** Throws an error with the field, the value, and what is allowed. */
 export class TextError extends Error {}
 
 export function refuse(field: string, value: string, allowed: string): never {
-  throw new TextError(`${field} is “${value}”, it must be ${allowed}`);
+  throw new TextError(`${field} is “${value}”; it must be ${allowed}`);
 }
 
 const NUMBER = /^-?\d+(\.\d+)?(e[+-]?\d+)?$/;
@@ -18,13 +18,13 @@ export function readNumber(field: string, text: string): number {
 
 export function readWhole(field: string, text: string): number {
   const value = /^\d+$/.test(text) ? Number(text) : NaN;
-  return Number.isSafeInteger(value) ? value : refuse(field, text, 'a whole number from 0');
+  return Number.isSafeInteger(value) ? value : refuse(field, text, 'a whole number, 0 or larger');
 }
 
-/** So many numbers with commas between. */
+/** Exactly `count` numbers separated by commas. */
 export function readNumbers(field: string, text: string, count: number): number[] {
   const parts = text.split(',');
-  if (parts.length !== count) refuse(field, text, `${count} numbers with commas between`);
+  if (parts.length !== count) refuse(field, text, `${count} numbers separated by commas`);
   return parts.map((part) => readNumber(field, part));
 }
 
@@ -63,7 +63,7 @@ export function scriptText(script: readonly Scripted[]): string {
     .join(';');
 }
 
-/** Before the first `mark`, and after it. */
+/** The text before and after the first `mark`. */
 export function halves(text: string, mark: string): readonly [string, string | undefined] {
   const at = text.indexOf(mark);
   return at < 0 ? [text, undefined] : [text.slice(0, at), text.slice(at + mark.length)];
@@ -112,7 +112,7 @@ function readWhen(field: string, text: string): When {
 export function readScript(field: string, text: string): Scripted[] {
   return text.split(';').map((entry) => {
     const [what, at] = halves(entry, '@');
-    if (at === undefined) return refuse(field, entry, 'a disturbance, @, and when it strikes');
+    if (at === undefined) return refuse(field, entry, 'a disturbance, @, and when it happens');
     return { at: readWhen(field, at), disturbance: readDisturbance(field, what) };
   });
 }

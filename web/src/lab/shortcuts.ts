@@ -3,7 +3,7 @@
 import type { Shortcut } from '../ui/shortcuts';
 import type { Lab } from './slices';
 
-/** `operate` wraps what only the operator may do, and only while the laboratory is shown and has a state. */
+/** `operate` wraps actions of the operator. They run only while the laboratory is visible and has a state. */
 export type FeatureShortcuts<L = Lab> = (
   lab: L,
   operate: (act: () => void) => () => void,

@@ -1,4 +1,4 @@
-// What the page knows and does, in slices: a function names those that it uses.
+// The page's data and actions in slices. Each function names the slices that it uses.
 
 import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
@@ -14,7 +14,6 @@ export type { Layers };
 
 /** The session of this page, and what may be sent to it. */
 export interface Session {
-  /** Its name. */
   readonly session: string;
   readonly connection: Accessor<Model['connection']>;
   readonly hello: Accessor<Model['hello']>;
@@ -32,10 +31,10 @@ export interface Trial {
   readonly state: Accessor<Model['state']>;
   readonly goal: Accessor<Vec2 | undefined>;
   readonly history: History;
-  /** The parameters in force, with changes that are on their way on top. */
+  /** The server's parameters with pending changes. */
   readonly tuning: Accessor<Parameters | undefined>;
   readonly edits: Edits;
-  /** Grows when the server has released a bead because it received nothing of the hand. */
+  /** Grows when the server has released a bead because it received nothing from the hand. */
   readonly silences: Accessor<number>;
 }
 
@@ -66,7 +65,7 @@ export interface Compared {
 }
 
 export interface OpenTab {
-  /** The tab that is to be opened, wherever it is. */
+  /** The tab to open, in any tab area. */
   readonly opened: Accessor<{ readonly tab: string } | undefined>;
   openTab(tab: string | undefined): void;
 }

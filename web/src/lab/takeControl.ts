@@ -1,9 +1,9 @@
 import type { Notices, Session } from './slices';
 
-/** Takes control; where another browser operates, it is asked to release it. */
+/** Takes control. If another browser is the operator, it is asked to release control. */
 export function takeControl(lab: Session & Notices): void {
   lab.send({ type: 'take_control' });
   if (lab.hello()?.operator_present) {
-    lab.notify('session', 'Asked: the operator has to release control.');
+    lab.notify('session', 'Request sent. Waiting for the operator.');
   }
 }

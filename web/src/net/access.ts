@@ -1,4 +1,4 @@
-// Whether the server still accepts this page: a login ends, and the next request is refused.
+// Whether the login is still valid. A login can expire; the next request shows it.
 
 import { createSignal } from 'solid-js';
 import { problemText } from './problem';
@@ -6,10 +6,10 @@ import { problemText } from './problem';
 const NO_LOGIN = 401;
 const [loggedOut, setLoggedOut] = createSignal(false);
 
-/** The server wants the token shown again. */
+/** The server requires the token again. */
 export { loggedOut };
 
-/** Requests the page again, which creates its session if it does not exist. */
+/** Requests a page again. The server opens its session if it does not exist. */
 export async function openPage(
   path: string,
 ): Promise<{ readonly isOpen: boolean; readonly why?: string | undefined }> {
@@ -19,12 +19,12 @@ export async function openPage(
     const problem: unknown = await response.json();
     return { isOpen: false, why: problemText(problem) };
   } catch {
-    // Gone, or what it says is no problem: the page to log in.
+    // No connection, or the answer is not a problem document: show the login.
     return { isOpen: false };
   }
 }
 
-/** `fetch` for all that the page asks its server. */
+/** `fetch` for all requests of the page to its server. */
 export async function askServer(path: string, init?: RequestInit): Promise<Response> {
   const response = await fetch(path, init);
   setLoggedOut(response.status === NO_LOGIN);

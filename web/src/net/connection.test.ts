@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { backoffMs, connect, type Line, liveAddress, readPicture } from './connection';
 
-describe('the address of the socket', () => {
+describe('the address of the WebSocket', () => {
   it('is on the host that served the page', () => {
     expect(liveAddress({ protocol: 'http:', host: '127.0.0.1:8080' }, 'main')).toBe(
       'ws://127.0.0.1:8080/api/sessions/main/live',
@@ -11,7 +11,7 @@ describe('the address of the socket', () => {
 });
 
 describe('the pause before another attempt', () => {
-  it('grows from half a second to eight, and is spread', () => {
+  it('grows from half a second to eight seconds, and is random', () => {
     expect(backoffMs(1, 0.5)).toBe(500);
     expect(backoffMs(3, 0.5)).toBe(2000);
     expect(backoffMs(50, 0.5)).toBe(8000);
@@ -28,12 +28,12 @@ describe('a binary frame', () => {
     expect([...(picture?.bytes ?? [])]).toEqual([7, 8]);
   });
 
-  it('is dropped when it is too short', () => {
+  it('is dropped if it is too short', () => {
     expect(readPicture(new ArrayBuffer(7))).toBeUndefined();
   });
 });
 
-/** What the page thinks is a socket; the test is its server. */
+/** A fake WebSocket. The test is its server. */
 class FakeSocket {
   static readonly OPEN = 1;
   static readonly all: FakeSocket[] = [];
@@ -51,13 +51,13 @@ class FakeSocket {
     this.sent.push(JSON.parse(text));
   }
 
-  hear(message: object): void {
+  receive(message: object): void {
     this.onmessage?.({ data: JSON.stringify(message) });
   }
 }
 
 describe('a connection', () => {
-  const heard: string[] = [];
+  const calls: string[] = [];
   const open = (line: Partial<Line> = {}): ReturnType<typeof connect> =>
     connect(
       {
@@ -67,10 +67,10 @@ describe('a connection', () => {
         ...line,
       },
       {
-        opened: () => heard.push('opened'),
-        lost: (attempt) => heard.push(`lost ${attempt}`),
-        refused: (why) => heard.push(why),
-        message: ({ type }) => heard.push(type),
+        opened: () => calls.push('opened'),
+        lost: (attempt) => calls.push(`lost ${attempt}`),
+        refused: (why) => calls.push(why),
+        message: ({ type }) => calls.push(type),
         picture: () => undefined,
       },
     );
@@ -83,19 +83,19 @@ describe('a connection', () => {
     vi.useFakeTimers();
     vi.stubGlobal('WebSocket', FakeSocket);
     FakeSocket.all.length = 0;
-    heard.length = 0;
+    calls.length = 0;
   });
   afterEach(() => {
     vi.useRealTimers();
     vi.unstubAllGlobals();
   });
 
-  it('acts under the lease that the server told last, on this socket', async () => {
+  it('uses the epoch that the server sent last on this connection', async () => {
     const connection = open();
     socket().onopen?.();
     connection.send({ type: 'pause' });
-    socket().hear({ type: 'hello', epoch: 3 });
-    socket().hear({ type: 'hello', epoch: 5 });
+    socket().receive({ type: 'hello', epoch: 3 });
+    socket().receive({ type: 'hello', epoch: 5 });
     connection.send({ type: 'run' });
     expect(socket().sent).toEqual([{ type: 'pause' }, { type: 'run', epoch: 5 }]);
 
@@ -107,7 +107,7 @@ describe('a connection', () => {
     expect(socket().sent).toEqual([{ type: 'run' }]);
   });
 
-  it('requests its session before it reconnects, and reports why there is no session', async () => {
+  it('requests its session before a new attempt, and reports why the session does not exist', async () => {
     const answers = [{ isOpen: false, why: 'no room' }, { isOpen: false }, { isOpen: true }];
     const reopen = vi.fn(() => Promise.resolve(answers.shift() ?? { isOpen: true }));
     open({ reopen });
@@ -117,10 +117,10 @@ describe('a connection', () => {
     await vi.advanceTimersByTimeAsync(20_000);
     expect(reopen).toHaveBeenCalledTimes(3);
     expect(FakeSocket.all).toHaveLength(2);
-    expect(heard).toEqual(['opened', 'lost 1', 'no room', 'lost 2', 'lost 3']);
+    expect(calls).toEqual(['opened', 'lost 1', 'no room', 'lost 2', 'lost 3']);
   });
 
-  it('rests when its session is over', async () => {
+  it('stays closed when its session has ended', async () => {
     open({ isOver: () => true });
     socket().onclose?.();
     await vi.advanceTimersByTimeAsync(60_000);

@@ -1,4 +1,4 @@
-// The socket: opens it, opens it again when it is lost, and tells what it hears.
+// The connection: opens the WebSocket, reconnects, and passes received messages on.
 
 import type { ClientMessage, ServerMessage } from './protocol.gen';
 import { sessionPath } from './session';
@@ -13,43 +13,43 @@ export interface Picture {
 
 export interface Listener {
   opened(): void;
-  /** Lost, or never opened; `attempt` counts from 1 since it was last open. */
+  /** The connection was lost or could not be opened. `attempt` counts from 1 since the last open connection. */
   lost(attempt: number): void;
-  /** The server does not open the session again, and says why. */
+  /** The server refuses to open the session again; with the reason. */
   refused(why: string): void;
   message(message: ServerMessage): void;
   picture(picture: Picture): void;
 }
 
 export interface Connection {
-  /** Whether it went out. */
+  /** Returns whether the message was sent. */
   send(message: ClientMessage): boolean;
 }
 
-/** Address of a session's socket, on the host that served the page. */
+/** Address of a session's WebSocket, on the host that served the page. */
 export function liveAddress(page: { protocol: string; host: string }, session: string): string {
   const scheme = page.protocol === 'https:' ? 'wss:' : 'ws:';
   return `${scheme}//${page.host}${sessionPath(session, 'live')}`;
 }
 
-/** Where the socket is, and what is to be done before it is opened again. */
+/** The address of the WebSocket, and what to do before a new attempt. */
 export interface Line {
   readonly address: string;
-  /** Nothing more is to be expected at its other end. */
+  /** The session has ended: do not reconnect. */
   isOver(): boolean;
-  /** Asks for the session again, which may have gone with its server; why not, if the server says so. */
+  /** Requests the session again, which may be missing after a restart of the server. Returns the reason for a refusal. */
   reopen(): Promise<{ readonly isOpen: boolean; readonly why?: string | undefined }>;
 }
 
 type Sent = ClientMessage & { readonly epoch?: number };
 
-/** Doubles from half a second to eight; `chance` in [0, 1) spreads many browsers out. */
+/** Doubles from half a second to eight seconds. `chance` in [0, 1) makes many browsers reconnect at different times. */
 export function backoffMs(attempt: number, chance: number): number {
   const full = Math.min(8000, 500 * 2 ** (attempt - 1));
   return full * (0.75 + 0.5 * chance);
 }
 
-/** See the head of `server/protocol.rs`. */
+/** The format is described in `server/protocol.rs`. */
 export function readPicture(frame: ArrayBuffer): Picture | undefined {
   if (frame.byteLength < HEADER_BYTES) return undefined;
   const head = new DataView(frame);
@@ -63,7 +63,7 @@ export function readPicture(frame: ArrayBuffer): Picture | undefined {
 export function connect(line: Line, listener: Listener): Connection {
   let socket: WebSocket | undefined;
   let attempt = 0;
-  /** Under which lease this browser acts: as the server said last on this socket. */
+  /** Epoch of this browser's lease, as the server sent it last on this connection. */
   let epoch: number | undefined;
 
   const lose = (): void => {

@@ -3,7 +3,7 @@ import { Limiter } from './limiter';
 import { manualClock } from './testing';
 
 describe('Limiter', () => {
-  it('sends the first at once and then the newest of each interval', () => {
+  it('sends the first value at once and then the newest of each interval', () => {
     const clock = manualClock();
     const sent: number[] = [];
     const limiter = new Limiter<number>(10, (value) => sent.push(value), clock);
@@ -17,7 +17,7 @@ describe('Limiter', () => {
     expect(sent).toEqual([1, 3]);
   });
 
-  it('never exceeds its rate, and never loses the last', () => {
+  it('never exceeds its rate and never loses the last value', () => {
     const clock = manualClock();
     const sent: number[] = [];
     const limiter = new Limiter<number>(1000 / 60, (value) => sent.push(value), clock);
@@ -31,7 +31,7 @@ describe('Limiter', () => {
     expect(sent.at(-1)).toBe(999);
   });
 
-  it('sends what waits when it is flushed, once', () => {
+  it('sends a waiting value once when it is flushed', () => {
     const clock = manualClock();
     const sent: number[] = [];
     const limiter = new Limiter<number>(10, (value) => sent.push(value), clock);

@@ -1,4 +1,4 @@
-// Sends the newest of a stream of values, at most one an interval.
+// Sends the newest of a stream of values, at most one per interval.
 
 export interface Clock {
   nowMs(): number;
@@ -37,7 +37,7 @@ export class Limiter<T> {
     }
   }
 
-  /** Sends what waits, now: the last value of a stream must not be lost. */
+  /** Sends a waiting value now, so that the last value of a stream is not lost. */
   flush(): void {
     const pending = this.pending;
     if (!pending) return;

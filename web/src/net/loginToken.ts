@@ -1,4 +1,4 @@
-// A link may carry the token after its `#`, which browsers send to nobody.
+// A link may contain the token after `#`. Browsers do not send this part to a server.
 
 interface Page {
   readonly location: Pick<Location, 'hash' | 'pathname' | 'search'>;
@@ -11,7 +11,7 @@ export function carriesToken(page: Page): boolean {
   return page.location.hash.startsWith(CARRIED);
 }
 
-/** The token that the page's address carries, which is taken out of it and of the history. */
+/** Returns the token in the page's address and removes it from the address and the history. */
 export function takeToken(page: Page): string | undefined {
   const { hash, pathname, search } = page.location;
   if (!carriesToken(page)) return undefined;

@@ -1,6 +1,6 @@
-// What the server says against a request.
+// The server's refusals.
 
-/** What a refusal says: the `detail` of a problem, if there is one. */
+/** The `detail` of a problem document, if it has one. */
 export function problemText(body: unknown): string | undefined {
   return typeof body === 'object' && body && 'detail' in body && typeof body.detail === 'string'
     ? body.detail

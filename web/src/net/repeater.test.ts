@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { Repeater } from './repeater';
 import { manualClock } from './testing';
 
-it('says the newest again at every interval, until it stops', () => {
+it('repeats the newest value at every interval until it stops', () => {
   const clock = manualClock();
   const said: [string, number][] = [];
   const repeater = new Repeater<string>(500, (value) => said.push([value, clock.nowMs()]), clock);
@@ -20,7 +20,7 @@ it('says the newest again at every interval, until it stops', () => {
   ]);
 });
 
-it('goes on after it had stopped, once', () => {
+it('starts again once after a stop', () => {
   const clock = manualClock();
   const said: string[] = [];
   const repeater = new Repeater<string>(500, (value) => said.push(value), clock);

@@ -1,4 +1,4 @@
-// Says something, and says it again while nothing else is to be said: silence means that one is gone.
+// Sends a value and repeats it until the next one, because the server takes silence for a lost browser.
 
 import { browserClock, type Clock } from './limiter';
 
@@ -11,7 +11,7 @@ export class Repeater<T> {
     private readonly clock: Clock = browserClock,
   ) {}
 
-  /** Now, and every interval from now on, until there is something else or nothing to say. */
+  /** Sends now and at every interval, until the next value or a stop. */
   say(value: T): void {
     this.turn += 1;
     const { turn } = this;

@@ -1,4 +1,4 @@
-// Questions to the server's calculator, asked again whenever they change.
+// Queries to the server's calculator, sent again when they change.
 
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { askServer } from './access';
@@ -6,27 +6,27 @@ import { browserClock, type Clock, Limiter } from './limiter';
 import { problemText } from './problem';
 
 export interface Answer<A> {
-  /** The newest answer, kept when a later question is refused. */
+  /** The newest answer. It is kept when a later query is refused. */
   readonly data?: A;
-  /** Why the newest question has no answer. */
+  /** Why the newest query has no answer. */
   readonly error?: string;
-  /** The key with which the newest question was asked that was answered or refused. */
+  /** The key of the newest query that was answered or refused. */
   readonly key?: string | undefined;
 }
 
-const ASKED_PER_S = 12;
+const QUERIES_PER_S = 12;
 
-/** Asks the newest question, so often a second at most; an answer overtaken by a later one is dropped. */
+/** Sends the newest query, at a limited rate. An answer that arrives after a later one is dropped. */
 export class Asker<A> {
   private readonly limiter: Limiter<readonly [question: string, key?: string]>;
-  private asked = 0;
+  private sent = 0;
   private answered = 0;
   private newest: Answer<A> = {};
 
   constructor(
     private readonly answerTo: (question: string) => Promise<A>,
-    private readonly tell: (answer: Answer<A>) => void,
-    perS = ASKED_PER_S,
+    private readonly report: (answer: Answer<A>) => void,
+    perS = QUERIES_PER_S,
     clock: Clock = browserClock,
   ) {
     this.limiter = new Limiter(
@@ -40,14 +40,14 @@ export class Asker<A> {
     this.limiter.offer(key === undefined ? [question] : [question, key]);
   }
 
-  /** The caller no longer needs the answer. */
+  /** Stops reporting answers. */
   forget(): void {
-    this.answered = this.asked;
+    this.answered = this.sent;
   }
 
   private async send(question: string, key?: string): Promise<void> {
-    this.asked += 1;
-    const number = this.asked;
+    this.sent += 1;
+    const number = this.sent;
     let answer: Answer<A>;
     try {
       answer = { data: await this.answerTo(question), key };
@@ -57,39 +57,39 @@ export class Asker<A> {
     if (number <= this.answered) return;
     this.answered = number;
     this.newest = answer.error === undefined ? answer : { ...this.newest, ...answer };
-    this.tell(this.newest);
+    this.report(this.newest);
   }
 }
 
 async function request<A>(path: string, init: RequestInit): Promise<A> {
   const response = await askServer(path, init).catch(() => {
-    throw new Error('The server does not answer.');
+    throw new Error('The server did not answer.');
   });
   if (!response.ok) {
     const problem: unknown = await response.json().catch(() => undefined);
-    throw new Error(problemText(problem) ?? `The server answered ${response.status}.`);
+    throw new Error(problemText(problem) ?? `The server answered with status ${response.status}.`);
   }
   return (await response.json()) as A;
 }
 
-/** What the server has at `path`; fails with the sentence to show. */
+/** Gets JSON from `path`; throws an error with the message to show. */
 export function get<A>(path: string): Promise<A> {
   return request(path, {});
 }
 
-/** What the server makes of a body sent to `path`; fails with the sentence to show. */
+/** Posts JSON to `path` and returns the answer; throws an error with the message to show. */
 export function post<A>(path: string, body: string | Blob, type = 'application/json'): Promise<A> {
   return request(path, { method: 'POST', headers: { 'content-type': type }, body });
 }
 
 export interface Asking {
-  /** What the answer follows from besides the question: when it changes, the same question is asked again. */
+  /** What the answer depends on besides the query. When it changes, the same query is sent again. */
   readonly key?: Accessor<string>;
-  /** How often a second at most. */
+  /** Largest number of queries per second. */
   readonly perS?: number;
 }
 
-/** The answer to `question` at `path`; while there is no question, the last answer stays. */
+/** The answer to `question` at `path`. While the query is undefined, the last answer stays. */
 export function createAnswer<Q, A>(
   path: string,
   question: Accessor<Q | undefined>,
@@ -97,7 +97,7 @@ export function createAnswer<Q, A>(
 ): Accessor<Answer<A>> {
   const [answer, setAnswer] = createSignal<Answer<A>>({});
   const asker = new Asker<A>((body) => post<A>(path, body), setAnswer, perS);
-  // As text, because an equal question is no new one.
+  // Compared as text, so that an equal query is not sent again.
   const body = createMemo(() => {
     const now = question();
     return now === undefined ? undefined : JSON.stringify(now);

@@ -15,6 +15,6 @@ it('is named by the address', () => {
   }
 });
 
-it('has its parts below its name', () => {
+it('has its resources below its name', () => {
   expect(sessionPath('anna', 'case.json')).toBe('/api/sessions/anna/case.json');
 });

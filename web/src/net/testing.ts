@@ -2,7 +2,7 @@
 
 import type { Clock } from './limiter';
 
-/** Stands still unless it is advanced; what comes due on the way happens in its order. */
+/** Moves only when the test advances it. Timers run in order of their times. */
 export function manualClock(): Clock & { advance: (ms: number) => void } {
   let now = 0;
   let waiting: { at: number; action: () => void }[] = [];

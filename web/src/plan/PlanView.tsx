@@ -10,7 +10,7 @@ import type { Interaction } from './interaction';
 import { type Size, ViewCanvas } from './ViewCanvas';
 import type { Layers, Trial } from '../lab/slices';
 
-/** Room for the numbers of the axes. */
+/** Space for the numbers of the axes, in pixels. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
 export interface SurfaceProps {
@@ -59,7 +59,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     });
   });
 
-  // The geometry on the screen, for tests and for other tools that read the page.
+  // The geometry on the screen, for tests and other tools that read the page.
   createEffect(() => {
     const now = view();
     const onto = canvas();

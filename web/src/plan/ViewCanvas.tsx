@@ -1,4 +1,4 @@
-// The canvas of a view, with mouse, touch and keyboard on it.
+// The canvas of a view, with mouse, touch and keyboard input.
 
 import { createEffect, onCleanup, onMount, type JSX } from 'solid-js';
 import { attachKeyboard } from './keyboard';
@@ -18,10 +18,10 @@ export function ViewCanvas(props: {
   label: string;
   class: string;
   helpId: string;
-  /** Called once, when the canvas is on the page; what it listens to comes after the hand. */
+  /** Called once when the canvas is on the page. Its listeners run after those of the hand. */
   onCanvas: (canvas: HTMLCanvasElement) => void;
   onSize: (size: Size) => void;
-  /** Where on the table an arrow key leads; as it points when left out. */
+  /** Direction of an arrow key on the table; by default the direction on the screen. */
   turned?: (arrow: Vec2) => Vec2;
 }): JSX.Element {
   const { lab, interaction } = props;
@@ -60,7 +60,7 @@ export function ViewCanvas(props: {
     props.onCanvas(canvas);
   });
 
-  // For tests and for other tools that read the page.
+  // For tests and other tools that read the page.
   createEffect(() => {
     const state = lab.state();
     if (!state) return;

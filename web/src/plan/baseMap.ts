@@ -1,5 +1,4 @@
-// The base map: what is on the table and changes seldom. The plan view draws it below the moving parts, the 3-D scene
-// on its floor.
+// The base map: layers that rarely change. The plan view draws it below the moving parts, the 3-D scene on its floor.
 
 import { createMemo, type Accessor } from 'solid-js';
 import type { Palette } from '../ui/palette';
@@ -16,7 +15,7 @@ export interface BaseMap extends BasePicture {
 
 type Ctx = CanvasRenderingContext2D;
 
-/** Draws within the workspace: pictures that are larger would cover the numbers of the axes. */
+/** Clips to the workspace, because larger pictures would cover the numbers of the axes. */
 export function drawClipped<P extends BasePicture>(ctx: Ctx, picture: P, draw: Draw<P>): void {
   const { view, scene } = picture;
   const rect = scene.workspace;

@@ -1,9 +1,9 @@
-// Colours of a value between a least and a greatest one.
+// Colours for values between a smallest and a greatest value.
 
 import type { Palette } from '../ui/palette';
 
 type Rgb = readonly [number, number, number];
-/** Colours of the least, the middle and the greatest value, `#rrggbb`. */
+/** Colours of the smallest, the middle and the greatest value, as `#rrggbb`. */
 export type Ramp = readonly [string, string, string];
 
 export function heatRamp(palette: Palette): Ramp {

@@ -28,7 +28,7 @@ const move = (x: number, pointer = 1, lift = false): DragEvent => ({
 const up = (pointer = 1): DragEvent => ({ type: 'up', pointer });
 
 describe('a press and release', () => {
-  it('places the goal where it began, also on the bead and when it shakes', () => {
+  it('sets the goal at the press, also on the bead and with a small movement', () => {
     for (const onBead of [true, false]) {
       const { state, effects } = play([down(onBead), move(13), up()]);
       expect(state).toBe(IDLE);
@@ -36,7 +36,7 @@ describe('a press and release', () => {
     }
   });
 
-  it('does nothing when it wandered off the floor', () => {
+  it('does nothing after a longer movement beside the bead', () => {
     expect(play([down(false), move(40), up()]).effects).toEqual([]);
   });
 
@@ -46,7 +46,7 @@ describe('a press and release', () => {
 });
 
 describe('a drag of the bead', () => {
-  it('pulls from beyond the threshold on, and releases', () => {
+  it('pulls after the threshold and releases at the end', () => {
     const { state, effects } = play([down(true), move(12), move(14), move(30), up()]);
     expect(state).toBe(IDLE);
     expect(effects).toEqual([
@@ -56,11 +56,11 @@ describe('a drag of the bead', () => {
     ]);
   });
 
-  it('keeps pulling near where it began', () => {
+  it('keeps pulling when it returns to its start', () => {
     expect(play([down(true), move(20), move(10)]).state.kind).toBe('held');
   });
 
-  it('stays where it was while the pointer is beside the table', () => {
+  it('keeps its place while the pointer is beside the table', () => {
     const beside: DragEvent = {
       type: 'move',
       by: 1,
@@ -101,7 +101,7 @@ describe('a drag of the bead', () => {
 });
 
 describe('the keyboard', () => {
-  it('takes, moves and lets go', () => {
+  it('grabs, moves and releases', () => {
     const { state, effects } = play([
       { type: 'take', at: [5, 5] },
       { type: 'move', by: 'keyboard', at: [6, 5], isBeyondSlop: true, lift: false },
@@ -112,7 +112,7 @@ describe('the keyboard', () => {
     expect(effects.map(({ type }) => type)).toEqual(['drag', 'drag', 'release']);
   });
 
-  it('does not take what a pointer presses', () => {
+  it('does not grab a bead that a pointer presses', () => {
     expect(play([down(true), { type: 'take', at: [5, 5] }]).effects).toEqual([]);
   });
 });

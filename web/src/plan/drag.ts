@@ -1,5 +1,5 @@
-// What a press on the workspace means: a click places the goal, a drag that starts on the bead is
-// the disturbance. Pure; places are in metres.
+// The drag machine: a click on the workspace sets the goal, a drag that starts on the bead disturbs it. Pure; places are
+// in metres.
 
 import type { Vec2 } from '../lab/geometry';
 
@@ -28,7 +28,7 @@ export type DragEvent =
       readonly by: Holder;
       /** Not set while the pointer is beside the table's picture. */
       readonly at: Vec2 | undefined;
-      /** Far enough from the press to be no shaky click. */
+      /** Whether the pointer has moved too far for a click. */
       readonly isBeyondSlop: boolean;
       readonly lift: boolean;
     }
@@ -55,7 +55,7 @@ function hold(by: Holder, at: Vec2, lift: boolean): [DragState, DragEffect[]] {
 export function dragStep(state: DragState, event: DragEvent): [DragState, DragEffect[]] {
   switch (event.type) {
     case 'down':
-      // A second finger changes nothing for the first.
+      // A second finger does not change the first drag.
       if (state.kind !== 'idle') return nothing(state);
       return nothing({
         kind: 'pressed',
@@ -70,7 +70,7 @@ export function dragStep(state: DragState, event: DragEvent): [DragState, DragEf
         return event.at ? hold(event.by, event.at, event.lift) : nothing(state);
       }
       if (state.kind === 'pressed' && state.pointer === event.by && event.isBeyondSlop) {
-        // A long press-and-move off the bead was neither a click nor a drag: forget it.
+        // A press that moved beside the bead is neither a click nor a drag: ignore it.
         if (!state.onBead) return nothing(IDLE);
         if (event.at) return hold(event.by, event.at, event.lift);
       }

@@ -4,7 +4,7 @@ import { gridStepM } from './drawMap';
 import { beadRadiusPx } from './drawMoving';
 import { GRAB_MOUSE_PX } from './pointer';
 
-/** The planar stage's table, on the canvas of a small screen with its axes. */
+/** The planar stage's table on the canvas of a small screen, with axes. */
 const TABLE = { x_min_m: -1, x_max_m: 1, y_min_m: -0.5, y_max_m: 0.5 };
 const WIDTH_PX = 706;
 const HEIGHT_PX = 384;
@@ -15,7 +15,7 @@ const CAPTURE_M = 0.0947;
 describe('a table of two metres by one', () => {
   const view = fitView(TABLE, WIDTH_PX, HEIGHT_PX, INSETS);
 
-  it('lies on the canvas, as wide as the axes leave room', () => {
+  it('fills the width of the canvas beside the axes', () => {
     const [left, top] = pxFromWorld(view, [TABLE.x_min_m, TABLE.y_max_m]);
     const [right, bottom] = pxFromWorld(view, [TABLE.x_max_m, TABLE.y_min_m]);
     expect(left).toBeCloseTo(INSETS.left);
@@ -24,11 +24,11 @@ describe('a table of two metres by one', () => {
     expect(bottom).toBeLessThanOrEqual(HEIGHT_PX - INSETS.bottom);
   });
 
-  it('has a grid whose numbers do not touch', () => {
+  it('has a grid whose numbers do not overlap', () => {
     expect(gridStepM(view.pxPerM)).toBe(0.2);
   });
 
-  it('shows the bead larger than life, and a capture wider than the hand', () => {
+  it('shows the bead enlarged, and a capture ring wider than the hand', () => {
     expect(BEAD_RADIUS_M * view.pxPerM).toBeLessThan(1);
     expect(beadRadiusPx(view, BEAD_RADIUS_M)).toBeGreaterThanOrEqual(4);
     expect(CAPTURE_M * view.pxPerM).toBeGreaterThan(1.5 * GRAB_MOUSE_PX);

@@ -1,4 +1,4 @@
-// The hand: the spring from the bead to the pointer, and the keyboard's cursor.
+// Draws the hand: the spring from the bead to the pointer, and the keyboard's cursor.
 
 import { centimetres, newtons } from '../ui/format';
 import { pxFromWorld, type View } from './transform';
@@ -8,7 +8,7 @@ import { distance, type Vec2 } from '../lab/geometry';
 
 const COIL_PX = 7;
 const COIL_HALF_WIDTH_PX = 5;
-/** Straight wire at either end of the coils. */
+/** Length of the straight wire at both ends of the coils. */
 const LEAD_PX = 6;
 const LABEL_OFFSET_PX = 16;
 const LABEL_PADDING_PX = 6;
@@ -43,7 +43,7 @@ export function springPoints(a: Vec2, b: Vec2): [number, number][] {
 function drawLabel(ctx: Ctx, text: string, at: Vec2, widthPx: number, palette: Palette): void {
   ctx.font = FONT;
   const width = ctx.measureText(text).width + 2 * LABEL_PADDING_PX;
-  // To the left of the pointer where the right has no room.
+  // To the left of the pointer if there is no space on the right.
   const left =
     at[0] + LABEL_OFFSET_PX + width > widthPx
       ? at[0] - LABEL_OFFSET_PX - width
@@ -66,7 +66,7 @@ export interface Spring {
   readonly bead_m: Vec2;
   readonly hand_m: Vec2;
   readonly force_n: number;
-  /** A remark: the bead is lifted, or, while paused, it moves on release. */
+  /** Remarks: that the bead is lifted, or when it moves while paused. */
   readonly remark: string;
 }
 

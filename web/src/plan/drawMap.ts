@@ -1,4 +1,4 @@
-// What stands still on the workspace: floor, grid with its numbers, walls.
+// Draws the static parts of the workspace: floor, grid with numbers, walls.
 
 import { fixed } from '../ui/format';
 import type { Polygon, Rect, SceneMessage } from '../net/protocol.gen';
@@ -10,7 +10,7 @@ const LABEL_GAP_PX = 5;
 const TICK_PX = 4;
 const MIN_LABEL_SPACING_PX = 56;
 
-/** Spacing of the grid: the finest of 5, 10, 20, 50 cm whose labels do not touch. */
+/** Spacing of the grid: the smallest of 5, 10, 20, 50 cm whose labels do not overlap. */
 export function gridStepM(pxPerM: number): number {
   return [0.05, 0.1, 0.2].find((step) => step * pxPerM >= MIN_LABEL_SPACING_PX) ?? 0.5;
 }
@@ -37,7 +37,7 @@ export function wallPath(walls: readonly Polygon[], view: View): Path2D {
   return path;
 }
 
-/** The lines of the grid, and their numbers beside the workspace. */
+/** The lines of the grid, and the numbers beside the workspace. */
 export function drawGrid(
   ctx: CanvasRenderingContext2D,
   rect: Rect,
@@ -83,7 +83,7 @@ export function drawFloor(
   ctx.fillRect(left, top, right - left, bottom - top);
 }
 
-/** Grid and walls, on top of what lies on the floor. */
+/** Grid and walls, on top of the floor layers. */
 export function drawMap(
   ctx: CanvasRenderingContext2D,
   scene: SceneMessage,

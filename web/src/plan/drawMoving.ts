@@ -1,11 +1,11 @@
-// What moves on the workspace, from the far layer to the near one.
+// Draws the moving parts of the workspace, from back to front.
 
 import { GOAL_RADIUS_M, type SceneMessage, type StateMessage } from '../net/protocol.gen';
 import { pxFromWorld, type View } from './transform';
 import type { Palette } from '../ui/palette';
 import type { Vec2 } from '../lab/geometry';
 
-/** The bead is 5 mm: on a small canvas it is drawn larger than life, or nobody finds it. */
+/** The bead has a diameter of 5 mm. On a small canvas it is enlarged to stay visible. */
 const MIN_BEAD_PX = 4.5;
 const TRACKED_PX = 4;
 const TOOL_PX = 8;

@@ -1,6 +1,6 @@
 import { pxFromWorld, type View } from './transform';
 
-/** On a canvas a thousand pixels wide, more points make no difference. */
+/** On a canvas a thousand pixels wide, more points would not be visible. */
 const POINTS = 800;
 
 /** Coordinates are oldest first. */

@@ -1,5 +1,5 @@
-// The pictures that lie on the floor of the scene: the plan, and around it the numbers of the axes, as large as
-// they need to be read from afar.
+// The pictures on the floor of the 3-D scene: the base map, and around it the numbers of the axes, large enough to read
+// from a distance.
 
 import type { Palette } from '../ui/palette';
 import type { Rect } from '../net/protocol.gen';
@@ -7,11 +7,11 @@ import { fitView, type Insets, type View } from './transform';
 import { drawGrid } from './drawMap';
 import { type BaseMap, paintBaseMap } from './baseMap';
 
-/** The longer side of the workspace, in pixels of the plan. */
+/** The longer side of the workspace, in pixels of the base map. */
 const LONGER_PX = 460;
-/** Pixels of the picture a pixel of the plan. */
+/** Pixels of the picture per pixel of the base map. */
 const RATIO = 2;
-/** Room for the numbers of the axes. */
+/** Space for the numbers of the axes, in pixels. */
 const INSETS = { left: 40, right: 12, top: 12, bottom: 26 };
 
 /** A picture of the base map in pixels of `view`, each `ratio` of the canvas. */
@@ -27,7 +27,7 @@ const heightOf = ({ y_min_m, y_max_m }: Rect): number => y_max_m - y_min_m;
 const pxPerM = (workspace: Rect): number =>
   LONGER_PX / Math.max(widthOf(workspace), heightOf(workspace));
 
-/** How far the numbers reach beyond the workspace, m. */
+/** Width of the numbers' area outside the workspace, in metres. */
 export function floorMargins(workspace: Rect): Insets {
   const perM = pxPerM(workspace);
   const { left, right, top, bottom } = INSETS;
@@ -44,19 +44,19 @@ function createPicture(workspace: Rect, insets: Insets): FloorPicture {
   return { canvas, view: fitView(workspace, width_px, height_px, insets), ratio: RATIO, workspace };
 }
 
-/** Of the workspace alone, because it is drawn often. */
+/** The picture of the workspace alone, because it is drawn often. */
 export function createFloorPicture(workspace: Rect): FloorPicture {
   return createPicture(workspace, { left: 0, right: 0, top: 0, bottom: 0 });
 }
 
-/** For the numbers around the workspace, which stand still. */
+/** The picture of the numbers around the workspace, which is static. */
 export function createNumbersPicture(workspace: Rect): FloorPicture {
   return createPicture(workspace, INSETS);
 }
 
 /** Draws the base map on it again. */
 export function repaintFloor({ canvas, ratio }: FloorPicture, map: BaseMap): void {
-  // Without transparency nothing has to be converted on its way to the graphics card.
+  // Without transparency the picture needs no conversion for the graphics card.
   const ctx = canvas.getContext('2d', { alpha: false });
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);

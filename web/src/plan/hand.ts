@@ -1,4 +1,4 @@
-// The hand on the workspace: runs the drag machine and turns its effects into messages.
+// The hand on the workspace: runs the drag machine and sends its effects as messages.
 
 import { createSignal, type Accessor } from 'solid-js';
 import { type DragEvent, type DragState, dragStep, IDLE } from './drag';
@@ -9,19 +9,19 @@ import { ends, type Release } from './release';
 import type { Notices, Session, Trial } from '../lab/slices';
 
 const MAX_DRAGS_PER_S = 60;
-/** A hand that holds still says so; of one that is silent for five seconds the server takes the bead. */
+/** A hand that does not move repeats its message: after five seconds without one the server releases the bead. */
 const STILL_THERE_MS = 500;
 
 export interface Hand {
   readonly drag: Accessor<DragState>;
   dispatch(event: Exclude<DragEvent, { type: 'cancel' }>): void;
-  /** Ends what the hand does, if the cause is one for it. */
+  /** Ends the drag if the cause applies to it. */
   readonly release: Release;
-  /** Whether this browser may act; tells the person when it may not. */
+  /** Whether this browser may act; shows a notice if not. */
   mayAct(): boolean;
 }
 
-/** `place` gets the clicks. */
+/** `place` is called for clicks. */
 export function createHand(lab: Session & Trial & Notices, place: (at: Vec2) => void): Hand {
   const [drag, setDrag] = createSignal<DragState>(IDLE);
   const holds = new Repeater<{ at: Vec2; lift: boolean }>(STILL_THERE_MS, ({ at, lift }) => {
@@ -34,7 +34,7 @@ export function createHand(lab: Session & Trial & Notices, place: (at: Vec2) => 
   const mayAct = (): boolean => {
     if (lab.canOperate()) return true;
     if (lab.connection().kind === 'live') {
-      lab.notify('workspace', 'You are watching. Take control to place goals or move the bead.');
+      lab.notify('workspace', 'You are watching. Take control to set goals or move the bead.');
     }
     return false;
   };

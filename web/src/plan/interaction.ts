@@ -1,4 +1,4 @@
-// What is done on the workspace, whichever view shows it: the hand, the pointer, the keyboard's cursor.
+// The interaction with the workspace in both views: the hand, the pointer, the keyboard's cursor.
 
 import { createMemo, createSignal, type Accessor, type Setter } from 'solid-js';
 import { createHand, type Hand } from './hand';
@@ -9,23 +9,23 @@ import type { TableView, Vec2 } from '../lab/geometry';
 import type { Notices, Session, Trial } from '../lab/slices';
 
 export interface Interaction {
-  /** Of the view that is open; none before it knows its size. */
+  /** The mapping of the open view; undefined until its size is known. */
   readonly view: Accessor<TableView | undefined>;
   readonly setView: Setter<TableView | undefined>;
   readonly hand: Hand;
   readonly picker: Picker;
   readonly setPointing: Setter<Pointing | undefined>;
-  /** Radius of the ring around a bead that can be taken from where the pointer is. */
+  /** Radius of the ring around the bead if a press at the pointer would grab it. */
   readonly reachPx: Accessor<number | undefined>;
   readonly cursor: Accessor<Vec2 | undefined>;
   readonly setCursor: Setter<Vec2 | undefined>;
   readonly focused: Accessor<boolean>;
   readonly setFocused: Setter<boolean>;
-  /** The point of the table that a person points at, by pointer or else by keyboard. */
+  /** The point of the table under the pointer, otherwise under the keyboard's cursor. */
   readonly at: Accessor<Vec2 | undefined>;
-  /** Somebody asked for this place, or it is a goal. */
+  /** Gives the place to the picker if it waits for one, otherwise sets the goal. */
   readonly place: (at: Vec2) => void;
-  /** A view goes: what was being done in it ends. */
+  /** Called when a view closes. */
   leave(): void;
 }
 

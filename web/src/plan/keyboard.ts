@@ -1,21 +1,21 @@
-// The workspace by keyboard: arrows move a cursor, Enter places the goal, D takes the bead and lets
-// it go, Escape lets it go or ends picking.
+// The workspace by keyboard: arrows move a cursor, Enter sets the goal, D grabs and releases the bead, Escape releases it
+// or cancels picking.
 
 import type { Shortcut } from '../ui/shortcuts';
 import type { Hand } from './hand';
 import { clampToRect, distance, type Vec2 } from '../lab/geometry';
 import type { Trial } from '../lab/slices';
 
-/** For the help; the canvas handles them itself. */
+/** Shown in the help. The canvas handles these keys itself. */
 export const WORKSPACE_SHORTCUTS: readonly Shortcut[] = [
   {
     group: 'Workspace',
     keys: ['ArrowLeft', 'ArrowUp', 'ArrowRight', 'ArrowDown'],
-    does: 'move the cursor, or the bead in the hand; with Shift over walls',
+    does: 'move the cursor, or the grabbed bead (Shift: over walls)',
   },
-  { group: 'Workspace', keys: ['Enter'], does: 'place the goal, or what is picked, at the cursor' },
-  { group: 'Workspace', keys: ['d'], does: 'take the bead, let it go' },
-  { group: 'Workspace', keys: ['Escape'], does: 'let the bead go, end picking' },
+  { group: 'Workspace', keys: ['Enter'], does: 'set the goal, or pick the place, at the cursor' },
+  { group: 'Workspace', keys: ['d'], does: 'grab or release the bead' },
+  { group: 'Workspace', keys: ['Escape'], does: 'release the bead, cancel picking' },
 ];
 
 const STEP_M = 0.005;
@@ -25,17 +25,17 @@ const ARROWS: Partial<Record<string, Vec2>> = {
   ArrowUp: [0, 1],
   ArrowDown: [0, -1],
 };
-/** Within this of the bead the hand takes it where the cursor is. */
+/** Nearer than this to the bead, the cursor stays in place when the hand grabs the bead. */
 const REACH_M = 0.02;
 
 export interface Cursor {
   readonly at: () => Vec2 | undefined;
   readonly put: (at: Vec2) => void;
-  /** Where on the table an arrow leads that points so on the screen. */
+  /** Direction on the table of an arrow on the screen. */
   readonly turned: (arrow: Vec2) => Vec2;
 }
 
-/** Listens as long as the canvas is there. */
+/** Listens while the canvas exists. */
 export function attachKeyboard(
   canvas: HTMLCanvasElement,
   lab: Trial,
@@ -72,7 +72,7 @@ export function attachKeyboard(
     }
     const beadAt = bead();
     if (!beadAt || !hand.mayAct()) return;
-    // From afar the cursor goes to the bead first: taking it must not fling it across the map.
+    // A distant cursor jumps to the bead first, so that grabbing does not fling the bead across the map.
     const here = cursor.at();
     const from = here && distance(here, beadAt) <= REACH_M ? here : beadAt;
     cursor.put(from);
@@ -86,11 +86,11 @@ export function attachKeyboard(
       move(cursor.turned(direction), event.shiftKey);
     } else if (event.key === 'Enter') {
       const at = cursor.at();
-      // A held key is no second goal.
+      // A held key does not set a second goal.
       if (!at || event.repeat) return;
       place(at);
     } else if (event.key === 'd' || event.key === 'D') {
-      // A held key takes once.
+      // A held key grabs only once.
       if (!event.repeat) takeOrRelease();
     } else if (event.key === 'Escape') {
       hand.release('escape');

@@ -1,4 +1,4 @@
-// Layers of the map. A feature exports its layers; `app` lists them in the order in which they are drawn.
+// Layers of the map. A feature exports its layers; `app` lists them in drawing order.
 
 import { createMemo, type Accessor, type JSX } from 'solid-js';
 import type { History } from '../lab/history';
@@ -24,24 +24,24 @@ export interface MovingPicture extends BasePicture {
 export type Draw<P extends BasePicture> = (ctx: CanvasRenderingContext2D, picture: P) => void;
 
 /**
- * Called once for each surface, so that what follows from its view can be a memo. The accessor returns `undefined`
- * while there is nothing to draw; it is read only while the layer is shown.
+ * Called once for each surface, so that results that depend on its view can be memos. The accessor returns `undefined`
+ * while there is nothing to draw. It is read only while the layer is shown.
  */
 export type BaseDrawing = (
   view: Accessor<View | undefined>,
 ) => Accessor<Draw<BasePicture> | undefined>;
 
-/** A square picture whose middle is below the tool, which the 3-D scene hangs there. */
+/** A square picture with its middle below the tool. The 3-D scene moves it with the tool. */
 export interface UnderTool {
   readonly halfSide_m: number;
   readonly draw: (ctx: CanvasRenderingContext2D, view: View, palette: Palette) => void;
 }
 
-/** What a layer draws; each part is optional. */
+/** The parts of a layer. Each is optional. */
 export interface LayerParts {
   readonly belowWalls?: BaseDrawing;
   readonly aboveWalls?: BaseDrawing;
-  /** With every state, above the base map and below goal, tool and bead. */
+  /** Drawn with every state, above the base map and below goal, tool and bead. */
   readonly moving?: Accessor<Draw<MovingPicture> | undefined>;
   readonly underTool?: Accessor<UnderTool | undefined>;
   readonly legend?: () => JSX.Element;
@@ -54,14 +54,14 @@ export interface LayerContext<L = Lab> {
 }
 
 export interface MapLayer {
-  /** Stored by the browser; part of the page's interface for tests. */
+  /** Stored by the browser and used by tests. */
   readonly id: string;
   readonly label: string;
   readonly group: (typeof LAYER_GROUPS)[number];
   readonly shownAtFirst?: true;
-  /** `aboveWalls` may reach beyond the workspace. */
+  /** `aboveWalls` may draw outside the workspace. */
   readonly isUnclipped?: true;
-  /** Why the layer cannot be shown now, if it cannot. */
+  /** Why the layer cannot be shown now; undefined if it can. */
   readonly unavailable?: (lab: Lab) => string | undefined;
   create(context: LayerContext): LayerParts;
 }

@@ -1,4 +1,4 @@
-// One picture of the workspace, from everything that is on it.
+// Draws one frame of the plan view.
 
 import type { DragState } from './drag';
 import type { History } from '../lab/history';
@@ -11,27 +11,27 @@ import { clampToRect, type Vec2 } from '../lab/geometry';
 
 export interface Picture {
   readonly map: BaseMap;
-  /** What the layers draw with every state. */
+  /** Parts of the layers that are drawn with every state. */
   readonly moving: readonly Draw<MovingPicture>[];
   readonly state: StateMessage | undefined;
   readonly history: History;
   readonly drag: DragState;
-  /** Radius of the ring that says that the bead can be taken; none when it cannot. */
+  /** Radius of the ring that shows that the bead can be grabbed; undefined if it cannot. */
   readonly grabRadiusPx: number | undefined;
   readonly cursor: Vec2 | undefined;
 }
 
 type Ctx = CanvasRenderingContext2D;
 
-/** A remark about a hold: the bead is lifted, or, while paused, it moves on release. */
+/** Remarks about a hold: that the bead is lifted, or when it moves while paused. */
 export function remarkOf(drag: DragState, state: StateMessage): string {
   const remarks: string[] = [];
   if (drag.kind === 'held' && drag.lift) remarks.push('lifted');
-  if (!state.running) remarks.push('put there on release');
+  if (!state.running) remarks.push('moves there on release');
   return remarks.join(', ');
 }
 
-/** Where the hand is: one's own pointer is newer than the server's echo of it; a viewer sees the echo. */
+/** The hand's place: the own pointer is newer than the server's echo of it; a viewer sees the echo. */
 export function handOf(
   drag: DragState,
   state: StateMessage,

@@ -1,4 +1,4 @@
-// The next click on the plan, or Enter at its cursor, for somebody who asked for a place.
+// Picks a place for a form: the next click on the workspace, or Enter at its cursor.
 
 import { createSignal, type Accessor } from 'solid-js';
 import type { Vec2 } from '../lab/geometry';
@@ -7,11 +7,11 @@ type Take = (at: Vec2) => void;
 
 export interface Picker {
   readonly isPicking: Accessor<boolean>;
-  /** Gives the next chosen place to `take`. */
-  begin(take: Take): void;
-  /** Whether the next place goes to `take`. */
-  asks(take: Take): boolean;
-  /** Whether somebody asked for the place; else it is a goal. */
+  /** Passes the next chosen place to `take`. */
+  start(take: Take): void;
+  /** Whether `take` waits for the next place. */
+  isFor(take: Take): boolean;
+  /** Offers a place. Returns false if the picker does not wait for one; then the place is a goal. */
   offer(at: Vec2): boolean;
   cancel: () => void;
 }
@@ -20,15 +20,15 @@ export function createPicker(): Picker {
   const [taker, setTaker] = createSignal<{ take: Take }>();
   return {
     isPicking: () => taker() !== undefined,
-    begin(take) {
+    start(take) {
       setTaker({ take });
     },
-    asks: (take) => taker()?.take === take,
+    isFor: (take) => taker()?.take === take,
     offer(at) {
-      const asked = taker();
+      const waiting = taker();
       setTaker(undefined);
-      asked?.take(at);
-      return asked !== undefined;
+      waiting?.take(at);
+      return waiting !== undefined;
     },
     cancel() {
       setTaker(undefined);

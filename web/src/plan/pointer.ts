@@ -1,4 +1,4 @@
-// Mouse, pen and finger on the workspace. Pixels end here: the hand gets metres of the table.
+// Mouse, pen and finger on the workspace. Converts pixels to metres of the table for the hand.
 
 import { createEffect, on } from 'solid-js';
 import { distance, type TableView, type Vec2 } from '../lab/geometry';
@@ -6,18 +6,18 @@ import type { Trial } from '../lab/slices';
 import type { Hand } from './hand';
 import { releaseWithPage } from './release';
 
-/** How near the bead a press takes it. */
+/** Largest distance from the bead at which a press grabs it. */
 export const GRAB_MOUSE_PX = 16;
 export const GRAB_TOUCH_PX = 28;
-/** A movement below this is a shaky click. */
+/** A shorter movement is still a click. */
 const SLOP_MOUSE_PX = 3;
-/** A fingertip rolls farther than a mouse slips. */
+/** Larger for a finger, because a fingertip rolls. */
 const SLOP_TOUCH_PX = 8;
 
 export interface Pointing {
   /** Pointer in CSS pixels of the canvas. */
   readonly px: Vec2;
-  /** How near the bead it takes it. */
+  /** Largest distance from the bead at which this pointer grabs it. */
   readonly reachPx: number;
 }
 
@@ -26,7 +26,7 @@ type PointerEventName =
 
 const isTouch = (event: PointerEvent): boolean => event.pointerType === 'touch';
 
-/** Whether a pointer is so near the bead that a press takes it; the bead may move and the pointer rest. */
+/** Whether a press would grab the bead. The bead may move while the pointer does not. */
 export function reachesBead(
   view: TableView | undefined,
   bead_m: readonly [number, number, number] | undefined,
@@ -36,7 +36,7 @@ export function reachesBead(
   return bead !== undefined && distance(px, bead) <= reachPx;
 }
 
-/** Listens, and follows the view, until the function that it returns is called. */
+/** Listens and follows the view until the returned function is called. */
 export function attachPointer(
   canvas: HTMLCanvasElement,
   lab: Trial,
@@ -98,12 +98,12 @@ export function attachPointer(
   listen('pointerleave', () => {
     onPointing(undefined);
   });
-  // A long press of a finger that holds the bead asks for no menu.
+  // A long press of a finger that holds the bead opens no menu.
   listen('contextmenu', (event) => {
     if (hand.drag().kind !== 'idle') event.preventDefault();
   });
   releaseWithPage(canvas, hand.release, signal);
-  // Under a pointer that holds still, another view of the table is another place.
+  // When the view changes, the place under a still pointer changes.
   createEffect(
     on(view, () => {
       const drag = hand.drag();

@@ -6,12 +6,12 @@ const PRESSED: DragState = { kind: 'pressed', pointer: 1, from: [0, 0], onBead: 
 const DRAGGED: DragState = { kind: 'held', by: 1, at: [0, 0], lift: false };
 const BY_KEYBOARD: DragState = { ...DRAGGED, by: 'keyboard' };
 
-/** Which of a press, a drag by pointer 1 and a hold by keyboard each cause ends. */
+/** Whether each cause ends a press, a drag by pointer 1, and a hold by keyboard. */
 const ENDED: Record<ReleaseCause, readonly [boolean, boolean, boolean]> = {
   'control lost': [true, true, true],
   'hand silent': [true, true, true],
   'other trial': [true, true, true],
-  'time turned back': [true, true, true],
+  'session rewound': [true, true, true],
   'view closed': [true, true, true],
   'window left': [true, true, true],
   'page hidden': [true, true, true],
@@ -29,7 +29,7 @@ describe('a release', () => {
     );
   });
 
-  it('ignores the capture of another pointer', () => {
+  it('does not follow from the lost capture of another pointer', () => {
     for (const drag of [IDLE, PRESSED, DRAGGED]) {
       expect(ends('capture lost', drag, 2)).toBe(false);
     }
@@ -42,14 +42,14 @@ describe('a change of the laboratory', () => {
     [{ canOperate: false }, 'control lost'],
     [{ silences: 1 }, 'hand silent'],
     [{ trial: 2, tick: 0 }, 'other trial'],
-    [{ tick: 99 }, 'time turned back'],
+    [{ tick: 99 }, 'session rewound'],
     [{ tick: 101 }, undefined],
     [{}, undefined],
   ] as const)('%o: %s', (change, cause) => {
     expect(causeOf(BEFORE, { ...BEFORE, ...change })).toBe(cause);
   });
 
-  it('leaves the press of a viewer alone: a click tells why nothing happens', () => {
+  it('does not end the press of a viewer, because a click shows why nothing happens', () => {
     const viewer = { ...BEFORE, canOperate: false };
     expect(causeOf(viewer, { ...viewer, tick: 101 })).toBeUndefined();
   });

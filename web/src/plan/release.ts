@@ -1,4 +1,4 @@
-// When the hand releases what it holds or presses, besides at the end of a gesture: every cause, in one place.
+// All causes that end a press or a hold, besides the end of the gesture.
 
 import { createEffect, untrack } from 'solid-js';
 import type { Session, Trial } from '../lab/slices';
@@ -7,24 +7,24 @@ import type { DragState, Holder } from './drag';
 const always = (): boolean => true;
 const holds = (drag: DragState, by: Holder): boolean => drag.kind === 'held' && drag.by === by;
 
-/** Whether a cause ends a drag; `pointer` is the one that the cause is about. */
+/** Whether a cause ends a drag. `pointer` is the pointer of the event. */
 const ENDS = {
-  /** A lost connection has released the bead on the server; a lost role may not hold it. */
+  /** After a lost connection the server has released the bead. A viewer may not hold it. */
   'control lost': always,
-  /** The server has released the bead, as it received nothing of the hand: it must not be taken again. */
+  /** The server has released the bead because it received nothing from the hand. The hand must not grab it again. */
   'hand silent': always,
   'other trial': always,
-  'time turned back': always,
+  'session rewound': always,
   'view closed': always,
   'window left': always,
   'page hidden': always,
   'pointer cancelled': always,
   escape: always,
-  /** Neither a second finger nor the keyboard's hold has this capture. */
+  /** Only the pointer of the drag has this capture, not a second finger or the keyboard. */
   'capture lost': (drag: DragState, pointer?: number) =>
     pointer !== undefined &&
     ((drag.kind === 'pressed' && drag.pointer === pointer) || holds(drag, pointer)),
-  /** Two fingers turn the view: the first one was no click. */
+  /** Two fingers turn the view, so the first one was not a click. */
   'second finger': ({ kind }: DragState) => kind === 'pressed',
   'canvas left': (drag: DragState) => holds(drag, 'keyboard'),
 } satisfies Record<string, (drag: DragState, pointer?: number) => boolean>;
@@ -45,12 +45,12 @@ export interface Watched {
   readonly tick: number;
 }
 
-/** What the laboratory's change means for a hold. */
+/** The cause of a release that follows from a change of the laboratory. */
 export function causeOf(before: Watched, now: Watched): ReleaseCause | undefined {
   if (before.canOperate && !now.canOperate) return 'control lost';
   if (now.silences !== before.silences) return 'hand silent';
   if (now.trial !== before.trial) return 'other trial';
-  if (now.tick < before.tick) return 'time turned back';
+  if (now.tick < before.tick) return 'session rewound';
   return undefined;
 }
 

@@ -22,14 +22,14 @@ describe('fitView', () => {
     }
   });
 
-  it('is undone by worldFromPx', () => {
+  it('is inverted by worldFromPx', () => {
     const view = fitView(WORKSPACE, 700, 400, INSETS);
     const [x, y] = worldFromPx(view, pxFromWorld(view, [0.123, -0.345]));
     expect(x).toBeCloseTo(0.123, 12);
     expect(y).toBeCloseTo(-0.345, 12);
   });
 
-  it('survives a canvas without room', () => {
+  it('works on a canvas of size zero', () => {
     expect(fitView(WORKSPACE, 0, 0, INSETS).pxPerM).toBeGreaterThan(0);
   });
 });

@@ -1,10 +1,10 @@
-// Between metres on the table (x right, y up) and CSS pixels on a canvas (x right, y down).
+// Converts between metres on the table (x right, y up) and CSS pixels on a canvas (x right, y down).
 
 import type { TableView, Vec2 } from '../lab/geometry';
 import type { Rect } from '../net/protocol.gen';
 
 export interface View {
-  /** CSS pixels a metre, the same both ways. */
+  /** CSS pixels per metre, the same in x and y. */
   readonly pxPerM: number;
   /** Canvas position of the world's origin, in CSS pixels; it may lie outside the canvas. */
   readonly originX: number;
@@ -18,7 +18,7 @@ export interface Insets {
   readonly bottom: number;
 }
 
-/** Shows the whole of `world`, centred, as large as `insets` leave room. */
+/** Shows all of `world`, centred, as large as possible inside `insets`. */
 export function fitView(world: Rect, widthPx: number, heightPx: number, insets: Insets): View {
   const worldWidth = world.x_max_m - world.x_min_m;
   const worldHeight = world.y_max_m - world.y_min_m;

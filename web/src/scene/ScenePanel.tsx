@@ -1,4 +1,4 @@
-// The workspace in space. What draws it is loaded when it is opened for the first time.
+// The 3-D view of the workspace. Its drawing code is loaded when it is opened for the first time.
 
 import {
   For,
@@ -57,19 +57,22 @@ export function ScenePanel(
       setDrawing(new SceneView(canvas, untrack(palette), inScene, interaction.setView));
     } catch (reason) {
       if (!(reason instanceof NoWebGl)) throw reason;
-      throw new Error('This browser shows no 3-D: it has no WebGL 2, or it is switched off.', {
-        cause: reason,
-      });
+      throw new Error(
+        'This browser cannot show the 3-D view: it has no WebGL 2, or WebGL 2 is switched off.',
+        {
+          cause: reason,
+        },
+      );
     }
   };
   const start = (canvas: HTMLCanvasElement): void => {
-    // After the hand, which has heard of the press by now.
+    // After the hand, which has handled the press.
     canvas.addEventListener('pointermove', (event) => {
-      // A click that trembles turns nothing: the goal would not be where it was meant.
+      // A small movement does not turn the view: the goal of a click would be at the wrong place.
       if (hand.drag().kind === 'pressed') event.stopPropagation();
     });
     canvas.addEventListener('pointerdown', ({ isPrimary }) => {
-      // Two fingers turn and zoom; the first one was no click then.
+      // Two fingers turn and zoom, so the first one was not a click.
       if (!isPrimary) hand.release('second finger');
     });
     canvas.addEventListener('keydown', (event) => {
@@ -103,7 +106,7 @@ export function ScenePanel(
       return workspace && createFloorPicture(workspace);
     },
     undefined,
-    // The same table keeps its picture.
+    // Keep the picture of the same table.
     { equals: (a, b) => JSON.stringify(a?.workspace) === JSON.stringify(b?.workspace) },
   );
   const baseMap = createBaseMap(lab, layers, palette, () => picture()?.view);
@@ -157,7 +160,7 @@ export function ScenePanel(
     const parts = [newtons(state.hand_force_n), centimetres(stretched_m)];
     const remark = remarkOf(hand.drag(), state);
     if (remark) parts.push(remark);
-    // To the left of the pointer where the right has no room.
+    // To the left of the pointer if there is no space on the right.
     const side = at[0] > 0.7 * size().width ? 'left' : 'right';
     return { text: parts.join(' · '), at, side };
   });
@@ -193,9 +196,9 @@ export function ScenePanel(
               {(text) => (
                 <>
                   <p>{text()}</p>
-                  <p>The plan shows the same, and everything can be done there.</p>
+                  <p>The plan view shows the same workspace and has all functions.</p>
                   <button type="button" onClick={() => props.onPlan()}>
-                    Back to the plan
+                    Back to the plan view
                   </button>
                 </>
               )}
@@ -204,7 +207,7 @@ export function ScenePanel(
         }
       >
         {(view) => (
-          <div class="looks" role="group" aria-label="Look from">
+          <div class="looks" role="group" aria-label="Viewpoint">
             <For each={VIEWPOINTS}>
               {(name) => (
                 <button

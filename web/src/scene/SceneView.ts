@@ -1,4 +1,4 @@
-// The scene in one place: what is told it, and one picture a frame when something of it has changed.
+// The 3-D scene: takes its inputs and draws one frame when something has changed.
 
 import {
   DirectionalLight,
@@ -28,20 +28,20 @@ import { Tool } from './tool';
 import { ToolSheet } from './toolSheet';
 import type { TableView, Vec2 } from '../lab/geometry';
 
-const MOST_PIXEL_RATIO = 2;
+const MAX_PIXEL_RATIO = 2;
 const SKY = '#ffffff';
 const SKY_STRENGTH = 1.75;
-/** What the table throws back from below. */
+/** Light reflected by the table from below. */
 const BELOW = '#8a8f98';
 const LIGHT_STRENGTH = 1.9;
-/** From the middle of the table toward the light: over the user's left shoulder. */
+/** Direction from the middle of the table to the light: over the user's left shoulder. */
 const TOWARD_LIGHT = new Vector3(-0.3, -0.55, 1.1);
 const SHADOW_PX = 1024;
 const SHADOW_STRENGTH = 0.65;
-/** Half of what the light's own picture shows around the middle of the table: the arm, or a larger table. */
+/** Half the width of the shadow area around the middle of the table: the arm, or a larger table. */
 const SHADOWED_M = 0.62;
 
-/** This browser draws no 3-D. */
+/** This browser cannot draw 3-D. */
 export class NoWebGl extends Error {}
 
 export interface Now {
@@ -53,7 +53,7 @@ export interface Now {
   readonly cursor: Vec2 | undefined;
 }
 
-/** What stands on the table of one scene. */
+/** The solid objects of one scene. */
 interface Setting {
   readonly scene: SceneMessage;
   readonly table: Table;
@@ -85,7 +85,7 @@ export class SceneView {
     /** Called when the view of the table has changed. */
     private readonly onView: (view: TableView) => void,
   ) {
-    // Requested here, because the library writes to the console if WebGL is missing.
+    // Requested here, because the library logs an error if there is no context.
     const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
     if (!context) throw new NoWebGl();
     this.renderer = new WebGLRenderer({ canvas, context });
@@ -106,7 +106,7 @@ export class SceneView {
     shadow.normalBias = 2e-3;
     shadow.intensity = SHADOW_STRENGTH;
     this.orbit = new OrbitCamera(canvas, () => {
-      this.seeAnew();
+      this.updateView();
     });
     canvas.addEventListener('webglcontextrestored', this.request);
   }
@@ -114,10 +114,10 @@ export class SceneView {
   resize(width_px: number, height_px: number): void {
     if (width_px === 0 || height_px === 0) return;
     this.height_px = height_px;
-    this.renderer.setPixelRatio(Math.min(MOST_PIXEL_RATIO, window.devicePixelRatio));
+    this.renderer.setPixelRatio(Math.min(MAX_PIXEL_RATIO, window.devicePixelRatio));
     this.renderer.setSize(width_px, height_px, false);
     this.orbit.resize(width_px, height_px);
-    this.seeAnew();
+    this.updateView();
   }
 
   recolor(palette: Palette): void {
@@ -128,7 +128,7 @@ export class SceneView {
     this.request();
   }
 
-  /** Sets everything up that follows from the scene. */
+  /** Sets up everything that depends on the scene. */
   show(scene: SceneMessage): void {
     this.clear();
     const group = new Group();
@@ -160,7 +160,7 @@ export class SceneView {
     this.place();
   }
 
-  /** Lays a picture on the floor, or says that it has been drawn anew. */
+  /** Puts a picture on the floor, or updates the one that is there. */
   lay(picture: FloorPicture): void {
     if (this.floor?.of === picture) {
       this.floor.refresh();
@@ -172,7 +172,7 @@ export class SceneView {
     this.request();
   }
 
-  /** Hangs pictures under the tool, in place of those before. */
+  /** Replaces the pictures under the tool. */
   hang(pictures: readonly UnderTool[]): void {
     const stay = this.sheets.filter((sheet) => pictures.includes(sheet.of));
     for (const sheet of this.sheets) if (!stay.includes(sheet)) this.removeSheet(sheet);
@@ -215,7 +215,7 @@ export class SceneView {
     this.paints.dispose();
     this.orbit.dispose();
     this.renderer.dispose();
-    // A browser has few contexts, and frees one that is no longer reachable late.
+    // A browser has few contexts and frees unused ones late.
     this.renderer.forceContextLoss();
   }
 
@@ -262,7 +262,7 @@ export class SceneView {
     this.request();
   }
 
-  private seeAnew(): void {
+  private updateView(): void {
     const { view, pxFromTable } = this.orbit.view();
     this.view = view;
     this.canvas.dataset.pxFromTable = pxFromTable.join(',');
@@ -283,11 +283,11 @@ export class SceneView {
     this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera, this.height_px);
     this.renderer.render(this.world, orbit.camera);
-    this.tell(now.state);
+    this.showState(now.state);
   }
 
-  /** For tests and for other tools that read the page. */
-  private tell(state: StateMessage): void {
+  /** For tests and other tools that read the page. */
+  private showState(state: StateMessage): void {
     const [x, y, z] = state.bead_m;
     const { dataset } = this.canvas;
     dataset.beadPx = this.view?.toPx([x, y], z)?.join(',') ?? '';

@@ -1,4 +1,4 @@
-// The bead, what helps to find it, and the hand's spring.
+// The bead with its halo, and the hand's spring.
 
 import { Group, Mesh, SphereGeometry, Sprite, SpriteMaterial, CanvasTexture, Vector3 } from 'three';
 import type { PerspectiveCamera } from 'three';
@@ -9,24 +9,24 @@ import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';
 import type { Vec2 } from '../lab/geometry';
 
-/** The bead is 5 mm: from afar it is drawn larger than life, or nobody finds it. */
-const LEAST_RADIUS_PX = 5;
+/** The bead has a diameter of 5 mm. From a distance it is enlarged to stay visible. */
+const MIN_RADIUS_PX = 5;
 const HALO_PX = 13;
 const HALO_OPACITY = 0.4;
-/** The halo of a bead that a press would take. */
+/** The halo of a bead that a press would grab. */
 const GRAB_OPACITY = 0.85;
 const SPRITE_PX = 64;
 
 const COILS = 10;
 const COIL_POINTS = 14;
 const COIL_M = 0.0035;
-/** Share of the spring that is straight wire, at either end. */
+/** Share of straight wire at each end of the spring. */
 const LEAD = 0.12;
-/** Of the hand over the table, and while it lifts. */
+/** Height of the hand over the table, normally and while it lifts. */
 const HAND_UP_M = 0.006;
 const LIFTED_UP_M = 0.03;
 
-/** A ring around a glow, white: the material gives the colour. */
+/** A white ring around a glow. The material gives the colour. */
 function haloTexture(): CanvasTexture {
   const canvas = document.createElement('canvas');
   canvas.width = SPRITE_PX;
@@ -72,7 +72,7 @@ export class Bead {
   ) {
     this.ball = new Mesh(new SphereGeometry(1, 28, 18), paints.glowing('bead'));
     this.ball.castShadow = true;
-    // Found behind the arm and the walls as well.
+    // Visible also behind the arm and the walls.
     this.halo = new Sprite(
       new SpriteMaterial({
         map: haloTexture(),
@@ -108,7 +108,7 @@ export class Bead {
     this.halo.material.opacity = near ? GRAB_OPACITY : HALO_OPACITY;
   }
 
-  /** The spring from the bead to the hand, or none; after `place`. */
+  /** Draws the spring from the bead to the hand, or removes it. Call it after `place`. */
   pull(pull: Pull | undefined): void {
     this.spring.clear();
     this.grip.visible = pull !== undefined;
@@ -120,15 +120,14 @@ export class Bead {
     this.spring.done();
   }
 
-  /** Sizes what is measured in pixels, for a picture of so many. */
+  /** Sets the sizes that are given in screen pixels. */
   fit(camera: PerspectiveCamera, heightPx: number): void {
     const perPx = (2 * Math.tan((camera.fov * Math.PI) / 360)) / heightPx;
-    // Sprites that distance does not shrink are sized for the distance 1.
+    // Sprites without size attenuation are sized for the distance 1.
     this.halo.scale.setScalar(2 * HALO_PX * perPx);
     const depth_m = this.along.copy(this.at).applyMatrix4(camera.matrixWorldInverse).z;
-    const radius_m = Math.max(this.radius_m, -depth_m * perPx * LEAST_RADIUS_PX);
+    const radius_m = Math.max(this.radius_m, -depth_m * perPx * MIN_RADIUS_PX);
     this.ball.scale.setScalar(radius_m);
-    // It rests where it rests.
     this.ball.position.copy(this.at);
     this.ball.position.z += radius_m - this.radius_m;
     this.halo.position.copy(this.ball.position);

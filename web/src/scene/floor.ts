@@ -1,4 +1,4 @@
-// The floor, with the plan's picture of what lies on it, and the numbers of the axes around it.
+// The floor with the picture of the base map, and the numbers of the axes around it.
 
 import {
   CanvasTexture,
@@ -16,17 +16,17 @@ import { createNumbersPicture, type FloorPicture, repaintNumbers } from '../plan
 import { ORDER, type Paints } from './paints';
 import { disposeGeometries } from './solids';
 
-/** What lies on the floor lies this much over it, or else it would flicker. */
+/** Height of floor layers over the floor, so that they do not flicker. */
 const HAZE_UP_M = 1e-4;
 const SHADOW_UP_M = 3e-4;
-/** The numbers lie on the table, a little below the floor. */
+/** The numbers are on the table, a little below the floor. */
 const NUMBERS_UP_M = -2e-4;
 const SHADOW_OPACITY = 0.4;
-/** A floor of pure white or black would show neither light nor shadow. */
+/** A pure white or black floor would show no light or shadow. */
 const HAZE_OPACITY = 0.09;
 const ANISOTROPY = 8;
 
-/** A sheet on the table as large as what its picture shows. */
+/** A sheet on the table with the size of its picture's area. */
 function sheet({ canvas, view, ratio }: FloorPicture, material: MeshBasicMaterial): Mesh {
   const width_m = canvas.width / ratio / view.pxPerM;
   const height_m = canvas.height / ratio / view.pxPerM;
@@ -54,7 +54,7 @@ export class Floor {
     paints: Paints,
   ) {
     this.texture = textureOf(of);
-    // It is drawn anew with every look of the camera: smaller copies of it would cost more than all else.
+    // The picture changes with every camera image, so mipmaps would cost too much.
     this.texture.generateMipmaps = false;
     this.texture.minFilter = LinearFilter;
     this.picture = new MeshBasicMaterial({ map: this.texture });
@@ -69,7 +69,7 @@ export class Floor {
     this.group.add(floor, haze, shadow);
   }
 
-  /** The picture has been drawn anew. */
+  /** Call this when the picture has changed. */
   refresh(): void {
     this.texture.needsUpdate = true;
   }

@@ -9,7 +9,7 @@ import { disposeGeometries } from './solids';
 import { Strokes } from './strokes';
 import type { Vec2 } from '../lab/geometry';
 
-/** Heights over the floor, so that nothing flickers. */
+/** Heights over the floor, so that the marks do not flicker. */
 const TOOL_UP_M = 1.2e-3;
 const GOAL_UP_M = 1.6e-3;
 const CURSOR_UP_M = 2e-3;
@@ -50,7 +50,7 @@ export class Marks {
     }
   }
 
-  /** At `state`, with the layers that are shown. */
+  /** Updates the marks to `state` and the shown layers. */
   place(state: StateMessage, history: History, layers: ReadonlySet<string>): void {
     const [x, y, z] = state.tool_m;
     for (const one of this.objects) {
@@ -63,7 +63,7 @@ export class Marks {
       .clear()
       .cross(...state.bead_tracked_m, TOOL_UP_M, TRACKED_M)
       .done();
-    // Where on the table the tool is: in perspective its height hides that.
+    // Marks the tool's place on the table, which is hard to see in perspective.
     this.spot.clear().circle(x, y, TOOL_UP_M, CROSS_M, 24).done();
     this.plumb.clear().move(x, y, z).line(x, y, TOOL_UP_M).done();
   }

@@ -1,4 +1,4 @@
-// The camera of the scene: mouse and touch turn it (three's OrbitControls), keys and buttons do as well.
+// The scene camera: mouse and touch turn it (OrbitControls of three), keys and buttons too.
 
 import { MOUSE, Matrix4, PerspectiveCamera } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -10,10 +10,10 @@ import type { TableView, Vec2 } from '../lab/geometry';
 const FIELD_OF_VIEW_DEG = 36;
 const NEAR_M = 0.02;
 const FAR_M = 12;
-const LEAST_DISTANCE_M = 0.06;
-const MOST_DISTANCE_M = 5;
+const MIN_DISTANCE_M = 0.06;
+const MAX_DISTANCE_M = 5;
 /** The table is not seen from below. */
-const MOST_POLAR_RAD = (88 * Math.PI) / 180;
+const MAX_POLAR_RAD = (88 * Math.PI) / 180;
 const KEY_TURN_RAD = Math.PI / 24;
 const KEY_ZOOM = 0.88;
 
@@ -24,15 +24,15 @@ export class OrbitCamera {
   private width_px = 1;
   private height_px = 1;
   private workspace: Rect | undefined;
-  /** The viewpoint that nobody has changed since; another size of the picture is another distance then. */
+  /** The chosen viewpoint until the user turns the view. While it is set, its distance follows the canvas size. */
   private viewpoint: ViewpointName | undefined = 'Home';
 
   constructor(canvas: HTMLCanvasElement, onChange: () => void) {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.maxPolarAngle = MOST_POLAR_RAD;
-    this.controls.minDistance = LEAST_DISTANCE_M;
-    this.controls.maxDistance = MOST_DISTANCE_M;
+    this.controls.maxPolarAngle = MAX_POLAR_RAD;
+    this.controls.minDistance = MIN_DISTANCE_M;
+    this.controls.maxDistance = MAX_DISTANCE_M;
     this.controls.zoomToCursor = true;
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.addEventListener('start', () => {
@@ -54,7 +54,7 @@ export class OrbitCamera {
     if (this.viewpoint) this.take(this.viewpoint);
   }
 
-  /** Another workspace is looked at anew, the same one as before. */
+  /** Sets the workspace. A different workspace resets the view. */
   lookAt(workspace: Rect): void {
     const isSame =
       this.workspace !== undefined && JSON.stringify(workspace) === JSON.stringify(this.workspace);
@@ -75,7 +75,7 @@ export class OrbitCamera {
     this.controls.update();
   }
 
-  /** What a key does; false when it means nothing here. */
+  /** Handles a key. Returns false for other keys. */
   key(key: string): boolean {
     switch (key) {
       case '[':
@@ -107,17 +107,17 @@ export class OrbitCamera {
     return true;
   }
 
-  /** An arrow of the screen, along the table. */
+  /** Direction on the table of an arrow on the screen. */
   turned(arrow: Vec2): Vec2 {
     return turnedArrow(arrow, this.controls.getAzimuthalAngle());
   }
 
-  /** How much what stands over the table may hide of it, from 0 to 1: little when seen from above. */
+  /** Opacity of objects over the table, from 0 to 1: low when seen from above. */
   hiding(): number {
     return hidingAt(this.controls.getPolarAngle());
   }
 
-  /** The table as it is seen now, and the matrix of the mapping for tools that read the page. */
+  /** The present mapping of the table, with its matrix for tools that read the page. */
   view(): { view: TableView; pxFromTable: readonly number[] } {
     const { camera, clipFromBase, width_px, height_px } = this;
     camera.updateMatrixWorld();

@@ -1,4 +1,4 @@
-// The materials of the scene, in the colours of the palette: one a colour and a kind, shared by all that has it.
+// The materials of the scene in the colours of the palette: one per colour and kind, shared by all objects.
 
 import {
   DoubleSide,
@@ -16,14 +16,14 @@ import type { Rect } from '../net/protocol.gen';
 export type PaintName = keyof Palette;
 
 /**
- * What is drawn when. Marks lie on the floor and are seen through the walls, but not through what
- * stands over them: they do not ask for depth, and solids are drawn after them.
+ * Drawing order. Marks on the floor are visible through the walls, but not through objects over them: marks ignore
+ * depth, and solids are drawn after them.
  */
 export const ORDER = { floor: -1, marks: 0, solids: 1, air: 2 } as const;
 
-/** Plastic and painted metal, no mirror. */
+/** Like plastic and painted metal, not like a mirror. */
 const GLOSS = { shininess: 36, specular: 0x2a2a2a };
-/** Share of its colour that a thing which must be found shines by itself. */
+/** Share of the own colour that glowing objects emit. */
 const GLOW = 0.45;
 
 type Colored = Material & { readonly color: Color };
@@ -35,7 +35,7 @@ interface Paint {
 
 export interface Sheet {
   readonly opacity?: number;
-  /** Seen through what was drawn before it, however near that is. */
+  /** Visible through everything that was drawn before it. */
   readonly through?: boolean;
   /** Only over the workspace. */
   readonly clipped?: boolean;
@@ -47,7 +47,7 @@ export interface Stroke extends Sheet {
 
 export class Paints {
   private readonly paints = new Map<string, Paint>();
-  /** Four sides of the workspace, looking in. */
+  /** Clipping planes at the four sides of the workspace. */
   private readonly borders = [
     new Plane(new Vector3(1, 0, 0)),
     new Plane(new Vector3(-1, 0, 0)),
@@ -57,18 +57,18 @@ export class Paints {
 
   constructor(private palette: Palette) {}
 
-  /** Of what stands still, in the light. */
+  /** For static parts, lit. */
   lit(name: PaintName): MeshPhongMaterial {
     return this.shared(`lit ${name}`, name, () => new MeshPhongMaterial(GLOSS));
   }
 
-  /** Of what moves over the table: drawn after the marks, and it can fade. */
+  /** For moving parts over the table: drawn after the marks, with variable opacity. */
   over(name: PaintName): MeshPhongMaterial {
     const make = (): MeshPhongMaterial => new MeshPhongMaterial({ ...GLOSS, transparent: true });
     return this.shared(`over ${name}`, name, make);
   }
 
-  /** The same, shining in the dark. */
+  /** For moving parts, glowing. */
   glowing(name: PaintName): MeshPhongMaterial {
     const make = (): MeshPhongMaterial => {
       const material = new MeshPhongMaterial({ ...GLOSS, transparent: true });
@@ -78,7 +78,7 @@ export class Paints {
     return this.shared(`glowing ${name}`, name, make);
   }
 
-  /** Of what is drawn rather than there: neither light nor shadow, seen from both sides. */
+  /** For drawings: without light and shadow, visible from both sides. */
   flat(name: PaintName, sheet: Sheet): MeshBasicMaterial {
     const make = (): MeshBasicMaterial =>
       new MeshBasicMaterial({ side: DoubleSide, ...this.sheet(sheet) });
@@ -95,12 +95,12 @@ export class Paints {
     return this.shared(`stroke ${name} ${JSON.stringify(stroke)}`, name, make);
   }
 
-  /** How much `over(name)` hides of what is behind, from 0 to 1. */
+  /** Sets the opacity of `over(name)`, from 0 to 1. */
   fade(names: readonly PaintName[], opacity: number): void {
     for (const name of names) this.over(name).opacity = opacity;
   }
 
-  /** What cuts off all that is not over the workspace. */
+  /** Clipping planes for `Sheet.clipped`. */
   overTheTable(): Plane[] {
     return [...this.borders];
   }

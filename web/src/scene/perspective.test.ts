@@ -19,13 +19,13 @@ const clipFromBase = (camera: PerspectiveCamera): Matrix4 =>
 const camera = cameraAt(new Vector3(0.4, -1.4, 0.8), new Vector3(0, -0.4, 0));
 const view = perspectiveView(clipFromBase(camera), WIDTH, HEIGHT);
 
-test('what the camera looks at is in the middle', () => {
+test('the target of the camera is in the middle', () => {
   const [x, y] = view.toPx([0, -0.4]) ?? [];
   expect(x).toBeCloseTo(WIDTH / 2);
   expect(y).toBeCloseTo(HEIGHT / 2);
 });
 
-test('points on the table and above it are where three projects them', () => {
+test('points on the table and above it have the pixels that three calculates', () => {
   for (const [x, y, z] of [
     [0.2, -0.3, 0],
     [-0.25, -0.5, 0.0025],
@@ -45,7 +45,7 @@ test('a pixel leads back to its point of the table', () => {
   expect(y).toBeCloseTo(-0.47, 9);
 });
 
-test('over the horizon there is no table, and behind the camera no pixel', () => {
+test('a pixel above the horizon has no table point, and a point behind the camera has no pixel', () => {
   const low = cameraAt(new Vector3(0, -1, 0.1), new Vector3(0, 0, 0.1));
   const horizontal = perspectiveView(clipFromBase(low), WIDTH, HEIGHT);
   expect(horizontal.toWorld([WIDTH / 2, HEIGHT / 2 - 20])).toBeUndefined();
@@ -53,7 +53,7 @@ test('over the horizon there is no table, and behind the camera no pixel', () =>
   expect(horizontal.toPx([0, -2])).toBeUndefined();
 });
 
-test('a view is of the moment', () => {
+test('a view does not follow later changes of the camera', () => {
   const moving = cameraAt(new Vector3(0, -1, 1), new Vector3(0, 0, 0));
   const matrix = clipFromBase(moving);
   const before = perspectiveView(matrix, WIDTH, HEIGHT);

@@ -1,9 +1,9 @@
-// Between the table and a picture of it in perspective. Pure, but for three's matrices.
+// Converts between the table and a perspective view of it. Pure except for three's matrices.
 
 import { Matrix3, Vector3, type Matrix4 } from 'three';
 import type { TableView, Vec2 } from '../lab/geometry';
 
-/** Pixels from places of the table, homogeneous, row by row. */
+/** Homogeneous matrix from table to pixels, row by row. */
 export function pxFromTable(clipFromBase: Matrix4, widthPx: number, heightPx: number): Matrix3 {
   const e = clipFromBase.elements;
   const row = (i: number, column: number): number => e[4 * column + i] ?? 0;
@@ -17,7 +17,7 @@ export function pxFromTable(clipFromBase: Matrix4, widthPx: number, heightPx: nu
   );
 }
 
-/** Of the camera as it is now: a later one is another view. */
+/** The mapping of the present camera. It does not follow later changes. */
 export function perspectiveView(
   clipFromBase: Matrix4,
   widthPx: number,
@@ -27,7 +27,7 @@ export function perspectiveView(
   const toTable = fromTable.clone().invert();
   const e = [...clipFromBase.elements];
   const at = (i: number): number => e[i] ?? 0;
-  // What a height adds, in the order of `fromTable`'s rows.
+  // The share of the height, in the order of the rows of `fromTable`.
   const perHeight: readonly [number, number, number] = [
     (widthPx / 2) * (at(8) + at(11)),
     (heightPx / 2) * (at(11) - at(9)),
@@ -48,7 +48,7 @@ export function perspectiveView(
       const found = new Vector3(x_px, y_px, 1).applyMatrix3(toTable);
       if (found.z === 0) return undefined;
       const [x_m, y_m] = [found.x / found.z, found.y / found.z];
-      // A ray over the horizon meets the table behind the camera.
+      // A ray above the horizon meets the table behind the camera.
       const isAhead = place.set(x_m, y_m, 1).applyMatrix3(fromTable).z > 0;
       return isAhead ? [x_m, y_m] : undefined;
     },

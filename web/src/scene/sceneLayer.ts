@@ -1,4 +1,4 @@
-// What a layer adds to the 3-D scene, besides its picture on the floor.
+// The objects that a layer adds to the 3-D scene, besides its picture on the floor.
 
 import type { Object3D } from 'three';
 import type { History } from '../lab/history';

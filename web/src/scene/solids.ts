@@ -1,4 +1,4 @@
-// Solids put together from tubes and boxes: a mesh a colour, since every mesh costs a call to the card.
+// Solids from tubes and boxes: one mesh per colour, because every mesh costs a draw call.
 
 import {
   BoxGeometry,
@@ -23,10 +23,10 @@ const DOME = 6;
 
 export type Point = readonly [number, number, number];
 
-/** What round solids are strung on: a place on it is a distance from `origin`. */
+/** Axis of round solids. A place on it is a distance from `origin`. */
 export interface Line {
   readonly origin: Point;
-  /** Of length 1. */
+  /** Unit vector. */
   readonly along: Point;
 }
 
@@ -35,7 +35,7 @@ const vector = ([x, y, z]: Point): Vector3 => new Vector3(x, y, z);
 export class Solids {
   private readonly pieces = new Map<PaintName, BufferGeometry[]>();
 
-  /** A cylinder between two places on a line; narrower at the second when there is another radius. */
+  /** A cylinder between two places on a line, or a cone with a second radius. */
   tube(
     name: PaintName,
     line: Line,
@@ -46,7 +46,7 @@ export class Solids {
     const length_m = Math.abs(to_m - from_m);
     const geometry = new CylinderGeometry(endRadius_m, radius_m, length_m, ROUND);
     const along = vector(line.along).multiplyScalar(Math.sign(to_m - from_m));
-    // Cylinders are made along y.
+    // Cylinders of three are along y.
     const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along);
     const middle = vector(line.origin).addScaledVector(vector(line.along), (from_m + to_m) / 2);
     return this.add(name, geometry, new Matrix4().compose(middle, turn, new Vector3(1, 1, 1)));
@@ -101,14 +101,14 @@ export class Solids {
   }
 }
 
-/** Frees what `object` and what hangs on it hold on the card; materials are shared and stay. */
+/** Frees the graphics memory of `object` and its children. Shared materials stay. */
 export function disposeGeometries(object: Object3D): void {
   object.traverse((one) => {
     if ('geometry' in one) (one as Mesh).geometry.dispose();
   });
 }
 
-/** Three corners a triangle. */
+/** Three corners per triangle. */
 export function triangles(corners: readonly Point[]): BufferGeometry {
   return new BufferGeometry().setAttribute(
     'position',

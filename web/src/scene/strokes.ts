@@ -1,14 +1,14 @@
-// Lines of a width in pixels, in space. WebGL's own are a pixel wide everywhere.
+// 3-D lines with a width in pixels. WebGL's own lines are always one pixel wide.
 
 import { InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 import type { PaintName, Paints, Stroke } from './paints';
 
-/** Two ends of three coordinates. */
+/** Two ends with three coordinates each. */
 const NUMBERS = 6;
 
-/** A drawing of at most `capacity` segments, which is written anew in place. */
+/** A drawing of at most `capacity` segments that is overwritten in place. */
 export class Strokes {
   readonly object: LineSegments2;
   private readonly ends: Float32Array;
@@ -29,7 +29,7 @@ export class Strokes {
     geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(this.buffer, 3, 3));
     geometry.instanceCount = 0;
     this.object = new LineSegments2(geometry, paints.stroke(name, stroke));
-    // Its bounds would have to be found anew with every change.
+    // Otherwise every change would need new bounds.
     this.object.frustumCulled = false;
   }
 
@@ -46,7 +46,7 @@ export class Strokes {
     return this;
   }
 
-  /** Goes on with it to there. */
+  /** Continues the line to a place. */
   line(x: number, y: number, z: number): this {
     if (this.count < this.capacity) {
       const at = NUMBERS * this.count;

@@ -1,4 +1,4 @@
-// What stands still: the table, and the walls on it.
+// The static parts: the table and the walls.
 
 import {
   BoxGeometry,
@@ -23,9 +23,9 @@ import { disposeGeometries } from './solids';
 /** Of the table, around the numbers of the axes: a portal's rails lie there. */
 export const EDGE_M = 0.022;
 const THICKNESS_M = 0.018;
-/** Room for the robot's foot. */
+/** Space for the robot's foot. */
 const FOOT_M = 0.115;
-/** The floor lies this much over the table, or else the two would flicker. */
+/** Height of the floor over the table, so that the two do not flicker. */
 const GAP_M = 4e-4;
 
 const points = (ring: Polygon['exterior']): Vector2[] => ring.map(([x, y]) => new Vector2(x, y));
@@ -39,7 +39,7 @@ function wallGeometry(walls: readonly Polygon[]): ExtrudeGeometry {
   return new ExtrudeGeometry(shapes, { depth: WALL_HEIGHT_M, bevelEnabled: false });
 }
 
-/** The upper edges of walls and border, which tell their shape from afar. */
+/** The upper edges of walls and border, which make their shape visible from a distance. */
 function edgeGeometry(walls: readonly Polygon[], border: Rect): BufferGeometry {
   const ends: number[] = [];
   const { x_min_m, x_max_m, y_min_m, y_max_m } = border;
@@ -72,7 +72,7 @@ function rimGeometry(rect: Rect, width_m: number): ExtrudeGeometry {
   return new ExtrudeGeometry([shape], { depth: WALL_HEIGHT_M, bevelEnabled: false });
 }
 
-/** Of the table: under floor and numbers, and under the robot's foot where there is one. */
+/** Area of the table: under floor and numbers, and under the robot's foot if there is an arm. */
 export function tableOf(workspace: Rect, hasArm: boolean): Rect {
   const { left, right, bottom, top } = floorMargins(workspace);
   const side_m = Math.max(left, right) + EDGE_M;

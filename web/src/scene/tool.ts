@@ -1,4 +1,4 @@
-// The magnet, and what holds it: the gripper's fingers on the arm, a portal on the planar stage.
+// The magnet and its holder: the gripper's fingers on the arm, a portal on the planar stage.
 
 import { Group } from 'three';
 import { BLOCKS } from '../net/arm.gen';
@@ -8,12 +8,12 @@ import type { Paints } from './paints';
 import { disposeGeometries, type Point, Solids } from './solids';
 import { EDGE_M } from './table';
 
-/** Of the tool point, the middle of the block's lower face. */
+/** Relative to the tool point, which is the middle of the block's lower face. */
 type At = Point;
 
 export interface Block {
   readonly size_m: Point;
-  /** The axis from the south pole to the north pole. */
+  /** Axis from the south pole to the north pole. */
   readonly along: 0 | 2;
 }
 
@@ -45,7 +45,7 @@ function fingers(solids: Solids, [x, y, z]: Point): void {
   const wide_m = across_m + 2 * (FINGER_M + PAD_M) + 0.01;
   solids.box('gripper', [0, 0, KNUCKLES_M], placed(wide_m, 0.032, 0.026));
   solids.tube('gripper', { origin: [0, 0, 0], along: [0, 0, 1] }, [KNUCKLES_M, 0.095], 0.02);
-  // Fingers reach from the knuckles down to the block's lower edge, with a pad on its side.
+  // Fingers reach from the knuckles to the block's lower edge, with a pad at its side.
   const low_m = 0.1 * z;
   for (const side of [-0.5, 0.5]) {
     const finger_m = side * (across_m + 2 * PAD_M + FINGER_M);
@@ -63,10 +63,10 @@ function fingers(solids: Solids, [x, y, z]: Point): void {
 const RAIL_M = 0.012;
 /** From the table to the middle of the portal's beam. */
 const BEAM_UP_M = 0.235;
-/** Of the column, above the tool point. */
+/** Upper end of the column above the tool point. */
 const COLUMN_M = 0.24;
 
-/** Of the planar stage: rails beside the table, a portal that goes along them, a carriage with a column. */
+/** The parts of the planar stage: rails beside the table, a portal on the rails, a carriage with a column. */
 class Portal {
   readonly group = new Group();
   private readonly bridge: Group;
@@ -116,7 +116,7 @@ export class Tool {
   private readonly held: Group;
   private readonly portal: Portal | undefined;
 
-  /** On the planar stage over `portalOver`, else on the arm. */
+  /** On the planar stage over `portalOver`, otherwise on the arm. */
   constructor(paints: Paints, orientation: Orientation, portalOver: Rect | undefined) {
     const block = BLOCKS[orientation];
     const halves = halvesOf(block);

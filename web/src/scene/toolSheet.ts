@@ -1,4 +1,4 @@
-// A layer's picture on the table, as the plan view draws it: a sheet that moves with the tool.
+// A layer's picture on the table, like in the plan view: a sheet that moves with the tool.
 
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 import type { Palette } from '../ui/palette';
@@ -6,7 +6,7 @@ import type { UnderTool } from '../plan/layer';
 import { ORDER, type Paints } from './paints';
 
 const PICTURE_PX = 512;
-/** Over the shadow that lies on the floor. */
+/** Height over the floor, above the shadow. */
 const UP_M = 4e-4;
 
 export class ToolSheet {

@@ -4,7 +4,7 @@ import { distanceFor, hidingAt, turnedArrow, viewpointOf, VIEWPOINTS } from './v
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
-test('every viewpoint shows its bounds, and none of them small', () => {
+test('every viewpoint shows its bounds, large enough', () => {
   for (const name of VIEWPOINTS) {
     for (const aspect of [0.6, 1, 1.8, 3]) {
       const viewpoint = viewpointOf(name, WORKSPACE);
@@ -28,8 +28,8 @@ test('every viewpoint shows its bounds, and none of them small', () => {
   }
 });
 
-test('an arrow key moves the cursor as it points on the screen', () => {
-  // From the front, as in the plan; from +x, where +y is to the right.
+test('an arrow key moves the cursor along the arrow on the screen', () => {
+  // From the front, as in the plan view; from +x, where +y is to the right.
   const [quarter, up, right] = [Math.PI / 2, [0, 1], [1, 0]] as const;
   expect(turnedArrow(up, 0.3)).toEqual([0, 1]);
   expect(turnedArrow(up, quarter).map(Math.round)).toEqual([-1, 0]);
@@ -38,7 +38,7 @@ test('an arrow key moves the cursor as it points on the screen', () => {
   expect(turnedArrow(up, 2 * quarter).map((n) => n + 0)).toEqual([0, -1]);
 });
 
-test('the arm hides less from above, and all it can from the side', () => {
+test('the arm is more transparent from above and opaque from the side', () => {
   expect(hidingAt(0)).toBeLessThan(0.25);
   expect(hidingAt(0.45)).toBeGreaterThan(hidingAt(0.35));
   expect(hidingAt(Math.PI / 3)).toBe(1);

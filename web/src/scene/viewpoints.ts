@@ -1,4 +1,4 @@
-// Where the scene is looked at from. Pure, but for three's vectors.
+// The viewpoints of the scene. Pure except for three's vectors.
 
 import { Vector3 } from 'three';
 import type { Rect } from '../net/protocol.gen';
@@ -9,19 +9,19 @@ export const VIEWPOINTS = ['Home', 'Top', 'Front', 'Side'] as const;
 export type ViewpointName = (typeof VIEWPOINTS)[number];
 
 export interface Viewpoint {
-  /** What is in the middle of the picture. */
+  /** Point in the middle of the picture. */
   readonly target_m: Point;
-  /** From there to the camera. */
+  /** Direction from the target to the camera. */
   readonly toCamera: Point;
-  /** What must be in the picture. */
+  /** Box that must be in the picture. */
   readonly bounds_m: readonly Point[];
 }
 
-/** Straight from above the picture would have no upper side. */
+/** Exactly from above the picture would have no defined upper side. */
 const ALMOST = 1e-3;
-/** The picture is this much wider than its bounds. */
+/** Factor of the picture's size over its bounds. */
 const ROOM = 1.06;
-/** How high over the table the picture reaches when it is not from above: the magnet and its holder. */
+/** Height of the bounds over the table, except from above: the magnet and its holder. */
 const SHOWN_UP_M = 0.26;
 
 function corners(rect: Rect, z: number): Point[] {
@@ -61,7 +61,7 @@ export function viewpointOf(name: ViewpointName, workspace: Rect): Viewpoint {
   }
 }
 
-/** How far from the target the camera must be for all of `bounds_m` to be in the picture, with a little room. */
+/** Distance from the target to the camera at which all of `bounds_m` is in the picture, with a margin. */
 export function distanceFor(viewpoint: Viewpoint, fieldOfView_rad: number, aspect: number): number {
   const back = new Vector3(...viewpoint.toCamera).normalize();
   const right = new Vector3(0, 0, 1).cross(back).normalize();
@@ -76,7 +76,7 @@ export function distanceFor(viewpoint: Viewpoint, fieldOfView_rad: number, aspec
   }, 0);
 }
 
-/** The axis of the table that an arrow key means, seen from a camera at `azimuth_rad` about the vertical. */
+/** Table axis of an arrow key, seen from a camera at `azimuth_rad` about the vertical. */
 export function turnedArrow(
   arrow: readonly [number, number],
   azimuth_rad: number,
@@ -93,12 +93,12 @@ export function turnedArrow(
   return [cos * arrow[0] - sin * arrow[1], sin * arrow[0] + cos * arrow[1]];
 }
 
-/** Between these angles from the vertical the arm fades: from above it would hide what one looks for. */
+/** Between these angles from the vertical the arm becomes transparent, because from above it would hide the table. */
 const FADED_RAD = 0.3;
 const SOLID_RAD = 0.62;
-const LEAST_HIDING = 0.16;
+const MIN_OPACITY = 0.16;
 
 export function hidingAt(polar_rad: number): number {
   const share = Math.min(1, Math.max(0, (polar_rad - FADED_RAD) / (SOLID_RAD - FADED_RAD)));
-  return LEAST_HIDING + (1 - LEAST_HIDING) * share;
+  return MIN_OPACITY + (1 - MIN_OPACITY) * share;
 }

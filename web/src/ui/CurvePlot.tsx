@@ -1,4 +1,4 @@
-// A computed curve with its title and the keys of its lines.
+// A computed curve with its title and the legend of its lines.
 
 import { For, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
@@ -30,7 +30,7 @@ export function CurvePlot(props: {
       plot.setData(props.data);
     });
     createEffect(on(props.theme, () => plot.redraw(true), { defer: true }));
-    // The curve itself stays.
+    // The curve itself does not change.
     createEffect(on(props.context.rules, () => plot.redraw(false), { defer: true }));
   });
   return (

@@ -1,4 +1,4 @@
-// A number with its name, in a list of such.
+// A named number in a list.
 
 import type { JSX } from 'solid-js';
 

@@ -1,4 +1,4 @@
-// A notice at the panel whose control caused it; it goes away by itself.
+// A notice at the panel whose control caused it. It disappears after some time.
 
 import { Show, createEffect, on, onCleanup, type JSX } from 'solid-js';
 
@@ -13,7 +13,7 @@ export interface Notice {
 
 export function NoticeBar(props: {
   notice: Notice | undefined;
-  /** Which panel it is at, for tests. */
+  /** Name of the panel, for tests. */
   place: string;
   onDismiss: (id: number) => void;
 }): JSX.Element {
@@ -32,7 +32,7 @@ export function NoticeBar(props: {
       },
     ),
   );
-  // The region is always there: screen readers announce what appears inside of it.
+  // The region is always in the document: screen readers announce what appears inside it.
   return (
     <div class="notices" role="alert" data-place={props.place}>
       <Show when={props.notice}>

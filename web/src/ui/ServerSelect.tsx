@@ -1,10 +1,10 @@
-// A select that shows the server's value, also after the server refused another one.
+// A select that shows the server's value, also after the server refused a choice.
 
 import { For, createEffect, createUniqueId, on, type JSX } from 'solid-js';
 
 export function TruthSelect(props: {
   label: string;
-  /** Whether the first option says enough for those who see it. */
+  /** Whether to hide the label visually, because the first option is clear enough. */
   hideLabel?: boolean;
   value: string;
   options: readonly (readonly [value: string, label: string])[];

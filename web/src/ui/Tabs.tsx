@@ -1,9 +1,9 @@
-// Panels that share a place: tabs to choose one, arrow keys to go along them.
+// Panels under tabs, with arrow keys to move between the tabs.
 
 import { For, createEffect, createMemo, createSignal, untrack, type JSX } from 'solid-js';
 import { recall, remember } from './storage';
 
-/** How far a key moves along the tabs. */
+/** Number of tabs that a key moves by. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
 export interface TabHead {
@@ -12,16 +12,16 @@ export interface TabHead {
 }
 
 export function Tabs<T extends TabHead>(props: {
-  /** Class of the section, and the key under which its tab is stored. */
+  /** Class of the section and part of the storage key of the open tab. */
   area: string;
   label: string;
   tabs: readonly [T, ...T[]];
-  /** A tab to open, wherever it is. */
+  /** A tab to open, in any tab area. */
   opened: string | undefined;
   onOpened: () => void;
-  /** Beside the tabs, whichever is chosen. */
+  /** Controls beside the tabs, for all tabs. */
   aside?: JSX.Element;
-  /** The panel of a tab; `tools` is the room for its own controls, beside the tabs. */
+  /** The panel of a tab. `tools` is the element for the panel's own controls beside the tabs. */
   children: (tab: T, tools: HTMLElement) => JSX.Element;
 }): JSX.Element {
   const tools = document.createElement('div');

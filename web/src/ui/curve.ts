@@ -1,4 +1,4 @@
-// One plot of a curve that the server computed: a uPlot with the page's colours, and marks over it.
+// A plot of a computed curve: a uPlot in the page's colours with marks.
 
 import uPlot from 'uplot';
 import type { Palette } from './palette';
@@ -44,7 +44,7 @@ const SHADE_ALPHA = 0.14;
 /** Two hexadecimal digits of opacity. */
 const FILL_ALPHA = '24';
 
-/** `#rrggbb` with an opacity; other notations as they are. */
+/** Adds an opacity to `#rrggbb`. Other notations stay unchanged. */
 function translucent(color: string): string {
   return /^#[0-9a-f]{6}$/i.test(color) ? color + FILL_ALPHA : color;
 }

@@ -1,4 +1,4 @@
-// Files that the page makes.
+// Downloads of files that the page creates.
 
 export function download(name: string, content: Blob): void {
   const address = URL.createObjectURL(content);
@@ -6,13 +6,13 @@ export function download(name: string, content: Blob): void {
   link.href = address;
   link.download = name;
   link.click();
-  // The browser reads it after the click.
+  // The browser reads the data after the click.
   setTimeout(() => {
     URL.revokeObjectURL(address);
   }, 10_000);
 }
 
-/** A drawing as a picture of `scale` times its size. */
+/** Converts an SVG drawing to a PNG of `scale` times its size. */
 export async function pngOf(
   svg: string,
   { width, height }: { readonly width: number; readonly height: number },
@@ -30,7 +30,7 @@ export async function pngOf(
     return await new Promise((resolve, reject) => {
       canvas.toBlob((blob) => {
         if (blob) resolve(blob);
-        else reject(new Error('The browser made no picture.'));
+        else reject(new Error('The browser could not create the image.'));
       }, 'image/png');
     });
   } finally {

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { centimetres, clock, fixed, newtons, speed } from './format';
 
 describe('readouts', () => {
-  it('have a true minus sign, and none on zero', () => {
+  it('have a true minus sign, but not on zero', () => {
     expect(fixed(-1.25, 2)).toBe('\u22121.25');
     expect(fixed(-0.001, 2)).toBe('0.00');
     expect(centimetres(0.1234)).toBe('12.3 cm');
@@ -13,7 +13,7 @@ describe('readouts', () => {
     expect(newtons(1.2345)).toBe('1.23 N');
   });
 
-  it('show minutes only when there are some', () => {
+  it('show minutes only from one minute', () => {
     expect(clock(0)).toBe('0.0 s');
     expect(clock(59.94)).toBe('59.9 s');
     expect(clock(59.96)).toBe('1:00.0');

@@ -1,9 +1,9 @@
-// Numbers as people read them: a true minus sign, a fixed number of digits, a unit.
+// Numbers as text: with a true minus sign, a fixed number of digits, and a unit.
 
-/** Fixed digits, so that a readout does not jump while it changes. */
+/** A fixed number of digits, so that a changing number does not jump. */
 export function fixed(value: number, digits: number): string {
   const text = value.toFixed(digits);
-  // toFixed keeps the sign of what it rounds to zero.
+  // toFixed keeps the sign of a number that it rounds to zero.
   return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212');
 }
 
@@ -15,12 +15,12 @@ export function millimetres(value_m: number, digits = 0): string {
   return `${fixed(value_m * 1000, digits)} mm`;
 }
 
-/** Newtons, or millinewtons below a tenth. */
+/** Newtons, or millinewtons below 0.1 N. */
 export function newtons(value_n: number): string {
   return Math.abs(value_n) < 0.1 ? `${fixed(value_n * 1000, 1)} mN` : `${fixed(value_n, 2)} N`;
 }
 
-/** `1:02.4`: minutes only when there are some. */
+/** `1:02.4`, with minutes only from one minute. */
 export function clock(time_s: number): string {
   const tenths = Math.round(time_s * 10);
   const minutes = Math.floor(tenths / 600);
@@ -30,12 +30,12 @@ export function clock(time_s: number): string {
     : `${minutes}:${seconds.toFixed(1).padStart(4, '0')}`;
 }
 
-/** Speed factors as fractions, the way a camera names its shutter. */
+/** Speed factors below 1 as fractions. */
 export function speed(factor: number): string {
   return factor < 1 ? `1/${Math.round(1 / factor)}×` : `${factor}×`;
 }
 
-/** How many of a thing: `1 cell`, `4 cells`. */
+/** A number with a noun: `1 cell`, `4 cells`. */
 export function counted(count: number, noun: string): string {
   return `${count} ${noun}${count === 1 ? '' : 's'}`;
 }

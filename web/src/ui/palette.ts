@@ -1,4 +1,4 @@
-// Colours of the canvases, read from the style sheet so that each is written once.
+// Colours of the canvases, read from the style sheet so that each is defined once.
 
 import { createMemo, type Accessor } from 'solid-js';
 import type { Theme } from './theme';

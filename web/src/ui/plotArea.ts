@@ -1,8 +1,8 @@
-// Drawing over a plot, no farther than its axes.
+// Draws over a plot, clipped to its axes.
 
 import type uPlot from 'uplot';
 
-/** `ratio` is canvas pixels a CSS pixel. */
+/** `ratio` is canvas pixels per CSS pixel. */
 export function inside(
   u: uPlot,
   draw: (ctx: CanvasRenderingContext2D, ratio: number) => void,

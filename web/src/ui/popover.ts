@@ -1,11 +1,11 @@
-// What opens below a button and goes away by itself: at Escape, at a press elsewhere, when the keyboard goes on.
+// A popover below a button. It closes on Escape, on a press elsewhere, and when the focus leaves it.
 
 import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
 
 export interface Popover {
   readonly open: Accessor<boolean>;
   readonly setOpen: (open: boolean) => void;
-  /** For the element that holds both button and content. */
+  /** Ref of the element that contains both button and content. */
   readonly onFocusOut: (event: FocusEvent) => void;
 }
 
@@ -16,12 +16,12 @@ export function createPopover(box: () => HTMLElement, button: () => HTMLButtonEl
     const onDown = (event: PointerEvent): void => {
       if (box().contains(event.target as Node)) return;
       setOpen(false);
-      // A click that is to close it is to place no goal. Buttons hear of the click all the same.
+      // A press that closes the popover must not set a goal. Buttons still get the click.
       event.stopPropagation();
     };
     const onKey = (event: KeyboardEvent): void => {
       if (event.key !== 'Escape') return;
-      // What has the focus is about to go.
+      // The focused element is about to be removed.
       if (box().contains(document.activeElement)) button().focus();
       setOpen(false);
     };
@@ -36,7 +36,7 @@ export function createPopover(box: () => HTMLElement, button: () => HTMLButtonEl
     open,
     setOpen,
     onFocusOut: ({ relatedTarget }) => {
-      // The keyboard went on; a click beside what can have it focuses nothing.
+      // The focus moved on. Without a new target, a click on something that cannot have focus caused this.
       if (relatedTarget && !box().contains(relatedTarget as Node)) setOpen(false);
     },
   };

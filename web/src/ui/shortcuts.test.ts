@@ -10,36 +10,36 @@ const LIST: readonly Shortcut[] = [
 ];
 const NOWHERE: Focus = { takesText: false, takesSpace: false, inDialog: false };
 
-function heard(press: Partial<Press>, focus: Partial<Focus> = {}): string | undefined {
+function found(press: Partial<Press>, focus: Partial<Focus> = {}): string | undefined {
   const whole = { key: '', repeat: false, ctrlKey: false, altKey: false, metaKey: false, ...press };
   return shortcutFor(LIST, whole, { ...NOWHERE, ...focus })?.does;
 }
 
 describe('a shortcut', () => {
-  it('is heard anywhere, in capitals too', () => {
-    expect(heard({ key: ' ' })).toBe('run');
-    expect(heard({ key: 'R' })).toBe('reset');
-    expect(heard({ key: '+' })).toBe('faster');
+  it('works everywhere, also with capital letters', () => {
+    expect(found({ key: ' ' })).toBe('run');
+    expect(found({ key: 'R' })).toBe('reset');
+    expect(found({ key: '+' })).toBe('faster');
   });
 
-  it('is not heard where somebody types, nor in a dialog, nor when it repeats', () => {
-    expect(heard({ key: 'r' }, { takesText: true })).toBeUndefined();
-    expect(heard({ key: 'r' }, { inDialog: true })).toBeUndefined();
-    expect(heard({ key: 'r', repeat: true })).toBeUndefined();
+  it('does not work in a text field, in a dialog, or as a repeated key', () => {
+    expect(found({ key: 'r' }, { takesText: true })).toBeUndefined();
+    expect(found({ key: 'r' }, { inDialog: true })).toBeUndefined();
+    expect(found({ key: 'r', repeat: true })).toBeUndefined();
   });
 
-  it('leaves Space to what is pressed with it', () => {
-    expect(heard({ key: ' ' }, { takesSpace: true })).toBeUndefined();
-    expect(heard({ key: 'r' }, { takesSpace: true })).toBe('reset');
+  it('leaves Space to focused buttons', () => {
+    expect(found({ key: ' ' }, { takesSpace: true })).toBeUndefined();
+    expect(found({ key: 'r' }, { takesSpace: true })).toBe('reset');
   });
 
-  it("leaves the browser's own keys alone, and hears AltGr", () => {
-    expect(heard({ key: 'r', ctrlKey: true })).toBeUndefined();
-    expect(heard({ key: 'r', metaKey: true })).toBeUndefined();
-    expect(heard({ key: ']', ctrlKey: true, altKey: true })).toBe('faster');
+  it("ignores the browser's own keys, but accepts AltGr", () => {
+    expect(found({ key: 'r', ctrlKey: true })).toBeUndefined();
+    expect(found({ key: 'r', metaKey: true })).toBeUndefined();
+    expect(found({ key: ']', ctrlKey: true, altKey: true })).toBe('faster');
   });
 
-  it('leaves to a panel what the panel hears itself', () => {
-    expect(heard({ key: 'd' })).toBeUndefined();
+  it('leaves keys of a panel to the panel', () => {
+    expect(found({ key: 'd' })).toBeUndefined();
   });
 });

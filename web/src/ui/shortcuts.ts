@@ -1,11 +1,11 @@
-// The page's keys: one list, one listener, and the words of the help.
+// The keyboard shortcuts of the page: one list for the listener and the help.
 
 export interface Shortcut {
-  /** As `KeyboardEvent.key` names them; any of them will do. */
+  /** Values of `KeyboardEvent.key`; each of them works. */
   readonly keys: readonly string[];
   readonly does: string;
   readonly group: string;
-  /** None for keys that some panel hears itself while it has the focus. */
+  /** Undefined for keys that a panel handles itself while it has the focus. */
   readonly run?: () => void;
 }
 
@@ -18,18 +18,18 @@ const NAMES: Partial<Record<string, string>> = {
   Escape: 'Esc',
 };
 
-/** As it stands on the key. */
+/** The label on the key. */
 export function keyName(key: string): string {
   return NAMES[key] ?? (/^[a-z]$/.test(key) ? key.toUpperCase() : key);
 }
 
-/** What matters of where a key was pressed. */
+/** Properties of the focused element. */
 export interface Focus {
-  /** Text goes there, or a letter chooses. */
+  /** It takes text, or letters select an option. */
   readonly takesText: boolean;
-  /** Space presses it, or opens it. */
+  /** Space presses or opens it. */
   readonly takesSpace: boolean;
-  /** A dialog has the keyboard for itself. */
+  /** It is in a dialog, which handles all keys. */
   readonly inDialog: boolean;
 }
 
@@ -41,7 +41,7 @@ export interface Press {
   readonly metaKey: boolean;
 }
 
-/** What a press means where the focus is. Pure. */
+/** The shortcut of a key press with the present focus. Pure. */
 export function shortcutFor(
   shortcuts: readonly Shortcut[],
   press: Press,
@@ -70,7 +70,7 @@ export function focusOf(target: EventTarget | null): Focus {
   };
 }
 
-/** Listens until what is returned is called. A panel that used a key itself has prevented its default. */
+/** Listens until the returned function is called. A panel that handles a key itself prevents its default. */
 export function attachShortcuts(shortcuts: readonly Shortcut[], areOn: () => boolean): () => void {
   const onKey = (event: KeyboardEvent): void => {
     if (event.defaultPrevented || !areOn()) return;

@@ -1,4 +1,4 @@
-// What this browser remembers of a person's choices. Storage may be forbidden: they then last as long as the page.
+// The user's choices in the browser's storage. If storage is forbidden, choices last as long as the page.
 
 export function recall(key: string): string | null {
   try {

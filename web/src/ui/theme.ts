@@ -1,4 +1,4 @@
-// Dark or light: what the person chose here, else what the system prefers.
+// Dark or light: the user's choice, otherwise the system's preference.
 
 import { createSignal, type Accessor } from 'solid-js';
 import { recall, remember } from './storage';
@@ -16,7 +16,7 @@ export function createTheme(): { theme: Accessor<Theme>; toggle: () => void } {
   let chosen = stored();
   const resolve = (): Theme => chosen ?? (prefersDark.matches ? 'dark' : 'light');
   const [theme, setTheme] = createSignal(resolve());
-  // Written before the signal changes, because canvases read their colours from the style sheet.
+  // Set before the signal changes, because canvases read their colours from the style sheet.
   const apply = (): void => {
     document.documentElement.dataset.theme = resolve();
     setTheme(resolve());

@@ -1,4 +1,4 @@
-// What the controllers see: the end-effector image with its test patch, and the observation.
+// What the controllers see: the camera image with its test patch, and the observation.
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../../ui/format';
@@ -8,7 +8,7 @@ import type { Notices, Pictures } from '../../lab/slices';
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
 
-/** Writes a gray picture, a byte a pixel, on a canvas of its size. */
+/** Draws a gray image, one byte per pixel, on a canvas of the same size. */
 function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
   const ctx = canvas.getContext('2d');
   if (!ctx) return;
@@ -30,7 +30,7 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
   let decoding = false;
   createEffect(() => {
     const picture = lab.camera();
-    // While one picture is decoded, newer ones replace each other in the signal.
+    // While an image is decoded, the signal keeps only the newest one.
     if (picture && !decoding) void decode(picture.bytes);
   });
   async function decode(bytes: Uint8Array<ArrayBuffer>): Promise<void> {
@@ -41,7 +41,7 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
       bitmap.close();
       setSeen(true);
     } catch {
-      lab.notify('session', 'A camera picture could not be decoded.');
+      lab.notify('session', 'A camera image could not be decoded.');
     }
     decoding = false;
     const newest = lab.camera();
@@ -74,10 +74,10 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
             <span
               class="verdict"
               classList={{ obstacle: overlay().obstacle }}
-              title={`Obstacle test: the mean of the 15×15 pixels around the tool is below ${OBSTACLE_MEAN}`}
+              title={`Obstacle if the mean brightness of the 15×15 pixels around the tool is below ${OBSTACLE_MEAN}`}
             >
-              {overlay().obstacle ? 'obstacle' : 'free'}{' '}
-              <span class="number">{fixed(overlay().center_mean, 0)}</span>
+              {overlay().obstacle ? 'Obstacle' : 'Clear'} (brightness{' '}
+              <span class="number">{fixed(overlay().center_mean, 0)}</span>)
             </span>
           )}
         </Show>
@@ -102,7 +102,7 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
               <Show when={lab.overlay()}>{(overlay) => <path d={patchPath(overlay())} />}</Show>
             </svg>
             <Show when={!seen()}>
-              <p class="placeholder">No picture yet</p>
+              <p class="placeholder">No image yet</p>
             </Show>
           </div>
           <figcaption class="blocks-choice">
@@ -125,10 +125,10 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
                 <span
                   class="number"
                   data-testid="blocks"
-                  title="The dark blocks of the quadtree, merged into as few rectangles as possible: N − L − H + C of them"
+                  title="The dark blocks of the quadtree are merged into the smallest possible number of rectangles: N − L − H + C"
                 >
-                  {counted(layer().rectangles.length, 'rectangle')}; the quadtree alone{' '}
-                  {layer().dark.length}
+                  {counted(layer().rectangles.length, 'rectangle')} (merged from{' '}
+                  {counted(layer().dark.length, 'block')})
                 </span>
               )}
             </Show>
@@ -141,7 +141,7 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
             width={OBSERVATION_PX}
             height={OBSERVATION_PX}
             role="img"
-            aria-label="Observation, channel 0: the camera image at 84 by 84"
+            aria-label="Observation, channel 0: the camera image with 84 by 84 pixels"
           />
           <figcaption>Network: image</figcaption>
         </figure>
@@ -152,7 +152,7 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
             width={OBSERVATION_PX}
             height={OBSERVATION_PX}
             role="img"
-            aria-label="Observation, channel 1: goal above, tool below, x left, y right"
+            aria-label="Observation, channel 1: goal in the upper half, tool in the lower half, x on the left, y on the right"
           />
           <figcaption>Network: goal, tool</figcaption>
         </figure>

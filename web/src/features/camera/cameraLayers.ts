@@ -1,4 +1,4 @@
-// The layers of the camera: the area that it sees, and the obstacles that it senses there.
+// The layers of the camera: its field of view, and the obstacles in it.
 
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import type { InScene } from '../../scene/sceneLayer';

@@ -1,11 +1,11 @@
-// The area that the camera sees, and the obstacles that it senses there.
+// Draws the camera's field of view and the obstacles in it.
 
 import type { OverlayMessage } from '../../net/protocol.gen';
 import type { MovingPicture } from '../../plan/layer';
 import { pxFromWorld, type View } from '../../plan/transform';
 import type { Palette } from '../../ui/palette';
 
-/** Exponent of the superellipse that stands for an obstacle. */
+/** Exponent of the superellipse that represents an obstacle. */
 const SUPERELLIPSE = 4;
 const OUTLINE_POINTS = 40;
 

@@ -1,4 +1,4 @@
-// The camera's field in the 3-D scene.
+// The camera's field of view in the 3-D scene.
 
 import { Group, Mesh } from 'three';
 import { ORDER } from '../../scene/paints';
@@ -8,7 +8,7 @@ import { Strokes } from '../../scene/strokes';
 
 const UP_M = 8e-4;
 
-/** From the camera to the table that it sees. */
+/** Lines from the camera to the visible area of the table. */
 export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_sees_m }) => {
   const eye: Point = [
     parameters.camera_offset_x_m,
@@ -33,7 +33,7 @@ export const sceneFrustum: CreateSceneObject = (paints, { parameters, camera_see
   });
   rays.done();
   foot.done();
-  // Among the solids it is as near as it is; on the floor it is a mark.
+  // The lines are sorted by depth with the solids; the area on the floor is a mark.
   const air = new Group();
   air.renderOrder = ORDER.air;
   air.add(new Mesh(triangles(sides), paints.flat('tool', { opacity: 0.045 })), rays.object);

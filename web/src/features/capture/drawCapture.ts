@@ -1,13 +1,13 @@
-// Where the magnet captures the bead.
+// Draws where the magnet captures the bead.
 
 import type { Vec2 } from '../../lab/geometry';
 import type { MovingPicture } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
 
-/** Stands for a reach without an end: beyond every workspace. */
+/** Used for a reach without an end: larger than any workspace. */
 export const BEYOND_M = 3;
 
-/** Where the pull beats friction: a ring of sectors, since a turned block does not pull alike all round. */
+/** Where the pull is stronger than friction: a ring of sectors, because a turned block pulls differently in each direction. */
 export function drawCapture(
   ctx: CanvasRenderingContext2D,
   { view, palette, scene, state }: MovingPicture,

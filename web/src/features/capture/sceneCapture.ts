@@ -1,4 +1,4 @@
-// The capture on the floor of the 3-D scene.
+// The capture area on the floor of the 3-D scene.
 
 import { Group, Mesh } from 'three';
 import type { CreateSceneObject } from '../../scene/sceneLayer';
@@ -8,7 +8,7 @@ import { BEYOND_M } from './drawCapture';
 
 const UP_M = 8e-4;
 
-/** A ring of sectors around the tool, since a turned block does not pull alike all round. */
+/** A ring of sectors around the tool, because a turned block pulls differently in each direction. */
 export const sceneCapture: CreateSceneObject = (paints, { capture_m }) => {
   const sector = (2 * Math.PI) / capture_m.length;
   const at = (k: number, distance_m: number): Point => [

@@ -1,4 +1,4 @@
-// Fork: one moment under several controllers, with the same disturbances, and how each fares.
+// The comparison: one moment under several controllers with the same disturbances, and their results.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
@@ -50,7 +50,7 @@ function Start(props: { lab: Session & Trial & Compared }): JSX.Element {
         type="button"
         class="small primary"
         disabled={!lab.canOperate() || chosen().size === 0}
-        title="Runs this moment on under each controller, beside the session"
+        title="Continues from this moment under each controller, without changing the session"
         onClick={() => {
           const state = lab.state();
           if (!state) return;
@@ -79,19 +79,19 @@ function outcome(comparison: ComparisonMessage, branch: Branch, tick_s: number):
   if (branch.delivered_tick !== null) {
     return `delivered, ${clock((branch.delivered_tick - comparison.tick) * tick_s)}`;
   }
-  if (!branch.done) return comparison.running ? 'running' : 'cut short';
+  if (!branch.done) return comparison.running ? 'running' : 'stopped early';
   return branch.phase;
 }
 
 function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.Element {
   return (
     <table class="compare-table">
-      <caption class="visually-hidden">How each controller fares from this moment</caption>
+      <caption class="visually-hidden">Results of each controller from this moment</caption>
       <thead>
         <tr>
           <th scope="col">Controller</th>
           <th scope="col">Outcome</th>
-          <th scope="col" title="Mean distance of tool and bead during transport">
+          <th scope="col" title="Mean distance between tool and bead during transport">
             mean e
           </th>
           <th scope="col" title="Largest difference in x during transport">
@@ -177,7 +177,7 @@ function Player(props: {
   );
 }
 
-/** Seconds since the moment, then errors in centimetres, a column a controller. */
+/** Seconds since the moment, then errors in centimetres, one column per controller. */
 function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedData {
   const errors = CONTROLLERS.map((name) => {
     const branch = comparison.branches.find(({ controller }) => controller === name);
@@ -230,7 +230,7 @@ function Errors(
     <CurvePlot
       title="Error norm"
       unit="cm"
-      name="Error norm of each controller against time since the moment"
+      name="Error norm of each controller over time since the moment"
       keys={KEYS}
       theme={props.theme}
       context={context}
@@ -251,9 +251,9 @@ function ComparePanel(props: PanelProps<Session & Trial & Notices & Compared>): 
           when={lab.comparison.shown()}
           fallback={
             <p class="hint">
-              Runs the moment shown now on under each controller, for 60 s at most, with the same
-              disturbances: pause or go back on the timeline to just before one, and compare. The
-              session itself is left alone.
+              Continues from the shown moment under each controller, for up to 60 s, with the same
+              disturbances. Pause or rewind to just before a disturbance, then compare. The session
+              itself does not change.
             </p>
           }
         >

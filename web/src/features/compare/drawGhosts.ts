@@ -1,4 +1,4 @@
-// Branches of a fork on the workspace: the way of each bead, and tool and bead at the time looked at.
+// Draws the branches of a comparison: the trail of each bead, and tool and bead at the chosen time.
 
 import { ghostAt } from '../../lab/comparison';
 import type { Palette } from '../../ui/palette';
@@ -52,7 +52,7 @@ export function drawGhosts(
     ctx.stroke();
     ring(ctx, bead, BEAD_PX);
     ctx.fill();
-    // A rim, so that the name can be read on a wall.
+    // An outline, so that the name is readable on a wall.
     ctx.strokeStyle = palette.floor;
     ctx.lineWidth = 3;
     const label = CONTROLLER_LABELS[branch.controller];

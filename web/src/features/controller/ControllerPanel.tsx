@@ -1,4 +1,4 @@
-// Which controller runs, why, and with which parameters.
+// The active controller, its reasons, and its parameters.
 
 import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
@@ -12,7 +12,7 @@ function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }):
   const { lab } = props;
   let input!: HTMLInputElement;
   const active = createMemo(() => lab.state()?.controller === props.name);
-  // After a refusal the click has to be undone, though nothing changed on the server.
+  // After a refusal the click has to be undone, although nothing changed on the server.
   createEffect(
     on([active, lab.refusals], ([now]) => {
       input.checked = now;
@@ -47,7 +47,7 @@ function ControllerChoice(props: {
   );
 }
 
-/** Its children say what the active controller thinks. */
+/** The children show details of the active controller. */
 export function ControllerPanel(props: {
   lab: Session & Trial & Notices;
   children: JSX.Element;

@@ -1,4 +1,4 @@
-// The parameters, bound both ways: edits go out whole, and what the server says is shown.
+// The form of the parameters. Each edit sends all parameters; the form shows the server's values.
 
 import { For, Index, Show, createMemo, type JSX } from 'solid-js';
 import { GROUPS, type Group } from '../../lab/parameters';
@@ -27,7 +27,7 @@ export function ParameterForm(props: { lab: Session & Trial; scene: SceneMessage
   const { lab } = props;
   const form = createForm(lab, () => props.scene);
   const controller = createMemo(() => lab.state()?.controller);
-  // Those of other controllers have no effect now.
+  // Parameters of other controllers have no effect now.
   const groups = createMemo(() =>
     GROUPS.filter((group) => !group.controller || group.controller === controller()),
   );

@@ -1,4 +1,4 @@
-// The switching law as a diagram: the tracker's bead, the comparison, the two sub-controllers.
+// The switching law as a diagram: the tracked bead, the comparison with T, the two sub-controllers.
 
 import { Show, type JSX } from 'solid-js';
 import { centimetres, fixed, newtons } from '../../ui/format';
@@ -13,7 +13,7 @@ import { Fact } from '../../ui/Fact';
 
 const GAUGE_WIDTH = 272;
 const GAUGE_LEFT = 4;
-/** From here on, lift-off is near. */
+/** Above this ratio lift-off is near. */
 const LIFT_ALARM = 0.97;
 
 interface Props {
@@ -24,7 +24,7 @@ interface Props {
 function ruleText(parameters: Parameters): string {
   const threshold = centimetres(parameters.threshold_m);
   return parameters.switching_law === 'literal'
-    ? `2 while e ≤ T = ${threshold}, else 1`
+    ? `2 if e ≤ T = ${threshold}, otherwise 1`
     : `1→2 at e ≤ ${centimetres(parameters.fetch_radius_m)}, 2→1 at e > T = ${threshold}`;
 }
 
@@ -83,7 +83,7 @@ function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
           {props.positioner === 'arm' ? 'arm' : 'stage'}
         </text>
       </g>
-      <Block y={6} name="Sub-controller 1" does="approach the bead" active={first()} mode={1} />
+      <Block y={6} name="Sub-controller 1" does="fetch the bead" active={first()} mode={1} />
       <Block
         y={60}
         name="Sub-controller 2"
@@ -150,15 +150,15 @@ function Gauge(props: Props): JSX.Element {
   );
 }
 
-/** Distances at which the pull beats friction somewhere around the tool. */
+/** Distances at which the pull is stronger than friction in at least one direction. */
 function captureText(capture_m: SceneMessage['capture_m']): string {
   const reaches = capture_m.filter((reach) => reach !== null);
   if (reaches.length === 0) return 'nowhere';
   const near_m = Math.min(...reaches.map(([near]) => near));
   const bounded = reaches.map(([, far]) => far).filter((far) => far !== null);
-  if (bounded.length < reaches.length) return `${centimetres(near_m)} and on`;
+  if (bounded.length < reaches.length) return `${centimetres(near_m)} and more`;
   const text = `${fixed(near_m * 100, 1)} to ${centimetres(Math.max(...bounded))}`;
-  return reaches.length < capture_m.length ? `${text}, in part` : text;
+  return reaches.length < capture_m.length ? `${text}, some directions` : text;
 }
 
 export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }): JSX.Element {
@@ -189,7 +189,7 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
         {props.state.reason}
       </p>
       <Show when={props.state.refusal}>
-        {(refusal) => <p class="refusal">Held: {refusal()}</p>}
+        {(refusal) => <p class="refusal">Holding: {refusal()}</p>}
       </Show>
       <p class="rule">{ruleText(props.scene.parameters)}</p>
     </div>

@@ -1,4 +1,4 @@
-// Disturbances by button: a kick, a push, a move, a blind tracker; now, or in the scenario's script.
+// Disturbances by button: a kick, a push, a move, a blind tracker. They happen now or are added to the script.
 
 import { Match, Show, Switch, createSignal, onCleanup, type JSX } from 'solid-js';
 import {
@@ -29,7 +29,7 @@ import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
 import type { Picker } from '../../plan/picker';
 import type { Session, Trial } from '../../lab/slices';
 
-/** An hour of a trial. */
+/** One hour. */
 const LATEST_S = 3600;
 const FARTHEST_CM = 100;
 
@@ -72,7 +72,7 @@ export function DisturbBar(props: {
         return blind(for_s());
     }
   };
-  /** Nothing for now. */
+  /** Undefined means now. */
   const when = (): When | undefined => {
     switch (time()) {
       case 'now':
@@ -124,7 +124,7 @@ export function DisturbBar(props: {
             <Amount
               name="Strength of the kick in mN·s"
               unit="mN·s"
-              most={1000 * MOST_IMPULSE_N_S}
+              max={1000 * MOST_IMPULSE_N_S}
               value={kick_mn_s()}
               disabled={disabled()}
               onValue={setKick}
@@ -134,7 +134,7 @@ export function DisturbBar(props: {
             <Amount
               name="Force of the push in mN"
               unit="mN"
-              most={1000 * MOST_DRIFT_N}
+              max={1000 * MOST_DRIFT_N}
               value={push_mn()}
               disabled={disabled()}
               onValue={setPush}
@@ -167,7 +167,7 @@ export function DisturbBar(props: {
                 : 'Duration of the blindness in seconds'
             }
             unit="s"
-            most={MOST_SECONDS}
+            max={MOST_SECONDS}
             value={for_s()}
             disabled={disabled()}
             onValue={setFor}
@@ -185,8 +185,8 @@ export function DisturbBar(props: {
             <Amount
               name="Time in seconds"
               unit="s"
-              least={0}
-              most={LATEST_S}
+              min={0}
+              max={LATEST_S}
               value={time_s()}
               disabled={disabled()}
               onValue={setTimeS}
@@ -196,8 +196,8 @@ export function DisturbBar(props: {
             <Amount
               name="Control step on the way to a goal"
               unit="of ¼ s"
-              least={1}
-              most={MOST_STEPS}
+              min={1}
+              max={MOST_STEPS}
               whole
               value={step()}
               disabled={disabled()}
@@ -208,8 +208,8 @@ export function DisturbBar(props: {
             <Amount
               name="x that the bead passes, in metres"
               unit="m"
-              least={-10}
-              most={10}
+              min={-10}
+              max={10}
               value={passes_m()}
               disabled={disabled()}
               onValue={setPasses}
@@ -227,8 +227,8 @@ export function DisturbBar(props: {
               name="Distance from the place in cm"
               lead="within"
               unit="cm"
-              least={0.1}
-              most={FARTHEST_CM}
+              min={0.1}
+              max={FARTHEST_CM}
               value={within_cm()}
               disabled={disabled()}
               onValue={setWithin}
@@ -242,7 +242,7 @@ export function DisturbBar(props: {
           title={
             time() === 'now'
               ? undefined
-              : 'The script belongs to the start: the trial begins again with the same map, seed, start, controller, parameters and goal'
+              : 'The script is part of the experiment: the trial restarts with the same map, seed, start, controller, parameters and goal'
           }
         >
           {button()}

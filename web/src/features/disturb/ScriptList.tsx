@@ -1,7 +1,7 @@
-// The disturbances that belong to the scenario: those of its script, and how many at random.
+// The disturbances of the scenario: its script and the number of random ones.
 
 import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
-import { describe, describeWhen, MOST_RANDOM, restart } from '../../lab/disturbance';
+import { describe, describeWhen, MAX_RANDOM, restart } from '../../lab/disturbance';
 import type { Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';
 import type { Session, Trial } from '../../lab/slices';
@@ -35,8 +35,8 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
         <Amount
           name="Number of random moves"
           unit="random moves while the bead is carried"
-          least={0}
-          most={MOST_RANDOM}
+          min={0}
+          max={MAX_RANDOM}
           whole
           value={random()}
           disabled={!lab.canOperate()}
@@ -46,7 +46,7 @@ export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
           type="submit"
           class="small"
           disabled={!lab.canOperate() || random() === inForce()}
-          title="The trial begins again with the same seed"
+          title="The trial restarts with the same seed"
         >
           Set and restart
         </button>

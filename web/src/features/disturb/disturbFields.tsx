@@ -1,4 +1,4 @@
-// The fields of a disturbance: numbers with their units, choices, and places that can be picked on the plan.
+// The fields of a disturbance: numbers with units, choices, and places that can be picked in the plan view.
 
 import { For, Show, createEffect, onCleanup, type JSX } from 'solid-js';
 import type { Picker } from '../../plan/picker';
@@ -6,11 +6,11 @@ import type { Vec2 } from '../../lab/geometry';
 
 export function Amount(props: {
   name: string;
-  /** What stands before the number. */
+  /** Text before the number. */
   lead?: string;
   unit?: string;
-  least?: number;
-  most: number;
+  min?: number;
+  max: number;
   /** Whole numbers only. */
   whole?: boolean;
   value: number;
@@ -19,7 +19,7 @@ export function Amount(props: {
 }): JSX.Element {
   let input!: HTMLInputElement;
   createEffect(() => {
-    // What is being typed says the value already, or nothing yet: written anew, it would lose its sign or its point.
+    // Do not overwrite a field while the user types: it would lose a sign or a decimal point.
     const { value } = props;
     if (!Number.isNaN(value) && input.valueAsNumber !== value) input.value = String(value);
   });
@@ -33,8 +33,8 @@ export function Amount(props: {
         type="number"
         class="number"
         aria-label={props.name}
-        min={props.least ?? 0.01}
-        max={props.most}
+        min={props.min ?? 0.01}
+        max={props.max}
         step={props.whole ? 1 : 'any'}
         required
         disabled={props.disabled}
@@ -94,7 +94,7 @@ export function PlaceFields(props: {
     props.onValue({ x_m: rounded(x_m), y_m: rounded(y_m) });
     button.focus();
   };
-  const isPicking = (): boolean => props.picker.asks(take);
+  const isPicking = (): boolean => props.picker.isFor(take);
   onCleanup(() => {
     if (isPicking()) props.picker.cancel();
   });
@@ -103,8 +103,8 @@ export function PlaceFields(props: {
       <Amount
         name={`x of ${props.name} in metres`}
         lead="x"
-        least={-10}
-        most={10}
+        min={-10}
+        max={10}
         value={props.value.x_m}
         disabled={props.disabled}
         onValue={(x_m) => {
@@ -115,8 +115,8 @@ export function PlaceFields(props: {
         name={`y of ${props.name} in metres`}
         lead="y"
         unit="m"
-        least={-10}
-        most={10}
+        min={-10}
+        max={10}
         value={props.value.y_m}
         disabled={props.disabled}
         onValue={(y_m) => {
@@ -129,14 +129,14 @@ export function PlaceFields(props: {
         class="small"
         aria-pressed={isPicking()}
         aria-label={`Pick ${props.name} on the map`}
-        title="Click here, then the place"
+        title="Click here, then click the place on the map"
         disabled={props.disabled}
         onClick={() => {
           if (isPicking()) {
             props.picker.cancel();
             return;
           }
-          props.picker.begin(take);
+          props.picker.start(take);
           document.querySelector<HTMLElement>('.stage-canvas')?.focus();
         }}
       >

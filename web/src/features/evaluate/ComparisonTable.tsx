@@ -1,4 +1,4 @@
-// Two controllers at the same trials, difference by difference.
+// Differences between two controllers in the same trials.
 
 import { For, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
@@ -21,33 +21,48 @@ export function ComparisonTable(props: { comparisons: readonly Comparison[] }): 
           <tr>
             <th scope="col">First − second</th>
             <th scope="col">Map</th>
-            <th scope="col" title="Scripted disturbances an episode">
+            <th scope="col" title="Scripted disturbances per episode">
               Dist.
             </th>
-            <th scope="col" title="Episodes that both delivered, one alone, or neither">
+            <th
+              scope="col"
+              title="Episodes in which both, only the first, only the second, or neither delivered the bead"
+            >
               Delivered
               <br />
               <span class="unit">both · first · second · neither</span>
             </th>
-            <th scope="col" title="Share delivered, with its 95 % interval (Newcombe, paired)">
+            <th
+              scope="col"
+              title="Difference of the shares delivered, with its 95 % interval (Newcombe, paired)"
+            >
               Delivered
               <br />
               <span class="unit">points, 95 %</span>
             </th>
-            <th scope="col" title="Control steps, where both delivered (Student's t)">
+            <th
+              scope="col"
+              title="Control steps in episodes that both delivered, with the 95 % interval (Student's t)"
+            >
               Steps
               <br />
               <span class="unit">95 %</span>
             </th>
-            <th scope="col" title="Mean distance of tool and bead, where both delivered">
+            <th
+              scope="col"
+              title="Mean distance between tool and bead in episodes that both delivered"
+            >
               Error
               <br />
               <span class="unit">cm, 95 %</span>
             </th>
-            <th scope="col" title="Way over the shortest, where both delivered">
-              Way
+            <th
+              scope="col"
+              title="Length of the tool's path divided by the shortest path, in episodes that both delivered"
+            >
+              Path ÷ shortest
               <br />
-              <span class="unit">of shortest, 95 %</span>
+              <span class="unit">95 %</span>
             </th>
           </tr>
         </thead>

@@ -1,4 +1,4 @@
-// Evaluate: the paper's experiment, asked for on the left and told on the right.
+// The Evaluate view: the request on the left, the results on the right.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { EvaluationForm } from './EvaluationForm';
@@ -8,7 +8,7 @@ import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } 
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Session, Trial } from '../../lab/slices';
 
-/** Outside of the view, so that a look at the laboratory does not lose it. */
+/** Outside of the component, so that it survives a change to the laboratory and back. */
 const [chosen, setChosen] = createSignal<string>();
 
 function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Element {
@@ -30,7 +30,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
         </span>
       </span>
       <span class="entry-about">
-        {subject(props.summary)}; {props.summary.query.episodes} a cell, seed{' '}
+        {subject(props.summary)}; {props.summary.query.episodes} per cell, seed{' '}
         {props.summary.query.seed}
       </span>
     </button>
@@ -48,7 +48,7 @@ export function EvaluateView(props: {
   });
   const byId = (id: string | undefined): EvaluationSummary | undefined =>
     all().find((one) => one.id === id);
-  /** The one that was chosen, else the newest. */
+  /** The chosen evaluation, otherwise the newest. */
   const shown = createMemo(() => byId(chosen()) ?? all().at(-1));
   return (
     <main class="view evaluate">
@@ -57,7 +57,7 @@ export function EvaluateView(props: {
           <header class="panel-head">
             <h2>New evaluation</h2>
           </header>
-          <EvaluationForm lab={props.lab} list={list} measured={all()} onBegun={setChosen} />
+          <EvaluationForm lab={props.lab} list={list} measured={all()} onStarted={setChosen} />
         </section>
         <section class="panel" aria-label="Evaluations">
           <header class="panel-head">
@@ -76,7 +76,7 @@ export function EvaluateView(props: {
             </For>
             <Show when={list.all()?.length === 0}>
               <p class="placeholder">
-                None yet. They stay until the server ends, the last 16 of them.
+                No evaluations yet. The server keeps the last 16 until it is stopped.
               </p>
             </Show>
           </div>
@@ -87,8 +87,9 @@ export function EvaluateView(props: {
         fallback={
           <section class="panel evaluation">
             <p class="placeholder">
-              The paper's experiment: random starts and goals, counted. Choose controllers and maps,
-              and run. It goes on in the background, and the live session keeps its pace.
+              An evaluation counts how many of many random trials succeed, as in the paper. Choose
+              controllers and maps, then press Run. It runs in the background and does not slow down
+              the live session.
             </p>
           </section>
         }

@@ -1,4 +1,4 @@
-// What to evaluate.
+// The form for a new evaluation.
 
 import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
@@ -20,7 +20,7 @@ import type { Session, Trial } from '../../lab/slices';
 
 const DISTURBANCES = [0, 3] as const;
 
-/** Outside of the form, so that a look at the laboratory does not lose it. */
+/** Outside of the component, so that it survives a change to the laboratory and back. */
 const [draft, setDraft] = createSignal<Draft>(PAPERS);
 
 function Fault(props: { id: string; text: string | undefined }): JSX.Element {
@@ -99,12 +99,12 @@ export function EvaluationForm(props: {
   lab: Session & Trial;
   list: EvaluationList;
   measured: readonly EvaluationSummary[];
-  onBegun: (id: string) => void;
+  onStarted: (id: string) => void;
 }): JSX.Element {
   const { lab } = props;
   const [faults, setFaults] = createSignal<Faults>({});
   const [busy, setBusy] = createSignal(false);
-  // What is being changed is no longer at fault.
+  // A changed field loses its error message.
   const change = (field: Field, part: Partial<Draft>): void => {
     setDraft({ ...draft(), ...part });
     setFaults({ ...faults(), [field]: undefined, form: undefined });
@@ -113,11 +113,10 @@ export function EvaluationForm(props: {
     const made = queryOf(draft());
     if ('faults' in made) return '';
     const time_s = estimate_s(made.query, props.measured);
-    const estimate =
-      time_s === undefined ? 'how long that takes is not measured yet' : `about ${roughly(time_s)}`;
+    const estimate = time_s === undefined ? 'duration not known yet' : `about ${roughly(time_s)}`;
     return `${sizeWords(made.query)}; ${estimate}.`;
   };
-  const begin = async (): Promise<void> => {
+  const start = async (): Promise<void> => {
     const made = queryOf(draft());
     if ('faults' in made) {
       setFaults(made.faults);
@@ -126,7 +125,7 @@ export function EvaluationForm(props: {
     setFaults({});
     setBusy(true);
     try {
-      props.onBegun(await props.list.begin(made.query));
+      props.onStarted(await props.list.start(made.query));
     } catch (reason) {
       setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
     } finally {
@@ -139,8 +138,8 @@ export function EvaluationForm(props: {
       novalidate
       onSubmit={(event) => {
         event.preventDefault();
-        // Enter in a field submits also where the button is disabled.
-        if (lab.canOperate() && !busy()) void begin();
+        // Enter in a field submits the form even when the button is disabled.
+        if (lab.canOperate() && !busy()) void start();
       }}
     >
       <Choice
@@ -163,7 +162,7 @@ export function EvaluationForm(props: {
         }}
       />
       <Choice
-        legend="Disturbances an episode"
+        legend="Disturbances per episode"
         all={DISTURBANCES}
         chosen={draft().disturbances}
         fault={faults().disturbances}
@@ -173,7 +172,7 @@ export function EvaluationForm(props: {
       />
       <div class="wholes">
         <Whole
-          label="Episodes a cell"
+          label="Episodes per cell"
           value={draft().episodes}
           fault={faults().episodes}
           onInput={(episodes) => {
@@ -197,7 +196,7 @@ export function EvaluationForm(props: {
           Run
         </button>
         <Show when={!lab.canOperate()}>
-          <span class="hint">Only the operator starts and cancels evaluations.</span>
+          <span class="hint">Only the operator can start and cancel evaluations.</span>
         </Show>
       </div>
       <Fault id="evaluation-refused" text={faults().form} />

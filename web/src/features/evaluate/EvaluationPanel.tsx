@@ -1,4 +1,4 @@
-// One evaluation: how far it is, its rows, its failures.
+// One evaluation: progress, rows, failures.
 
 import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import type { EvaluationSummary } from '../../net/protocol.gen';
@@ -29,7 +29,7 @@ function Progress(props: {
   const words = (): string => {
     const counts = `${done()} of ${all()} episodes`;
     if (!isActive(props.summary)) return counts;
-    if (props.summary.stage === 'waiting') return `${counts}, waits for another evaluation`;
+    if (props.summary.stage === 'waiting') return `${counts}, waiting for another evaluation`;
     const left_s = remaining_s(props.summary, props.measured);
     return left_s === undefined ? counts : `${counts}, about ${roughly(left_s)} left`;
   };
@@ -80,7 +80,7 @@ export function EvaluationPanel(props: {
         <h2>
           Evaluation {numberOf(props.summary.id)}
           <span class="about">
-            {subject(props.summary)}; {props.summary.query.episodes} a cell, seed{' '}
+            {subject(props.summary)}; {props.summary.query.episodes} per cell, seed{' '}
             {props.summary.query.seed}
           </span>
         </h2>
@@ -113,9 +113,10 @@ export function EvaluationPanel(props: {
       </div>
       <EvaluationTable summary={props.summary} rows={report()?.rows ?? []} />
       <p class="hint">
-        Controllers of a map get the same starts, goals, seeds and pushes. The paper counts RL
-        alone, on its robot and in one maze, after which <em>colon</em> is drawn: 30 episodes
-        without disturbances and 30 with; how many each had it does not say, its figure shows three.
+        All controllers get the same starts, goals, seeds and disturbances on a map. The paper
+        evaluated only RL, on its robot and in one maze, which <em>colon</em> is modelled on: 30
+        episodes without disturbances and 30 with disturbances. It does not say how many
+        disturbances each episode had; its figure shows three.
       </p>
       <Show when={report()}>
         {(now) => (

@@ -1,4 +1,4 @@
-// The rows as they arrive, the paper's below those that it has.
+// The rows as they arrive. The paper's numbers are below the rows that have them.
 
 import { For, Show, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
@@ -59,15 +59,15 @@ function Ours(props: { row: Row }): JSX.Element {
   );
 }
 
-/** A cell without its row. */
+/** A cell whose row has not arrived. */
 function Pending(props: { cell: EvaluationCell; summary: EvaluationSummary }): JSX.Element {
   const words = (): string => {
     const { done, delivered } = props.cell;
     const { stage, query } = props.summary;
     const ended = stage !== 'running' && stage !== 'waiting';
-    if (done === 0) return ended ? 'not begun' : 'waits';
+    if (done === 0) return ended ? 'not started' : 'waiting';
     const counted = `${done} of ${query.episodes} episodes, ${delivered} delivered`;
-    return ended ? `broken off after ${counted}` : `${counted} so far`;
+    return ended ? `stopped after ${counted}` : `${counted} so far`;
   };
   return (
     <td class="pending" colspan="9">
@@ -103,7 +103,7 @@ export function EvaluationTable(props: {
   summary: EvaluationSummary;
   rows: readonly Row[];
 }): JSX.Element {
-  // By number, so that a look at the server changes what is in a row, and not the row.
+  // Keyed by number, so that new data changes a row's content and does not replace the row.
   const numbers = (): number[] => props.summary.cells.map((_, index) => index);
   return (
     <div class="table-frame" tabindex="0" role="region" aria-label="Results">
@@ -112,23 +112,23 @@ export function EvaluationTable(props: {
           <tr>
             <th scope="col">Controller</th>
             <th scope="col">Map</th>
-            <th scope="col" title="Scripted disturbances an episode">
+            <th scope="col" title="Scripted disturbances per episode">
               Dist.
             </th>
             <Head
               name="Reached"
               unit="95 % Wilson"
-              title="The tool came within 2 cm of the goal: the paper's test"
+              title="The tool came within 2 cm of the goal, as in the paper"
             />
             <Head
               name="Delivered"
               unit="95 % Wilson"
-              title="The bead came within 2 cm of the goal by itself, within 5 s"
+              title="The bead came within 2 cm of the goal, released, within 5 s after the tool"
             />
             <Head
               name="Error, mean"
               unit="cm"
-              title="Distance of tool and bead during transport, mean over the episodes"
+              title="Distance between tool and bead during transport, mean over the episodes"
             />
             <Head
               name="max x"
@@ -141,9 +141,8 @@ export function EvaluationTable(props: {
               title="Largest difference in y during transport, mean over the episodes"
             />
             <Head
-              name="Way"
-              unit="of shortest"
-              title="The tool's way while it carries, over the shortest that the bead has room for; mean over the episodes that delivered"
+              name="Path ÷ shortest"
+              title="Length of the tool's path while it carries the bead, divided by the shortest possible path of the bead; mean over the episodes that delivered"
             />
             <Head name="Steps" title="Control steps, mean over the episodes" />
             <Head
@@ -153,7 +152,7 @@ export function EvaluationTable(props: {
             <Head
               name="Decision"
               unit="ms, p50 · p99"
-              title="A control step with its camera image: median and 99th percentile, beside all else that this machine does"
+              title="Computing time of a control step with its camera image: median and 99th percentile, including all other work of this machine"
             />
           </tr>
         </thead>

@@ -1,4 +1,4 @@
-// Trials whose bead did not arrive, each to be set up again.
+// Trials whose bead was not delivered. Each can be set up again.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
@@ -7,7 +7,7 @@ import { setUpAgain } from './setUp';
 import { reason } from './table';
 import type { Session, Trial } from '../../lab/slices';
 
-/** Shown at first, and more at a time: a controller may fail a thousand times. */
+/** Number of failures shown at first and added per click: a controller may fail a thousand times. */
 const PAGE = 50;
 
 function FailureRow(props: {
@@ -64,8 +64,8 @@ export function FailureList(props: {
       fallback={
         <p class="placeholder">
           {props.report.rows.length > 0
-            ? 'None: every bead of these rows was delivered.'
-            : 'None yet: they come with the rows.'}
+            ? 'No failures: every bead in these rows was delivered.'
+            : 'No failures yet. They appear with the rows.'}
         </p>
       }
     >
@@ -75,10 +75,10 @@ export function FailureList(props: {
             <tr>
               <th scope="col">Episode</th>
               <th scope="col">Controller, map, disturbances</th>
-              <th scope="col">Why</th>
+              <th scope="col">Reason</th>
               <th scope="col">Steps</th>
               <th scope="col">
-                <span class="visually-hidden">Again</span>
+                <span class="visually-hidden">Set up</span>
               </th>
             </tr>
           </thead>

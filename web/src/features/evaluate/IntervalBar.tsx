@@ -1,8 +1,8 @@
-// A share with its interval, drawn.
+// Drawing of a share with its interval.
 
 import type { JSX } from 'solid-js';
 
-/** Of the picture, in its own units. */
+/** In units of the viewBox. */
 const WIDTH = 100;
 const HEIGHT = 10;
 

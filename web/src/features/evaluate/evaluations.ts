@@ -1,4 +1,4 @@
-// The server's evaluations: looked at again and again, often while one runs.
+// The server's evaluations, polled: often while one runs.
 
 import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { askServer } from '../../net/access';
@@ -12,10 +12,10 @@ import type {
 import { isActive } from './progress';
 
 const BUSY_MS = 500;
-/** Others may begin one. */
+/** Another operator may start one. */
 const IDLE_MS = 3000;
 
-/** What the server says against a request. */
+/** The server refused a request. */
 export class Refusal extends Error {
   constructor(
     readonly detail: string,
@@ -31,11 +31,11 @@ async function ask<A>(method: string, path: string, body?: unknown): Promise<A> 
       ? {}
       : { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
   const response = await askServer(path, { method, ...sent }).catch(() => {
-    throw new Refusal('The server does not answer.');
+    throw new Refusal('The server did not answer.');
   });
   const answer: unknown = await response.json().catch(() => undefined);
   if (response.ok) return answer as A;
-  const detail = problemText(answer) ?? `The server answered ${response.status}.`;
+  const detail = problemText(answer) ?? `The server answered with status ${response.status}.`;
   const field = (answer as { field?: unknown } | undefined)?.field;
   throw typeof field === 'string' ? new Refusal(detail, field) : new Refusal(detail);
 }
@@ -43,12 +43,12 @@ async function ask<A>(method: string, path: string, body?: unknown): Promise<A> 
 const PATH = '/api/evaluations';
 
 export interface EvaluationList {
-  /** In the order in which they were asked for; nothing before the first answer. */
+  /** In the order of the requests; undefined before the first answer. */
   readonly all: Accessor<readonly EvaluationSummary[] | undefined>;
-  /** Why the list is old, if it is. */
+  /** Why the list is out of date, if it is. */
   readonly trouble: Accessor<string | undefined>;
-  /** Begins one and gives its id. */
-  begin(query: EvaluationQuery): Promise<string>;
+  /** Starts an evaluation and returns its id. */
+  start(query: EvaluationQuery): Promise<string>;
   cancel(id: string): Promise<void>;
 }
 
@@ -56,21 +56,21 @@ export function createEvaluationList(): EvaluationList {
   const [all, setAll] = createSignal<readonly EvaluationSummary[]>();
   const [trouble, setTrouble] = createSignal<string>();
   let timer: ReturnType<typeof setTimeout> | undefined;
-  let asked = 0;
+  let requests = 0;
   let isClosed = false;
 
   const look = async (): Promise<void> => {
     clearTimeout(timer);
     if (isClosed) return;
-    asked += 1;
-    const number = asked;
+    requests += 1;
+    const number = requests;
     try {
       const { evaluations } = await ask<Evaluations>('GET', PATH);
-      if (number !== asked) return;
+      if (number !== requests) return;
       setAll(evaluations);
       setTrouble(undefined);
     } catch (reason) {
-      if (number !== asked) return;
+      if (number !== requests) return;
       setTrouble(reason instanceof Error ? reason.message : String(reason));
     }
     timer = setTimeout(() => void look(), all()?.some(isActive) ? BUSY_MS : IDLE_MS);
@@ -78,15 +78,15 @@ export function createEvaluationList(): EvaluationList {
   void look();
   onCleanup(() => {
     clearTimeout(timer);
-    // An answer under way is nobody's any more.
-    asked += 1;
+    // A pending answer is ignored.
+    requests += 1;
     isClosed = true;
   });
 
   return {
     all,
     trouble,
-    begin: async (query) => {
+    start: async (query) => {
       const { id } = await ask<EvaluationSummary>('POST', PATH, query);
       await look();
       return id;
@@ -98,33 +98,33 @@ export function createEvaluationList(): EvaluationList {
   };
 }
 
-/** Rows and failures of an evaluation, fetched when there are more of them. */
+/** Rows and failures of an evaluation. Fetched again when their number grows. */
 export function createReport(
   summary: Accessor<EvaluationSummary | undefined>,
 ): Accessor<EvaluationReport | undefined> {
   const [report, setReport] = createSignal<EvaluationReport>();
-  let asking: string | undefined;
-  // Each look at the list asks again, should the last answer not have come.
+  let pending: string | undefined;
+  // Each poll of the list requests the report again if the last answer did not arrive.
   createEffect(() => {
     const now = summary();
     const had = report();
-    if (!now || (had && version(had) === version(now)) || asking === version(now)) return;
-    const asked = version(now);
-    asking = asked;
+    if (!now || (had && version(had) === version(now)) || pending === version(now)) return;
+    const requested = version(now);
+    pending = requested;
     void ask<EvaluationReport>('GET', `${PATH}/${now.id}`)
       .then((answer) => {
-        if (asking === asked) setReport(answer);
+        if (pending === requested) setReport(answer);
       })
-      // Why it does not come, the list says.
+      // The list shows the reason of a failure.
       .catch(() => undefined)
       .finally(() => {
-        if (asking === asked) asking = undefined;
+        if (pending === requested) pending = undefined;
       });
   });
   return () => (report()?.id === summary()?.id ? report() : undefined);
 }
 
-/** What a report's rows and failures depend on. */
+/** Changes when a report's rows or failures change. */
 function version({ id, stage, rows_done }: EvaluationSummary): string {
   return [id, stage, rows_done].join(' ');
 }

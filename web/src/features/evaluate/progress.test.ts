@@ -18,22 +18,22 @@ const TWO = summaryOf({
   rows_done: 1,
 });
 
-describe('how far it is', () => {
-  it('is counted in trials', () => {
+describe('progress', () => {
+  it('is counted in episodes', () => {
     expect([episodesDone(TWO), episodesInAll(TWO)]).toEqual([14, 20]);
     expect(isActive(TWO)).toBe(true);
     expect(isActive({ ...TWO, stage: 'cancelled' })).toBe(false);
     expect(stageWords({ ...TWO, stage: 'waiting' })).toBe('waits');
   });
 
-  it('leaves what each cell needs at its own pace', () => {
+  it('estimates the remaining time from the speed of each cell', () => {
     expect(remaining_s(TWO, [])).toBe(6 * 3);
     expect(remaining_s(summaryOf(), [])).toBeUndefined();
     expect(remaining_s(summaryOf(), [TWO])).toBe(10 * 2);
     expect(remaining_s({ ...TWO, cells: [cellOf({ done: 10 })] }, [])).toBe(0);
   });
 
-  it('takes the newest of what is equally alike', () => {
+  it('uses the newest of equally similar cells', () => {
     const newer = summaryOf({ cells: [cellOf({ done: 1, elapsed_s: 7 })] });
     expect(secondsAnEpisode(cellOf(), [TWO, newer])).toBe(7);
     expect(secondsAnEpisode(cellOf({ map: 'colon', disturbances: 3 }), [TWO, newer])).toBe(3);
@@ -55,7 +55,7 @@ describe('roughly', () => {
 });
 
 describe('words', () => {
-  it('say what it is about', () => {
+  it('name controllers, maps and disturbances', () => {
     expect(numberOf('evaluation-12')).toBe('12');
     const query = { ...TWO.query, controllers: ['rl', 'errt'] as ('rl' | 'errt')[] };
     expect(subject({ ...TWO, query: { ...query, disturbances: [0, 3] } })).toBe(
@@ -66,16 +66,16 @@ describe('words', () => {
     );
   });
 
-  it('are new at milestones only', () => {
+  it('change at milestones only', () => {
     const at = (done: number) => milestone({ ...TWO, cells: [cellOf({ done })] });
     expect(at(0)).toBe(at(2));
-    expect(at(3)).toBe('Evaluation 3 runs: 25 % of its episodes, 1 of 1 rows.');
+    expect(at(3)).toBe('Evaluation 3: 25 % of the episodes, 1 of 1 rows.');
     expect(at(4)).toBe(at(3));
     expect(milestone({ ...TWO, stage: 'done', rows_done: 2 })).toBe(
       'Evaluation 3 is done: 2 of 2 rows.',
     );
     expect(milestone({ ...TWO, stage: 'failed', message: 'no camera' })).toContain('no camera');
     expect(milestone({ ...TWO, stage: 'cancelled' })).toContain('cancelled after 1 of 2');
-    expect(milestone({ ...TWO, stage: 'waiting' })).toContain('waits');
+    expect(milestone({ ...TWO, stage: 'waiting' })).toContain('waiting');
   });
 });

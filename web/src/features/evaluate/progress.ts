@@ -1,4 +1,4 @@
-// How far an evaluation is and how long it will take. Pure.
+// Progress and remaining time of an evaluation. Pure.
 
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Cell, EvaluationSummary } from '../../net/protocol.gen';
@@ -15,7 +15,7 @@ export function episodesInAll(summary: EvaluationSummary): number {
   return summary.cells.length * summary.query.episodes;
 }
 
-/** How much two cells have in common, as far as time is concerned. */
+/** How similar two cells are in what determines their duration. */
 function likeness(a: Cell, b: Cell): number {
   return (
     (a.controller === b.controller ? 4 : 0) +
@@ -24,7 +24,7 @@ function likeness(a: Cell, b: Cell): number {
   );
 }
 
-/** Seconds an episode of a cell takes, by the cells most like it that were measured; the newest of these counts. */
+/** Seconds per episode of a cell, from the newest of the most similar measured cells. */
 export function secondsAnEpisode(
   cell: Cell,
   measured: readonly EvaluationSummary[],
@@ -41,7 +41,7 @@ export function secondsAnEpisode(
   return best?.episode_s;
 }
 
-/** Seconds until an evaluation is through; nothing before its first episode where nothing was measured before. */
+/** Remaining seconds; undefined if no similar cell was measured and no episode is done. */
 export function remaining_s(
   summary: EvaluationSummary,
   measured: readonly EvaluationSummary[],
@@ -57,7 +57,7 @@ export function remaining_s(
   return sum_s;
 }
 
-/** `40 s`, `3 min`, `1 h 20 min`: no finer than an estimate is. */
+/** `40 s`, `3 min`, `1 h 20 min`: as coarse as an estimate. */
 export function roughly(time_s: number): string {
   if (time_s < 10) return `${Math.max(1, Math.ceil(time_s))} s`;
   if (time_s < 55) return `${Math.ceil(time_s / 5) * 5} s`;
@@ -67,7 +67,7 @@ export function roughly(time_s: number): string {
   return `${Math.floor(minutes / 60)} h${rest === 0 ? '' : ` ${rest} min`}`;
 }
 
-/** `evaluation-3` is called 3. */
+/** 3 for `evaluation-3`. */
 export function numberOf(id: string): string {
   return id.replace(/^evaluation-/, '');
 }
@@ -84,7 +84,7 @@ export function stageWords(summary: EvaluationSummary): string {
   return STAGE_WORDS[summary.stage];
 }
 
-/** What it is about: `RL, ERRT on posts; 0 and 3 disturbances`. */
+/** `RL, ERRT on posts; 0 and 3 disturbances`. */
 export function subject({ query }: EvaluationSummary): string {
   const controllers = query.controllers.map((name) => CONTROLLER_LABELS[name]).join(', ');
   const disturbances = query.disturbances.join(' and ');
@@ -92,22 +92,22 @@ export function subject({ query }: EvaluationSummary): string {
   return `${controllers} on ${query.maps.join(', ')}; ${disturbances} ${noun}`;
 }
 
-/** What is worth saying aloud: a quarter done, a row, an end. The same text between. */
+/** Announcement for screen readers. It changes at each quarter, each row, and the end. */
 export function milestone(summary: EvaluationSummary): string {
   const name = `Evaluation ${numberOf(summary.id)}`;
   const rows = `${summary.rows_done} of ${summary.cells.length} rows`;
   switch (summary.stage) {
     case 'waiting':
-      return `${name} waits for another.`;
+      return `${name} is waiting for another evaluation.`;
     case 'running': {
       const quarters = Math.floor((4 * episodesDone(summary)) / episodesInAll(summary));
-      return `${name} runs: ${25 * quarters} % of its episodes, ${rows}.`;
+      return `${name}: ${25 * quarters} % of the episodes, ${rows}.`;
     }
     case 'done':
       return `${name} is done: ${rows}.`;
     case 'cancelled':
       return `${name} was cancelled after ${rows}.`;
     case 'failed':
-      return `${name} failed after ${rows}: ${summary.message ?? 'without a word'}`;
+      return `${name} failed after ${rows}: ${summary.message ?? 'no reason given'}`;
   }
 }

@@ -11,15 +11,15 @@ const PAPERS_QUERY = {
 };
 
 describe('queryOf', () => {
-  it('takes what is chosen and typed', () => {
+  it('contains the choices and the typed values', () => {
     expect(queryOf(PAPERS)).toEqual({ query: PAPERS_QUERY });
-    // What is too much or too little, the server says.
+    // The server checks the limits.
     expect(queryOf({ ...PAPERS, episodes: '0' })).toEqual({
       query: { ...PAPERS_QUERY, episodes: 0 },
     });
   });
 
-  it('names every field that is missing or no number', () => {
+  it('reports every field that is empty or not a number', () => {
     const bad = { controllers: [], maps: [], disturbances: [], episodes: '', seed: '1.5' };
     const made = queryOf(bad);
     expect('faults' in made && Object.keys(made.faults).sort()).toEqual(
@@ -32,39 +32,39 @@ describe('queryOf', () => {
 });
 
 describe('faultsOf', () => {
-  it('brings a refusal to its field', () => {
+  it('shows a refusal at its field', () => {
     expect(faultsOf({ detail: 'no', field: 'maps[1]' })).toEqual({ maps: 'no' });
     expect(faultsOf({ detail: 'no', field: 'episodes' })).toEqual({ episodes: 'no' });
   });
 
-  it('leaves the rest to the form', () => {
+  it('shows other refusals at the form', () => {
     expect(faultsOf({ detail: 'full' })).toEqual({ form: 'full' });
     expect(faultsOf({ detail: 'no', field: 'Host' })).toEqual({ form: 'no' });
   });
 });
 
 describe('toggled', () => {
-  it('keeps the order of all', () => {
+  it('keeps the given order', () => {
     expect(toggled(['a', 'b', 'c'], ['c'], 'a', true)).toEqual(['a', 'c']);
     expect(toggled(['a', 'b', 'c'], ['c', 'a'], 'c', false)).toEqual(['a']);
     expect(toggled(['a', 'b'], ['a'], 'a', true)).toEqual(['a']);
   });
 });
 
-describe('what it will take', () => {
-  it('is counted', () => {
+describe('the size', () => {
+  it('is given in cells and episodes', () => {
     expect(sizeWords(PAPERS_QUERY)).toBe('2 cells, 60 episodes');
     expect(sizeWords({ ...PAPERS_QUERY, disturbances: [0], episodes: 1 })).toBe(
       '1 cell, 1 episode',
     );
   });
 
-  it('is unknown before anything was measured', () => {
+  it('has no duration before a measurement', () => {
     expect(estimate_s(PAPERS_QUERY, [])).toBeUndefined();
     expect(estimate_s(PAPERS_QUERY, [summaryOf()])).toBeUndefined();
   });
 
-  it('is told by what is most like it', () => {
+  it('is estimated from the most similar cell', () => {
     const measured = summaryOf({
       cells: [
         cellOf({ done: 10, elapsed_s: 5 }),

@@ -1,4 +1,4 @@
-// What an evaluation is to do, as it is typed in. Pure.
+// The request for an evaluation, from the form's fields. Pure.
 
 import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
 import { counted } from '../../ui/format';
@@ -10,7 +10,7 @@ export interface Draft {
   readonly controllers: readonly ControllerName[];
   readonly maps: readonly string[];
   readonly disturbances: readonly number[];
-  /** As typed; empty where it is no number. */
+  /** As typed; empty if it is not a number. */
   readonly episodes: string;
   readonly seed: string;
 }
@@ -28,16 +28,18 @@ export type Faults = Readonly<Partial<Record<Field | 'form', string | undefined>
 
 const WHOLE = /^\d+$/;
 
-/** The query, or what keeps the draft from being one. How much is too much, the server says. */
+/** The query, or the faults of the draft. The server checks the limits. */
 export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Faults } {
   const faults: Partial<Record<Field, string>> = {};
   if (draft.controllers.length === 0) faults.controllers = 'Choose at least one controller.';
   if (draft.maps.length === 0) faults.maps = 'Choose at least one map.';
-  if (draft.disturbances.length === 0) faults.disturbances = 'Choose at least one.';
-  if (!WHOLE.test(draft.episodes)) faults.episodes = 'Episodes: a whole number from 1 to 1000.';
+  if (draft.disturbances.length === 0)
+    faults.disturbances = 'Choose at least one number of disturbances.';
+  if (!WHOLE.test(draft.episodes))
+    faults.episodes = 'Episodes must be a whole number from 1 to 1000.';
   const seed = Number(draft.seed);
   if (!WHOLE.test(draft.seed) || !Number.isSafeInteger(seed)) {
-    faults.seed = 'A seed is a whole number from 0 to 9007199254740991.';
+    faults.seed = 'The seed must be a whole number from 0 to 9007199254740991.';
   }
   if (Object.keys(faults).length > 0) return { faults };
   const { controllers, maps, disturbances } = draft;
@@ -54,25 +56,25 @@ export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Fa
 
 const FIELDS: readonly Field[] = ['controllers', 'maps', 'disturbances', 'episodes', 'seed'];
 
-/** A refusal of the server, at the field it names: `maps[1]` belongs to the maps. */
+/** The server's refusal at the field that it names: `maps[1]` belongs to the maps. */
 export function faultsOf(refusal: { detail: string; field?: string | undefined }): Faults {
   const name = refusal.field?.replace(/\[.*$/, '');
   const field = FIELDS.find((one) => one === name) ?? 'form';
   return { [field]: refusal.detail };
 }
 
-/** With `item` or without it, in the order of `all`. */
+/** Adds or removes `item`, in the order of `all`. */
 export function toggled<T>(all: readonly T[], chosen: readonly T[], item: T, on: boolean): T[] {
   return all.filter((one) => (one === item ? on : chosen.includes(one)));
 }
 
-/** How much it is: `4 cells, 120 episodes`. */
+/** `4 cells, 120 episodes`. */
 export function sizeWords(query: EvaluationQuery): string {
   const cells = query.controllers.length * query.maps.length * query.disturbances.length;
   return `${counted(cells, 'cell')}, ${counted(cells * query.episodes, 'episode')}`;
 }
 
-/** How long it will take by what was measured; nothing where nothing was. */
+/** Estimated duration; undefined if no similar cell was measured. */
 export function estimate_s(
   query: EvaluationQuery,
   measured: readonly EvaluationSummary[],

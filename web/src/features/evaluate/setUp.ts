@@ -1,8 +1,8 @@
-// A trial that failed, set up again in the live session. Pure.
+// Sets up a failed trial again in the live session. Pure.
 
 import type { Cell, ClientMessage, EvaluationFailure, Parameters } from '../../net/protocol.gen';
 
-/** Evaluations run with the parameters' defaults. */
+/** Evaluations use the default parameters. */
 export function setUpAgain(
   cell: Cell,
   failure: EvaluationFailure,

@@ -18,7 +18,7 @@ import type { EvaluationFailure } from '../../net/protocol.gen';
 const FAILURE: EvaluationFailure = {
   cell: 0,
   index: 7,
-  // More than a number of JavaScript holds.
+  // Larger than a JavaScript number can hold exactly.
   seed: '11400714819323198492',
   start_m: [-0.2, -0.3],
   goal_m: [0.1, -0.4],
@@ -41,7 +41,7 @@ describe('text of a row', () => {
 });
 
 describe('differences', () => {
-  it('tell their direction and their interval', () => {
+  it('show their sign and their interval', () => {
     expect(difference(-0.105, [-0.155, -0.0649], 100, 1)).toBe('−10.5 (−15.5 to −6.5)');
     expect(difference(0.5, [-0.25, 1.25], 1, 1)).toBe('+0.5 (−0.3 to +1.3)');
     expect(signed(0, 1)).toBe('0.0');
@@ -63,7 +63,7 @@ describe('files', () => {
 describe('setUpAgain', () => {
   const { defaults } = sceneOf('posts');
 
-  it('asks for the very trial', () => {
+  it('requests exactly this trial', () => {
     const cell = cellOf({ map: 'colon', controller: 'attractor', disturbances: 3 });
     expect(setUpAgain(cell, FAILURE, defaults)).toEqual({
       type: 'load_scenario',
@@ -77,7 +77,7 @@ describe('setUpAgain', () => {
     });
   });
 
-  it('leaves out what the trial did not say', () => {
+  it('leaves out missing values', () => {
     expect(setUpAgain(cellOf(), { ...FAILURE, goal_m: null }, defaults)).not.toHaveProperty(
       'goal_m',
     );

@@ -7,7 +7,7 @@ export function percentRange([low, high]: readonly [number, number]): string {
   return `${fixed(100 * low, 0)}–${fixed(100 * high, 0)} %`;
 }
 
-/** Centimetres without their unit, which stands in the column's head. */
+/** Centimetres without the unit, which is in the column's head. */
 export function cm(value_m: number | null): string {
   return value_m === null ? '–' : fixed(100 * value_m, 1);
 }
@@ -16,23 +16,23 @@ export function decisionWords(row: Row): string {
   return `${fixed(row.decision_ms_p50, 1)} · ${fixed(row.decision_ms_p99, 1)}`;
 }
 
-/** Why a trial failed: how it ended, and what stood in the way. */
+/** Why a trial failed: its outcome and its last trouble. */
 export function reason({ outcome, trouble, refusal }: EvaluationFailure): string {
   return [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
 }
 
-/** `1.043`, or a dash where no bead arrived. */
+/** `1.043`, or a dash if no bead was delivered. */
 export function ratio(value: number | null): string {
   return value === null ? '–' : fixed(value, 3);
 }
 
-/** `−2.5`, `+0.1`: a difference tells its direction. */
+/** `−2.5`, `+0.1`: always with a sign. */
 export function signed(value: number, digits: number): string {
   const text = fixed(value, digits);
   return value > 0 ? `+${text}` : text;
 }
 
-/** A difference and its interval, in a unit of `scale` to the number's. */
+/** A difference and its interval, multiplied by `scale`. */
 export function difference(
   mean: number,
   [low, high]: readonly [number, number],

@@ -1,4 +1,4 @@
-// Everything that happened, oldest first, the view kept at the newest unless one scrolls up.
+// All events, oldest first. The list stays at the newest event unless the user scrolls up.
 
 import { For, Show, createEffect, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
@@ -9,7 +9,7 @@ import { sessionPath } from '../../net/session';
 import { eventTitle } from '../../lab/eventStory';
 import type { Events, Session, Trial } from '../../lab/slices';
 
-/** Nearer than this to the end counts as reading along. */
+/** Closer to the end than this, the list follows new events. */
 const FOLLOW_PX = 24;
 
 const when = (line: LogLine): string =>
@@ -19,14 +19,14 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
-  /** Only what the timeline still has can be gone back to. */
-  const told = (event: EventMessage | undefined): EventMessage | undefined =>
+  /** The session can only rewind to ticks that the timeline still has. */
+  const onTimeline = (event: EventMessage | undefined): EventMessage | undefined =>
     event && lab.marks().includes(event) ? event : undefined;
   createEffect(() => {
     lab.log();
     if (following) box.scrollTop = box.scrollHeight;
   });
-  /** Something is to be delivered, or was: a case can expect it. */
+  /** A case needs a delivery that it can expect. */
   const caseAddress = (): string | undefined => {
     const state = lab.state();
     if (!state || (!state.goal_m && state.deliveries === 0)) return undefined;
@@ -46,13 +46,13 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
         }}
       >
         <Show when={lab.log().length === 0}>
-          <p class="placeholder">Nothing has happened yet.</p>
+          <p class="placeholder">No events yet.</p>
         </Show>
         <For each={lab.log()}>
           {(line) => (
             <p class="log-line" data-kind={line.kind}>
               <span class="when number">
-                <Show when={told(line.event)} fallback={when(line)}>
+                <Show when={onTimeline(line.event)} fallback={when(line)}>
                   {(event) => (
                     <button
                       type="button"
@@ -82,7 +82,7 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
             class="button small"
             href={address()}
             download=""
-            title="The trial with all that was done in it, as a file: put into tests/cases, the tests repeat it"
+            title="The trial with all inputs, as a file. In tests/cases it becomes a test"
           >
             Keep as test case
           </a>

@@ -1,4 +1,4 @@
-// What the colours and arrows of the layer of the magnet's field mean.
+// Legend of the magnetic field layer.
 
 import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
@@ -8,7 +8,7 @@ import { fieldWords, strongestWords } from './plane';
 export function FieldLegend(props: { answer: Answer<Plane> }): JSX.Element {
   return (
     <div class="map-legend" role="group" aria-label="Magnetic field">
-      <span title="Flux density of the upright block at the height of the bead's centre on the table">
+      <span title="Flux density of the upright magnet block, at the height of the bead's centre">
         |B|
       </span>
       <Show when={props.answer.data} fallback={props.answer.error ? undefined : 'computing…'}>

@@ -1,4 +1,4 @@
-// The layer of the magnet's field: it hangs under the tool, wherever that is.
+// Draws the magnetic field layer. It moves with the tool.
 
 import type { Palette } from '../../ui/palette';
 import type { Plane } from '../../net/protocol.gen';

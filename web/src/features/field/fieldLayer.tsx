@@ -1,4 +1,4 @@
-// The layer of the magnet's field: asked for while it is shown; it moves with the tool.
+// The magnetic field layer. Its data is requested while it is shown; it moves with the tool.
 
 import { createMemo } from 'solid-js';
 import type { Plane, PlaneQuery } from '../../net/protocol.gen';

@@ -3,7 +3,7 @@ import type { Plane } from '../../net/protocol.gen';
 import { sceneOf } from '../../lab/testing';
 import { fieldWords, planeArrows, planePixels, planeQuery, SIDE_PX, strongestWords } from './plane';
 
-/** Strongest in the middle, pulling there. */
+/** Strongest in the middle, with a pull toward it. */
 const { reach_m, count } = planeQuery(sceneOf('open').parameters);
 const places = Array.from({ length: count * count }, (_, place) => {
   const along = (index: number): number => (2 * reach_m * index) / (count - 1) - reach_m;
@@ -29,7 +29,7 @@ test('the field is brightest below the magnet and fades out', () => {
   expect(fieldWords(plane)).toBe('1.50');
 });
 
-test('arrows show the pull, the strongest the longest', () => {
+test('arrows show the pull; the strongest pull has the longest arrow', () => {
   const arrows = planeArrows(plane);
   expect(arrows.length).toBeGreaterThan(50);
   for (const { from_m, to_m } of arrows) {

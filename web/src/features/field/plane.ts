@@ -6,17 +6,17 @@ import type { Vec2 } from '../../lab/geometry';
 import type { Arrow } from '../../plan/arrows';
 import { type Ramp, rampColour } from '../../plan/colourRamp';
 
-/** As far as the magnet catches a bead, and somewhat farther. */
+/** A little more than the magnet's reach. */
 const REACH_M = 0.15;
 const COUNT = 61;
-/** An arrow every so many places, 2 cm. */
+/** One arrow per this many places, which is 2 cm. */
 const EVERY = 4;
 const SPACING_M = (2 * REACH_M) / (COUNT - 1);
-/** Of the distance between two arrows: the longest. */
+/** Length of the longest arrow, as a share of the distance between two arrows. */
 const LONGEST = 0.9;
-/** A share of the greatest pull below which there is no arrow. */
-const LEAST_PULL = 0.02;
-const MOST_ALPHA = 190;
+/** No arrow below this share of the greatest pull. */
+const MIN_PULL = 0.02;
+const MAX_ALPHA = 190;
 
 export function planeQuery(parameters: Parameters): PlaneQuery {
   return {
@@ -32,42 +32,42 @@ export const greatestField_t = ({ field_t }: Plane): number => Math.max(...field
 export const greatestPull_n = ({ pull_n }: Plane): number =>
   Math.max(...pull_n.map(([x, y]) => Math.hypot(x, y)));
 
-/** Where a place lies from below the magnet. */
+/** Position of a place relative to the point below the magnet. */
 function offsetOf(place: number): Vec2 {
   const along = (index: number): number => index * SPACING_M - REACH_M;
   return [along(place % COUNT), along(Math.floor(place / COUNT))];
 }
 
-/** A pixel a place, RGBA, the upper row first as in a picture; the weaker, the more of the table is seen. */
+/** RGBA, one pixel per place, upper row first. Weak fields are transparent. */
 export function planePixels(plane: Plane, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
   const pixels = new Uint8ClampedArray(4 * COUNT * COUNT);
-  const most_t = greatestField_t(plane);
+  const max_t = greatestField_t(plane);
   plane.field_t.forEach((value_t, place) => {
-    const share = value_t / most_t;
+    const share = value_t / max_t;
     const row = COUNT - 1 - Math.floor(place / COUNT);
-    // Round: the corners of the square are farther off than its sides.
+    // Round: the corners of the square are too far away.
     const left = 1 - Math.hypot(...offsetOf(place)) / REACH_M;
-    const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MOST_ALPHA;
+    const alpha = Math.min(1, Math.max(0, 3 * left)) * Math.sqrt(share) * MAX_ALPHA;
     pixels.set([...rampColour(ramp, share), alpha], 4 * (row * COUNT + (place % COUNT)));
   });
   return pixels;
 }
 
-/** Pulls on a bead, from below the magnet; the longest is the strongest. */
+/** Arrows of the pull on a bead, relative to the point below the magnet. The strongest pull has the longest arrow. */
 export function planeArrows(plane: Plane): Arrow[] {
-  const most_n = greatestPull_n(plane);
+  const max_n = greatestPull_n(plane);
   return plane.pull_n.flatMap(([x_n, y_n], place) => {
     const isDrawn = (place % COUNT) % EVERY === 2 && Math.floor(place / COUNT) % EVERY === 2;
     const [x_m, y_m] = offsetOf(place);
-    const share = Math.hypot(x_n, y_n) / most_n;
-    if (!isDrawn || share < LEAST_PULL || Math.hypot(x_m, y_m) > REACH_M) return [];
-    const scale = (LONGEST * EVERY * SPACING_M) / most_n;
+    const share = Math.hypot(x_n, y_n) / max_n;
+    if (!isDrawn || share < MIN_PULL || Math.hypot(x_m, y_m) > REACH_M) return [];
+    const scale = (LONGEST * EVERY * SPACING_M) / max_n;
     const to_m: Vec2 = [x_m + scale * x_n, y_m + scale * y_n];
     return [{ from_m: [x_m, y_m], to_m, isSeen: true }];
   });
 }
 
-/** Of the picture, from below the magnet: a pixel is around its place. */
+/** Corners of the picture relative to the point below the magnet. Each place is in the middle of its pixel. */
 export const HALF_SIDE_M = REACH_M + SPACING_M / 2;
 export const SIDE_PX = COUNT;
 

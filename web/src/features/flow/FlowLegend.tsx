@@ -1,15 +1,15 @@
-// What the arrows and dots of the attractor's flow mean.
+// Legend of the attractor flow layer.
 
 import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
 import type { FlowField, Parameters } from '../../net/protocol.gen';
 import type { Flow } from './drawFlow';
 
-/** What the dots are: the literal law remembers nothing, the improved one follows a contour on one side. */
+/** Meaning of the dots. The literal law has no memory; the improved law follows a contour on one side. */
 function trapWords(law: Parameters['attractor_law']): string {
   return law === 'literal'
-    ? 'ends short of the goal: trapped'
-    : 'ends short of the goal, unless a contour is followed on';
+    ? 'the flow ends before the goal: a trap'
+    : 'the flow ends before the goal, except when the tool already follows a contour';
 }
 
 export function FlowLegend(props: {
@@ -20,14 +20,14 @@ export function FlowLegend(props: {
 }): JSX.Element {
   return (
     <div class="map-legend flow" role="group" aria-label="Arrows and dots">
-      <Show when={props.hasGoal} fallback={<span>Place a goal to see the flow.</span>}>
-        <span title="Longer is faster. From what the camera has shown; faint where it has shown nothing, which counts as free">
+      <Show when={props.hasGoal} fallback={<span>Set a goal to see the flow.</span>}>
+        <span title="Longer arrows are faster. The flow uses what the camera has shown. Arrows are faint where it has shown nothing; these places count as free">
           <span class="flow-arrow" aria-hidden="true">
             →
           </span>
-          where the attractor leads
+          direction of the attractor flow
         </span>
-        <span title="As if the tool came to each place anew, without a contour that it follows">
+        <span title="Calculated for each place as if the tool did not follow a contour yet">
           <span class="flow-trap" aria-hidden="true" />
           {trapWords(props.law)}{' '}
           <Show when={!props.answer.error}>

@@ -1,4 +1,4 @@
-// The layer of the attractor's flow: an arrow a place, and a dot where the arrows end short of the goal.
+// Draws the attractor flow: one arrow per place, and a dot where the flow ends before the goal.
 
 import type { Palette } from '../../ui/palette';
 import type { FlowField, SeenMessage } from '../../net/protocol.gen';

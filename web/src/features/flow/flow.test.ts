@@ -7,7 +7,7 @@ const SPACING_M = 0.02;
 const everywhere = () => true;
 const GOAL: readonly [number, number] = [0.3, 0.1];
 
-/** Sixteen places by eleven, from what each has. */
+/** Sixteen by eleven places. */
 function fieldOf(velocity: (x: number, y: number) => [number, number] | null): FlowField {
   const [columns, rows] = [16, 11];
   const places = Array.from({ length: columns * rows }, (_, place) =>
@@ -24,7 +24,7 @@ function toward(x: number, y: number): [number, number] {
 }
 
 describe('the spacing', () => {
-  it('has forty places across, within what the server answers', () => {
+  it('gives forty places across, within the server’s limits', () => {
     const square = (side_m: number) => ({ x_min_m: 0, x_max_m: side_m, y_min_m: 0, y_max_m: 0.1 });
     expect(flowSpacingM(square(0.6))).toBeCloseTo(0.015);
     expect(flowSpacingM(square(0.1))).toBe(0.005);
@@ -33,7 +33,7 @@ describe('the spacing', () => {
 });
 
 describe('the key', () => {
-  it('is another for another goal or other parameters, and else the same', () => {
+  it('changes only with the goal and the parameters', () => {
     const scene = sceneOf('posts');
     const key = flowKey(scene, [1, 2, 0]);
     expect(flowKey({ ...scene, maps: [] }, [1, 2, 0])).toBe(key);
@@ -45,7 +45,7 @@ describe('the key', () => {
 });
 
 describe('the arrows', () => {
-  it('are as long as the flow is fast, and never reach the next place', () => {
+  it('grow with the speed and never reach the next place', () => {
     const arrows = flowArrows(
       fieldOf((x, y) => (y > 0 ? null : x === 0 ? [0.04, 0] : x === 1 ? [0, -0.02] : [0, 0])),
       everywhere,
@@ -60,7 +60,7 @@ describe('the arrows', () => {
     expect(slow?.[1]).toBeCloseTo(-0.5 * (fast?.[0] ?? 0));
   });
 
-  it('are none where nothing moves', () => {
+  it('are missing where the flow is zero', () => {
     expect(
       flowArrows(
         fieldOf(() => [0, 0]),
@@ -77,11 +77,11 @@ describe('the arrows', () => {
 });
 
 describe('the traps', () => {
-  it('are none in the open', () => {
+  it('are missing in open space', () => {
     expect(flowTraps(fieldOf(toward), GOAL, everywhere)).toEqual([]);
   });
 
-  it('are where nothing moves away from the goal', () => {
+  it('are where the flow is zero away from the goal', () => {
     const traps = flowTraps(
       fieldOf((x, y) => (x === 3 && y === 5 ? [0, 0] : toward(x, y))),
       GOAL,
@@ -92,13 +92,13 @@ describe('the traps', () => {
     expect(traps[0]?.[1]).toBeCloseTo(5 * SPACING_M);
   });
 
-  it('are not told where nothing was seen', () => {
+  it('are missing outside the observed area', () => {
     const field = fieldOf((x, y) => (x === 3 && y === 5 ? [0, 0] : toward(x, y)));
     expect(flowTraps(field, GOAL, ([x_m]) => x_m > 4 * SPACING_M)).toEqual([]);
   });
 
-  it('are in a pocket whose walls push back, where no place has a speed of zero', () => {
-    // A wall across; before it the flow turns back and toward its middle.
+  it('are in a pocket whose walls push back, although no speed is zero', () => {
+    // In front of a wall, the flow turns back and toward the middle of the wall.
     const traps = flowTraps(
       fieldOf((x, y) => {
         if (x === 8) return y >= 2 && y <= 8 ? null : toward(x, y);

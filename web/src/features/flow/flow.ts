@@ -1,4 +1,4 @@
-// The attractor's flow field: what to ask for, how long its arrows are, where they end. Pure.
+// The attractor's flow field: the request, the lengths of the arrows, the traps. Pure.
 
 import {
   LEAST_FLOW_SPACING_M,
@@ -14,17 +14,16 @@ import { distance, type Vec2 } from '../../lab/geometry';
 import type { Arrow } from '../../plan/arrows';
 
 const PLACES_ACROSS = 40;
-/** Of the spacing: the longest arrow, which leaves a gap to the next. */
+/** Length of the longest arrow, as a share of the spacing. */
 const LONGEST = 0.85;
-/** Of the greatest speed: below it nothing moves. */
+/** Below this share of the greatest speed the flow counts as zero. */
 const STILL = 0.02;
-/** Within this of the goal the bead is delivered. */
 
-/** In units of the spacing: a stride along the flow, and how far one gets in so many strides at least. */
+/** Step length along the flow, number of steps, and the smallest distance covered by them, in units of the spacing. */
 const STRIDE = 0.3;
 const AROUND = 1.2;
 const AROUND_STRIDES = 40;
-const MOST_STRIDES = 800;
+const MAX_STRIDES = 800;
 
 export function flowSpacingM(area: Rect): number {
   const side_m = Math.max(area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m);
@@ -35,7 +34,7 @@ export function flowQuery(scene: SceneMessage, seen: SeenMessage): FlowQuery {
   return { spacing_m: flowSpacingM(scene.workspace), seen: seen.number };
 }
 
-/** What the flow follows from besides the question: the server takes it from the session. */
+/** What the flow depends on besides the request. The server takes it from the session. */
 export function flowKey(scene: SceneMessage, goal_m: readonly number[]): string {
   return JSON.stringify([scene.trial, scene.parameters, goal_m]);
 }
@@ -44,19 +43,19 @@ function placeM(field: FlowField, column: number, row: number): Vec2 {
   return [field.origin_m[0] + column * field.spacing_m, field.origin_m[1] + row * field.spacing_m];
 }
 
-/** Whether the camera has shown a point: elsewhere the flow knows of no walls, and means little. */
+/** Whether the camera has shown a point. Elsewhere the flow ignores walls. */
 export type IsSeen = (point_m: Vec2) => boolean;
 
 function fastest(field: FlowField): number {
   return field.velocity_m_s.reduce((most, v) => (v ? Math.max(most, Math.hypot(...v)) : most), 0);
 }
 
-/** An arrow a place where something moves, as long as it is fast there. */
+/** One arrow per place with a flow; its length grows with the speed. */
 export function flowArrows(field: FlowField, isSeen: IsSeen): Arrow[] {
-  const most_m_s = fastest(field);
-  const half_s = (0.5 * LONGEST * field.spacing_m) / most_m_s;
+  const max_m_s = fastest(field);
+  const half_s = (0.5 * LONGEST * field.spacing_m) / max_m_s;
   return field.velocity_m_s.flatMap((velocity, place) => {
-    if (!velocity || Math.hypot(...velocity) <= STILL * most_m_s) return [];
+    if (!velocity || Math.hypot(...velocity) <= STILL * max_m_s) return [];
     const at = placeM(field, place % field.columns, Math.floor(place / field.columns));
     const [dx, dy] = [velocity[0] * half_s, velocity[1] * half_s];
     const arrow: Arrow = {
@@ -68,7 +67,7 @@ export function flowArrows(field: FlowField, isSeen: IsSeen): Arrow[] {
   });
 }
 
-/** Between the places, from those of the four around that have a velocity; columns and rows as coordinates. */
+/** Velocity between the places, interpolated from the neighbours that have one. Coordinates are columns and rows. */
 function velocityAt(field: FlowField, x: number, y: number): Vec2 | undefined {
   const [column, row] = [Math.floor(x), Math.floor(y)];
   let [sumX, sumY, weights] = [0, 0, 0];
@@ -89,8 +88,8 @@ function velocityAt(field: FlowField, x: number, y: number): Vec2 | undefined {
 }
 
 /**
- * Where one ends who follows the flow from a place, in columns and rows; nothing if it is the goal, or if the way
- * leaves what was seen.
+ * End of the flow line from a place, in columns and rows; undefined if it is the goal, or if the line leaves the
+ * observed area.
  */
 function endFrom(
   field: FlowField,
@@ -102,7 +101,7 @@ function endFrom(
   const near = Math.max(1, GOAL_RADIUS_M / field.spacing_m);
   let at = start;
   let around = { at, strides: 0 };
-  for (let stride = 0; stride < MOST_STRIDES; stride++) {
+  for (let stride = 0; stride < MAX_STRIDES; stride++) {
     if (distance(at, goal) <= near || !isSeen(placeM(field, ...at))) return undefined;
     const velocity = velocityAt(field, ...at);
     const speed_m_s = velocity ? Math.hypot(...velocity) : 0;
@@ -118,10 +117,10 @@ function endFrom(
 }
 
 /**
- * Where the attractor gets trapped: the places, in metres, at which the arrows end short of the goal.
+ * The places, in metres, where the flow ends before the goal.
  *
- * The field seldom has a place where it stands still: it runs against a wall, and beyond a line back again. So it
- * is followed from every place, over what was seen.
+ * The flow is rarely zero at a trap: it runs against a wall and back again. So the flow is followed from every place
+ * in the observed area.
  */
 export function flowTraps(field: FlowField, goal_m: Vec2, isSeen: IsSeen): Vec2[] {
   const goal: Vec2 = [

@@ -1,4 +1,4 @@
-// The layer of the attractor's flow: asked for while it is shown.
+// The attractor flow layer. Its data is requested while it is shown.
 
 import { Show, createMemo, untrack } from 'solid-js';
 import type { FlowField, FlowQuery } from '../../net/protocol.gen';
@@ -10,8 +10,8 @@ import { createFlow, drawFlow } from './drawFlow';
 import { flowKey, flowQuery } from './flow';
 import type { Pictures, Session, Trial } from '../../lab/slices';
 
-/** While the camera shows new things, the field is another ten times a second: costly, and too fast to read. */
-const ASKED_PER_S = 4;
+/** New camera images change the field ten times per second, which is costly and too fast to read. */
+const REQUESTS_PER_S = 4;
 
 export const FLOW_LAYER: MapLayer = {
   id: 'flow',
@@ -32,12 +32,12 @@ export const FLOW_LAYER: MapLayer = {
           const [scene, goal_m] = [lab.scene(), lab.goal()];
           return scene && goal_m ? flowKey(scene, goal_m) : '';
         },
-        perS: ASKED_PER_S,
+        perS: REQUESTS_PER_S,
       },
     );
     const answered = createMemo(() => {
       const field = answer().data;
-      // For which it was answered: a later goal, or a larger observed area, brings its own field.
+      // The state that the field belongs to. A new goal or a larger observed area gets a new field.
       const [goal_m, seen] = untrack(() => [lab.goal(), lab.obstacleMap()] as const);
       return field && goal_m && seen && field.velocity_m_s.length > 0
         ? createFlow(field, goal_m, seen)

@@ -48,7 +48,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
     const track = store.track();
     return track ? props.run.tasks.filter((task) => task.done(track)).length : 0;
   };
-  const follows = (): boolean => store.track() !== undefined && !store.isElsewhere();
+  const isFollowed = (): boolean => store.track() !== undefined && !store.isElsewhere();
   return (
     <>
       <Show when={props.run.title}>{(title) => <p class="lesson-run">{title()}</p>}</Show>
@@ -57,7 +57,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
         <button
           type="button"
           class="small"
-          classList={{ primary: !follows() }}
+          classList={{ primary: !isFollowed() }}
           disabled={!lab.canOperate()}
           onClick={() => {
             store.setUp();
@@ -70,7 +70,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
             <button
               type="button"
               class="small"
-              disabled={!lab.canOperate() || !follows()}
+              disabled={!lab.canOperate() || !isFollowed()}
               onClick={() => {
                 const [scene, state] = [lab.scene(), lab.state()];
                 if (scene && state) lab.send(action.message(scene, state));
@@ -84,13 +84,13 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
       <Show when={!lab.canOperate()}>
         <p class="lesson-note">
           {lab.connection().kind === 'live'
-            ? 'You are watching: take control, at the top, to set it up.'
-            : 'No connection to the server: nothing can be set up now.'}
+            ? 'You are watching: take control at the top of the page to set up the experiment.'
+            : 'No connection to the server: you cannot set up an experiment now.'}
         </p>
       </Show>
       <Show when={store.isElsewhere()}>
         <p class="lesson-note">
-          The page shows another experiment now. Set this one up again to go on with it.
+          The page shows another experiment now. Set this one up again to continue.
         </p>
       </Show>
       <ul class="lesson-tasks">
@@ -127,7 +127,7 @@ function Explain(props: Props): JSX.Element {
   const { store, lesson } = props;
   const text = (id: string | undefined): string | undefined =>
     lesson.choices.find((choice) => choice.id === id)?.text;
-  /** Tracks of all runs, if they were run since the lesson was opened. */
+  /** Tracks of all runs, if all were set up since the lesson was opened. */
   const tracks = () => {
     const all = store.tracks().filter((track) => track !== undefined);
     return all.length === lesson.runs.length ? all : undefined;
@@ -146,12 +146,12 @@ function Explain(props: Props): JSX.Element {
           <dl class="lesson-verdict" data-right={isRight(measured())}>
             <Show when={!isRight(measured())}>
               <div>
-                <dt>You said</dt>
-                <dd>{text(chosen()) ?? 'nothing'}</dd>
+                <dt>Your prediction</dt>
+                <dd>{text(chosen()) ?? 'no prediction'}</dd>
               </div>
             </Show>
             <div>
-              <dt>{isRight(measured()) ? 'You were right' : 'It was'}</dt>
+              <dt>{isRight(measured()) ? 'You were right' : 'What happened'}</dt>
               <dd data-testid="lesson-outcome">{text(lesson.outcome(measured()))}</dd>
             </div>
           </dl>

@@ -1,4 +1,4 @@
-// The lessons: a list, or the open one.
+// The list of lessons, or the open lesson.
 
 import { For, Show, onMount, untrack, type JSX } from 'solid-js';
 import { LessonView } from './LessonView';
@@ -9,7 +9,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;
   const cards = new Map<string, HTMLButtonElement>();
   onMount(() => {
-    // The keyboard goes on where it left the list.
+    // Focus returns to the lesson that was open.
     const left = untrack(store.left);
     if (left) cards.get(left.id)?.focus();
   });
@@ -18,7 +18,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   return (
     <>
       <p class="lessons-intro">
-        Predict, run, explain, here on this page.{' '}
+        Each lesson has three steps: predict, run, explain.{' '}
         <span class="number">
           {done()} of {LESSONS.length} done.
         </span>
@@ -60,7 +60,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
         type="button"
         class="small start-over"
         disabled={isFresh()}
-        title="Forgets which lessons are done and what was predicted"
+        title="Forgets your predictions and which lessons are done"
         onClick={() => {
           store.startOver();
         }}

@@ -1,23 +1,23 @@
-// Three sub-controllers 2: what each knows of the walls.
+// Lessons about the three transports: what each one knows about the walls.
 
 import { centimetres } from '../../ui/format';
-import { DELIVERED, deliveryWords, type Lesson, TIME_RUNS } from './lesson';
+import { DELIVERED, deliveryWords, type Lesson, RUNNING } from './lesson';
 
 const FACE = '#v=1&map=posts&controller=attractor&seed=1&start=-0.05,-0.3&goal=0.13,-0.3';
 const THERE = 'seed=1&start=0.19,-0.28&goal=-0.19,-0.48';
-/** On its way a tool leaves its place within a second; after this long it will not any more. */
+/** A moving tool leaves its place within a second; after this time it is stuck. */
 const STUCK_S = 8;
 
 export const ATTRACTOR: Lesson = {
   id: 'attractor',
   title: 'Why the attractor gets stuck',
-  aim: 'Meet a wall that an attractor cannot pass, and the law that can.',
+  aim: 'See a wall that one attractor law cannot pass, and a law that can.',
   minutes: 3,
   question:
-    'Attractor dynamics bend a straight pull toward the goal around each wall in view. The goal lies right behind the middle of a flat wall. Where does the tool go, by the paper’s law?',
+    'Attractor dynamics pull the tool straight toward the goal, and bend this motion around each wall in view. The goal is right behind the middle of a flat wall. Where does the paper’s law move the tool?',
   choices: [
-    { id: 'around', text: 'Around the wall, either side' },
-    { id: 'stuck', text: 'Up to the wall, and there it stays' },
+    { id: 'around', text: 'Around the wall, on either side' },
+    { id: 'stuck', text: 'Up to the wall, and it stays there' },
     { id: 'through', text: 'Through the wall, with the bead' },
   ],
   runs: [
@@ -27,12 +27,15 @@ export const ATTRACTOR: Lesson = {
       speed: 2,
       layers: ['flow', 'sensed'],
       words: [
-        'The layer Attractor flow is switched on: arrows show where the law leads from each place, as far as the camera has seen.',
-        'Let time run until it stays in one place.',
+        'The layer Attractor flow is switched on. The arrows show where the law leads from each place that the camera has seen.',
+        'Press Run and wait until the tool stays in one place.',
       ],
       tasks: [
-        TIME_RUNS,
-        { text: `${STUCK_S} s in one place`, done: (track) => track.lingered_s > STUCK_S },
+        RUNNING,
+        {
+          text: `The tool stays in one place for ${STUCK_S} s`,
+          done: (track) => track.lingered_s > STUCK_S,
+        },
       ],
       actions: [],
     },
@@ -41,8 +44,8 @@ export const ATTRACTOR: Lesson = {
       link: FACE,
       speed: 2,
       layers: ['flow', 'sensed'],
-      words: ['Same wall, same goal, Ferry’s improved law.'],
-      tasks: [TIME_RUNS, DELIVERED],
+      words: ['The same wall and the same goal, now with Ferry’s improved law.'],
+      tasks: [RUNNING, DELIVERED],
       actions: [],
     },
   ],
@@ -51,30 +54,30 @@ export const ATTRACTOR: Lesson = {
     return (literal?.lingered_s ?? 0) > STUCK_S ? 'stuck' : 'through';
   },
   facts: ([literal, improved]) => [
-    ['paper’s law: in one place', `${(literal?.lingered_s ?? 0).toFixed(1)} s`],
+    ['paper’s law: time in one place', `${(literal?.lingered_s ?? 0).toFixed(1)} s`],
     ['left to the goal', centimetres(literal?.goalDistance_m ?? 0)],
     ['improved law: delivered', deliveryWords(improved)],
   ],
   why: [
-    'The modulation takes away the part of the motion that leads into the wall. In front of the middle of a flat face the pull toward the goal is nothing but that part, so nothing is left; and beside it, the flow leads back to the middle. The face’s middle attracts: eight other starts, up to 2.5 cm to either side, end in the same place.',
-    'The improved law follows the wall’s contour where nothing else is left, and bends the flow around the wall’s centre, not its face.',
-    'It is still local: among the folds of the colon it delivers 87 of 200 random goals, the paper’s law 48.',
+    'The law removes the part of the motion that leads into the wall. In front of the middle of a flat wall, the whole pull toward the goal points into the wall, so no motion is left. A little to the side, the flow leads back to the middle. Eight other starts, up to 2.5 cm to either side, end in the same place.',
+    'Where no motion is left, the improved law follows the contour of the wall. It bends the flow around the centre of the wall, not around its face.',
+    'The improved law still uses only nearby walls. Between the folds of the colon it delivers the bead to 87 of 200 random goals; the paper’s law to 48.',
   ],
   paper:
-    'Section IV-B, equation 4; section IV-D says it is globally stable, which this wall disproves.',
+    'Section IV-B, equation 4. Section IV-D says that the law is globally stable; this wall shows that it is not.',
 };
 
 export const ERRT: Lesson = {
   id: 'errt',
   title: 'What ERRT remembers',
-  aim: 'Watch a planner learn a map from what the camera shows.',
+  aim: 'Watch a planner learn the map from the camera images.',
   minutes: 4,
   question:
-    'ERRT plans through what it has not seen as if it were free, and plans anew when a wall turns up across its way. Then you send it back where it came from. How often does it plan on the way back?',
+    'ERRT treats areas that the camera has not shown as free. When the camera shows a wall across its path, ERRT plans again. After the delivery you send the bead back to its start. How often does ERRT plan on the way back?',
   choices: [
-    { id: 'same', text: 'About as often as on the way there' },
+    { id: 'same', text: 'About as often as on the way to the goal' },
     { id: 'once', text: 'Once' },
-    { id: 'never', text: 'Never: it takes the old way in reverse' },
+    { id: 'never', text: 'Never: it follows the old path in reverse' },
   ],
   runs: [
     {
@@ -82,14 +85,14 @@ export const ERRT: Lesson = {
       speed: 4,
       layers: ['plan', 'obstacles', 'seen'],
       words: [
-        'The layers Plan, Obstacles and Seen so far are switched on. Gray is unseen: see how the plan goes straight through the unknown, and how it is mended.',
-        'When the bead is delivered, send it back.',
+        'The layers Plan, Obstacles and Seen so far are switched on. The camera has not shown the gray area yet. The plan goes straight through the gray area, and it changes when a wall appears.',
+        'When the bead is delivered, press Send it back.',
       ],
       tasks: [
-        TIME_RUNS,
-        { text: 'Planned anew five times', done: (track) => track.plans > 5 },
-        { text: 'Delivered there', done: (track) => track.deliveries.length > 0 },
-        { text: 'Delivered back', done: (track) => track.deliveries.length > 1 },
+        RUNNING,
+        { text: 'ERRT has planned again five times', done: (track) => track.plans > 5 },
+        { text: 'Delivered to the goal', done: (track) => track.deliveries.length > 0 },
+        { text: 'Delivered back to the start', done: (track) => track.deliveries.length > 1 },
       ],
       actions: [
         {
@@ -109,14 +112,14 @@ export const ERRT: Lesson = {
   facts: ([track]) => {
     const [there, back] = track?.deliveries ?? [];
     return [
-      ['plans on the way there', there ? String(there.plans) : '–'],
-      ['on the way back', there && back ? String(back.plans - there.plans) : '–'],
+      ['plans on the way to the goal', there ? String(there.plans) : '–'],
+      ['plans on the way back', there && back ? String(back.plans - there.plans) : '–'],
     ];
   },
   why: [
-    'What the camera has shown is kept in a map, as few rectangles as possible. On the way there each new fold may cut the plan; on the way back all of it is known, and a new goal needs one new plan.',
-    'A cache of waypoints from earlier plans helps the search as well: six of ten extensions of its tree aim at one of them.',
-    'Neither the attractor nor the policy remembers anything: both decide from the present picture.',
+    'ERRT keeps the walls that the camera has shown in an obstacle map, as few rectangles as possible. On the way to the goal, each new fold can block the plan. On the way back all folds are in the map, so the new goal needs one new plan.',
+    'ERRT also keeps waypoints of earlier plans. They help the search: six of ten extensions of its tree aim at one of them.',
+    'The attractor and the policy remember nothing: they decide from the present camera image.',
   ],
   paper: 'Section IV-C: the waypoint cache, and obstacles as a minimum number of rectangles.',
 };
@@ -124,13 +127,13 @@ export const ERRT: Lesson = {
 export const POLICY: Lesson = {
   id: 'policy',
   title: 'What the policy sees',
-  aim: 'Find out how a trained policy knows its way.',
+  aim: 'Find out what a trained policy uses to find its path.',
   minutes: 4,
   question:
-    'The policy sees 20 cm of table around the tool, and two pairs of numbers: the goal’s place and its own. It carries well. Now the camera is moved 3 cm to the side: the same walls, a little shifted in the picture. What happens?',
+    'The policy gets an image of 20 × 20 cm of the table around the tool, and two positions: of the goal and of the tool. With this input it delivers the bead. Now the camera is moved 3 cm to the side, so the same walls appear a little shifted in the image. What happens?',
   choices: [
-    { id: 'same', text: 'It delivers all the same' },
-    { id: 'longer', text: 'It delivers, by a longer way' },
+    { id: 'same', text: 'It still delivers the bead' },
+    { id: 'longer', text: 'It delivers the bead on a longer path' },
     { id: 'lost', text: 'It loses its way and never arrives' },
   ],
   runs: [
@@ -140,21 +143,23 @@ export const POLICY: Lesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'The dashed square around the tool is what the camera sees. At the left is the picture; under it, both channels of the observation. At the right, four fans: what each step is worth to the policy.',
+        'The dashed square around the tool is what the camera sees. On the left is the camera image, and below it both channels of the observation. On the right, four diagrams show the value that the policy gives to each possible step.',
       ],
-      tasks: [TIME_RUNS, DELIVERED],
+      tasks: [RUNNING, DELIVERED],
       actions: [],
     },
     {
-      title: 'The camera 3 cm aside',
+      title: 'The camera moved by 3 cm',
       link: `#v=1&map=colon&controller=rl&${THERE}&camera_offset_x_m=0.03`,
       speed: 4,
       layers: ['camera', 'trail'],
-      words: ['Only the camera has moved. Let time run and watch the fans change their mind.'],
+      words: [
+        'Only the camera has moved. Press Run and watch how the values of the four steps change.',
+      ],
       tasks: [
-        TIME_RUNS,
+        RUNNING,
         {
-          text: `Delivered, or ${STUCK_S} s in one place`,
+          text: `Delivered, or the tool stays in one place for ${STUCK_S} s`,
           done: (track) => track.deliveries.length > 0 || track.lingered_s > STUCK_S,
         },
       ],
@@ -169,7 +174,7 @@ export const POLICY: Lesson = {
   facts: ([trained, moved]) => [
     ['as trained: delivered', deliveryWords(trained)],
     [
-      'camera aside',
+      'camera moved',
       moved && moved.deliveries.length > 0
         ? `delivered ${deliveryWords(moved)}`
         : `${(moved?.lingered_s ?? 0).toFixed(1)} s in one place`,
@@ -177,11 +182,11 @@ export const POLICY: Lesson = {
     ['left to the goal', centimetres(moved?.goalDistance_m ?? 0)],
   ],
   why: [
-    'The policy takes the middle of the picture for what is under the tool. At the first fold it gives a step down −0.69 and goes around. With the camera aside the fold has left the middle: the same step is worth 0.99, and it wants nothing else.',
-    'The shield knows where the camera sits. It refuses that step and takes the next best, to the left or the right: to and fro. With the shield off, the arm just stands.',
-    'ERRT delivers with the same shifted camera: it works out where each pixel lies on the table. It knows the geometry; the policy knows its pictures.',
-    'And it knows only those of its maps: of 200 random goals on colon-folds, which it never saw, the policy reaches 18, ERRT 199.',
+    'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down the value −0.69 and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the value 0.99, and the policy always chooses it.',
+    'The shield knows the position of the camera. It refuses that step and takes the next best one, to the left or to the right, so the tool moves to and fro. With the shield off, the arm does not move.',
+    'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with.',
+    'The policy also needs a map that it was trained on. On colon-folds, which was not in its training, it reaches 18 of 200 random goals; ERRT reaches 199.',
   ],
   paper:
-    'Section IV-A, sub-controller 2: observations of 2 × 84 × 84, four actions, 2 cm to the goal.',
+    'Section IV-A, sub-controller 2: observations of 2 × 84 × 84, four actions, success within 2 cm of the goal.',
 };

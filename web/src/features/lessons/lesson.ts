@@ -1,4 +1,4 @@
-// What a lesson is made of. Pure.
+// The parts of a lesson. Pure.
 
 import type { ClientMessage, SceneMessage, StateMessage } from '../../net/protocol.gen';
 import type { Track } from './track';
@@ -8,13 +8,13 @@ export interface Choice {
   readonly text: string;
 }
 
-/** Something to see happen; ticked off when it has. */
+/** Something that the user has to see happen. */
 export interface Task {
   readonly text: string;
   readonly done: (track: Track) => boolean;
 }
 
-/** Something that the lesson does for whom asks, with a command like any other. */
+/** A button of a lesson that sends a command. */
 export interface Action {
   readonly label: string;
   readonly message: (scene: SceneMessage, state: StateMessage) => ClientMessage;
@@ -22,21 +22,21 @@ export interface Action {
 
 /** One experiment of a lesson. */
 export interface Run {
-  /** Only when a lesson has several. */
+  /** Only for lessons with several runs. */
   readonly title?: string;
-  /** The experiment, as any link has it. */
+  /** The hash of an experiment link. */
   readonly link: string;
-  /** How fast time is to run. */
+  /** Playback speed. */
   readonly speed: number;
-  /** Layers that it needs; they are switched on with it. */
+  /** Layers that are switched on with the run. */
   readonly layers: readonly string[];
-  /** What to do and what to look at. */
+  /** Instructions, one paragraph each. */
   readonly words: readonly string[];
   readonly tasks: readonly Task[];
   readonly actions: readonly Action[];
 }
 
-/** Something measured: its name and its value in words. */
+/** A measured value with its unit. */
 export type Fact = readonly [name: string, value: string];
 
 export interface Lesson {
@@ -47,11 +47,11 @@ export interface Lesson {
   readonly question: string;
   readonly choices: readonly Choice[];
   readonly runs: readonly [Run, ...Run[]];
-  /** Which choice came true, from a track a run. */
+  /** Id of the choice that came true. There is one track per run. */
   readonly outcome: (tracks: readonly Track[]) => string;
   readonly facts: (tracks: readonly Track[]) => readonly Fact[];
   readonly why: readonly string[];
-  /** Where the paper has it. */
+  /** Section of the paper. */
   readonly paper: string;
 }
 
@@ -59,21 +59,21 @@ export function allDone(run: Run, track: Track | undefined): boolean {
   return track !== undefined && run.tasks.every((task) => task.done(track));
 }
 
-// Tasks that many lessons have.
+// Tasks of several lessons.
 
-export const TIME_RUNS: Task = {
-  text: 'Time runs: press Run, or Space',
+export const RUNNING: Task = {
+  text: 'The simulation runs: press Run or the space bar',
   done: (track) => track.time_s > 0.3,
 };
 
 export const DELIVERED: Task = {
-  text: 'Delivered: the bead is within 2 cm of the goal',
+  text: 'Delivered: bead within 20 mm of the goal',
   done: (track) => track.deliveries.length > 0,
 };
 
-/** When the first goal was delivered, in words. */
+/** When the first goal was delivered, as text. */
 export function deliveryWords(track: Track | undefined): string {
   const first = track?.deliveries[0];
   if (first) return `after ${first.time_s.toFixed(1)} s`;
-  return track?.stopped ? 'never: it gave up after 150 steps' : 'not yet';
+  return track?.stopped ? 'never: it stopped after 150 steps' : 'not yet';
 }

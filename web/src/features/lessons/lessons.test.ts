@@ -3,9 +3,9 @@ import { sceneOf, stateAt } from '../../lab/testing';
 import { allDone } from './lesson';
 import { LESSONS } from './lessons';
 import { progressFrom } from './progress';
-import { beginTrack, type Track } from './track';
+import { startTrack, type Track } from './track';
 
-const START = beginTrack({
+const START = startTrack({
   scene: sceneOf('posts'),
   state: stateAt(0),
   overlay: undefined,
@@ -27,30 +27,30 @@ const delivered = (time_s: number, plans = 0): Partial<Track> => ({
 });
 
 describe('every lesson', () => {
-  it.each(LESSONS.map((one) => [one.title, one] as const))('%s is whole', (_, one) => {
+  it.each(LESSONS.map((one) => [one.title, one] as const))('%s is complete', (_, one) => {
     const ids = one.choices.map(({ id }) => id);
     expect(new Set(ids).size).toBe(ids.length);
     expect(ids.length).toBeGreaterThanOrEqual(2);
     expect(ids.length).toBeLessThanOrEqual(4);
     const tracks = one.runs.map(() => START);
-    // Whatever was measured, one of the choices came true, and there are numbers.
+    // With any measurement, one of the choices comes true, and there are numbers.
     expect(ids).toContain(one.outcome(tracks));
     expect(one.facts(tracks).length).toBeGreaterThan(0);
     for (const run of one.runs) {
       expect(run.tasks.length).toBeGreaterThan(1);
-      // Nothing is done before it has happened.
+      // No task is done at the start.
       expect(run.tasks.filter((task) => task.done(START))).toEqual([]);
       expect(allDone(run, undefined)).toBe(false);
     }
     expect(one.paper).toMatch(/^Section [IV]+/);
   });
 
-  it('has an id of its own', () => {
+  it('has a unique id', () => {
     expect(new Set(LESSONS.map(({ id }) => id)).size).toBe(LESSONS.length);
   });
 });
 
-describe('what came true follows from what was measured', () => {
+describe('the outcome follows from the measurements', () => {
   it.each<[string, Partial<Track>[], string]>([
     ['magnet', [{ carryingError_m: 0.002 }], 'below'],
     ['magnet', [{ carryingError_m: 0.016 }], 'behind'],
@@ -91,7 +91,7 @@ describe('a button of a lesson', () => {
 });
 
 describe('progress', () => {
-  it('is what was stored', () => {
+  it('is read from the storage', () => {
     const stored = { done: ['errt', 'magnet'], choices: { errt: 'once' } };
     expect(progressFrom(JSON.stringify(stored), LESSONS)).toEqual({
       // In the order of the lessons.
@@ -111,7 +111,7 @@ describe('progress', () => {
     '{"done":{"magnet":true},"choices":"errt"}',
     '{"done":["flying",null,3],"choices":{"errt":"perhaps","flying":"once","magnet":7}}',
     '{"choices":{"__proto__":{"errt":"once"}}}',
-  ])('rejects the text of %s', (text) => {
+  ])('is empty for %s', (text) => {
     expect(progressFrom(text, LESSONS)).toEqual({ done: [], choices: {} });
   });
 });

@@ -1,13 +1,13 @@
-// The tab of the lessons, which are loaded when it is opened for the first time.
+// The Lessons tab. Its code is loaded when the tab is opened for the first time.
 
 import { Suspense, lazy, type JSX } from 'solid-js';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 
-/** Another version of the server has other files. */
+/** A newer version of the server may have other files. */
 function Missing(): JSX.Element {
   return (
     <p class="placeholder" role="alert">
-      The lessons could not be loaded; reload the page.
+      The lessons could not be loaded. Reload the page.
     </p>
   );
 }

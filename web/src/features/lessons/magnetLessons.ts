@@ -1,12 +1,12 @@
-// The magnet and the bead: how it follows, and when it jumps.
+// Lessons about the magnet: how the bead follows it, and when the bead jumps to it.
 
 import { centimetres, fixed, millimetres } from '../../ui/format';
 import { storedRange } from '../../lab/parameters';
-import { DELIVERED, deliveryWords, type Lesson, TIME_RUNS } from './lesson';
+import { DELIVERED, deliveryWords, type Lesson, RUNNING } from './lesson';
 
-/** How much the lesson lowers the magnet at once, and the lowest height. */
+/** Step by which the lesson lowers the magnet, and the lowest height. */
 const LOWER_BY_M = 0.002;
-const [LOWEST_M] = storedRange('tool_height_m');
+const [MIN_HEIGHT_M] = storedRange('tool_height_m');
 
 export const MEET_THE_MAGNET: Lesson = {
   id: 'magnet',
@@ -14,7 +14,7 @@ export const MEET_THE_MAGNET: Lesson = {
   aim: 'See how a bead follows a magnet that never touches it.',
   minutes: 2,
   question:
-    'The magnet hangs 10 cm above the table and moves to the right at 40 mm/s. Where is the bead on the way?',
+    'The magnet hangs 10 cm above the table and moves to the right at 40 mm/s. Where is the bead while the magnet moves?',
   choices: [
     { id: 'below', text: 'Right below the magnet' },
     { id: 'behind', text: 'A little behind, 1 to 3 cm' },
@@ -26,11 +26,11 @@ export const MEET_THE_MAGNET: Lesson = {
       speed: 1,
       layers: ['capture', 'trail'],
       words: [
-        'The table is empty, the goal is 30 cm to the right. The blue ring around the tool, the layer Capture, shows how far the pull beats friction.',
-        'Let time run and look at e, at the right: the distance from tool to bead.',
+        'The table is empty. The goal is 30 cm to the right. The layer Capture is switched on: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
+        'Press Run and look at e on the right: the distance between tool and bead.',
       ],
       tasks: [
-        TIME_RUNS,
+        RUNNING,
         { text: 'The bead is carried for 10 cm', done: (track) => track.travelled_m > 0.1 },
         DELIVERED,
       ],
@@ -43,28 +43,28 @@ export const MEET_THE_MAGNET: Lesson = {
     return error_m < 0.03 ? 'behind' : 'edge';
   },
   facts: ([track]) => [
-    ['farthest behind', millimetres(track?.carryingError_m ?? 0)],
+    ['greatest distance behind', millimetres(track?.carryingError_m ?? 0)],
     ['delivered', deliveryWords(track)],
   ],
   why: [
-    'Right below the magnet nothing pulls sideways: the pull grows with the offset, to 0.31 of the bead’s weight at 4 cm, and fades again.',
-    'The bead slides at the offset where the pull equals friction and drag together: about 16 mm at 40 mm/s. When the magnet stops, friction alone is left and it creeps nearer, to 4 mm.',
-    'No offset pulls hard enough for more than 79 mm/s: a faster magnet would leave it behind.',
+    'Right below the magnet there is no sideways pull. The pull grows with the distance to the side, up to 0.31 of the bead’s weight at 4 cm. Farther out it becomes weaker again.',
+    'The moving bead stays at the distance where the pull equals friction plus drag: about 16 mm at 40 mm/s. When the magnet stops, there is no drag, and the bead slides to about 4 mm from the magnet.',
+    'Even the strongest pull cannot move the bead faster than 79 mm/s. A faster magnet would leave it behind.',
   ],
-  paper: 'Section V: the magnets and the plane 10 cm above the table.',
+  paper: 'Section V: the magnets, and the plane 10 cm above the table.',
 };
 
 export const LIFT_OFF: Lesson = {
   id: 'lift-off',
   title: 'Lift-off',
-  aim: 'Find out why the magnet has to stay 10 cm up.',
+  aim: 'Find out why the magnet has to stay 10 cm above the table.',
   minutes: 3,
   question:
-    'With its lower face at 100 mm the magnet lifts 0.81 of the bead’s weight. You lower it. When does the bead jump?',
+    'With its lower face 100 mm above the table, the magnet lifts 0.81 of the bead’s weight. You lower the magnet. When does the bead jump up to it?',
   choices: [
-    { id: 'soon', text: 'Soon: some 5 mm lower' },
+    { id: 'soon', text: 'Soon: about 5 mm lower' },
     { id: 'half', text: 'At about half the height' },
-    { id: 'touch', text: 'Only when the two nearly touch' },
+    { id: 'touch', text: 'Only when the magnet almost touches the bead' },
   ],
   runs: [
     {
@@ -73,12 +73,15 @@ export const LIFT_OFF: Lesson = {
       speed: 1,
       layers: ['capture'],
       words: [
-        'There is no goal; the tool stands above the bead. Let time run and lower the magnet step by step.',
-        'Look at lift / weight, at the right: at 1 nothing is left of the weight.',
+        'No goal is set, and the tool is above the bead. Press Run and lower the magnet step by step.',
+        'Look at lift / weight on the right: at 1 the magnet lifts the whole weight of the bead.',
       ],
       tasks: [
-        TIME_RUNS,
-        { text: 'The magnet lifts 0.9 of the weight', done: (track) => track.greatestLift > 0.9 },
+        RUNNING,
+        {
+          text: 'The magnet lifts 0.9 of the bead’s weight',
+          done: (track) => track.greatestLift > 0.9,
+        },
         { text: 'The bead has jumped', done: (track) => track.liftedAt_m !== undefined },
       ],
       actions: [
@@ -89,7 +92,7 @@ export const LIFT_OFF: Lesson = {
             parameters: {
               ...parameters,
               tool_height_m: Math.max(
-                LOWEST_M,
+                MIN_HEIGHT_M,
                 Number((parameters.tool_height_m - LOWER_BY_M).toFixed(4)),
               ),
             },
@@ -103,12 +106,12 @@ export const LIFT_OFF: Lesson = {
       speed: 1,
       layers: ['capture'],
       words: [
-        'The same magnet turned on its edge, at 90 mm: lower than where the bead has just jumped.',
+        'The same magnet, turned on its edge, 90 mm above the table. That is lower than the height at which the bead jumped before.',
       ],
       tasks: [
-        TIME_RUNS,
+        RUNNING,
         {
-          text: 'The bead has stayed on the table for 2 s',
+          text: 'The bead stays on the table for 2 s',
           done: (track) => track.time_s > 2 && track.liftedAt_m === undefined,
         },
       ],
@@ -121,13 +124,16 @@ export const LIFT_OFF: Lesson = {
     return height_m > 0.03 ? 'half' : 'touch';
   },
   facts: ([flat, edge]) => [
-    ['jumped with the magnet at', flat?.liftedAt_m ? millimetres(flat.liftedAt_m, 1) : '–'],
-    ['lift / weight on edge, at 90 mm', edge ? fixed(edge.greatestLift, 2) : '–'],
+    [
+      'magnet height when the bead jumped',
+      flat?.liftedAt_m ? millimetres(flat.liftedAt_m, 1) : '–',
+    ],
+    ['lift / weight on edge at 90 mm', edge ? fixed(edge.greatestLift, 2) : '–'],
   ],
   why: [
-    'The lift grows steeply: 0.81 of the weight at 100 mm, 0.90 at 97 mm, and all of it at 94.4 mm. From there on the bead rises, the pull grows further, and it hits the magnet.',
-    'Ten centimetres are a compromise: higher, the sideways pull is soon too weak to beat friction; lower, the bead is gone.',
-    'On edge (B) the block’s field at the bead is weaker. It would lift the bead only with its lower face at 74 mm; but to the side it hardly pulls any more, as the layer Capture shows: two patches are left of the ring.',
+    'The lift grows fast as the magnet comes down: 0.81 of the weight at 100 mm, 0.90 at 97 mm, and the whole weight at 94.4 mm. There the bead rises. The pull grows as it rises, so the bead hits the magnet.',
+    'A height of 10 cm is a compromise. If the magnet is higher, its sideways pull soon becomes weaker than friction. If it is lower, the bead jumps to it.',
+    'On its edge (B), the magnet has a weaker field at the bead. It would lift the bead only at a height of 74 mm. But its sideways pull is also much weaker: in the layer Capture, only two small areas are left of the ring.',
   ],
   paper: `Section V: the arm moves in a plane ${centimetres(0.1, 0)} above the table.`,
 };

@@ -1,11 +1,11 @@
-// Which lessons are done, and what was predicted: kept in the browser. Pure, but for the storage.
+// Which lessons are done and what was predicted. Kept in the browser's storage.
 
 import { recall, remember } from '../../ui/storage';
 import type { Lesson } from './lesson';
 
 export interface Progress {
   readonly done: readonly string[];
-  /** The choice made, by lesson. */
+  /** Id of the choice, by lesson. */
   readonly choices: Readonly<Record<string, string>>;
 }
 
@@ -17,13 +17,13 @@ function field(value: unknown, name: string): unknown {
   return Object.entries(value).find(([key]) => key === name)?.[1];
 }
 
-/** What was stored, less what is no lesson or no choice any more. */
+/** The stored progress without lessons and choices that no longer exist. */
 export function progressFrom(text: string | null, lessons: readonly Lesson[]): Progress {
   let stored: unknown;
   try {
     stored = JSON.parse(text ?? 'null');
   } catch {
-    // Not of this page; as good as nothing.
+    // Not written by this page: treat it as empty.
   }
   const done = field(stored, 'done');
   const choices = field(stored, 'choices');

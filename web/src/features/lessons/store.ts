@@ -1,5 +1,5 @@
-// Which lesson is open, how far it is, and what its experiments have shown. Lives as long as the page, so that a
-// lesson goes on while another tab is looked at.
+// The open lesson, its step, and the measurements of its experiments. The store lives as long as the page, so that a
+// lesson continues while the user looks at another tab.
 
 import {
   createEffect,
@@ -13,7 +13,7 @@ import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLi
 import { allDone, type Lesson, type Run } from './lesson';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
-import { beginTrack, observe, type Track } from './track';
+import { startTrack, observe, type Track } from './track';
 import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
 
 type Tracks = readonly (Track | undefined)[];
@@ -21,17 +21,17 @@ type Tracks = readonly (Track | undefined)[];
 export interface Lessons {
   readonly progress: Accessor<Progress>;
   readonly lesson: Accessor<Lesson | undefined>;
-  /** The one that was open before. */
+  /** The lesson that was open before. */
   readonly left: Accessor<Lesson | undefined>;
-  /** 0 predict, then the runs, then explain. */
+  /** 0 is Predict, then come the runs, then Explain. */
   readonly step: Accessor<number>;
   readonly run: Accessor<Run | undefined>;
-  /** Of the runs up to now. */
+  /** One per run that was set up. */
   readonly tracks: Accessor<Tracks>;
   readonly track: Accessor<Track | undefined>;
-  /** Whether the page shows another experiment than the one that is followed. */
+  /** Whether the page shows an experiment other than the followed one. */
   readonly isElsewhere: Accessor<boolean>;
-  /** Whether the next step is open. */
+  /** Whether the user may go to the next step. */
   readonly mayGoOn: Accessor<boolean>;
   open(lesson: Lesson): void;
   close(): void;
@@ -39,7 +39,7 @@ export interface Lessons {
   choose(choice: string): void;
   /** Loads the run's experiment. */
   setUp(): void;
-  /** The lesson is done. */
+  /** Marks the lesson as done. */
   finish(): void;
   startOver(): void;
 }
@@ -52,7 +52,7 @@ function createLessons(lab: LessonsLab): Lessons {
   const [left, setLeft] = createSignal<Lesson>();
   const [step, setStep] = createSignal(0);
   const [tracks, setTracks] = createSignal<Tracks>([]);
-  /** Layers that a lesson has switched on and is to switch off again. */
+  /** Layers that the lesson switched on and has to switch off again. */
   let lent: readonly string[] = [];
 
   const keep = (next: Progress): void => {
@@ -69,21 +69,21 @@ function createLessons(lab: LessonsLab): Lessons {
   createEffect(() => {
     const [scene, state] = [lab.scene(), lab.state()];
     if (!run() || !scene || !state) return;
-    const heard = { scene, state, overlay: lab.overlay(), marks: lab.marks() };
+    const frame = { scene, state, overlay: lab.overlay(), marks: lab.marks() };
     untrack(() => {
       const before = track();
-      const follows = before?.trial === scene.trial;
-      // Before its first tick, so that nothing is missed.
+      const isFollowed = before?.trial === scene.trial;
+      // Before the first tick, so that nothing is missed.
       const isAtStart = isItsTrial() && state.tick === 0;
-      if (!follows && !isAtStart) return;
-      const next = isAtStart ? beginTrack(heard) : before && observe(before, heard);
+      if (!isFollowed && !isAtStart) return;
+      const next = isAtStart ? startTrack(frame) : before && observe(before, frame);
       const all = [...tracks()];
       all[step() - 1] = next;
       setTracks(all);
     });
   });
 
-  /** Those that `still` needs stay. */
+  /** Switches the lesson's layers off, except those in `still`. */
   const giveBackLayers = (still: readonly string[] = []): void => {
     for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
     lent = lent.filter((layer) => still.includes(layer));
@@ -154,7 +154,7 @@ function createLessons(lab: LessonsLab): Lessons {
 
 const stores = new WeakMap<LessonsLab, Lessons>();
 
-/** The lessons of a laboratory: made once, whichever panel shows them. */
+/** The lessons of a laboratory. Created once and shared by all panels. */
 export function lessonsOf(lab: LessonsLab): Lessons {
   let store = stores.get(lab);
   if (!store) {

@@ -1,7 +1,7 @@
-// Who has the arm: what happens to a lost bead, and how the threshold and the law decide.
+// Lessons about switching: what happens to a lost bead, and how the threshold and the law decide.
 
 import { centimetres } from '../../ui/format';
-import { DELIVERED, deliveryWords, type Lesson, type Run, TIME_RUNS } from './lesson';
+import { DELIVERED, deliveryWords, type Lesson, type Run, RUNNING } from './lesson';
 
 const KICKED = '#v=1&map=open&controller=attractor&seed=1&start=-0.2,-0.36&goal=0.2,-0.36';
 const KICKS =
@@ -9,8 +9,8 @@ const KICKS =
 
 const POSTS = '#v=1&map=posts&controller=attractor&seed=1&start=-0.25,-0.37&goal=0.24,-0.36';
 const SLOW = 'approach_speed_m_s=0.05&script=displace:-0.14,-0.5@step:14';
-/** Switches that are no accident any more. */
-const MANY = 10;
+/** This many switches are no accident. */
+const MANY_SWITCHES = 10;
 
 export const LOSE_THE_BEAD: Lesson = {
   id: 'lose',
@@ -18,9 +18,9 @@ export const LOSE_THE_BEAD: Lesson = {
   aim: 'Take the bead away and see how the two sub-controllers share the work.',
   minutes: 3,
   question:
-    'The arm carries the bead through the posts. You take it away, 13 cm or more. What does the arm do?',
+    'The arm carries the bead between the posts. You take the bead away, by 13 cm or more. What does the arm do?',
   choices: [
-    { id: 'on', text: 'It carries on to the goal, without the bead' },
+    { id: 'on', text: 'It continues to the goal without the bead' },
     { id: 'waits', text: 'It stops until the bead is back' },
     { id: 'fetches', text: 'It flies to the bead, straight over the walls' },
   ],
@@ -30,17 +30,17 @@ export const LOSE_THE_BEAD: Lesson = {
       speed: 1,
       layers: ['trail', 'capture'],
       words: [
-        'Let time run. When the arm is on its way, drag the bead away with the mouse or a finger, farther than T, and let go. Or let the button do it.',
+        'Press Run. While the arm carries the bead, drag the bead away with the mouse or a finger, farther than T, and release it. Or press the button Take it away for me.',
       ],
       tasks: [
-        TIME_RUNS,
+        RUNNING,
         {
           text: 'The bead is more than T = 10 cm away',
           done: (track) => track.greatestError_m > 0.1 || track.losses > 0,
         },
-        { text: 'Sub-controller 1 has the arm', done: (track) => track.losses > 0 },
+        { text: 'Sub-controller 1 moves the arm', done: (track) => track.losses > 0 },
         {
-          text: 'Fetched: sub-controller 2 again',
+          text: 'Bead fetched: sub-controller 2 moves the arm again',
           done: (track) => track.fetchedAt_s !== undefined,
         },
         DELIVERED,
@@ -61,9 +61,9 @@ export const LOSE_THE_BEAD: Lesson = {
     return track?.stopped ? 'waits' : 'on';
   },
   facts: ([track]) => [
-    ['farthest from the tool', centimetres(track?.greatestError_m ?? 0)],
+    ['greatest distance from the tool', centimetres(track?.greatestError_m ?? 0)],
     [
-      'fetched within',
+      'time to fetch it',
       track?.lostAt_s !== undefined && track.fetchedAt_s !== undefined
         ? `${(track.fetchedAt_s - track.lostAt_s).toFixed(1)} s`
         : '–',
@@ -71,8 +71,8 @@ export const LOSE_THE_BEAD: Lesson = {
     ['delivered', deliveryWords(track)],
   ],
   why: [
-    'Beyond T the law gives the arm to sub-controller 1. It knows the bead’s place from the optical tracker and flies there at up to 250 mm/s; nothing stands as high as the tool, so it looks at no wall.',
-    'Once within 1 cm, sub-controller 2 takes over. It uses the camera alone and goes around the walls, for the bead has to follow on the table.',
+    'When the bead is farther away than T, sub-controller 1 moves the arm. It gets the bead’s position from the optical tracker and flies there at up to 250 mm/s. All walls are lower than the tool, so it can fly straight over them.',
+    'When the tool is within 1 cm of the bead, sub-controller 2 takes over. It uses only the camera and goes around the walls, because the bead has to follow on the table.',
   ],
   paper: 'Section IV-A: sub-controllers 1 and 2, and the switching signal, equation 1.',
 };
@@ -84,9 +84,13 @@ function kickedRun(title: string, link: string): Run {
     speed: 1,
     layers: ['trail'],
     words: [
-      'Four kicks of 0.5 mN·s against the way, at the steps 4, 10, 16 and 22. Just let time run.',
+      'Four kicks of 0.5 mN·s push the bead backward, at the steps 4, 10, 16 and 22. Press Run and watch.',
     ],
-    tasks: [TIME_RUNS, { text: 'Four kicks', done: (track) => track.disturbances >= 4 }, DELIVERED],
+    tasks: [
+      RUNNING,
+      { text: 'Four kicks have happened', done: (track) => track.disturbances >= 4 },
+      DELIVERED,
+    ],
     actions: [],
   };
 }
@@ -94,10 +98,10 @@ function kickedRun(title: string, link: string): Run {
 export const THRESHOLD: Lesson = {
   id: 'threshold',
   title: 'The threshold T',
-  aim: 'See what an impatient switching law costs.',
+  aim: 'See what a low threshold costs.',
   minutes: 3,
   question:
-    'The bead is kicked back four times on its way. First the law waits until it is T = 10 cm away, then only until T = 3 cm. What changes?',
+    'Four kicks push the bead backward, opposing the motion. In the first run the bead counts as lost when it is more than T = 10 cm away, in the second run when it is more than T = 3 cm away. What changes?',
   choices: [
     { id: 'nothing', text: 'Nothing: the kicks are the same' },
     { id: 'sooner', text: 'It is fetched more often and arrives sooner' },
@@ -119,9 +123,9 @@ export const THRESHOLD: Lesson = {
     ['delivered', deliveryWords(narrow)],
   ],
   why: [
-    'A kick of 0.5 mN·s sends the bead some 5 cm from the tool. There the pull still beats friction – it does out to 94.5 mm – and brings it back while the arm goes on.',
-    'With T = 3 cm the law takes each kick for a loss: the arm turns round, fetches, and starts a new leg.',
-    'T is best just inside the reach of the magnet. The paper calls T = 10 cm arbitrary, and yet it is nearly that.',
+    'A kick of 0.5 mN·s moves the bead about 5 cm away from the tool. There the magnet’s pull is still stronger than friction (it is up to 94.5 mm), and it brings the bead back while the arm continues.',
+    'With T = 3 cm each kick counts as a loss: the arm turns around, fetches the bead, and starts a new leg.',
+    'The best T is a little less than the reach of the magnet. The paper calls T = 10 cm arbitrary, but it is close to this value.',
   ],
   paper: 'Section IV-A, switching signal: “T is an arbitrary threshold set to 10 cm”.',
 };
@@ -129,28 +133,28 @@ export const THRESHOLD: Lesson = {
 export const TWO_LAWS: Lesson = {
   id: 'chatter',
   title: 'The law to the letter',
-  aim: 'See why one threshold for both ways is not enough.',
+  aim: 'See why one threshold for both directions of the switch is not enough.',
   minutes: 3,
   question:
-    'To the letter, the law is: sub-controller 2 while e ≤ T, else 1. The bead is lifted away, and the tool flies back slowly. What happens when it comes within T = 10 cm?',
+    'The paper’s formula says: sub-controller 2 if e ≤ T, otherwise sub-controller 1. A disturbance moves the bead away, and the tool flies back to it slowly. What happens when the tool comes within T = 10 cm of the bead?',
   choices: [
-    { id: 'carries', text: 'Sub-controller 2 takes over and carries on' },
-    { id: 'above', text: 'Sub-controller 1 goes on until it is above the bead' },
+    { id: 'carries', text: 'Sub-controller 2 takes over and carries the bead' },
+    { id: 'above', text: 'Sub-controller 1 continues until the tool is above the bead' },
     { id: 'turns', text: 'The two take turns, again and again' },
   ],
   runs: [
     {
-      title: 'To the letter',
+      title: 'The formula as written',
       link: `${POSTS}&switching_law=literal&${SLOW}`,
       speed: 2,
       layers: ['trail'],
       words: [
-        'Let time run: after some 3 s the bead is lifted away. Look at the mode at the top and at the diagram at the right.',
+        'Press Run. After about 3 s the bead is moved away. Look at the mode at the top and at the diagram on the right.',
       ],
       tasks: [
-        TIME_RUNS,
+        RUNNING,
         { text: 'The bead is lost', done: (track) => track.losses > 0 },
-        { text: `${MANY} switches`, done: (track) => track.switches >= MANY },
+        { text: `${MANY_SWITCHES} switches`, done: (track) => track.switches >= MANY_SWITCHES },
       ],
       actions: [],
     },
@@ -160,32 +164,28 @@ export const TWO_LAWS: Lesson = {
       speed: 2,
       layers: ['trail'],
       words: [
-        'The same again with Ferry’s default: sub-controller 1 keeps the arm until the bead is within 1 cm.',
+        'The same experiment with Ferry’s default law: sub-controller 1 moves the arm until the tool is within 1 cm of the bead.',
       ],
-      tasks: [
-        TIME_RUNS,
-        { text: 'The bead is lost', done: (track) => track.losses > 0 },
-        DELIVERED,
-      ],
+      tasks: [RUNNING, { text: 'The bead is lost', done: (track) => track.losses > 0 }, DELIVERED],
       actions: [],
     },
   ],
   outcome: ([literal]) => {
-    if ((literal?.switches ?? 0) >= MANY) return 'turns';
+    if ((literal?.switches ?? 0) >= MANY_SWITCHES) return 'turns';
     return literal && literal.deliveries.length > 0 ? 'carries' : 'above';
   },
   facts: ([literal, hysteresis]) => [
     [
-      'to the letter',
+      'formula as written',
       `${literal?.switches ?? 0} switches in ${(literal?.time_s ?? 0).toFixed(1)} s`,
     ],
     ['with hysteresis', `${hysteresis?.switches ?? 0} switches`],
     ['delivered', deliveryWords(hysteresis)],
   ],
   why: [
-    'At e = T sub-controller 2 gets the arm and steps toward its goal, away from the bead. At 10 cm the pull hardly beats friction, so the bead stays, e exceeds T again, and sub-controller 1 is back.',
-    'It looks better when the tool flies fast: at the usual 250 mm/s it is well inside T before the next decision, a quarter of a second later. That is luck and no design.',
-    'Two thresholds, 1 cm to have fetched and T to have lost, end it.',
+    'At e = T sub-controller 2 takes over and moves toward the goal, away from the bead. At a distance of 10 cm the pull is too weak to move the bead. So the bead stays, e becomes larger than T again, and sub-controller 1 takes over again.',
+    'With a faster tool the problem does not show: at the usual 250 mm/s the tool is well within T at the next decision, a quarter of a second later. That is luck, not design.',
+    'Two thresholds solve the problem: the bead counts as fetched within 1 cm, and as lost beyond T.',
   ],
-  paper: 'Section IV-A, equation 1, and the prose below it, which differ at e = T.',
+  paper: 'Section IV-A, equation 1, and the text below it. The two differ at e = T.',
 };

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { EventKind, EventMessage, StateMessage } from '../../net/protocol.gen';
 import { sceneOf, stateAt } from '../../lab/testing';
-import { beginTrack, type Heard, observe, type Track } from './track';
+import { startTrack, type Frame, observe, type Track } from './track';
 
 const scene = sceneOf('posts', 3);
 
@@ -12,11 +12,11 @@ function event(time_s: number, kind: EventKind, text = ''): EventMessage {
 const LOST = 'sub-controller 1 takes over: bead lost';
 const FETCHED = 'sub-controller 2 takes over: bead fetched';
 
-function heard(
+function frame(
   time_s: number,
   change: Partial<StateMessage> = {},
   marks: readonly EventMessage[] = [],
-): Heard {
+): Frame {
   const tick = Math.round(time_s / 0.008);
   const state = stateAt(tick, {
     tool_m: [0, 0, 0.1],
@@ -28,54 +28,54 @@ function heard(
   return { scene, state, overlay: undefined, marks };
 }
 
-function fold(frames: readonly Heard[]): Track {
-  return frames.reduce(observe, beginTrack(heard(0)));
+function fold(frames: readonly Frame[]): Track {
+  return frames.reduce(observe, startTrack(frame(0)));
 }
 
 describe('a track', () => {
-  it('measures the way and the greatest distance, and that while carrying apart', () => {
+  it('measures the path length, and the greatest distance in total and while carrying', () => {
     const track = fold([
-      heard(1, { tool_m: [0.04, 0, 0.1], tracking_error_m: 0.016 }),
-      heard(2, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.01 }),
-      heard(3, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.2, phase: 'approaching', mode: 1 }),
+      frame(1, { tool_m: [0.04, 0, 0.1], tracking_error_m: 0.016 }),
+      frame(2, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.01 }),
+      frame(3, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.2, phase: 'approaching', mode: 1 }),
     ]);
     expect(track.travelled_m).toBeCloseTo(0.07, 9);
     expect(track.carryingError_m).toBe(0.016);
     expect(track.greatestError_m).toBe(0.2);
   });
 
-  it('does not call it carrying while a hand has the bead', () => {
-    const track = fold([heard(1, { tracking_error_m: 0.09, hand_m: [0.1, 0] })]);
+  it('does not count an error while the hand holds the bead', () => {
+    const track = fold([frame(1, { tracking_error_m: 0.09, hand_m: [0.1, 0] })]);
     expect(track.carryingError_m).toBe(0);
   });
 
-  it('counts losses, and times the first and its fetch, however few frames it gets', () => {
+  it('counts losses and keeps the times of the first loss and fetch, also with few frames', () => {
     const marks = [
-      // The literal law may begin with a fetch.
+      // The literal law may start with a fetch.
       event(1, 'switch', FETCHED),
       event(2, 'switch', LOST),
       event(3.5, 'switch', FETCHED),
       event(5, 'switch', LOST),
     ];
-    const track = fold([heard(6, { switches: 4 }, marks)]);
+    const track = fold([frame(6, { switches: 4 }, marks)]);
     expect(track).toMatchObject({ losses: 2, lostAt_s: 2, fetchedAt_s: 3.5, switches: 4 });
-    // The oldest events may be forgotten.
-    expect(fold([heard(6, {}, marks), heard(7, {}, marks.slice(3))])).toMatchObject({
+    // The oldest events may be missing.
+    expect(fold([frame(6, {}, marks), frame(7, {}, marks.slice(3))])).toMatchObject({
       losses: 2,
       lostAt_s: 2,
       fetchedAt_s: 3.5,
     });
   });
 
-  it('knows how many ways were planned by each delivery', () => {
-    const overlay = (plans: number): Heard['overlay'] =>
-      ({ plan: { plans } }) as unknown as Heard['overlay'];
+  it('counts the plans up to each delivery', () => {
+    const overlay = (plans: number): Frame['overlay'] =>
+      ({ plan: { plans } }) as unknown as Frame['overlay'];
     const there = event(10, 'delivered');
     const track = fold([
-      { ...heard(5), overlay: overlay(9) },
-      { ...heard(10, {}, [there]), overlay: overlay(13) },
-      { ...heard(15, {}, [there]), overlay: overlay(14) },
-      { ...heard(20, {}, [there, event(20, 'delivered')]), overlay: overlay(14) },
+      { ...frame(5), overlay: overlay(9) },
+      { ...frame(10, {}, [there]), overlay: overlay(13) },
+      { ...frame(15, {}, [there]), overlay: overlay(14) },
+      { ...frame(20, {}, [there, event(20, 'delivered')]), overlay: overlay(14) },
     ]);
     expect(track.deliveries).toEqual([
       { time_s: 10, plans: 13 },
@@ -83,10 +83,10 @@ describe('a track', () => {
     ]);
   });
 
-  it('says how long the tool stayed in one place on its way', () => {
+  it('measures how long the tool stayed in one place during a transport', () => {
     const at = (x: number): Partial<StateMessage> => ({ tool_m: [x, 0, 0.1] });
-    const frames = [heard(1, at(0.04)), heard(2, at(0.08)), heard(5, at(0.09)), heard(9, at(0.07))];
-    // Since it came there at 2 s.
+    const frames = [frame(1, at(0.04)), frame(2, at(0.08)), frame(5, at(0.09)), frame(9, at(0.07))];
+    // It arrived there at 2 s.
     expect(fold(frames).lingered_s).toBeCloseTo(7, 6);
     const holding = frames.map((frame) => ({
       ...frame,
@@ -97,15 +97,15 @@ describe('a track', () => {
 
   it('keeps the height at which the bead jumped', () => {
     const track = fold([
-      heard(1, { lift_ratio: 0.98, tool_m: [0, 0, 0.095] }),
-      heard(2, { lift_ratio: 1.2, tool_m: [0, 0, 0.094], phase: 'lifted off' }),
-      heard(3, { lift_ratio: 9, tool_m: [0, 0, 0.09], phase: 'lifted off' }),
+      frame(1, { lift_ratio: 0.98, tool_m: [0, 0, 0.095] }),
+      frame(2, { lift_ratio: 1.2, tool_m: [0, 0, 0.094], phase: 'lifted off' }),
+      frame(3, { lift_ratio: 9, tool_m: [0, 0, 0.09], phase: 'lifted off' }),
     ]);
     expect(track.liftedAt_m).toBe(0.094);
   });
 
   it('is not changed by another trial', () => {
-    const track = fold([heard(1)]);
-    expect(observe(track, { ...heard(2), scene: sceneOf('posts', 4) })).toBe(track);
+    const track = fold([frame(1)]);
+    expect(observe(track, { ...frame(2), scene: sceneOf('posts', 4) })).toBe(track);
   });
 });

@@ -1,4 +1,4 @@
-// What a lesson measures while its experiment runs: folds what the page hears into a few numbers. Pure.
+// Measurements of a lesson while its experiment runs: a few numbers from the server's messages. Pure.
 
 import type {
   EventMessage,
@@ -7,10 +7,10 @@ import type {
   StateMessage,
 } from '../../net/protocol.gen';
 
-/** A tool that stays within this of where it was lingers. */
-const LINGER_M = 0.03;
+/** A tool that moves less than this counts as staying in one place. */
+const STILL_M = 0.03;
 
-export interface Heard {
+export interface Frame {
   readonly scene: SceneMessage;
   readonly state: StateMessage;
   readonly overlay: OverlayMessage | undefined;
@@ -20,40 +20,40 @@ export interface Heard {
 
 export interface Delivery {
   readonly time_s: number;
-  /** Ways that ERRT had planned by then. */
+  /** Number of plans that ERRT had made by then. */
   readonly plans: number;
 }
 
 export interface Track {
-  /** Number of the trial that it follows. */
+  /** Number of the followed trial. */
   readonly trial: number;
   readonly time_s: number;
   readonly tool_m: readonly [number, number];
-  /** As the frames showed it: a little less than it was when time runs fast. */
+  /** Sum over the received frames: a little too small at high playback speed. */
   readonly travelled_m: number;
   readonly goalDistance_m: number | null;
   readonly greatestError_m: number;
-  /** The same while sub-controller 2 carried the bead, undisturbed. */
+  /** The greatest error while sub-controller 2 carried the bead without a disturbance by the hand. */
   readonly carryingError_m: number;
   readonly switches: number;
   readonly losses: number;
-  /** When the bead was first lost, and first fetched after that. */
+  /** Time of the first loss, and of the first fetch after it. */
   readonly lostAt_s: number | undefined;
   readonly fetchedAt_s: number | undefined;
   readonly disturbances: number;
   readonly deliveries: readonly Delivery[];
   readonly stopped: boolean;
-  /** Longest time that the tool stayed in one place on its way. */
+  /** Longest time that the tool stayed in one place during a transport. */
   readonly lingered_s: number;
   readonly plans: number;
   readonly greatestLift: number;
-  /** Height of the magnet when the bead jumped. */
+  /** Height of the magnet when the bead jumped to it. */
   readonly liftedAt_m: number | undefined;
-  /** Where it began to linger, and when. */
+  /** Where the tool has stayed, and since when. */
   readonly anchor: { readonly at: readonly [number, number]; readonly time_s: number };
 }
 
-export function beginTrack({ scene, state }: Heard): Track {
+export function startTrack({ scene, state }: Frame): Track {
   const at = [state.tool_m[0], state.tool_m[1]] as const;
   return {
     trial: scene.trial,
@@ -88,21 +88,21 @@ const isLoss = ({ kind, text }: EventMessage): boolean =>
 function lingering(track: Track, state: StateMessage, at: readonly [number, number]) {
   const { anchor, lingered_s } = track;
   const isOnItsWay = state.phase === 'transporting' && !state.hand_m;
-  if (!isOnItsWay || distance_m(anchor.at, at) > LINGER_M) {
+  if (!isOnItsWay || distance_m(anchor.at, at) > STILL_M) {
     return { anchor: { at, time_s: state.sim_time_s }, lingered_s };
   }
   return { anchor, lingered_s: Math.max(lingered_s, state.sim_time_s - anchor.time_s) };
 }
 
-/** Deliveries told by `marks`; what had been planned by then was planned by the time one hears of them. */
+/** Deliveries from `marks`. A new one gets the number of plans known when its event arrives. */
 function delivered(track: Track, marks: readonly EventMessage[], plans: number) {
   const times_s = marks.filter(({ kind }) => kind === 'delivered').map((mark) => mark.sim_time_s);
   if (times_s.length === track.deliveries.length) return track.deliveries;
   return times_s.map((time_s, index) => track.deliveries[index] ?? { time_s, plans });
 }
 
-/** What is known after one more frame; another trial leaves a track as it is. */
-export function observe(track: Track, { scene, state, overlay, marks }: Heard): Track {
+/** The track after one more frame. Frames of another trial do not change it. */
+export function observe(track: Track, { scene, state, overlay, marks }: Frame): Track {
   if (scene.trial !== track.trial) return track;
   const at = [state.tool_m[0], state.tool_m[1]] as const;
   const plans = Math.max(track.plans, overlay?.plan?.plans ?? 0);

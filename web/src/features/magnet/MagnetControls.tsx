@@ -1,4 +1,4 @@
-// Block, height and friction beside the curves that they bend: the same parameters as in the form.
+// Magnet, height and friction beside the curves: the same parameters as in the form.
 
 import { For, Show, type JSX } from 'solid-js';
 import { FIELDS } from '../../lab/parameters';
@@ -6,7 +6,7 @@ import type { Parameters, SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
 
-/** Short names, which are also others than in the form. */
+/** Short names that differ from those in the form. */
 const LABELS: readonly (readonly [name: keyof Parameters, label: string])[] = [
   ['block_orientation', 'Magnet'],
   ['tool_height_m', 'Height'],

@@ -1,4 +1,4 @@
-// What the magnet can do at the height in force, in words.
+// What the magnet can do at the current height.
 
 import type { JSX } from 'solid-js';
 import { fixed, millimetres } from '../../ui/format';
@@ -17,14 +17,14 @@ export function MagnetFacts(props: {
     <dl class="facts">
       <Fact
         name="Weight left below"
-        help="What friction acts on, right below the block's middle"
+        help="Share of the bead's weight that still presses on the table right below the magnet; friction acts on it"
         testid="magnet-weight"
         value={props.pull ? weightWords(props.pull) : '–'}
         alarm={lifted()}
       />
       <Fact
         name={props.side === 'bead' ? 'Captures toward it' : `Captures along ${props.side}`}
-        help="Offsets at which the pull beats friction"
+        help="Distances to the side at which the pull is stronger than friction"
         testid="magnet-capture"
         value={props.pull ? captureWords(props.pull.capture_m) : '–'}
         alarm={props.pull?.capture_m === null}
@@ -38,14 +38,14 @@ export function MagnetFacts(props: {
       />
       <Fact
         name="Bead follows up to"
-        help="Where the pull less friction equals the viscous drag, at the best offset"
+        help="Largest speed at which the pull can overcome friction and viscous drag"
         testid="magnet-speed"
         value={props.reach ? speedWords(props.reach, props.parameters) : '–'}
         alarm={props.reach?.largest_speed_m_s[0] === null}
       />
       <Fact
         name={`Breakaway, ${rolls(props.parameters) ? 'rolling' : 'sliding'}`}
-        help="Pull at which a resting bead begins to move, in units of what is left of its weight"
+        help="Pull at which a resting bead starts to move, as a multiple of its weight left on the table"
         testid="magnet-breakaway"
         value={`${fixed(breakaway(props.parameters), 3)} × load`}
       />

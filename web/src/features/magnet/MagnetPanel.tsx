@@ -1,4 +1,4 @@
-// What the magnet can do, for the parameters in force and while a slider moves.
+// The Magnet tab: what the magnet can do with the current parameters, also while a slider moves.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
@@ -46,32 +46,32 @@ function Magnet(props: {
     const state = lab.state();
     return state ? directionOf(side(), state.tool_m, state.bead_m) : 0;
   });
-  /** In whole millimetres: a mark need not follow every tremble. */
+  /** In whole millimetres, so that the mark does not tremble. */
   const distance_m = createMemo(() => {
     const error_m = lab.state()?.tracking_error_m;
     return error_m === undefined ? undefined : Math.round(1000 * error_m) / 1000;
   });
-  // No question without a connection, so that it is asked again on the next one.
-  const asked =
+  // No request without a connection, so that it is sent again on the next connection.
+  const whenLive =
     <Q,>(question: (parameters: Parameters) => Q) =>
     (): Q | undefined =>
       lab.connection().kind === 'live' ? question(props.parameters) : undefined;
   const pull = createAnswer<PullQuery, PullCurve>(
     '/api/magnetics/pull',
-    asked((parameters) => pullQuery(parameters, direction_rad())),
+    whenLive((parameters) => pullQuery(parameters, direction_rad())),
   );
   const reach = createAnswer<ReachQuery, ReachCurve>(
     '/api/magnetics/reach',
-    asked((parameters) => reachQuery(parameters, direction_rad(), 'all')),
+    whenLive((parameters) => reachQuery(parameters, direction_rad(), 'all')),
   );
   const here = createAnswer<ReachQuery, ReachCurve>(
     '/api/magnetics/reach',
-    asked((parameters) => reachQuery(parameters, direction_rad(), 'here')),
+    whenLive((parameters) => reachQuery(parameters, direction_rad(), 'here')),
   );
   const error = (): string | undefined => pull().error ?? reach().error ?? here().error;
   const hint = (): string =>
     props.parameters.tool_orientation === 'paper' && lab.scene()?.positioner === 'arm'
-      ? 'Drawn for an upright block; the tool hangs 3.2° off.'
+      ? 'The curves are for an upright block; the tool is tilted by 3.2°.'
       : 'Point at a curve to read it.';
   const friction = createMemo(() => breakaway(props.parameters));
   const liftOff_m = (): number | undefined => reach().data?.lift_off_m;
@@ -172,7 +172,7 @@ function Magnet(props: {
       <CurvePlot
         title="Pull"
         unit="of weight"
-        name={`Lift, pull and friction against the offset toward ${side()}; the bead is ${fixed(100 * (distance_m() ?? 0), 1)} cm away`}
+        name={`Lift, pull and friction over the offset toward ${side()}; the bead is ${fixed(100 * (distance_m() ?? 0), 1)} cm away`}
         theme={props.theme}
         keys={pullContext.lines}
         context={pullContext}
@@ -181,7 +181,7 @@ function Magnet(props: {
       <CurvePlot
         title="Capture by height"
         unit="cm"
-        name="Captured offsets against the height of the block's lower face"
+        name="Captured offsets over the height of the block's lower face"
         theme={props.theme}
         keys={[{ label: 'lift-off', color: 'danger' }]}
         context={reachContext}
@@ -225,7 +225,10 @@ function Magnet(props: {
 
 function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
-    <Show when={props.lab.tuning()} fallback={<p class="placeholder">No parameters yet.</p>}>
+    <Show
+      when={props.lab.tuning()}
+      fallback={<p class="placeholder">Waiting for the parameters.</p>}
+    >
       {(parameters) => <Magnet lab={props.lab} theme={props.theme} parameters={parameters()} />}
     </Show>
   );

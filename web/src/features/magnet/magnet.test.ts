@@ -40,23 +40,23 @@ const REACH: ReachCurve = {
 };
 
 describe('the breakaway', () => {
-  it('is the friction of a bead that slides', () => {
+  it('equals the friction for a sliding bead', () => {
     expect(breakaway(parameters())).toBe(0.2);
   });
 
-  it('is the rolling resistance of one that rolls, but never above the friction', () => {
+  it('equals the rolling resistance for a rolling bead, but is never above the friction', () => {
     expect(breakaway(parameters({ bead_motion: 'rolling' }))).toBe(0.01);
     expect(breakaway(parameters({ bead_motion: 'rolling', friction: 0.005 }))).toBe(0.005);
   });
 });
 
-describe('the questions', () => {
-  it('follow block, height, friction and direction', () => {
-    const asked = pullQuery(
+describe('the requests', () => {
+  it('depend on block, height, friction and direction', () => {
+    const query = pullQuery(
       parameters({ block_orientation: 'B', tool_height_m: 0.12 }),
       Math.PI / 2,
     );
-    expect(asked).toMatchObject({
+    expect(query).toMatchObject({
       orientation: 'B',
       lower_face_height_m: 0.12,
       friction: 0.2,
@@ -64,7 +64,7 @@ describe('the questions', () => {
     });
   });
 
-  it('ask for all heights or for the one in force, and never without drag', () => {
+  it('ask for all heights or the current one, and never without drag', () => {
     const all = reachQuery(parameters({ drag_n_s_m: 0 }), 0, 'all');
     expect([all.lowest_m, all.highest_m, all.count]).toEqual([0.09, 0.2, 56]);
     expect(all.drag_n_s_m).toBeGreaterThan(0);
@@ -73,30 +73,30 @@ describe('the questions', () => {
   });
 });
 
-describe('the words', () => {
-  it('say what is captured', () => {
+describe('the texts', () => {
+  it('describe the capture', () => {
     expect(captureWords(null)).toBe('nothing');
     expect(captureWords([0.0044, 0.0947])).toBe('4 to 95 mm');
     expect(captureWords([0.0002, 0.261])).toBe('0.2 to 261 mm');
-    expect(captureWords([0, 0.5])).toBe('from 0 mm on');
+    expect(captureWords([0, 0.5])).toBe('from 0 mm');
   });
 
-  it('say what is left of the weight', () => {
+  it('describe the weight left', () => {
     expect(weightWords(CURVE)).toBe('none: lifts off');
     expect(weightWords({ ...CURVE, is_lifted: [false], weight_ratio: [0.19] })).toBe('19 %');
   });
 
-  it('say how fast the bead can follow', () => {
+  it('describe the largest speed', () => {
     expect(speedWords(REACH, parameters())).toBe('79 mm/s');
     expect(speedWords(REACH, parameters({ drag_n_s_m: 0 }))).toBe('any speed');
     expect(speedWords({ ...REACH, largest_speed_m_s: [null] }, parameters())).toBe('no speed');
   });
 
-  it('read a curve at a point', () => {
+  it('describe a point of a curve', () => {
     expect(pullWords(CURVE, 0.2, 1)).toBe(
-      '50 mm beside: lift 0.40, pull 0.30, friction holds 0.12',
+      '50 mm to the side: lift 0.40, pull 0.30, friction holds 0.12',
     );
-    expect(pullWords(CURVE, 0.2, 0)).toBe('0 mm beside: lift 1.20, pull 0.00, lifted off');
+    expect(pullWords(CURVE, 0.2, 0)).toBe('0 mm to the side: lift 1.20, pull 0.00, lifted off');
     expect(pullWords(CURVE, 0.2, 7)).toBeUndefined();
     expect(reachWords(REACH, 0)).toBe('At 100 mm: captures 4 to 95 mm, follows 79 mm/s');
     expect(reachWords(REACH, 1)).toBe('At 200 mm: captures nothing');
@@ -108,7 +108,7 @@ describe('the curve', () => {
     expect(heldRatio(CURVE, 0.2)).toEqual([null, 0.12]);
   });
 
-  it('shows the whole capture', () => {
+  it('shows the whole capture range', () => {
     expect(shownOffset(null)).toBe(0.15);
     expect(shownOffset([0, 0.0947])).toBe(0.15);
     expect(shownOffset([0, 0.14])).toBe(0.2);
@@ -117,7 +117,7 @@ describe('the curve', () => {
 });
 
 describe('the direction of the curves', () => {
-  it('is a side of the block, or toward the bead in steps of 5°', () => {
+  it('is along a side of the block, or toward the bead in steps of 5°', () => {
     expect(directionOf('x', [0, 0], [0, 1])).toBe(0);
     expect(directionOf('y', [0, 0], [1, 0])).toBeCloseTo(Math.PI / 2);
     expect(directionOf('bead', [0.1, 0.1], [0.1, 0.05])).toBeCloseTo(-Math.PI / 2);

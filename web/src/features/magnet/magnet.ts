@@ -1,4 +1,4 @@
-// What the magnet can do for the parameters in force: questions to the server, answers in words.
+// What the magnet can do with the current parameters: requests to the server, and answers as text.
 
 import { fixed, millimetres } from '../../ui/format';
 import { storedRange } from '../../lab/parameters';
@@ -11,7 +11,7 @@ import {
   type ReachQuery,
 } from '../../net/protocol.gen';
 
-/** Where the bead lies beside the block: along one of its sides, or where it is now. */
+/** Direction from the block to the bead: along one of its sides, or the present direction. */
 export const SIDES = [
   ['x', 'x'],
   ['y', 'y'],
@@ -23,11 +23,11 @@ export type Side = (typeof SIDES)[number][0];
 export const HEIGHTS_M = storedRange('tool_height_m');
 /** An offset every 2 mm. */
 const OFFSETS = 251;
-/** A height every 2 mm. */
+/** One height per 2 mm. */
 const HEIGHTS = 56;
-/** Without drag no speed is too large, and there is nothing to compute. */
-const LEAST_DRAG_N_S_M = 1e-6;
-/** Ends of the axis of offsets. */
+/** Below this drag any speed is possible, and the server has nothing to calculate. */
+const MIN_DRAG_N_S_M = 1e-6;
+/** Possible ends of the offset axis. */
 const SHOWN_M = [0.15, 0.2, 0.3];
 
 export function rolls(parameters: Parameters): boolean {
@@ -36,17 +36,17 @@ export function rolls(parameters: Parameters): boolean {
   );
 }
 
-/** The pull, in units of the load, at which a resting bead begins to move. */
+/** Pull at which a resting bead starts to move, as a multiple of its load. */
 export function breakaway(parameters: Parameters): number {
   return rolls(parameters) ? parameters.rolling_resistance : parameters.friction;
 }
 
-/** A bead nearer than this lies in no direction worth the name. */
+/** A bead nearer than this has no useful direction. */
 const NEAREST_M = 0.001;
-/** The curves change little within this angle, and a moving bead asks less often. */
+/** The curves change little within this angle. The step limits the requests while the bead moves. */
 const DIRECTION_STEP_RAD = Math.PI / 36;
 
-/** From the block's x toward its y; the block's sides are those of the table. */
+/** Angle from x toward y. The block's sides are parallel to the table's axes. */
 export function directionOf(
   side: Side,
   tool_m: readonly number[],
@@ -79,7 +79,7 @@ export function pullQuery(parameters: Parameters, direction_rad: number): PullQu
   };
 }
 
-/** Over all heights, or at the one in force. */
+/** For all heights or for the current one. */
 export function reachQuery(
   parameters: Parameters,
   direction_rad: number,
@@ -91,18 +91,18 @@ export function reachQuery(
     ...common(parameters, direction_rad),
     lowest_m,
     highest_m,
-    drag_n_s_m: Math.max(LEAST_DRAG_N_S_M, parameters.drag_n_s_m),
-    // The server draws no curve of one point.
+    drag_n_s_m: Math.max(MIN_DRAG_N_S_M, parameters.drag_n_s_m),
+    // The server does not accept a curve of one point.
     count: at === 'all' ? HEIGHTS : 2,
   };
 }
 
-/** What friction can hold, in weights, over the offset; nothing where the bead lifts off. */
+/** Force that friction can hold, in bead weights, for each offset; null where the bead lifts off. */
 export function heldRatio(curve: PullCurve, friction: number): (number | null)[] {
   return curve.weight_ratio.map((left, k) => (curve.is_lifted[k] ? null : friction * left));
 }
 
-/** Least end of the axis of offsets with the whole capture on it, and some room. */
+/** Smallest end of the offset axis that shows the whole capture range with a margin. */
 export function shownOffset(capture_m: PullCurve['capture_m']): number {
   return SHOWN_M.find((end_m) => (capture_m?.[1] ?? 0) < 0.9 * end_m) ?? FARTHEST_CAPTURE_M;
 }
@@ -110,10 +110,10 @@ export function shownOffset(capture_m: PullCurve['capture_m']): number {
 export function captureWords(capture_m: PullCurve['capture_m']): string {
   if (!capture_m) return 'nothing';
   const [inner_m, outer_m] = capture_m;
-  // Rounding must not say that a bead right below the magnet is dragged.
+  // Do not round to 0: right below the magnet the bead is not pulled.
   const digits = inner_m > 0 && inner_m < 0.001 ? 1 : 0;
   return outer_m >= FARTHEST_CAPTURE_M
-    ? `from ${millimetres(inner_m, digits)} on`
+    ? `from ${millimetres(inner_m, digits)}`
     : `${fixed(inner_m * 1000, digits)} to ${millimetres(outer_m)}`;
 }
 
@@ -127,7 +127,7 @@ export function speedWords(reach: ReachCurve, parameters: Parameters): string {
   const speed_m_s = reach.largest_speed_m_s[0];
   if (speed_m_s === undefined) return '–';
   if (speed_m_s === null) return 'no speed';
-  return parameters.drag_n_s_m < LEAST_DRAG_N_S_M
+  return parameters.drag_n_s_m < MIN_DRAG_N_S_M
     ? 'any speed'
     : `${fixed(speed_m_s * 1000, 0)} mm/s`;
 }
@@ -140,7 +140,7 @@ export function pullWords(curve: PullCurve, friction: number, index: number): st
   if (offset_m === undefined || lift === undefined || lateral === undefined) return undefined;
   const held = heldRatio(curve, friction)[index];
   const holds = typeof held === 'number' ? `friction holds ${fixed(held, 2)}` : 'lifted off';
-  return `${millimetres(offset_m)} beside: lift ${fixed(lift, 2)}, pull ${fixed(lateral, 2)}, ${holds}`;
+  return `${millimetres(offset_m)} to the side: lift ${fixed(lift, 2)}, pull ${fixed(lateral, 2)}, ${holds}`;
 }
 
 /** Capture and speed at one of the curve's heights. */

@@ -1,4 +1,4 @@
-// A map from a file of this computer.
+// Loads a map from a file on the user's computer.
 
 import { createSignal, type JSX } from 'solid-js';
 import { loadMap } from '../../lab/loadMap';
@@ -23,9 +23,9 @@ export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element 
       <button
         type="button"
         disabled={!lab.canOperate() || busy()}
-        // On a laptop one sees but its first word.
+        // On a small screen only the first word is visible.
         aria-label="Open map…"
-        title="A map of your own: a drawing as SVG, in millimetres, of 1 MiB at most"
+        title="Your own map: an SVG drawing in millimetres, at most 1 MiB"
         onClick={() => {
           input.click();
         }}
@@ -41,7 +41,7 @@ export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element 
         onChange={() => {
           const file = input.files?.[0];
           if (file) void send(file);
-          // The same file may be chosen again, when it was mended.
+          // The same file may be chosen again after it was corrected.
           input.value = '';
         }}
       />

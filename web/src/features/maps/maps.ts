@@ -1,12 +1,12 @@
-// A map of one's own: its drawing goes to the server, which reads it and names it.
+// The user's own map: its drawing is sent to the server, which reads and names it.
 
 import { post } from '../../net/requests';
 import { MAX_SVG_BYTES } from '../../net/protocol.gen';
 
-/** The name by which it is loaded from now on; fails with the sentence to show. */
+/** Returns the name for loading the map; throws an error with the message to show. */
 export async function addMap(file: Blob): Promise<string> {
   if (file.size > MAX_SVG_BYTES) {
-    throw new Error('A drawing may have 1 MiB at most; this one is larger.');
+    throw new Error('This drawing is too large: the limit is 1 MiB.');
   }
   const { name } = await post<{ readonly name: string }>('/api/maps', file, 'image/svg+xml');
   return name;

@@ -1,4 +1,4 @@
-// What the planner makes of the camera: blocks and rectangles of the picture, and what was seen up to now.
+// Draws blocks and rectangles of the camera image, and the observed area.
 
 import type { PixelBlock } from '../../lab/homography';
 import type { Palette } from '../../ui/palette';
@@ -35,7 +35,7 @@ export function drawSeen(ctx: Ctx, view: View, seen: Seen): void {
   const { workspace } = seen.message;
   const [left, top] = pxFromWorld(view, [workspace.x_min_m, workspace.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [workspace.x_max_m, workspace.y_min_m]);
-  // Cells have sharp edges.
+  // No smoothing: cells have sharp edges.
   ctx.imageSmoothingEnabled = false;
   ctx.drawImage(seen.image, left, top, right - left, bottom - top);
   ctx.imageSmoothingEnabled = true;

@@ -20,13 +20,13 @@ const COLORS: readonly [Rgba, Rgba, Rgba] = [
   [3, 0, 0, 255],
 ];
 
-describe('what was seen', () => {
+describe('the observed area', () => {
   it('is drawn with the upper row first', () => {
     const red = [...seenPixels(SEEN, COLORS)].filter((_, index) => index % 4 === 0);
     expect(red).toEqual([3, 1, 1, 2, 2, 3]);
   });
 
-  it('never leaves its picture', () => {
+  it('never exceeds its picture', () => {
     const long = { ...SEEN, runs: [[1, 99]] as [number, number][] };
     expect(seenPixels(long, COLORS)).toHaveLength(24);
   });

@@ -1,11 +1,11 @@
-// What the camera has shown of the workspace, as a picture. Pure.
+// The observed area as a picture. Pure.
 
 import type { SeenMessage } from '../../net/protocol.gen';
 import { seenCells } from '../../lab/obstacleMap';
 
 export type Rgba = readonly [number, number, number, number];
 
-/** A pixel a cell, RGBA, the upper row first as in a picture. */
+/** RGBA, one pixel per cell, upper row first. */
 export function seenPixels(
   seen: SeenMessage,
   colors: readonly [unknown: Rgba, free: Rgba, obstacle: Rgba],

@@ -1,4 +1,4 @@
-// The layers of what the planner gets from the camera.
+// The layers of the planner's camera data.
 
 import { createMemo } from 'solid-js';
 import type { BlocksLayer } from '../../net/protocol.gen';

@@ -1,9 +1,9 @@
-// How ERRT's planning goes, in numbers.
+// Numbers of ERRT's planning.
 
 import type { JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import { MOST_EDGES, type PlanLayer, type StateMessage } from '../../net/protocol.gen';
-import { wayWords } from './plannerFacts';
+import { pathWords } from './plannerFacts';
 import { Fact } from '../../ui/Fact';
 
 export function PlannerFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.Element {
@@ -15,28 +15,33 @@ export function PlannerFacts(props: { plan: PlanLayer; state: StateMessage }): J
     <section class="plan-facts" aria-label="ERRT's plan">
       <dl class="margins">
         <Fact
-          name="way"
-          value={wayWords(props.plan.way, props.state.phase)}
-          help="Length of the way that is followed"
+          name="path length"
+          value={pathWords(props.plan.way, props.state.phase)}
+          help="Length of the path that the tool follows"
           testid="plan-way"
         />
         <Fact
           name="plans"
           value={String(props.plan.plans)}
-          help="Ways planned since the trial began"
+          help="Number of plans since the start of the trial"
           testid="plan-plans"
         />
         <Fact
-          name="tried"
+          name="nodes tried"
           value={String(props.plan.attempts)}
-          help="Edges tried in the last search"
+          help="Number of nodes that the last search tried to add to the tree"
           testid="plan-attempts"
         />
-        <Fact name="tree" value={edges()} help="Edges of its tree" testid="plan-tree" />
+        <Fact
+          name="tree size"
+          value={edges()}
+          help="Number of edges in the tree of the last search"
+          testid="plan-tree"
+        />
         <Fact
           name="β"
           value={fixed(props.plan.beta, 2)}
-          help="Weight of the way from the root in the choice of the nearest node"
+          help="β: weight of the path length from the root when the search chooses the nearest node"
           testid="plan-beta"
         />
       </dl>

@@ -1,4 +1,4 @@
-// What ERRT plans: its tree, its way with the clearance around it, and the obstacles that it plans around.
+// Draws ERRT's plan: the tree, the path with its clearance, and the obstacles.
 
 import type { Palette } from '../../ui/palette';
 import type { PlanLayer } from '../../net/protocol.gen';
@@ -8,7 +8,7 @@ type Ctx = CanvasRenderingContext2D;
 
 const CORNER_PX = 3;
 
-/** Paths on the canvas: a tree of thousands of edges is not traced anew for every picture. */
+/** Path2D objects, kept so that a tree of thousands of edges is not traced for every frame. */
 export interface Plan {
   readonly tree: Path2D;
   readonly way: Path2D;

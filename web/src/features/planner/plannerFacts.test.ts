@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { wayLengthM, wayWords } from './plannerFacts';
+import { pathLengthM, pathWords } from './plannerFacts';
 
 const WAY: [number, number][] = [
   [0, 0],
@@ -7,15 +7,15 @@ const WAY: [number, number][] = [
   [0.3, 0.5],
 ];
 
-describe('the way', () => {
-  it('is as long as its parts', () => {
-    expect(wayLengthM(WAY)).toBeCloseTo(0.6);
-    expect(wayLengthM([])).toBe(0);
+describe('the path', () => {
+  it('has the sum of the lengths of its parts', () => {
+    expect(pathLengthM(WAY)).toBeCloseTo(0.6);
+    expect(pathLengthM([])).toBe(0);
   });
 
-  it('is searched only while the bead is to be carried', () => {
-    expect(wayWords(WAY, 'transporting')).toBe('60.0 cm');
-    expect(wayWords([], 'transporting')).toBe('searching');
-    expect(wayWords([], 'approaching')).toBe('none');
+  it('is searched only during a transport', () => {
+    expect(pathWords(WAY, 'transporting')).toBe('60.0 cm');
+    expect(pathWords([], 'transporting')).toBe('searching');
+    expect(pathWords([], 'approaching')).toBe('none');
   });
 });

@@ -1,10 +1,10 @@
-// ERRT's plan in numbers. Pure.
+// Numbers of ERRT's plan. Pure.
 
 import { centimetres } from '../../ui/format';
 import type { PlanLayer, StateMessage } from '../../net/protocol.gen';
 import { distance } from '../../lab/geometry';
 
-export function wayLengthM(way: PlanLayer['way']): number {
+export function pathLengthM(way: PlanLayer['way']): number {
   let length_m = 0;
   way.forEach((corner, index) => {
     const before = way[index - 1];
@@ -13,8 +13,8 @@ export function wayLengthM(way: PlanLayer['way']): number {
   return length_m;
 }
 
-/** Length of the way, or what it is with it. */
-export function wayWords(way: PlanLayer['way'], phase: StateMessage['phase']): string {
-  if (way.length > 0) return centimetres(wayLengthM(way));
+/** Length of the path, or why there is no path. */
+export function pathWords(way: PlanLayer['way'], phase: StateMessage['phase']): string {
+  if (way.length > 0) return centimetres(pathLengthM(way));
   return phase === 'transporting' ? 'searching' : 'none';
 }

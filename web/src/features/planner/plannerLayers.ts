@@ -1,4 +1,4 @@
-// The layers of what ERRT plans.
+// The layers of ERRT's plan.
 
 import { createMemo } from 'solid-js';
 import type { PlanLayer } from '../../net/protocol.gen';
@@ -8,7 +8,7 @@ import type { Palette } from '../../ui/palette';
 import { createObstacles, createPlan, drawObstacles, drawPlan } from './drawPlan';
 import type { Pictures } from '../../lab/slices';
 
-/** Paths are made again only for another plan or view. */
+/** Path2D objects are created again only for a new plan or view. */
 function ofPlan<T>(
   layer: Pick<MapLayer, 'id' | 'label' | 'shownAtFirst'>,
   trace: (plan: PlanLayer, view: View) => T,

@@ -1,4 +1,4 @@
-// How fast simulated time goes, how late its ticks come, and whether some were given up.
+// Achieved speed of simulated time, late ticks, and how often the session fell behind.
 
 import { Show, type JSX } from 'solid-js';
 import { achievedWords, lateWords, lostWords } from './steps';
@@ -14,7 +14,7 @@ export function Achieved(props: { lab: Trial }): JSX.Element {
     <span
       class="achieved number"
       data-testid="achieved"
-      title={['Simulated seconds a second that the server achieves', lost()]
+      title={['Simulated seconds per second that the server achieves', lost()]
         .filter((words) => words !== undefined)
         .join('; ')}
     >

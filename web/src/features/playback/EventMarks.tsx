@@ -1,4 +1,4 @@
-// The events on the timeline, each a button that opens its story.
+// The events on the timeline. Each is a button that opens the event's story.
 
 import {
   Index,
@@ -14,14 +14,14 @@ import { clusters } from './eventMarks';
 import type { EventMessage } from '../../net/protocol.gen';
 import type { Events } from '../../lab/slices';
 
-/** The side of a mark, as `--target` has it. */
+/** Side of a mark, the same as `--target` in the style sheet. */
 const GAP_PX = matchMedia('(pointer: coarse)').matches ? 36 : 24;
 /**
- * In a running session all marks move a little at each state: hundreds of them, which need not move sixty
- * times a second.
+ * While the simulation runs, hundreds of marks move a little with each state. Updating them sixty times per second is
+ * not necessary.
  */
 const LAYOUTS_PER_S = 4;
-/** How far a key moves along the marks. */
+/** Number of marks that a key moves by. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
 
 export function EventMarks(props: { lab: Events; oldest: number; newest: number }): JSX.Element {
@@ -50,7 +50,7 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
     return width_px() > 0 ? clusters(held, px, GAP_PX) : [];
   });
   const [current, setCurrent] = createSignal<EventMessage>();
-  // One of them is reached by Tab: the last one chosen, else the newest.
+  // Tab reaches one mark: the last chosen one, otherwise the newest.
   const reached = createMemo(() => {
     const chosen = current();
     const index = found().findIndex(({ events }) => chosen && events.includes(chosen));

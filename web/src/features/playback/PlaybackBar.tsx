@@ -1,4 +1,4 @@
-// Time: run, pause, step, reset, speed, seed, map, and the way back.
+// The playback bar: run, pause, step, reset, speed, seed, map, timeline.
 
 import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
@@ -81,7 +81,7 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
         event.preventDefault();
         const seed = input.valueAsNumber;
         if (Number.isSafeInteger(seed) && seed >= 0) lab.send({ type: 'reset', seed });
-        else lab.notify('playback', 'A seed is a whole number from 0.');
+        else lab.notify('playback', 'The seed must be a whole number, 0 or larger.');
       }}
     >
       <label for="seed">Seed</label>
@@ -94,7 +94,7 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
         step="1"
         disabled={!lab.canOperate()}
         title="Enter resets the trial with this seed"
-        // Leaving the field is no reason to reset a trial.
+        // Leaving the field does not reset the trial.
         onBlur={show}
       />
       <button
@@ -115,7 +115,7 @@ export function PlaybackBar(props: {
   lab: Session & Trial & Events & Notices;
   /** Above the row of controls. */
   above: JSX.Element;
-  /** Beside the map: other ways to choose an experiment. */
+  /** Beside the map: other controls that choose an experiment. */
   choices: JSX.Element;
   /** At the end of the row. */
   share: JSX.Element;
@@ -123,7 +123,7 @@ export function PlaybackBar(props: {
   below: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
-  // A memo of its own: other news must not make the list anew under the pointer.
+  // A memo, so that other updates do not recreate the list under the pointer.
   const target = createMemo(() => lab.state()?.speed_target ?? 1);
   const speeds = createMemo(() => {
     const all = [...new Set([...SPEEDS, target()])].sort((a, b) => a - b);
@@ -134,7 +134,7 @@ export function PlaybackBar(props: {
   });
   const maps = createMemo(() => names().map((name) => [name, name] as const));
   return (
-    <footer class="bar transport" role="region" aria-label="Transport">
+    <footer class="bar transport" role="region" aria-label="Playback">
       {props.above}
       <div class="transport-row">
         <RunButtons lab={lab} />

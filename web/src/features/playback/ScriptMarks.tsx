@@ -1,4 +1,4 @@
-// On the timeline: when the script is to strike, hollow because it has not happened yet or happens again.
+// Marks of the script on the timeline: hollow, because they have not happened yet or happen again after a reset.
 
 import { For, type JSX } from 'solid-js';
 import { describe } from '../../lab/disturbance';

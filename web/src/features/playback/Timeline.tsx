@@ -1,4 +1,4 @@
-// The ticks that can be gone back to, with what happened on the way.
+// The slider over the ticks that the session can rewind to.
 
 import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
@@ -9,14 +9,14 @@ import { ScriptMarks } from './ScriptMarks';
 import type { Events, Session, Trial } from '../../lab/slices';
 
 const MAX_REWINDS_PER_S = 15;
-/** How long the slider stays where it was let go, until the server's answer is here. */
+/** How long the slider stays where it was released, until the server answers. */
 const SETTLE_MS = 300;
 
 export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element {
   const { lab } = props;
   const [scrubbed, setScrubbed] = createSignal<number>();
   const oldest = createMemo(() => lab.state()?.oldest_tick ?? 0);
-  // The newest moment kept may be some ticks behind the present.
+  // The newest kept tick may be a little before the present.
   const newest = createMemo(() => {
     const state = lab.state();
     return state ? Math.max(state.newest_tick, state.tick) : 0;
@@ -54,7 +54,7 @@ export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element 
           type="range"
           aria-label="Timeline"
           aria-valuetext={seconds(tick())}
-          title="Go back: time pauses there"
+          title="Rewind: the session pauses at this time"
           step="1"
           disabled={!lab.canOperate() || newest() === oldest()}
           onInput={(event) => {
@@ -64,12 +64,12 @@ export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element 
             rewinds.offer(to);
           }}
           onChange={letGo}
-          // Back where it began it is let go without a change.
+          // Released where it started: no change event.
           onPointerUp={letGo}
           onPointerCancel={letGo}
           onKeyDown={(event) => {
             if (event.key !== 'ArrowRight' && event.key !== 'ArrowUp') return;
-            // Only control steps can be selected, and the next tick is not one.
+            // The session can only rewind to control steps, so the next tick is not a target.
             event.preventDefault();
             const now = tick();
             const next = now + ticksToControlStep(now, lab.scene()?.tick_s ?? Infinity);

@@ -9,7 +9,7 @@ const at = (tick: number, kind: EventKind): EventMessage => ({
   text: kind,
 });
 
-test('events that would overlap share a button, named by the most telling', () => {
+test('events that would overlap share a button with the name of the most important one', () => {
   const events = [at(0, 'goal'), at(10, 'disturbance'), at(12, 'switch'), at(200, 'delivered')];
   const found = clusters(events, (tick) => tick, 24);
   expect(found.map(({ px, symbol, events }) => [px, symbol, events.length])).toEqual([
@@ -20,7 +20,7 @@ test('events that would overlap share a button, named by the most telling', () =
   expect(found[1]?.name).toBe('Delivered at 1.6 s: delivered');
 });
 
-test('buttons keep their distance however many events there are', () => {
+test('buttons keep their distance with any number of events', () => {
   const events = Array.from({ length: 500 }, (_, tick) => at(tick, 'disturbance'));
   const found = clusters(events, (tick) => tick / 2, 24);
   for (const [index, { px }] of found.entries()) {
@@ -29,6 +29,6 @@ test('buttons keep their distance however many events there are', () => {
   expect(found.flatMap(({ events }) => events)).toEqual(events);
 });
 
-test('what is said of the session itself is no mark', () => {
+test('events of the session itself have no mark', () => {
   expect(clusters([at(0, 'session')], (tick) => tick, 24)).toEqual([]);
 });

@@ -1,9 +1,9 @@
-// Events on a line too short for each: those that would overlap share a button. Pure.
+// Events on the timeline. Those that would overlap share a button. Pure.
 
 import type { EventKind, EventMessage } from '../../net/protocol.gen';
 import { eventTitle } from '../../lab/eventStory';
 
-/** What stands for an event in time, the most telling kind first; those that are none of them are not shown. */
+/** Kinds of events with a mark, the most important first. Other kinds have no mark. */
 const SYMBOLS: readonly (readonly [EventKind, string])[] = [
   ['lift_off', '↥'],
   ['stopped', '■'],
@@ -24,7 +24,7 @@ export interface Cluster {
   /** Middle of the button. */
   readonly px: number;
   readonly events: readonly EventMessage[];
-  /** The most telling of them. */
+  /** Kind of the most important event. */
   readonly first: EventMessage;
   readonly symbol: string;
   readonly name: string;
@@ -44,7 +44,7 @@ function clusterOf(px: number, events: readonly EventMessage[], first: EventMess
   };
 }
 
-/** Events in the order of time, in clusters at least `gapPx` apart. */
+/** Events in order of time, in clusters at least `gapPx` apart. */
 export function clusters(
   events: readonly EventMessage[],
   px: (tick: number) => number,

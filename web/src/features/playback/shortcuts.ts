@@ -22,11 +22,11 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) 
         lab.send({ type: lab.state()?.running ? 'pause' : 'run' });
       }),
     },
-    { group: 'Time', keys: ['.'], does: 'one tick of 8 ms', run: step(() => 1) },
+    { group: 'Time', keys: ['.'], does: 'step by one tick of 8 ms', run: step(() => 1) },
     {
       group: 'Time',
       keys: [','],
-      does: 'to the next control step',
+      does: 'go to the next control step',
       run: step(() => ticksToControlStep(lab.state()?.tick ?? 0, lab.scene()?.tick_s ?? 0.008)),
     },
     { group: 'Time', keys: ['[', '-'], does: 'slower', run: shiftSpeed(-1) },
@@ -34,7 +34,7 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) 
     {
       group: 'Time',
       keys: ['r'],
-      does: 'reset, with the same seed',
+      does: 'reset with the same seed',
       run: operate(() => {
         lab.send({ type: 'reset' });
       }),

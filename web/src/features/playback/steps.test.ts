@@ -22,9 +22,9 @@ describe('speeds', () => {
     expect(speedName(0.125)).toBe('1/8×');
   });
 
-  it('tell when the machine is at its limit', () => {
+  it('shows when the machine is at its limit', () => {
     expect(achievedWords(1, 0.97)).toEqual({ text: 'achieved 0.97×', limited: false });
-    // Time has just begun to run.
+    // The simulation has just started to run.
     expect(achievedWords(8, 0)).toEqual({ text: 'achieved –', limited: false });
     expect(achievedWords(64, 21.04)).toEqual({ text: 'achieved 21.0×', limited: true });
   });
@@ -38,16 +38,16 @@ describe('a control step', () => {
       tick += ticksToControlStep(tick, 0.008);
       due.push(tick);
     }
-    // 31.25 ticks a step.
+    // 31.25 ticks per control step.
     expect(due).toEqual([32, 63, 94, 125, 157]);
     expect(ticksToControlStep(40, 0.008)).toBe(23);
   });
 });
 
-it('tells late ticks and lost time only where there are any', () => {
+it('mentions late ticks and lost time only if there are any', () => {
   expect(lateWords(20)).toBeUndefined();
   expect(lateWords(33.6)).toBe('34 ms late');
   expect(lostWords(0)).toBeUndefined();
-  expect(lostWords(1)).toBe('once lost time was let go');
-  expect(lostWords(12)).toBe('12 times lost time was let go');
+  expect(lostWords(1)).toBe('fell behind once');
+  expect(lostWords(12)).toBe('fell behind 12 times');
 });

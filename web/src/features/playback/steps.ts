@@ -4,23 +4,23 @@ import { fixed, speed } from '../../ui/format';
 import { CONTROL_PERIOD_S, SPEED_MAX } from '../../net/protocol.gen';
 
 export const SPEEDS: readonly number[] = [0.125, 0.25, 0.5, 1, 2, 4, 8, SPEED_MAX];
-/** Below this share of what was asked, the machine is at its limit. */
+/** Below this share of the requested speed, the machine is at its limit. */
 const LIMITED = 0.85;
 
-/** The next higher (1) or lower (−1) speed; the same at the end of the list. */
+/** The next speed up (1) or down (−1); the same at the end of the range. */
 export function nextSpeed(target: number, direction: 1 | -1): number {
   const further = SPEEDS.filter((factor) => (factor - target) * direction > 0);
   return (direction > 0 ? further[0] : further.at(-1)) ?? target;
 }
 
-/** Ticks to the next one at which a control step is due. */
+/** Number of ticks to the next control step. */
 export function ticksToControlStep(tick: number, tick_s: number): number {
   const stepsBefore = Math.floor((tick * tick_s) / CONTROL_PERIOD_S + 1e-9);
   const due = Math.ceil(((stepsBefore + 1) * CONTROL_PERIOD_S) / tick_s - 1e-9);
   return due - tick;
 }
 
-/** What is achieved, and whether it is clearly less than what was asked; 0 before anything was measured. */
+/** The achieved speed, and whether it is clearly below the requested one. An achieved speed of 0 means not measured yet. */
 export function achievedWords(
   target: number,
   achieved: number,
@@ -30,17 +30,17 @@ export function achievedWords(
   return { text: `achieved ${fixed(achieved, achieved < 10 ? 2 : 1)}×`, limited };
 }
 
-/** Ticks come every 8 ms; what is later than two of them is worth a word. */
+/** Ticks come every 8 ms. Undefined if the delay is shorter than about two ticks. */
 const LATE_MS = 20;
 
 export function lateWords(lateness_ms: number): string | undefined {
   return lateness_ms > LATE_MS ? `${Math.round(lateness_ms)} ms late` : undefined;
 }
 
-/** How often the session fell so far behind that it did not catch up. */
+/** How often the session fell so far behind that it gave up the lost time. */
 export function lostWords(times: number): string | undefined {
   if (times === 0) return undefined;
-  return `${times === 1 ? 'once' : `${times} times`} lost time was let go`;
+  return `fell behind ${times === 1 ? 'once' : `${times} times`}`;
 }
 
 export function speedName(factor: number): string {

@@ -1,4 +1,4 @@
-// The part of the figure in the plane, with its caption.
+// The locus: the part of the figure in the plane, with its caption.
 
 import { createEffect, createMemo, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
@@ -13,7 +13,7 @@ import type { Vec2 } from '../../lab/geometry';
 import type { Trial } from '../../lab/slices';
 
 const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
-/** How near the way a pointer reads it. */
+/** How near to the line a pointer has to be to read it. */
 const REACH_PX = 24;
 
 export function LocusPlot(props: {
@@ -112,7 +112,7 @@ export function LocusPlot(props: {
           ref={canvas}
           class="locus"
           role="img"
-          aria-label={`Way in the plane. ${words()}`}
+          aria-label={`Path in the plane. ${words()}`}
           onPointerMove={point}
           onPointerLeave={() => {
             figure.point(undefined);

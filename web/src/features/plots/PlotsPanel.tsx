@@ -1,4 +1,4 @@
-// The paper's figure, live: positions and tracking errors against time, and the way in the plane.
+// The paper's figure, live: positions and tracking errors over time, and the path in the plane.
 
 import { For, createEffect, on, onCleanup, type JSX } from 'solid-js';
 import { Portal } from 'solid-js/web';
@@ -16,14 +16,14 @@ import { createPalette, type Palette } from '../../ui/palette';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Events, Notices, Trial } from '../../lab/slices';
 
-/** Window and files, in the strip of the tabs. */
+/** Time window and files, in the tab bar. */
 function Tools(props: {
   lab: Trial & Notices;
   figure: Figure;
   palette: () => Palette;
 }): JSX.Element {
   const { lab, figure } = props;
-  /** Name of a file, or nothing while there is nothing to save. */
+  /** File name, or undefined while there is no data to save. */
   const name = (): string | undefined => {
     const scene = lab.scene();
     const state = lab.state();
@@ -71,9 +71,9 @@ function Tools(props: {
   return (
     <div class="plot-tools" role="group" aria-label="Plots">
       <label>
-        <span class="unit">Window</span>
+        <span class="unit">Time window</span>
         <select
-          aria-label="Window of the plots"
+          aria-label="Time window of the plots"
           onChange={(event) => {
             figure.choose(event.currentTarget.value as WindowChoice);
           }}

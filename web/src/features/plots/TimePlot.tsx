@@ -1,4 +1,4 @@
-// One part of the figure against time, with its caption.
+// One part of the figure over time, with its caption.
 
 import { For, createEffect, createSignal, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
@@ -15,7 +15,7 @@ interface TimePlotProps {
   readonly figure: Figure;
   readonly context: PlotContext;
   readonly theme: () => Theme;
-  /** Takes what draws the part, to be called in its turn. */
+  /** Registers the function that draws the part. */
   readonly onDraw: (draw: () => void) => void;
 }
 
@@ -27,7 +27,7 @@ export function TimePlot(props: TimePlotProps): JSX.Element {
   const [values, setValues] = createSignal<readonly (number | undefined)[]>([]);
   const [read_s, setRead] = createSignal<number>();
 
-  /** The numbers at the cursor, else at the present. */
+  /** The values at the cursor, otherwise at the present time. */
   const read = (): void => {
     const sample = figure.sample();
     if (!sample) return;
@@ -47,8 +47,8 @@ export function TimePlot(props: TimePlotProps): JSX.Element {
       return value === undefined ? '' : `${label} ${fixed(value, part.digits + 1)} ${part.unit}`;
     });
     return at_s === undefined
-      ? `${part.title} against time: nothing yet`
-      : `${part.title} against time, at ${clock(at_s)}: ${lines.join(', ')}`;
+      ? `${part.title} over time: no data yet`
+      : `${part.title} over time, at ${clock(at_s)}: ${lines.join(', ')}`;
   };
 
   onMount(() => {
@@ -69,7 +69,7 @@ export function TimePlot(props: TimePlotProps): JSX.Element {
       const sample = figure.sample();
       if (!sample) return;
       showSample(made, part, sample);
-      // The window moved on under a pointer that rests.
+      // The window moved under a pointer that did not move.
       if (isPointed) figure.point(made.posToVal(made.cursor.left ?? 0, 'x'));
       else showCursor(made, figure.pointed_s());
       read();

@@ -1,4 +1,4 @@
-// The way in the plane: where tool and bead have been, the goal, the walls, where the bead was disturbed.
+// Draws the locus: trails of tool and bead, the goal, the walls, the disturbances.
 
 import type { Palette } from '../../ui/palette';
 import { pxFromWorld, type View } from '../../plan/transform';
@@ -17,7 +17,7 @@ export interface LocusPicture {
   readonly walls: Path2D;
   readonly sample: Sample;
   readonly goal_m: Vec2 | undefined;
-  /** The sample whose places are marked: the one pointed at, else the present. */
+  /** The marked sample: the one under the pointer, otherwise the present one. */
   readonly marked: number | undefined;
 }
 
@@ -75,7 +75,7 @@ export function drawLocus(ctx: Ctx, picture: LocusPicture): void {
   dot(ctx, palette.bead, palette.floor, pxFromWorld(view, bead));
 }
 
-/** Index of the sample whose tool or bead was nearest to a place, within `reachPx`; the later of equals. */
+/** Index of the sample whose tool or bead is nearest to a place, within `reachPx`. The later one wins a tie. */
 export function sampleAt(
   sample: Sample,
   view: View,

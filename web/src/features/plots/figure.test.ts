@@ -23,13 +23,13 @@ function run(count: number, change: (tick: number) => Parameters<typeof stateAt>
 }
 
 describe('the window', () => {
-  it('ends at the newest and is not younger than ten seconds', () => {
+  it('ends at the newest sample and covers at least ten seconds', () => {
     expect(shownWindow('60', 100, 100)).toEqual({ from_s: 40, to_s: 100 });
     expect(shownWindow('60', 3, 3)).toEqual({ from_s: 0, to_s: 10 });
     expect(shownWindow('all', 100, 20)).toEqual({ from_s: 0, to_s: 100 });
   });
 
-  it('keeps its window after a rewind within it and moves beyond', () => {
+  it('stays when the rewound time is inside it, and follows the time otherwise', () => {
     expect(shownWindow('60', 100, 50)).toEqual({ from_s: 40, to_s: 100 });
     expect(shownWindow('10', 100, 50)).toEqual({ from_s: 45, to_s: 55 });
     expect(shownWindow('10', 100, 2)).toEqual({ from_s: 0, to_s: 10 });
@@ -47,11 +47,11 @@ describe('a sample', () => {
     expect([...columns.tick]).toEqual([...columns.tick].sort((a, b) => a - b));
   });
 
-  it('thins nothing that is short', () => {
+  it('keeps all samples of a short history', () => {
     expect(thinnedIndices(4, [new Float64Array(4)], 2)).toEqual([0, 1, 2, 3]);
   });
 
-  it('knows when sub-controller 1 was active, and where the bead was struck', () => {
+  it('has the times of sub-controller 1 and of the disturbances', () => {
     const history = run(2000, (tick) => ({ mode: tick >= 500 && tick < 700 ? 1 : 2 }));
     const sample = takeSample(history, 'all', 4, [
       struckAt(500),
@@ -63,11 +63,11 @@ describe('a sample', () => {
     expect(sample.at_s).toBe(4);
   });
 
-  it('has an approach that still goes on', () => {
+  it('includes a fetch that has not ended', () => {
     expect(spansOf(Float64Array.of(0, 1, 2), Float64Array.of(2, 1, 1), 1)).toEqual([[1, 2]]);
   });
 
-  it('is read at the nearest time', () => {
+  it('is found by the nearest time', () => {
     const times = Float64Array.of(0, 1, 5);
     expect([-1, 0.4, 0.6, 2.9, 3.1, 99].map((time) => nearestIndex(times, time))).toEqual([
       0, 0, 1, 1, 2, 2,
@@ -75,7 +75,7 @@ describe('a sample', () => {
     expect(nearestIndex(new Float64Array(), 1)).toBeUndefined();
   });
 
-  it('is found in the plane, the later of two passes', () => {
+  it('is found by its place; the later of two passes wins', () => {
     const sample = takeSample(
       run(100, (tick) => ({ bead_m: [tick % 50, 0, 0], tool_m: [tick % 50, 1, 0] })),
       'all',
@@ -88,7 +88,7 @@ describe('a sample', () => {
     expect(sampleAt(sample, view, [900, 900], 8)).toBeUndefined();
   });
 
-  it('becomes a table of every sample', () => {
+  it('becomes a table with every sample', () => {
     const history = run(3);
     const lines = csvOf(history, takeSample(history, 'all', 0, [struckAt(1)]))
       .trim()
@@ -101,7 +101,7 @@ describe('a sample', () => {
 });
 
 describe('a rotation', () => {
-  it('draws one part a frame, and a round more for what came meanwhile', () => {
+  it('draws one part per frame, and another round for new data', () => {
     const frames: (() => void)[] = [];
     const done: (string | number)[] = [];
     const rotation = new Rotation(
@@ -125,7 +125,7 @@ describe('a rotation', () => {
 });
 
 describe('the axes', () => {
-  it('end on their grain and span two', () => {
+  it('end on multiples of the grain and span at least two', () => {
     expect(axisRange(0.2, 0.2, 2)).toEqual([-1, 3]);
     expect(axisRange(0, 9.2, 2)).toEqual([0, 10]);
   });
@@ -139,7 +139,7 @@ describe('the axes', () => {
 });
 
 describe('the figure as a file', () => {
-  it('has six parts, and no mark-up of its words', () => {
+  it('has six parts and escapes markup in text', () => {
     const history = run(2000, (tick) => ({
       mode: tick < 300 ? 1 : 2,
       bead_m: [tick / 1e4, -0.3, 0],
@@ -168,7 +168,7 @@ describe('the figure as a file', () => {
     for (const letter of 'abcdef') expect(svg).toContain(`(${letter}) `);
     expect(svg).not.toContain('<map>');
     expect(svg).not.toMatch(/NaN|Infinity|undefined|style=/);
-    // Struck once: an upright in each part against time, a cross in the plane.
+    // One disturbance: a vertical line in each part over time, a cross in the plane.
     expect(svg.match(/stroke="#hand"/g)).toHaveLength(5 + 2);
     expect(svg.match(/fill="#mode-1"/g)).toHaveLength(5);
   });

@@ -1,4 +1,4 @@
-// What the parts of the figure share: the sample they show and the time that is pointed at.
+// State shared by the parts of the figure: the shown sample and the time under the pointer.
 
 import { createSignal, type Accessor } from 'solid-js';
 import { type Sample, takeSample, type WindowChoice } from './sample';
@@ -11,7 +11,7 @@ export interface Figure {
   readonly pointed_s: Accessor<number | undefined>;
   point(time_s: number | undefined): void;
   choose(choice: WindowChoice): void;
-  /** Takes a new sample of the history; the parts draw it in their turn. */
+  /** Takes a new sample of the history. The parts draw it one after the other. */
   renew(): void;
 }
 

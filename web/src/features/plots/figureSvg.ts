@@ -1,4 +1,4 @@
-// The figure as a drawing of its own, for a file: the same six parts, whatever the screen's size. Pure.
+// The figure as an SVG file: the same six parts, independent of the screen size. Pure.
 
 import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
@@ -9,7 +9,7 @@ import type { Sample } from './sample';
 import type { Vec2 } from '../../lab/geometry';
 
 export interface FigureFacts {
-  /** What was run, in a line. */
+  /** One line about the trial. */
   readonly title: string;
   readonly palette: Palette;
   readonly sample: Sample;
@@ -31,14 +31,14 @@ const BOX = {
 const TICKS = 4;
 const CROSS_PX = 4;
 
-/** About so many round numbers from `low` to `high`. */
+/** About `count` round numbers from `low` to `high`. */
 export function roundTicks(low: number, high: number, count: number): number[] {
   const raw = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = ([1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-9)) ?? 10) * power;
   const ticks: number[] = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) {
-    // Without the sign of a zero.
+    // No negative zero.
     ticks.push(k * step + 0);
   }
   return ticks;
@@ -89,8 +89,8 @@ function timePart(part: Part, facts: FigureFacts): string {
   const all = values.flat();
   const [low, high] = partRange(
     part,
-    all.reduce((least, value) => Math.min(least, value), Infinity),
-    all.reduce((most, value) => Math.max(most, value), -Infinity),
+    all.reduce((min, value) => Math.min(min, value), Infinity),
+    all.reduce((max, value) => Math.max(max, value), -Infinity),
     threshold_m,
   );
   const x = (time_s: number): number =>
@@ -188,7 +188,7 @@ function locusPart(facts: FigureFacts): string {
   return caption(LOCUS_LETTER, 'Locus', keys, palette) + out.join('');
 }
 
-/** In the paper's order, three parts a row. */
+/** In the paper's order, three parts per row. */
 export function figureSvg(facts: FigureFacts): string {
   const { width, height } = FIGURE_PX;
   const cells = [...PARTS.map((part) => timePart(part, facts)), locusPart(facts)];

@@ -1,4 +1,4 @@
-// The paper's figure: five parts against time and the way in the plane. What each shows.
+// The parts of the paper's figure: five over time, and the locus in the plane.
 
 import type { Column } from '../../lab/history';
 import type { Palette } from '../../ui/palette';
@@ -69,7 +69,7 @@ export const PARTS: readonly Part[] = [
   },
 ];
 
-/** Letter of the way in the plane. */
+/** Letter of the locus. */
 export const LOCUS_LETTER = 'f';
 
 /** Ends of an axis: multiples of `grain` around the data, at least two grains apart. */

@@ -1,4 +1,4 @@
-// Draws the parts of a figure in turn, one a frame, so that no frame pays for all of them.
+// Draws the parts of a figure one after the other, one per frame, so that no frame takes too long.
 
 export class Rotation {
   private turn = 0;
@@ -6,7 +6,7 @@ export class Rotation {
   private going = false;
   private stopped = false;
 
-  /** `begin` takes what a round of `parts` shows; `nextFrame` calls what it is given before the next frame. */
+  /** `begin` takes the data for a round of `parts`. `nextFrame` calls its argument before the next frame. */
   constructor(
     private readonly parts: number,
     private readonly begin: () => void,
@@ -14,7 +14,7 @@ export class Rotation {
     private readonly nextFrame: (work: () => void) => void,
   ) {}
 
-  /** There is something new to draw. */
+  /** Call this when there is new data. */
   offer(): void {
     this.wanted = true;
     if (this.going || this.stopped) return;

@@ -1,4 +1,4 @@
-// What the figure shows: a window of the history, thinned to what a screen can show. Pure.
+// The data of the figure: a window of the history, thinned to what a screen can show. Pure.
 
 import { type Column, COLUMNS, type History } from '../../lab/history';
 import type { EventMessage } from '../../net/protocol.gen';
@@ -10,11 +10,11 @@ export const WINDOWS = [
 ] as const;
 export type WindowChoice = (typeof WINDOWS)[number][0];
 
-/** A young trial is not squeezed into the first pixels of its window. */
-const LEAST_WINDOW_S = 10;
-/** So many intervals with their extremes: more than a part of the figure has pixels. */
+/** The window covers at least this time, also early in a trial. */
+const MIN_WINDOW_S = 10;
+/** Number of intervals with extremes: more than the pixels of one part. */
 const INTERVALS = 300;
-/** The bead makes the peaks; the tool is too slow for any. */
+/** Columns with peaks. The tool is too slow for peaks. */
 const PEAKS: readonly Column[] = ['bead_x_m', 'bead_y_m', 'error_m'];
 
 export interface Struck {
@@ -26,7 +26,7 @@ export interface Struck {
 export interface Sample {
   readonly from_s: number;
   readonly to_s: number;
-  /** The present moment, which lies before the newest when time was turned back. */
+  /** The present time. It is before the newest sample after a rewind. */
   readonly at_s: number;
   readonly columns: Readonly<Record<Column, Float64Array>>;
   /** When sub-controller 1 was active. */
@@ -34,20 +34,20 @@ export interface Sample {
   readonly struck: readonly Struck[];
 }
 
-/** Ends of what is shown: up to the newest, or around the present where the newest is too far ahead. */
+/** Ends of the window: up to the newest sample, or around the present if the newest is too far ahead. */
 export function shownWindow(
   choice: WindowChoice,
   newest_s: number,
   at_s: number,
 ): { from_s: number; to_s: number } {
-  if (choice === 'all') return { from_s: 0, to_s: Math.max(LEAST_WINDOW_S, newest_s) };
+  if (choice === 'all') return { from_s: 0, to_s: Math.max(MIN_WINDOW_S, newest_s) };
   const width_s = Number(choice);
   const to_s = at_s >= newest_s - width_s ? newest_s : Math.min(newest_s, at_s + width_s / 2);
   const from_s = Math.max(0, to_s - width_s);
-  return { from_s, to_s: Math.max(to_s, from_s + LEAST_WINDOW_S) };
+  return { from_s, to_s: Math.max(to_s, from_s + MIN_WINDOW_S) };
 }
 
-/** Indices of at most `intervals` stretches: each one's first, its extremes in `columns`; and the last of all. */
+/** Indices of the first sample and the extremes in `columns` of each interval, and of the last sample. */
 export function thinnedIndices(
   length: number,
   columns: readonly Float64Array[],
@@ -61,13 +61,13 @@ export function thinnedIndices(
     const end = Math.floor(((interval + 1) * length) / intervals);
     const picked = new Set([first]);
     for (const column of columns) {
-      let least = first;
-      let most = first;
+      let min = first;
+      let max = first;
       for (let index = first + 1; index < end; index++) {
-        if ((column[index] ?? 0) < (column[least] ?? 0)) least = index;
-        if ((column[index] ?? 0) > (column[most] ?? 0)) most = index;
+        if ((column[index] ?? 0) < (column[min] ?? 0)) min = index;
+        if ((column[index] ?? 0) > (column[max] ?? 0)) max = index;
       }
-      picked.add(least).add(most);
+      picked.add(min).add(max);
     }
     indices.push(...[...picked].sort((a, b) => a - b));
   }
@@ -75,7 +75,7 @@ export function thinnedIndices(
   return indices;
 }
 
-/** Stretches of `times` with `values` equal to `wanted`, each up to the next sample. */
+/** Intervals in which `values` equals `wanted`, each up to the next sample. */
 export function spansOf(
   times: Float64Array,
   values: Float64Array,
@@ -140,7 +140,7 @@ export function takeSample(
   };
 }
 
-/** Index of the sample nearest to `time_s`; none where there is no sample. */
+/** Index of the sample nearest to `time_s`; undefined without samples. */
 export function nearestIndex(times: Float64Array, time_s: number): number | undefined {
   if (times.length === 0) return undefined;
   let low = 0;
@@ -153,7 +153,7 @@ export function nearestIndex(times: Float64Array, time_s: number): number | unde
   return time_s - (times[low] ?? 0) <= (times[high] ?? 0) - time_s ? low : high;
 }
 
-/** The same window as a table, every sample of it, metres and seconds; `disturbed` counts strikes since the line before. */
+/** The window as CSV with every sample, in metres and seconds. `disturbed` counts disturbances since the previous line. */
 export function csvOf(history: History, { from_s, to_s, struck }: Sample): string {
   const all = whole(history, from_s, to_s);
   const lines = [[...COLUMNS, 'disturbed'].join(',')];

@@ -1,4 +1,4 @@
-// One part of the figure against simulated time: a uPlot with the page's colours, and marks over it.
+// One part of the figure over simulated time: a uPlot in the page's colours with marks.
 
 import uPlot from 'uplot';
 import { fixed } from '../../ui/format';
@@ -16,15 +16,15 @@ export interface PlotContext {
 
 const AXIS_FONT = '10px system-ui, sans-serif';
 const SHADE_ALPHA = 0.16;
-/** The present is drawn only where the future is known: at this distance from the newest at least. */
+/** The present time is marked only if it is at least this far before the newest sample. */
 const BEHIND_S = 0.02;
 
-/** Decimals that tell multiples of `step` apart. */
+/** Number of decimals needed to distinguish multiples of `step`. */
 export function decimals(step: number): number {
   return String(step).split('.')[1]?.length ?? 0;
 }
 
-/** Below the lines: when sub-controller 1 went after the bead. */
+/** Below the lines: times of sub-controller 1. */
 function drawApproaches(u: uPlot, context: PlotContext): void {
   inside(u, (ctx) => {
     ctx.fillStyle = context.palette()['mode-1'];
@@ -36,7 +36,7 @@ function drawApproaches(u: uPlot, context: PlotContext): void {
   });
 }
 
-/** Marks over the lines: disturbances, the threshold, and the current time after a rewind. */
+/** Over the lines: disturbances, the threshold, and the present time after a rewind. */
 function drawMarks(u: uPlot, part: Part, context: PlotContext): void {
   const sample = context.sample();
   const palette = context.palette();
@@ -78,7 +78,7 @@ function drawMarks(u: uPlot, part: Part, context: PlotContext): void {
   });
 }
 
-/** `onPoint` hears where a pointer is, in seconds, and that it left. */
+/** `onPoint` is called with the pointer's time in seconds, and with undefined when the pointer leaves. */
 export function createTimePlot(
   root: HTMLElement,
   part: Part,

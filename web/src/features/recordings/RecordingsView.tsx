@@ -1,4 +1,4 @@
-// Recordings: the list, and the one that is open in Rerun's viewer.
+// The list of recordings, and the one that is open in Rerun's viewer.
 
 import { For, Show, createSignal, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
@@ -19,7 +19,7 @@ function Download(props: { file: RecordingFile; ending: Ending; words: string })
       class="button small"
       href={fileAddress(props.file.id, props.ending)}
       download={`${props.file.id}.${props.ending}`}
-      title={props.ending === 'ferry' ? 'Input log: ferry replay runs it again' : undefined}
+      title={props.ending === 'ferry' ? 'Input log: “ferry replay” runs it again' : undefined}
       aria-label={`Download ${what()}${title(props.file)}`}
     >
       {props.words}
@@ -73,7 +73,7 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
   const close = (): void => {
     const id = open()?.id;
     setOpen(undefined);
-    // The button that closed is gone, and the focus with it: back to where it came from.
+    // The Close button is removed with its focus: give the focus back.
     const row = [...(rows?.rows ?? [])].find((row) => row.dataset.recording === id);
     row?.querySelector('button')?.focus();
   };
@@ -99,7 +99,7 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
             when={list()?.length}
             fallback={
               <p class="placeholder">
-                {list() ? 'There are none yet. Every session is recorded.' : 'Asking the server…'}
+                {list() ? 'No recordings yet. Every session is recorded.' : 'Loading the list…'}
               </p>
             }
           >

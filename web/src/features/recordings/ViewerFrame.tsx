@@ -1,4 +1,4 @@
-// Rerun's viewer on one recording. It has a page of its own, for it may compile WebAssembly and this one may not.
+// Rerun's viewer with one recording, in a frame. Only the frame's page may compile WebAssembly; this page may not.
 
 import { Show, createEffect, on, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
@@ -18,7 +18,7 @@ interface ViewerFrameProps {
 export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
   let frame!: HTMLIFrameElement;
   let closer!: HTMLButtonElement;
-  // The address holds the theme of the beginning; later ones are told, since a new address would start anew.
+  // The address holds the first theme. Later themes are sent as messages, because a new address would reload the viewer.
   const address = viewerAddress(props.file.id, props.theme());
   createEffect(
     on(
@@ -30,7 +30,7 @@ export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
       { defer: true },
     ),
   );
-  // The viewer keeps the Tab key for itself; who came with the keyboard must get out again.
+  // The viewer uses the Tab key itself, so keyboard users need another key to leave it.
   const listenForLeaving = (): void => {
     const leave = (event: KeyboardEvent): void => {
       if (event.key !== LEAVE_KEY) return;
@@ -44,7 +44,9 @@ export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
       <div class="panel-head">
         <h2 id="viewer-title">{title(props.file)}</h2>
         <Show when={props.file.live}>
-          <span class="viewer-note">still recording; this is what it had when opened</span>
+          <span class="viewer-note">
+            still recording; this shows the data at the time of opening
+          </span>
           <button
             type="button"
             class="small"
@@ -52,7 +54,7 @@ export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
               props.onAgain();
             }}
           >
-            Read again
+            Reload
           </button>
         </Show>
         <span class="viewer-note">

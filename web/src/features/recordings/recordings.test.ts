@@ -11,18 +11,18 @@ test.each([
   [12_345_678, '12.3 MB'],
   [3_210_000_000, '3.2 GB'],
   [5e15, '5000 TB'],
-])('%d bytes read as %s', (bytes, text) => {
+])('%d bytes are shown as %s', (bytes, text) => {
   expect(size(bytes)).toBe(text);
 });
 
-test('a time is told by the clock of the place', () => {
+test('a time is shown in the local time zone', () => {
   expect(startedAt('2026-03-01T21:04:09.045Z', 'en-GB', 'Europe/Oslo')).toEqual({
     day: '1 Mar 2026',
     time: '22:04:09',
   });
 });
 
-test('a stray file is called by its name', () => {
+test('a foreign file is shown with its name', () => {
   const stray = { id: 'a b', session: null, started: null, bytes: 1, log_bytes: null, live: false };
   expect(title(stray)).toBe('a b');
   expect(fileAddress(stray.id, 'rrd')).toBe('/api/recordings/a%20b.rrd');

@@ -1,4 +1,4 @@
-// The list of recordings: asked for while it is looked at, and how its entries read.
+// The list of recordings, polled while it is visible, and the text of its entries.
 
 import { createSignal, onCleanup, onMount, type Accessor } from 'solid-js';
 import { get } from '../../net/requests';
@@ -6,12 +6,12 @@ import type { RecordingFile, RecordingList } from '../../net/protocol.gen';
 
 const REFRESH_MS = 3000;
 
-/** `7.0 kB`, `12.3 MB`: three digits at most, in powers of ten as disks are sold. */
+/** `7.0 kB`, `12.3 MB`: three digits at most, in powers of ten. */
 export function size(bytes: number): string {
   const units = ['kB', 'MB', 'GB', 'TB'];
   let value = bytes / 1000;
   let unit = 0;
-  // 999.5 would read as 1000.
+  // 999.5 would be shown as 1000.
   while (value >= 999.5 && unit < units.length - 1) {
     value /= 1000;
     unit += 1;
@@ -24,7 +24,7 @@ export interface Started {
   readonly time: string;
 }
 
-/** By the local clock, with seconds: sessions may start within one minute. */
+/** Local time with seconds: two sessions may start within one minute. */
 export function startedAt(started: string, locale?: string, timeZone?: string): Started {
   const date = new Date(started);
   const zone = timeZone === undefined ? {} : { timeZone };
@@ -34,30 +34,29 @@ export function startedAt(started: string, locale?: string, timeZone?: string): 
   };
 }
 
-/** What a recording is called on the page. */
+/** Name of a recording on the page. */
 export function title({ id, session, started }: RecordingFile): string {
   if (session === null || started === null) return id;
   const { day, time } = startedAt(started);
   return `${session}, ${day}, ${time}`;
 }
 
-/** Rerun's file, to be looked at, and the input log, to be run again. */
+/** Rerun's file for the viewer, and the input log for `ferry replay`. */
 export type Ending = 'rrd' | 'ferry';
 
-/** Where its file is. */
 export function fileAddress(id: string, ending: Ending): string {
   return `/api/recordings/${encodeURIComponent(id)}.${ending}`;
 }
 
 export interface Recordings {
-  /** The newest list; none before the first answer. */
+  /** The newest list; undefined before the first answer. */
   readonly list: Accessor<readonly RecordingFile[] | undefined>;
-  /** Why the last question was not answered. */
+  /** Why the last request failed. */
   readonly error: Accessor<string | undefined>;
   readonly refresh: () => void;
 }
 
-/** The list, asked for again and again while the page is visible. */
+/** The list, polled while the page is visible. */
 export function createRecordings(): Recordings {
   const [list, setList] = createSignal<readonly RecordingFile[]>();
   const [error, setError] = createSignal<string>();

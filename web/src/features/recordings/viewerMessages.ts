@@ -1,4 +1,4 @@
-// What the laboratory tells the viewer's page in its frame.
+// Messages from the laboratory to the viewer's page in its frame.
 
 import type { Theme } from '../../ui/theme';
 

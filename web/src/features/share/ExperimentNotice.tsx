@@ -1,4 +1,4 @@
-// What the page's address asks for and has not got, and why.
+// The notice for an experiment link that was not loaded, with the reason.
 
 import { Match, Switch, type JSX } from 'solid-js';
 import { experimentWords } from '../../lab/experimentLink';
@@ -19,7 +19,7 @@ export function ExperimentNotice(props: { lab: Session; links: PageExperiment })
       ×
     </button>
   );
-  // The region is always there: screen readers announce what appears inside of it.
+  // The region is always in the document: screen readers announce what appears inside it.
   return (
     <div class="link-bar" role="alert" aria-label="Link">
       <Switch>
@@ -31,7 +31,7 @@ export function ExperimentNotice(props: { lab: Session; links: PageExperiment })
             </p>
           )}
         </Match>
-        <Match when={links.asked()}>
+        <Match when={links.requested()}>
           {(experiment) => (
             <p>
               <span>

@@ -1,4 +1,4 @@
-// Experiments by name; shows the name of the one that is on the page, as long as nothing of it was changed.
+// Experiments by name. Shows the name of the page's experiment while it is unchanged.
 
 import { createMemo, type JSX } from 'solid-js';
 import type { PageExperiment } from '../../lab/pageExperiment';

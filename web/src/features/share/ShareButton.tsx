@@ -1,4 +1,4 @@
-// The experiment on the page as a link to take along.
+// The page's experiment as a link to copy.
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import type { PageExperiment } from '../../lab/pageExperiment';
@@ -26,7 +26,7 @@ export function ShareButton(props: { links: PageExperiment }): JSX.Element {
     return `${origin}${pathname}${props.links.now() ?? ''}`;
   };
   createEffect(() => {
-    // What was copied is no longer what stands there, or the popover is another one.
+    // The link has changed since it was copied, or the popover was opened again.
     props.links.now();
     open();
     setCopied('no');
@@ -37,7 +37,7 @@ export function ShareButton(props: { links: PageExperiment }): JSX.Element {
     setCopied('selected');
   };
   const copy = (): void => {
-    // The clipboard does not exist on a page loaded by plain HTTP from another machine.
+    // The clipboard is missing on a page loaded by plain HTTP from another machine.
     const clipboard = navigator.clipboard as Clipboard | undefined;
     if (!clipboard) {
       select();
@@ -78,10 +78,10 @@ export function ShareButton(props: { links: PageExperiment }): JSX.Element {
             {WORDS[copied()]}
           </p>
           <p>
-            The link holds map, seed, start and goal, the controller, all that was tuned, and
-            scripted disturbances. Opened on a Ferry server, it sets the experiment up at its start.
+            The link contains the map, seed, start, goal, controller, changed parameters and
+            scripted disturbances. On a Ferry server it loads this experiment at its start.
           </p>
-          <p class="hint">Not in it: what you did by hand on the way, such as drags and kicks.</p>
+          <p class="hint">It does not contain what you did by hand, such as drags and kicks.</p>
         </div>
       </Show>
     </div>

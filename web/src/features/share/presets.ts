@@ -1,4 +1,4 @@
-// Experiments worth a look, each a link as any other.
+// Example experiments, as experiment links.
 
 export interface Preset {
   readonly name: string;

@@ -1,4 +1,4 @@
-// What the colours of the layer of singularities mean.
+// Legend of the singularity layer.
 
 import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';

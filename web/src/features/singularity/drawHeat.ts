@@ -1,4 +1,4 @@
-// The layer of singularities: a smooth field of colours, and hatching where the arm is refused.
+// Draws the singularity layer: smooth colours, and hatching where the arm may not go.
 
 import type { Palette } from '../../ui/palette';
 import type { WorkspaceMap } from '../../net/protocol.gen';
@@ -12,7 +12,7 @@ type Ctx = CanvasRenderingContext2D;
 
 export interface Heat {
   readonly map: WorkspaceMap;
-  /** A pixel a cell. */
+  /** One pixel per cell. */
   readonly image: HTMLCanvasElement;
   readonly refused: readonly Run[];
 }

@@ -6,7 +6,7 @@ import { type Ramp, rampColour } from '../../plan/colourRamp';
 
 const RAMP: Ramp = ['#000000', '#646464', '#ff0080'];
 
-/** The upper row is out of reach in part, the lower one singular in part. */
+/** The upper row is partly out of reach, the lower row is partly singular. */
 const MAP: WorkspaceMap = {
   least_m3: 0.002,
   columns: 3,
@@ -16,12 +16,12 @@ const MAP: WorkspaceMap = {
   manipulability_m3: [0.001, 0.01, 0.03, null, null, 0.02],
 };
 
-describe('the question', () => {
+describe('the request', () => {
   const scene = sceneOf('posts');
 
-  it('follows map, height and orientation', () => {
-    const asked = workspaceQuery(scene, { ...scene.parameters, tool_height_m: 0.15 });
-    expect(asked).toEqual({
+  it('depends on map, height and orientation', () => {
+    const query = workspaceQuery(scene, { ...scene.parameters, tool_height_m: 0.15 });
+    expect(query).toEqual({
       area: scene.workspace,
       cell_m: 0.005,
       tool_height_m: 0.15,
@@ -29,7 +29,7 @@ describe('the question', () => {
     });
   });
 
-  it('is not asked without an arm', () => {
+  it('is not sent without an arm', () => {
     const stage = { ...scene, positioner: 'planar_stage' as const };
     expect(workspaceQuery(stage, scene.parameters)).toBeUndefined();
   });
@@ -41,21 +41,21 @@ describe('the question', () => {
 });
 
 describe('the legend', () => {
-  it('has the ends of what is not refused', () => {
+  it('has the smallest and the greatest allowed value', () => {
     expect(heatRange(MAP)).toEqual([0.01, 0.03]);
     expect(heatRange({ ...MAP, manipulability_m3: [null, 0.001] })).toBeUndefined();
   });
 
-  it('says how much is refused', () => {
+  it('shows the refused share', () => {
     expect(refusedWords(MAP)).toBe('50 %');
     expect(refusedWords({ ...MAP, manipulability_m3: [0.01] })).toBe('none');
     const almostNone = [null, ...new Array<number>(400).fill(0.01)];
-    expect(refusedWords({ ...MAP, manipulability_m3: almostNone })).toBe('under 1 %');
+    expect(refusedWords({ ...MAP, manipulability_m3: almostNone })).toBe('less than 1 %');
   });
 });
 
 describe('the colours', () => {
-  it('go from the least over the middle to the greatest', () => {
+  it('go from the smallest through the middle to the greatest value', () => {
     expect(rampColour(RAMP, 0)).toEqual([0, 0, 0]);
     expect(rampColour(RAMP, 0.25)).toEqual([50, 50, 50]);
     expect(rampColour(RAMP, 0.5)).toEqual([100, 100, 100]);
@@ -63,7 +63,7 @@ describe('the colours', () => {
     expect(rampColour(RAMP, 7)).toEqual([255, 0, 128]);
   });
 
-  it('stand upright: the upper row of the table is the first of the picture', () => {
+  it('are upright: the upper row of the table is the first row of the picture', () => {
     const pixels = heatPixels(MAP, RAMP);
     const at = (cell: number): number[] => [...pixels.subarray(4 * cell, 4 * cell + 4)];
     expect(at(2)).toEqual([100, 100, 100, 255]);

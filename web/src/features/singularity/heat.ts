@@ -1,4 +1,4 @@
-// The arm's manipulability over the workspace as colours, and where it is refused. Pure.
+// The arm's manipulability over the workspace as colours, and the places where it may not go. Pure.
 
 import { fixed } from '../../ui/format';
 import type {
@@ -10,19 +10,19 @@ import type {
 } from '../../net/protocol.gen';
 import { type Ramp, rampColour } from '../../plan/colourRamp';
 
-/** Fine enough to look smooth, on the paper's workspace and on a table of two metres. */
-const LEAST_CELL_M = 0.005;
-const MOST_CELLS_A_SIDE = 120;
+/** Fine enough to look smooth on the paper's workspace and on a table of two metres. */
+const MIN_CELL_M = 0.005;
+const MAX_CELLS_PER_SIDE = 120;
 
-/** Cells of a row next to each other: `[row, first column, number]`. */
+/** Neighbouring cells of a row: `[row, first column, count]`. */
 export type Run = readonly [number, number, number];
 
 export function cellM(area: Rect): number {
   const side_m = Math.max(area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m);
-  return Math.max(LEAST_CELL_M, side_m / MOST_CELLS_A_SIDE);
+  return Math.max(MIN_CELL_M, side_m / MAX_CELLS_PER_SIDE);
 }
 
-/** What to ask for; nothing without an arm. */
+/** Undefined without an arm. */
 export function workspaceQuery(
   scene: SceneMessage,
   parameters: Parameters,
@@ -36,12 +36,12 @@ export function workspaceQuery(
   };
 }
 
-/** Not reached, or so near a singularity that no controller may go there. */
+/** Out of reach, or so near a singularity that no controller may go there. */
 export function isRefused(map: WorkspaceMap, value_m3: number | null | undefined): boolean {
   return value_m3 === null || value_m3 === undefined || value_m3 < map.least_m3;
 }
 
-/** Least and greatest value of the cells that are not refused. */
+/** Smallest and greatest value of the cells that are not refused. */
 export function heatRange(map: WorkspaceMap): [number, number] | undefined {
   let range: [number, number] | undefined;
   for (const value_m3 of map.manipulability_m3) {
@@ -54,8 +54,8 @@ export function heatRange(map: WorkspaceMap): [number, number] | undefined {
 }
 
 /**
- * A pixel a cell, RGBA, the upper row first as in a picture. Refused cells, which are hatched, have
- * the colour of the least value: a smoothed picture gets no edge from them.
+ * RGBA, one pixel per cell, upper row first. Refused cells are hatched. They have the colour of the smallest value, so
+ * that smoothing shows no edge there.
  */
 export function heatPixels(map: WorkspaceMap, ramp: Ramp): Uint8ClampedArray<ArrayBuffer> {
   const pixels = new Uint8ClampedArray(4 * map.columns * map.rows);
@@ -92,10 +92,10 @@ export function heatWords(value_m3: number): string {
   return fixed(value_m3 * 1000, 1);
 }
 
-/** Share of the cells that are refused, in words. */
+/** Share of the refused cells as text. */
 export function refusedWords(map: WorkspaceMap): string {
   const refused = map.manipulability_m3.filter((value) => isRefused(map, value)).length;
   if (refused === 0) return 'none';
   const percent = (100 * refused) / map.manipulability_m3.length;
-  return percent < 1 ? 'under 1 %' : `${fixed(percent, 0)} %`;
+  return percent < 1 ? 'less than 1 %' : `${fixed(percent, 0)} %`;
 }

@@ -1,4 +1,4 @@
-// The layer of singularities: asked for while it is shown.
+// The singularity layer. Its data is requested while it is shown.
 
 import { Show, createMemo } from 'solid-js';
 import type { WorkspaceMap, WorkspaceQuery } from '../../net/protocol.gen';
@@ -15,7 +15,7 @@ export const SINGULARITY_LAYER: MapLayer = {
   group: 'Arm',
   unavailable: (lab: Trial) =>
     lab.scene()?.positioner === 'planar_stage'
-      ? 'The planar stage has no arm, and so no singularities.'
+      ? 'The planar stage has no arm, so it has no singularities.'
       : undefined,
   create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const question = createMemo<WorkspaceQuery | undefined>(() => {

@@ -6,7 +6,7 @@ import { Strokes } from '../../scene/strokes';
 import { trailsOf } from './trail';
 
 const UP_M = 1.2e-3;
-/** Beyond this many points a trail looks no different. */
+/** More points than this do not change the look of a trail. */
 const POINTS = 800;
 
 export const sceneTrails: CreateSceneObject = (paints) => {
@@ -23,7 +23,7 @@ export const sceneTrails: CreateSceneObject = (paints) => {
       trailsOf(state, history).forEach(({ xs_m, ys_m }, index) => {
         const trail = strokes[index as 0 | 1].clear();
         const stride = Math.max(1, Math.ceil(xs_m.length / POINTS));
-        // From the newest back, which is always there.
+        // Back from the newest point, which is always included.
         for (let i = xs_m.length - 1; i >= 0; i -= stride) {
           const [x, y] = [xs_m[i] ?? 0, ys_m[i] ?? 0];
           if (i === xs_m.length - 1) trail.move(x, y, UP_M);

@@ -1,7 +1,7 @@
 import type { History } from '../../lab/history';
 import type { StateMessage } from '../../net/protocol.gen';
 
-/** As long as the plots show. */
+/** The same time as in the plots. */
 const TRAIL_S = 60;
 
 export interface Trail {

@@ -1,4 +1,4 @@
-// What the policy expects of each of its four actions: a fan of quantiles an action.
+// The policy's expected return of each of its four actions, as a fan of quantiles.
 
 import { Index, Show, createMemo, type JSX } from 'solid-js';
 import { ACTIONS } from '../../lab/actions';
@@ -18,8 +18,8 @@ function Strip(props: { fan: Fan; axis: Axis }): JSX.Element {
       </Index>
       <rect
         class="all"
-        x={at(props.fan.least)}
-        width={width(props.fan.least, props.fan.greatest)}
+        x={at(props.fan.min)}
+        width={width(props.fan.min, props.fan.greatest)}
         y="5"
         height="10"
       />
@@ -60,13 +60,13 @@ export function ValueFans(props: { judgement: JudgementLayer; map: string }): JS
   const shielded = (): boolean => best() !== props.judgement.taken;
   return (
     <section class="value-fans" aria-label="What the policy expects">
-      <p class="keys" title="The sum of the rewards to come, each counting less the later it comes">
+      <p class="keys" title="The sum of future rewards. Later rewards count less">
         Return:
         <span class="all" /> all quantiles
         <span class="half" /> middle half
         <span class="mean" /> mean
       </p>
-      <table aria-label="Return expected of each action">
+      <table aria-label="Expected return of each action">
         <tbody>
           <Index each={ACTIONS}>
             {(action, index) => (
@@ -99,7 +99,7 @@ export function ValueFans(props: { judgement: JudgementLayer; map: string }): JS
       </table>
       <p>
         Taken: <strong data-testid="rl-taken">{ACTIONS[props.judgement.taken]?.name}</strong>
-        <Show when={shielded()}>, the shield chose the next best</Show>
+        <Show when={shielded()}>, the next best: the shield refused the best action</Show>
       </p>
       <p class="rule">
         Trained on: <span data-testid="rl-trained-on">{props.judgement.trained_on.join(', ')}</span>

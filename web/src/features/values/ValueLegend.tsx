@@ -1,4 +1,4 @@
-// What the colours and arrows of the layer of values mean.
+// Legend of the value layer.
 
 import { Show, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
@@ -32,11 +32,11 @@ export function ValueLegend(props: {
   hasGoal: boolean;
 }): JSX.Element {
   const waits = (): string | undefined =>
-    props.error === undefined ? 'looking at the map from everywhere…' : undefined;
+    props.error === undefined ? 'calculating the values of the whole map…' : undefined;
   return (
     <div class="map-legend" role="group" aria-label="Values">
       <span>Value</span>
-      <Show when={props.hasGoal} fallback={<span>Place a goal to see it.</span>}>
+      <Show when={props.hasGoal} fallback={<span>Set a goal to see the values.</span>}>
         <Show when={props.map} fallback={waits()}>
           {(map) => <Range map={map()} />}
         </Show>
@@ -46,8 +46,8 @@ export function ValueLegend(props: {
       </span>
       {/* Always there: when the values come, the map above keeps its size. */}
       <p class="words">
-        Discounted return expected from there with this goal, by images of the default camera;
-        arrows: the best step.
+        Expected discounted return at each place for this goal, with images of the default camera.
+        Arrows show the best step.
       </p>
     </div>
   );

@@ -1,4 +1,4 @@
-// The layer of values: a colour a cell, and an arrow of the best step.
+// Draws the value layer: one colour per cell, and arrows of the best steps.
 
 import type { Palette } from '../../ui/palette';
 import type { ValueMap } from '../../net/protocol.gen';
@@ -34,7 +34,7 @@ export function drawValues(
 ): void {
   const { corner_m, columns, rows } = values.picture;
   const side = values.spacing_m * view.pxPerM;
-  // Each cell was judged by itself: nothing is between two.
+  // No smoothing: each cell has its own value.
   ctx.imageSmoothingEnabled = false;
   ctx.drawImage(values.image, ...pxFromWorld(view, corner_m), columns * side, rows * side);
   ctx.strokeStyle = palette.text;

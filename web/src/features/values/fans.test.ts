@@ -1,17 +1,17 @@
 import { describe, expect, it } from 'vitest';
 import { bestOf, type Fan, fanAxis, fanOf, percentAlong } from './fans';
 
-function fanFrom(least: number, greatest: number): Fan {
-  return { least, lower: least, mean: least, upper: greatest, greatest };
+function fanFrom(min: number, greatest: number): Fan {
+  return { min, lower: min, mean: min, upper: greatest, greatest };
 }
 
 describe('a fan', () => {
-  it('has its quarters between the quantiles at (k + ½) / K', () => {
+  it('interpolates its quarters between the quantiles at (k + ½) / K', () => {
     const fan = fanOf(
       Array.from({ length: 32 }, (_, k) => (k + 0.5) / 32),
       0.5,
     );
-    expect(fan.least).toBeCloseTo(1 / 64);
+    expect(fan.min).toBeCloseTo(1 / 64);
     expect(fan.lower).toBeCloseTo(0.25);
     expect(fan.upper).toBeCloseTo(0.75);
     expect(fan.greatest).toBeCloseTo(63 / 64);
@@ -21,13 +21,13 @@ describe('a fan', () => {
     expect(fanOf([3, 1, 4, 2], 2.5)).toEqual(fanOf([1, 2, 3, 4], 2.5));
   });
 
-  it('is a line where there is but one quantile', () => {
-    expect(fanOf([2], 2)).toEqual({ least: 2, lower: 2, mean: 2, upper: 2, greatest: 2 });
+  it('is a line with only one quantile', () => {
+    expect(fanOf([2], 2)).toEqual({ min: 2, lower: 2, mean: 2, upper: 2, greatest: 2 });
   });
 });
 
 describe('the axis', () => {
-  it('goes from one round number to another around all fans', () => {
+  it('has round numbers at both ends and contains all fans', () => {
     const axis = fanAxis([fanFrom(-0.93, 0.1), fanFrom(0.8, 1.1)]);
     expect([axis.from, axis.to, axis.step]).toEqual([-1, 1.5, 0.5]);
     expect(axis.ticks).toEqual([-1, -0.5, 0, 0.5, 1, 1.5]);
@@ -35,7 +35,7 @@ describe('the axis', () => {
     expect(percentAlong(axis, 0.25)).toBe(50);
   });
 
-  it('has few numbers, whatever the span', () => {
+  it('has few numbers for any span', () => {
     for (const span of [0, 1e-6, 0.013, 0.07, 0.4, 0.99, 2.4, 31]) {
       const { from, to, ticks } = fanAxis([fanFrom(0.97, 0.97 + span)]);
       expect(from).toBeLessThanOrEqual(0.97);

@@ -1,23 +1,23 @@
 // Quantiles of the return as fans on a common axis. Pure.
 
-/** The span of the fans has at most so many steps: more numbers would touch. */
-const MOST_STEPS = 5;
-/** Share of an axis that fans fill at least, else they get a shorter one. */
-const LEAST_FILLED = 1 / 3;
-/** Where all quantiles are equal, the axis has this length all the same. */
-const LEAST_SPAN = 0.01;
+/** Largest number of steps on the axis: more numbers would overlap. */
+const MAX_STEPS = 5;
+/** If the fans fill less than this share of the axis, the axis becomes shorter. */
+const MIN_FILLED = 1 / 3;
+/** Smallest length of the axis, for equal quantiles. */
+const MIN_SPAN = 0.01;
 
 export interface Fan {
-  readonly least: number;
-  /** A quarter of the returns are below. */
+  readonly min: number;
+  /** A quarter of the returns is below. */
   readonly lower: number;
   readonly mean: number;
-  /** A quarter of the returns are above. */
+  /** A quarter of the returns is above. */
   readonly upper: number;
   readonly greatest: number;
 }
 
-/** From quantiles at the fractions (k + ½) / K. Those of a network may cross, and are sorted first. */
+/** From quantiles at the fractions (k + ½) / K. A network's quantiles may cross, so they are sorted first. */
 export function fanOf(quantiles: readonly number[], mean: number): Fan {
   const sorted = [...quantiles].sort((a, b) => a - b);
   const last = sorted.length - 1;
@@ -26,7 +26,7 @@ export function fanOf(quantiles: readonly number[], mean: number): Fan {
     const [below, above] = [sorted[Math.floor(place)] ?? mean, sorted[Math.ceil(place)] ?? mean];
     return below + (place % 1) * (above - below);
   };
-  return { least: at(0), lower: at(0.25), mean, upper: at(0.75), greatest: at(1) };
+  return { min: at(0), lower: at(0.25), mean, upper: at(0.75), greatest: at(1) };
 }
 
 export interface Axis {
@@ -36,27 +36,27 @@ export interface Axis {
   readonly ticks: readonly number[];
 }
 
-/** From one round number to another around all fans; the one before as long as it will do, so that it seldom jumps. */
+/** An axis with round ends around all fans. The previous axis is kept while it fits, so that the axis rarely jumps. */
 export function fanAxis(fans: readonly Fan[], before?: Axis): Axis {
-  const least = Math.min(...fans.map((fan) => fan.least));
+  const min = Math.min(...fans.map((fan) => fan.min));
   const greatest = Math.max(...fans.map((fan) => fan.greatest));
-  const isInside = before && before.from <= least && greatest <= before.to;
-  if (isInside && greatest - least >= LEAST_FILLED * (before.to - before.from)) return before;
-  const finest = Math.max(LEAST_SPAN, greatest - least) / MOST_STEPS;
+  const isInside = before && before.from <= min && greatest <= before.to;
+  if (isInside && greatest - min >= MIN_FILLED * (before.to - before.from)) return before;
+  const finest = Math.max(MIN_SPAN, greatest - min) / MAX_STEPS;
   const power = 10 ** Math.floor(Math.log10(finest));
   const step = power * ([1, 2, 5].find((factor) => factor * power >= finest) ?? 10);
-  const first = Math.floor(least / step);
+  const first = Math.floor(min / step);
   const last = Math.max(first + 1, Math.ceil(greatest / step));
   const ticks = Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
   return { from: first * step, to: last * step, step, ticks };
 }
 
-/** Share of the axis, in percent. */
+/** Position on the axis in percent. */
 export function percentAlong({ from, to }: Axis, value: number): number {
   return (100 * (value - from)) / (to - from);
 }
 
-/** Index of the greatest; the first one of equals. */
+/** Index of the greatest value; the first one wins a tie. */
 export function bestOf(values: readonly number[]): number {
   return values.indexOf(Math.max(...values));
 }

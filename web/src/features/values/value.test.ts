@@ -6,7 +6,7 @@ import type { Ramp } from '../../plan/colourRamp';
 
 const RAMP: Ramp = ['#000000', '#646464', '#ff0080'];
 
-/** Two cells beside each other and one above the right one. */
+/** Two cells side by side, and one above the right cell. */
 const MAP: ValueMap = {
   spacing_m: 0.01,
   cells: [
@@ -19,7 +19,7 @@ const MAP: ValueMap = {
 const NONE: ValueMap = { ...MAP, cells: [] };
 
 describe('the key', () => {
-  it('is another for another goal, map or policy, and the same after a reset', () => {
+  it('changes with the goal, map and policy, but not after a reset', () => {
     const scene = sceneOf('colon');
     const key = valueKey(scene, [0.1, 0.2]);
     expect(valueKey({ ...scene, trial: 7, seed: 2 }, [0.1, 0.2])).toBe(key);
@@ -40,7 +40,7 @@ describe('the legend', () => {
 });
 
 describe('the picture', () => {
-  it('covers its cells and is transparent elsewhere', () => {
+  it('is upright and transparent outside the cells', () => {
     const picture = valuePicture(MAP, RAMP);
     expect([picture?.columns, picture?.rows]).toEqual([2, 2]);
     expect(picture?.corner_m[0]).toBeCloseTo(0.1);
@@ -54,13 +54,13 @@ describe('the picture', () => {
     expect(pixel(3)).toEqual([100, 100, 100, 255]);
   });
 
-  it('does not exist without cells', () => {
+  it('is undefined without cells', () => {
     expect(valuePicture(NONE, RAMP)).toBeUndefined();
   });
 });
 
 describe('the arrows', () => {
-  it('point where the best step leads, and stay in their cells', () => {
+  it('point along the best step and stay in their cells', () => {
     const arrows = valueArrows(MAP, 2000);
     const ways = arrows.map(({ from_m, to_m }) => [
       Math.round((to_m[0] - from_m[0]) * 1e4) / 1e4,
@@ -73,7 +73,7 @@ describe('the arrows', () => {
     ]);
   });
 
-  it('are fewer and longer where cells are small', () => {
+  it('are fewer and longer for small cells', () => {
     const arrows = valueArrows(MAP, 1000);
     expect(arrows).toHaveLength(0);
     const shifted = {
@@ -88,7 +88,7 @@ describe('the arrows', () => {
     expect((arrow?.to_m[0] ?? 0) - (arrow?.from_m[0] ?? 0)).toBeCloseTo(0.012);
   });
 
-  it('are none for what is no action', () => {
+  it('are missing for an unknown action', () => {
     const strange = {
       ...MAP,
       cells: [{ center_m: [0, 0] as [number, number], value: 1, action: 4 }],

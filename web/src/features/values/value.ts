@@ -1,4 +1,4 @@
-// What the policy thinks of each place: colours, and an arrow of its best step. Pure.
+// The policy's value of each place as colours, and arrows of the best steps. Pure.
 
 import { ACTIONS } from '../../lab/actions';
 import type { SceneMessage, ValueCell, ValueMap } from '../../net/protocol.gen';
@@ -6,12 +6,12 @@ import type { Vec2 } from '../../lab/geometry';
 import type { Arrow } from '../../plan/arrows';
 import { type Ramp, rampColour } from '../../plan/colourRamp';
 
-/** Of the distance between two arrows. */
+/** Arrow length as a share of the distance between two arrows. */
 const LENGTH = 0.6;
-/** Arrows nearer to each other than this are a thicket. */
-const LEAST_ARROW_PX = 12;
+/** Smallest distance between arrows, so that they stay readable. */
+const MIN_ARROW_PX = 12;
 
-/** What the values follow from: not from the trial, whose reset asks nothing new. */
+/** What the values depend on. A reset of the trial does not change them. */
 export function valueKey(scene: SceneMessage, goal_m: Vec2): string {
   return JSON.stringify([scene.map, scene.parameters.rl_policy, goal_m]);
 }
@@ -22,7 +22,7 @@ export function valueRange(map: ValueMap): [number, number] | undefined {
   return [Math.min(...values), Math.max(...values)];
 }
 
-/** The least x and the greatest y of the cells' middles, and the column and row of a cell from there. */
+/** The smallest x and the largest y of the cells' middles, and a cell's column and row counted from there. */
 function latticeOf({ cells, spacing_m }: ValueMap) {
   const left_m = Math.min(...cells.map(({ center_m }) => center_m[0]));
   const top_m = Math.max(...cells.map(({ center_m }) => center_m[1]));
@@ -34,7 +34,7 @@ function latticeOf({ cells, spacing_m }: ValueMap) {
   };
 }
 
-/** A pixel a cell, RGBA, the upper row first as in a picture; without colour where there is no cell. */
+/** RGBA, one pixel per cell, upper row first. Transparent outside the cells. */
 export interface ValuePicture {
   /** Upper left corner. */
   readonly corner_m: Vec2;
@@ -59,9 +59,9 @@ export function valuePicture(map: ValueMap, ramp: Ramp): ValuePicture | undefine
   return { corner_m: [left_m - half_m, top_m + half_m], columns, rows, pixels };
 }
 
-/** The step that is best in each cell, or in every so many along x and y where cells are small. */
+/** Arrows of the best step in each cell, or in every n-th cell along x and y if cells are small. */
 export function valueArrows(map: ValueMap, pxPerM: number): Arrow[] {
-  const every = Math.max(1, Math.ceil(LEAST_ARROW_PX / (map.spacing_m * pxPerM)));
+  const every = Math.max(1, Math.ceil(MIN_ARROW_PX / (map.spacing_m * pxPerM)));
   const half_m = (LENGTH / 2) * every * map.spacing_m;
   const { column, row } = latticeOf(map);
   return map.cells.flatMap((cell) => {

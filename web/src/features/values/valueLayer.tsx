@@ -1,4 +1,4 @@
-// The layer of values: asked for while it is shown.
+// The value layer. Its data is requested while it is shown.
 
 import { createMemo } from 'solid-js';
 import type { ValueMap, ValueQuery } from '../../net/protocol.gen';
@@ -28,7 +28,7 @@ export const VALUE_LAYER: MapLayer = {
       },
       { key: () => key() ?? '' },
     );
-    // Only of this goal, map and policy: a first answer takes seconds, and other values would mislead.
+    // Only values of this goal, map and policy: the first answer takes seconds, and old values would mislead.
     const isNow = createMemo(() => key() !== undefined && answer().key === key());
     const error = createMemo(() => (isNow() ? answer().error : undefined));
     const map = createMemo(() => (isNow() && error() === undefined ? answer().data : undefined));

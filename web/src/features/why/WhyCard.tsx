@@ -1,4 +1,4 @@
-// The story of one event: why it came, what was seen, and ways to go on from there.
+// The story of one event: why it happened, what the camera saw, and buttons to continue from there.
 
 import { Match, Show, Switch, createEffect, createMemo, createResource, on } from 'solid-js';
 import type { JSX } from 'solid-js';
@@ -9,7 +9,7 @@ import { sessionPath } from '../../net/session';
 import { eventTitle, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
 import type { Events, OpenTab, Session } from '../../lab/slices';
 
-/** e on a scale up to twice the limit, and the limit in its middle. */
+/** e on a scale from 0 to twice the limit. The limit is in the middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
   const share = (): number =>
     Math.min(1, props.moment.error_m / (2 * props.moment.threshold_m || 1));
@@ -53,7 +53,7 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
   const [moment] = createResource(path, get<MomentMessage>);
   const place = createMemo(() => {
     const at = lab.marks().indexOf(props.event);
-    // Who connects again is told of it again.
+    // After a new connection the server sends the events again.
     return at >= 0 ? at : lab.marks().findIndex((one) => isSame(one, props.event));
   });
   const isPast = (): boolean => place() < 0;
@@ -113,15 +113,17 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
       <div class="why-body">
         <p class="why-sentence">{sentence(props.event.text)}</p>
         <Show when={isPast()}>
-          <p class="hint">The session was rewound and then took another course; this event is not part of it.</p>
+          <p class="hint">
+            The session was rewound and then took another course; this event is not part of it.
+          </p>
         </Show>
-        <Switch fallback={<p class="hint">Looking back …</p>}>
+        <Switch fallback={<p class="hint">Loading …</p>}>
           <Match when={moment.error as unknown}>
             {(error) => (
               <p class="hint" role="alert">
                 {error() instanceof Error
                   ? (error() as Error).message
-                  : 'The server does not answer.'}
+                  : 'The server did not answer.'}
               </p>
             )}
           </Match>
@@ -135,18 +137,18 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
           type="button"
           class="small"
           disabled={!lab.canOperate() || isPast()}
-          title="Back to the control step at or before this event: time pauses there"
+          title="Rewinds to the control step at or before this event and pauses there"
           onClick={() => {
             lab.send({ type: 'rewind', tick: props.event.tick });
           }}
         >
-          Go there
+          Rewind to here
         </button>
         <button
           type="button"
           class="small primary"
           disabled={!lab.canOperate() || isPast()}
-          title="Runs this moment on under every controller"
+          title="Continues from this moment under every controller"
           onClick={() => {
             lab.send({ type: 'fork', tick: props.event.tick });
             lab.openTab('compare');
@@ -160,7 +162,7 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
   );
 }
 
-/** Open while an event is inspected; focus goes back to where it came from. */
+/** Open while an event is inspected. Closing it returns the focus. */
 export function WhyCard(props: { lab: Session & Events & OpenTab }): JSX.Element {
   let from: Element | null = null;
   createEffect(

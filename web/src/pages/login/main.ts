@@ -1,4 +1,4 @@
-// The page to log in with: the token goes to the server once, in a body, and nowhere else.
+// The login page. It sends the token to the server once, in a request body, and stores it nowhere.
 
 import { problemText } from '../../net/problem';
 import { createTheme } from '../../ui/theme';
@@ -36,9 +36,9 @@ async function logIn(token: string): Promise<void> {
       return;
     }
     const problem: unknown = await response.json().catch(() => undefined);
-    say(problemText(problem) ?? `The server answered ${response.status}.`, true);
+    say(problemText(problem) ?? `The server answered with status ${response.status}.`, true);
   } catch {
-    say('The server does not answer.', true);
+    say('The server did not answer.', true);
   }
   button.disabled = false;
   field.focus();
@@ -50,13 +50,13 @@ form.addEventListener('submit', (event) => {
   void logIn(field.value.trim());
 });
 
-/** Where the page that was asked for stands, now that it may be seen. */
+/** Loads the requested page after the login. */
 function enter(): void {
   if (window.location.pathname === '/login') window.location.replace('/');
   else window.location.reload();
 }
 
-/** Who follows a link from another site comes without the cookie, though the browser may have it. */
+/** A link from another site comes without the cookie, although the browser may have it. */
 async function isKnown(): Promise<boolean> {
   const response = await fetch('/api/maps', { method: 'HEAD' }).catch(() => undefined);
   return response?.ok === true;
@@ -69,7 +69,7 @@ async function begin(carried: string | undefined): Promise<void> {
 
 field.focus();
 void begin(takeToken(window));
-// A link that is pasted over this page's address, and differs in nothing but the token, loads nothing.
+// A pasted link that differs only in the token does not load the page, so read the token here.
 window.addEventListener('hashchange', () => {
   const token = takeToken(window);
   if (token !== undefined) void logIn(token);

@@ -1,4 +1,4 @@
-// The page in place of one that was refused: the colours are the person's.
+// The page for a refused request, in the user's colours.
 
 import { createTheme } from '../../ui/theme';
 

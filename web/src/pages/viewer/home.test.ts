@@ -3,16 +3,16 @@ import { keptAtHome } from './home';
 
 const HOME = 'http://127.0.0.1:8080';
 
-test('asks its own server and nobody else', async () => {
-  const asked: string[] = [];
+test('sends requests only to its own server', async () => {
+  const requested: string[] = [];
   const kept = keptAtHome((input) => {
-    asked.push(input instanceof Request ? input.url : input.toString());
+    requested.push(input instanceof Request ? input.url : input.toString());
     return Promise.resolve(new Response());
   }, HOME);
   await kept('/api/recordings');
   await kept(new URL('/rerun/re_viewer.js', HOME));
   await kept(new Request(`${HOME}/api/recordings`, { method: 'HEAD' }));
-  expect(asked).toEqual([
+  expect(requested).toEqual([
     '/api/recordings',
     `${HOME}/rerun/re_viewer.js`,
     `${HOME}/api/recordings`,
@@ -26,5 +26,5 @@ test('asks its own server and nobody else', async () => {
   ]) {
     expect((await kept(stranger)).status).toBe(403);
   }
-  expect(asked).toHaveLength(3);
+  expect(requested).toHaveLength(3);
 });

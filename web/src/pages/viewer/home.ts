@@ -1,7 +1,7 @@
-// The viewer would post usage statistics and look for examples on Rerun's servers, and has no option against it.
-// It is told no here, before a request is made. The page's policy would stop it too, but with an error each time.
+// The viewer would send usage statistics to Rerun's servers and load examples from there, and has no option against it.
+// These requests are refused here. The page's security policy would also block them, but with an error each time.
 
-/** A `fetch` that asks one origin; others it answers itself, as forbidden. */
+/** A `fetch` for one origin. It answers requests to other origins itself, as forbidden. */
 export function keptAtHome(original: typeof fetch, origin: string): typeof fetch {
   return (input, init) => {
     const address = new URL(input instanceof Request ? input.url : input, origin);

@@ -1,4 +1,4 @@
-// A page for Rerun's viewer alone, framed by the view of recordings: `/viewer/?recording=ID&theme=dark`.
+// The page of Rerun's viewer, in a frame of the Recordings view: `/viewer/?recording=ID&theme=dark`.
 
 import { problemText } from '../../net/problem';
 import { keptAtHome } from './home';
@@ -30,16 +30,13 @@ async function check(address: string): Promise<void> {
     const problem: unknown = await fetch(address)
       .then((again) => again.json())
       .catch(() => undefined);
-    throw new Error(problemText(problem) ?? `The server answered ${response.status}.`);
+    throw new Error(problemText(problem) ?? `The server answered with status ${response.status}.`);
   }
 }
 
 function watchForPanic(handle: WebHandle): void {
   if (handle.has_panicked()) {
-    show(
-      'failed',
-      `Rerun's viewer has crashed: ${handle.panic_message() ?? 'it does not say why'}`,
-    );
+    show('failed', `Rerun's viewer has crashed: ${handle.panic_message() ?? 'no reason given'}`);
     return;
   }
   setTimeout(() => {
@@ -68,12 +65,12 @@ async function open(recording: string): Promise<void> {
 }
 
 function start(): void {
-  const asked = new URLSearchParams(location.search);
-  const theme = asked.get('theme') === 'light' ? 'light' : 'dark';
+  const query = new URLSearchParams(location.search);
+  const theme = query.get('theme') === 'light' ? 'light' : 'dark';
   const scheme = new Scheme(theme);
   globalThis.fetch = keptAtHome(fetch.bind(globalThis), location.origin);
   globalThis.matchMedia = scheme.answering(matchMedia.bind(globalThis));
-  // The viewer tells its shaders' life stories: tens of thousands of lines.
+  // The viewer logs tens of thousands of lines about its shaders.
   // eslint-disable-next-line no-console
   console.debug = () => undefined;
 
@@ -84,7 +81,7 @@ function start(): void {
     document.documentElement.dataset.theme = changed;
     scheme.set(changed);
   });
-  open(asked.get('recording') ?? '').catch((reason: unknown) => {
+  open(query.get('recording') ?? '').catch((reason: unknown) => {
     const why = reason instanceof Error ? reason.message : String(reason);
     show('failed', `The recording could not be opened: ${why}`);
   });

@@ -1,6 +1,6 @@
-// The part of Rerun's viewer that is used: what wasm-bindgen exports from `re_viewer.js` 0.36.
+// The used part of Rerun's viewer: exports of wasm-bindgen in `re_viewer.js` 0.36.
 
-/** Options of the viewer; see `AppOptions` in Rerun's `re_viewer/src/web.rs`. */
+/** Options of the viewer. See `AppOptions` in Rerun's `re_viewer/src/web.rs`. */
 interface ViewerOptions {
   readonly url: string;
   readonly render_backend: 'webgl' | 'webgpu';
@@ -41,7 +41,7 @@ function runScript(address: string): Promise<void> {
   });
 }
 
-/** Loads the viewer, some 13 MB the first time. */
+/** Loads the viewer, about 13 MB the first time. */
 export async function loadViewer(): Promise<Viewer['WebHandle']> {
   const module = fetch(MODULE);
   await runScript(SCRIPT);

@@ -5,20 +5,20 @@ class List extends EventTarget {
   readonly matches = true;
 }
 
-test('answers with the theme and tells of its change', () => {
+test('answers with the theme and reports a change', () => {
   const scheme = new Scheme('dark');
   const matchMedia = scheme.answering(() => new List() as unknown as MediaQueryList);
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const light = matchMedia('(prefers-color-scheme: light)');
   expect([dark.matches, light.matches]).toEqual([true, false]);
-  const heard: boolean[] = [];
-  dark.addEventListener('change', () => heard.push(dark.matches));
+  const results: boolean[] = [];
+  dark.addEventListener('change', () => results.push(dark.matches));
   scheme.set('light');
   expect([dark.matches, light.matches]).toEqual([false, true]);
-  expect(heard).toEqual([false]);
+  expect(results).toEqual([false]);
 });
 
-test('leaves other questions to the browser', () => {
+test('leaves other media queries to the browser', () => {
   const other = new Scheme('light').answering(() => new List() as unknown as MediaQueryList);
   expect(other('(min-width: 100px)').matches).toBe(true);
 });
