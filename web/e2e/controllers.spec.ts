@@ -6,7 +6,7 @@ import { must, until } from './support/wait';
 
 /** The server looks at a map from every free centimetre before it first sends values. */
 const FIRST_VALUES_MS = 60_000;
-const WITHOUT_GOAL = /Place a goal/i;
+const WITHOUT_GOAL = /Set a goal/i;
 
 /** Showing a layer changes one of a few places, and hiding it changes them back. */
 async function shows(lab: Lab, layer: string, points: readonly PointLike[]) {
@@ -145,7 +145,7 @@ test('shows where the attractor leads', async ({ lab }) => {
   const goal = lab.freePoints(await lab.bead(), 0.3, 0.5)[0];
   await lab.setGoal(goal);
   await expect(lab.page.getByTestId('flow-traps')).toHaveText(/\d|none/);
-  await expect(legend).toContainText(/where the attractor leads/);
+  await expect(legend).toContainText(/direction of the attractor flow/i);
 
   // Places of the grid: an arrow goes through each, unless it is over a wall.
   const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;

@@ -10,8 +10,8 @@ const LONG = 1000;
 const RUN_MS = 90_000;
 const PROGRESS = /^[1-9]\d* of 4000 episodes, about .* left$/i;
 const ALL_ROWS = /2 of 2 rows/i;
-const BROKEN_OFF = /broken off/i;
-const NOT_BEGUN = /not begun/i;
+const BROKEN_OFF = /stopped/i;
+const NOT_BEGUN = /not started/i;
 const NAMES: Record<string, string> = { errt: 'ERRT', attractor: 'Attractor' };
 
 interface Wish {
@@ -38,7 +38,7 @@ async function fillIn(page: Page, wish: Wish) {
   for (const [legend, wanted] of [
     ['Controllers', wish.controllers],
     ['Maps', wish.maps],
-    ['Disturbances an episode', wish.disturbances],
+    ['Disturbances per episode', wish.disturbances],
   ] as const) {
     for (const box of await form.getByRole('group', { name: legend }).getByRole('checkbox').all()) {
       const name = await box.evaluate((one: HTMLInputElement) => one.labels?.[0]?.textContent);
@@ -50,7 +50,7 @@ async function fillIn(page: Page, wish: Wish) {
     }
   }
   for (const [label, value] of [
-    ['Episodes a cell', wish.episodes],
+    ['Episodes per cell', wish.episodes],
     ['Seed', wish.seed],
   ] as const) {
     await tabTo(page, form.getByLabel(label, { exact: true }));
@@ -113,7 +113,7 @@ test('refuses an evaluation without episodes, at its field', async ({ lab, watch
   const form = await fillIn(lab.page, { ...SMALL, episodes: 0 });
   const before = await count(lab);
   await lab.page.keyboard.press('Enter');
-  const episodes = form.getByLabel('Episodes a cell', { exact: true });
+  const episodes = form.getByLabel('Episodes per cell', { exact: true });
   await expect(episodes).toHaveAttribute('aria-invalid', 'true');
   const described = must(await episodes.getAttribute('aria-describedby'), 'a description');
   const words = lab.page.locator(`[id="${described}"]`);

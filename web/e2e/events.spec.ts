@@ -7,7 +7,7 @@ import { must, until } from './support/wait';
 
 const COMPUTED_MS = 60_000;
 const SWITCHED = /Sub-controller 1 takes over: bead lost: \d+ mm away, more than T = 100 mm\./i;
-const FLIES = /Sub-controller 1 flies after it/i;
+const FLIES = /Sub-controller 1 flies to the bead/i;
 const OVER_THE_LIMIT = /over the limit/i;
 
 /** A carry with the bead taken away in the middle of it, delivered in the end. */
@@ -53,7 +53,7 @@ test('explains a switch', async ({ lab }) => {
     .poll(() => picture.evaluate((image: HTMLImageElement) => image.naturalWidth))
     .toBe(480);
   const before = lab.state.tick;
-  await card.getByRole('button', { name: 'Go there' }).click();
+  await card.getByRole('button', { name: 'Rewind to here' }).click();
   await until('back in time', () => lab.state.tick < before);
   await until('the second sub-controller before', () => lab.state.mode === 2);
   await lab.page.keyboard.press('Escape');

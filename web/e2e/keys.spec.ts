@@ -5,7 +5,7 @@ import { until } from './support/wait';
 
 const WATCHING = 'You are watching.';
 const IN_CONTROL = 'You have control.';
-const WORKSPACE_KEYS = 'take the bead, let it go';
+const WORKSPACE_KEYS = 'grab or release the bead';
 /** Announcements come one second apart; a busy page is late. */
 const LEAST_APART_MS = 700;
 

@@ -19,7 +19,7 @@ const LESSONS: readonly Lesson[] = [
     title: 'Lose the bead',
     choice: 'It flies to the bead',
     runs: 1,
-    action: { button: 'Take it away for me', after: 'Time runs', speed: '4' },
+    action: { button: 'Take it away for me', after: 'The simulation runs', speed: '4' },
   },
   {
     title: 'The threshold T',
@@ -32,14 +32,14 @@ const LESSONS: readonly Lesson[] = [
     title: 'What ERRT remembers',
     choice: 'Once',
     runs: 1,
-    action: { button: 'Send it back', after: 'Delivered there', speed: '64' },
+    action: { button: 'Send it back', after: 'Delivered to the goal', speed: '64' },
   },
   { title: 'What the policy sees', choice: 'It loses its way', runs: 2 },
   {
     title: 'Lift-off',
     choice: 'Soon',
     runs: 2,
-    action: { button: 'Lower by 2 mm', after: 'Time runs', speed: '4' },
+    action: { button: 'Lower by 2 mm', after: 'The simulation runs', speed: '4' },
   },
 ];
 const FIRST = {

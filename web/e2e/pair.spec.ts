@@ -15,7 +15,7 @@ const ACTS = [
   'Clear goal',
 ];
 const TAKE_CONTROL = /Take control/i;
-const HAS_TO_RELEASE = /has to release control/i;
+const HAS_TO_RELEASE = /Request sent/i;
 const ASKS = /asks for control/i;
 
 const near = async (lab: Lab) => lab.freePoints(await lab.bead(), 0.1, 0.3)[0];

@@ -8,7 +8,7 @@ import { until } from './support/wait';
 
 const GONE = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const ENDED = /The session has ended: the camera was lost/i;
-const RESTART = 'Begin anew';
+const RESTART = 'Restart';
 const PASSED_ON = /control has passed on/i;
 
 test('has a session for each address', async ({ lab, openLab, newSession }) => {

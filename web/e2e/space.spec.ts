@@ -180,7 +180,7 @@ test('says that there is no 3-D', async ({ lab }) => {
   });
   await lab.radio('3-D').check();
   await expect(lab.page.getByText(NO_WEBGL)).toBeVisible({ timeout: 30_000 });
-  await lab.button('Back to the plan').click();
+  await lab.button('Back to the plan view').click();
   await lab.canvas.waitFor();
   await expect(lab.radio('Plan')).toBeChecked();
 });

@@ -41,10 +41,10 @@ const GROUPS: readonly Group[] = [
       'Most β': number('errt_beta_most'),
       'Edge length': number('errt_step_m'),
       Clearance: number('errt_clearance_m'),
-      'Ways compared': number('errt_ways'),
-      'Weight of the unseen': number('errt_unseen_weight'),
+      'Paths compared': number('errt_ways'),
+      'Unseen weight': number('errt_unseen_weight'),
       'Edges per step': number('errt_nodes_per_step'),
-      'Cut short': flag('errt_shortcut'),
+      Shortcuts: flag('errt_shortcut'),
     },
   },
   {

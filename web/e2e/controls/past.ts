@@ -110,7 +110,7 @@ const EVENTS: Section = {
     'button Previous event': { see: title, ready: inspect, after: close },
     'button Next event': { see: title, ready: inspect, after: close },
     'button Close': { see: dialogs, ready: inspect },
-    'button Go there': { ...asked('rewind', inspect), after: close },
+    'button Rewind to here': { ...asked('rewind', inspect), after: close },
     'button Compare controllers from here': { ...asked('fork', inspect), after: ghosts },
   },
 };

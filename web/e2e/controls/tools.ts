@@ -123,7 +123,7 @@ const SPACE: Section = {
     'button Top': viewpoint('Home'),
     'button Front': viewpoint('Home'),
     'button Side': { ...viewpoint('Home'), after: (lab) => lab.radio('Plan').check() },
-    'checkbox /^Keys work all over the page/': {
+    'checkbox /^These keys work everywhere/': {
       ...box,
       ready: (lab) => lab.button('Keyboard shortcuts').click(),
       after: (lab) => lab.page.keyboard.press('Escape'),
@@ -139,7 +139,7 @@ const PLOTS: Section = {
   name: 'plots',
   ready: tab('Plots'),
   rows: {
-    'combobox Window of the plots': { see: valueOf },
+    'combobox Time window of the plots': { see: valueOf },
     'button Save CSV': { see: downloads },
     'button Save PNG': { see: downloads },
     'button Save SVG': { see: downloads },
@@ -186,12 +186,12 @@ const RECORDINGS: Section = {
 
 /** What only some evaluations have. */
 const REPORT_ROWS: Section['rows'] = {
-  'button /a cell, seed/': {
+  'button /per cell, seed/': {
     // The last one is shown, the first of the list.
     see: (_lab, locator) => locator.getAttribute('aria-current'),
     ready: (lab) =>
       lab.page
-        .getByRole('button', { name: /a cell, seed/ })
+        .getByRole('button', { name: /per cell, seed/ })
         .last()
         .click(),
   },
@@ -220,7 +220,7 @@ const EVALUATE: Section = {
     }
     await lab.view('Evaluate').click();
     await expect
-      .poll(() => lab.page.getByRole('button', { name: /a cell, seed/ }).count())
+      .poll(() => lab.page.getByRole('button', { name: /per cell, seed/ }).count())
       .toBeGreaterThan(1);
     must(await lab.page.getByRole('link', { name: 'JSON' }).getAttribute('href'), 'a report');
   },
@@ -232,7 +232,7 @@ const EVALUATE: Section = {
         ...['posts', 'vessels', '0', '3'],
       ].map((name) => [`checkbox ${name}`, box]),
     ),
-    'spinbutton Episodes a cell': typed,
+    'spinbutton Episodes per cell': typed,
     'spinbutton Seed': typed,
     ...REPORT_ROWS,
   },
