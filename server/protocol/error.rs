@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use crate::session::CommandError;
 use crate::trial::{InputError, TrialError};
 
-/// See [`ServerMessage::Error`]; an HTTP problem has the same fields.
+/// See `ServerMessage::Error`; an HTTP problem has the same fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct ErrorMessage {
     /// For programs, such as `in_wall`.

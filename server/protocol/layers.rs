@@ -31,7 +31,7 @@ pub struct SensedObstacle {
     pub boundary_m: [f64; 2],
 }
 
-/// See [`ServerMessage::Overlay`].
+/// See `ServerMessage::Overlay`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct OverlayMessage {
     /// When the camera frame was taken.

@@ -18,7 +18,7 @@ fn direction() -> Object {
     number.minimum(Some(-TAU)).maximum(Some(TAU)).build()
 }
 
-/// Query of [`pull`].
+/// Query of `pull`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PullQuery {
@@ -64,7 +64,7 @@ pub struct PullCurve {
     /// Pull in the table's plane divided by the maximum friction, friction·(W − Fz): from 1 on the bead
     /// follows. `None` if there is no friction, because the coefficient is zero or the bead lifts off.
     pub drag_ratio: Vec<Option<f64>>,
-    /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
+    /// Offsets `(inner_m, outer_m)` between which the bead is dragged, of `force::capture_interval_m`.
     #[schema(value_type = Option<Numbers2>)]
     pub capture_m: Option<(f64, f64)>,
 }
@@ -77,7 +77,7 @@ impl From<curves::PullCurve> for PullCurve {
     }
 }
 
-/// Query of [`reach`].
+/// Query of `reach`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReachQuery {
@@ -115,7 +115,7 @@ impl From<ReachQuery> for curves::ReachQuery {
 pub struct ReachCurve {
     /// Lower face above the table, m.
     pub lower_face_height_m: Vec<f64>,
-    /// Offsets `(inner_m, outer_m)` between which a bead is dragged, of [`force::capture_interval_m`].
+    /// Offsets `(inner_m, outer_m)` between which a bead is dragged, of `force::capture_interval_m`.
     #[schema(value_type = Vec<Option<Numbers2>>)]
     pub capture_m: Vec<Option<(f64, f64)>>,
     /// Fz/W right below the block's middle.
@@ -144,7 +144,7 @@ impl From<curves::ReachCurve> for ReachCurve {
     }
 }
 
-/// Query of [`plane`].
+/// Query of `plane`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneQuery {

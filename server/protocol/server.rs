@@ -48,10 +48,10 @@ pub enum ServerMessage {
     Error(ErrorMessage),
 }
 
-/// See [`ServerMessage::Hello`].
+/// See `ServerMessage::Hello`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Hello {
-    /// [`PROTOCOL_VERSION`].
+    /// `PROTOCOL_VERSION`.
     pub protocol: u32,
     /// Name of the session.
     pub session: String,
@@ -71,7 +71,7 @@ pub struct Hello {
     pub adapter: String,
 }
 
-/// See [`ServerMessage::Scene`].
+/// See `ServerMessage::Scene`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct SceneMessage {
     /// Name of the map.
@@ -111,7 +111,7 @@ pub struct SceneMessage {
     pub tick_s: f64,
 }
 
-/// See [`ServerMessage::State`].
+/// See `ServerMessage::State`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct StateMessage {
     /// Ticks since the start of the trial.
@@ -196,7 +196,7 @@ pub struct StateMessage {
     pub ended: Option<String>,
 }
 
-/// See [`ServerMessage::Event`].
+/// See `ServerMessage::Event`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct EventMessage {
     /// When.

@@ -105,7 +105,7 @@ impl Trial {
         self.events.push(Event::new(tick, EventKind::Disturbance, format!("disturbed: {text}")));
     }
 
-    /// Applies a random displacement: lifts the bead to a free point at least [`FAR_M`] away.
+    /// Applies a random displacement: lifts the bead to a free point far away.
     pub(super) fn strike_at_random(&mut self) {
         let world = &mut self.state.world;
         let mut rng = world.script.draws(self.scenario.seed, Draw::Place);

@@ -229,11 +229,11 @@ export type Role = "operator" | "viewer";
 export type ServerMessage = { "type": "hello" } & Hello | { "type": "scene" } & SceneMessage | { "type": "state" } & StateMessage | { "type": "event" } & EventMessage | { "type": "overlay" } & OverlayMessage | { "type": "seen" } & SeenMessage | { "type": "comparison" } & ComparisonMessage | { "type": "error" } & ErrorMessage;
 
 /**
- * See [`ServerMessage::Hello`].
+ * See `ServerMessage::Hello`.
  */
 export type Hello = { 
 /**
- * [`PROTOCOL_VERSION`].
+ * `PROTOCOL_VERSION`.
  */
 protocol: number, 
 /**
@@ -267,7 +267,7 @@ asked: boolean,
 adapter: string, };
 
 /**
- * See [`ServerMessage::Scene`].
+ * See `ServerMessage::Scene`.
  */
 export type SceneMessage = { 
 /**
@@ -334,7 +334,7 @@ capture_m: Array<[number, number | null] | null>,
 tick_s: number, };
 
 /**
- * See [`ServerMessage::State`].
+ * See `ServerMessage::State`.
  */
 export type StateMessage = { 
 /**
@@ -484,7 +484,7 @@ ended: string | null, };
 export type EventKind = "switch" | "disturbance" | "goal" | "reached" | "delivered" | "lift_off" | "refused" | "stopped" | "session";
 
 /**
- * See [`ServerMessage::Event`].
+ * See `ServerMessage::Event`.
  */
 export type EventMessage = { 
 /**
@@ -522,7 +522,7 @@ half_size_m: [number, number],
 boundary_m: [number, number], };
 
 /**
- * See [`ServerMessage::Overlay`].
+ * See `ServerMessage::Overlay`.
  */
 export type OverlayMessage = { 
 /**
@@ -806,7 +806,7 @@ refusal: string | null,
 overlay: OverlayMessage, };
 
 /**
- * See [`ServerMessage::Error`]; an HTTP problem has the same fields.
+ * See `ServerMessage::Error`; an HTTP problem has the same fields.
  */
 export type ErrorMessage = { 
 /**
@@ -823,7 +823,7 @@ message: string,
 field?: string, };
 
 /**
- * Query of [`pull`].
+ * Query of `pull`.
  */
 export type PullQuery = { 
 /**
@@ -881,12 +881,12 @@ is_lifted: Array<boolean>,
  */
 drag_ratio: Array<number | null>, 
 /**
- * Offsets `(inner_m, outer_m)` between which the bead is dragged, of [`force::capture_interval_m`].
+ * Offsets `(inner_m, outer_m)` between which the bead is dragged, of `force::capture_interval_m`.
  */
 capture_m: [number, number] | null, };
 
 /**
- * Query of [`reach`].
+ * Query of `reach`.
  */
 export type ReachQuery = { 
 /**
@@ -927,7 +927,7 @@ export type ReachCurve = {
  */
 lower_face_height_m: Array<number>, 
 /**
- * Offsets `(inner_m, outer_m)` between which a bead is dragged, of [`force::capture_interval_m`].
+ * Offsets `(inner_m, outer_m)` between which a bead is dragged, of `force::capture_interval_m`.
  */
 capture_m: Array<[number, number] | null>, 
 /**
@@ -950,7 +950,7 @@ largest_speed_m_s: Array<number | null>,
 lift_off_m: number, };
 
 /**
- * Query of [`plane`].
+ * Query of `plane`.
  */
 export type PlaneQuery = { 
 /**

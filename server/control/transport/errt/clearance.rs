@@ -36,7 +36,7 @@ pub struct Clearance {
 pub struct End {
     /// In `base`.
     pub point: Point2<f64>,
-    /// [`Obstacles::distance_m`] at the point; more than 0.
+    /// `Obstacles::distance_m` at the point; more than 0.
     pub distance_m: f64,
 }
 
