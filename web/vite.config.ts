@@ -3,6 +3,8 @@ import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
   plugins: [solid()],
+  // For the names in src/styles/breakpoints.css.
+  css: { transformer: 'lightningcss', lightningcss: { drafts: { customMedia: true } } },
   build: {
     outDir: process.env.FERRY_WEB_OUT ?? 'dist',
     emptyOutDir: true,

@@ -1,4 +1,4 @@
-// The floors of imports, and the size limit of files.
+// The floors of imports, the size limit of files, and the places of style sheets.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
@@ -7,6 +7,7 @@ import { expect, it } from 'vitest';
 const SRC = import.meta.dirname;
 /** A file imports from its own floor and from lower ones; `ui` and `net` do not import each other. */
 const FLOORS: readonly (readonly string[])[] = [
+  ['styles'],
   ['ui', 'net'],
   ['lab'],
   ['plan'],
@@ -17,12 +18,14 @@ const FLOORS: readonly (readonly string[])[] = [
 ];
 const MAX_LINES = 300;
 const MAX_LOOSE = 5;
-const IMPORTS = /(?:\bfrom|\bimport\(|^import)\s*['"](\.[^'"]*)['"]/gm;
+const IMPORTS = /(?:\bfrom|\bimport\(|^@?import)\s*['"](\.[^'"]*)['"]/gm;
+const BREAKPOINTS = 'styles/breakpoints.css';
 
 const files = readdirSync(SRC, { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())
   .map((entry) => relative(SRC, join(entry.parentPath, entry.name)));
 const scripts = files.filter((file) => /\.tsx?$/.test(file));
+const sheets = files.filter((file) => file.endsWith('.css'));
 const read = (file: string): string => readFileSync(join(SRC, file), 'utf8');
 
 function partOf(file: string): string {
@@ -45,12 +48,12 @@ function objection(from: string, to: string): string | undefined {
   return undefined;
 }
 
-it('assigns a floor to every script', () => {
-  expect(scripts.filter((file) => floorOf(file) < 0)).toEqual([]);
+it('assigns a floor to every file', () => {
+  expect([...scripts, ...sheets].filter((file) => floorOf(file) < 0)).toEqual([]);
 });
 
 it('allows imports only from lower floors, and none between features', () => {
-  const wrong = scripts.flatMap((from) =>
+  const wrong = [...scripts, ...sheets].flatMap((from) =>
     [...read(from).matchAll(IMPORTS)].flatMap(([, path = '']) => {
       const to = normalize(join(dirname(from), path));
       const why = objection(from, to);
@@ -68,9 +71,39 @@ it('has few loose files', () => {
 it('has no long files', () => {
   const long = files.filter(
     (file) =>
-      /\.tsx?$/.test(file) &&
+      /\.(tsx?|css)$/.test(file) &&
       !file.endsWith('.gen.ts') &&
       read(file).trimEnd().split('\n').length > MAX_LINES,
   );
   expect(long).toEqual([]);
+});
+
+/** The first class of each selector: what a rule is for. */
+function styledClasses(sheet: string): string[] {
+  const text = read(sheet).replaceAll(/\/\*.*?\*\//gs, '');
+  const selectors = [...text.matchAll(/([^{};]+)\{/g)].flatMap(([, list = '']) => list.split(','));
+  return selectors.flatMap((selector) => /\.([a-z][\w-]*)/.exec(selector)?.[1] ?? []);
+}
+
+it('keeps the style of a component beside it', () => {
+  // The other pages have their markup in HTML files.
+  const ofComponents = sheets.filter((sheet) => partOf(sheet) !== 'pages');
+  const wrong = ofComponents.flatMap((sheet) => {
+    // Classes of `ui` serve every folder.
+    const isShared = partOf(sheet) === 'ui';
+    const users = scripts.filter((file) => isShared || dirname(file) === dirname(sheet)).map(read);
+    return styledClasses(sheet)
+      .filter(
+        (name) => !users.some((text) => new RegExp(`(?<![\\w-])${name}(?![\\w-])`).test(text)),
+      )
+      .map((name) => `${sheet} styles .${name}, which no script beside it has`);
+  });
+  expect(wrong).toEqual([]);
+});
+
+it('names the sizes of the window in one place', () => {
+  const wrong = sheets.filter(
+    (sheet) => sheet !== BREAKPOINTS && /@media[^{]*(width|height|pointer)/.test(read(sheet)),
+  );
+  expect(wrong).toEqual([]);
 });

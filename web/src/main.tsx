@@ -1,5 +1,10 @@
 // Starts the page.
 
+import './styles/tokens.css';
+import './styles/reset.css';
+import './ui/controls.css';
+import './ui/text.css';
+import './ui/panel.css';
 import { render } from 'solid-js/web';
 import { keepFocus } from './app/focus';
 import { Page } from './app/Page';

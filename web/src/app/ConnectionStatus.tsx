@@ -5,6 +5,7 @@ import { loggedOut } from '../net/access';
 import type { ConnectionState } from '../lab/model';
 import { MAIN } from '../net/session';
 import type { Session } from '../lab/slices';
+import './ConnectionStatus.css';
 
 function connectionText(connection: ConnectionState): string {
   switch (connection.kind) {

@@ -8,6 +8,7 @@ import { KeyboardHelp } from './KeyboardHelp';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab, Notices, Session } from '../lab/slices';
 import { takeControl } from '../lab/takeControl';
+import './Header.css';
 
 function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
   return (

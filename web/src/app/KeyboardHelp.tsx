@@ -6,6 +6,7 @@ import { attachShortcuts, keyName } from '../ui/shortcuts';
 import { recall, remember } from '../ui/storage';
 import type { View } from './views';
 import type { Lab } from '../lab/slices';
+import './KeyboardHelp.css';
 
 const KEY = 'shortcuts';
 

@@ -4,6 +4,7 @@ import { For, Show, type JSX } from 'solid-js';
 import { createPopover } from '../ui/popover';
 import { LAYER_GROUPS, type MapLayer } from '../plan/layer';
 import type { Lab } from '../lab/slices';
+import './LayerMenu.css';
 
 export function LayerMenu(props: {
   lab: Lab;

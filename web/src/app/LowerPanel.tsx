@@ -5,6 +5,7 @@ import type { Theme } from '../ui/theme';
 import { TabArea } from './TabArea';
 import { LOWER_TABS } from './tabs';
 import type { Lab } from '../lab/slices';
+import './LowerPanel.css';
 
 export function LowerPanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
   const [large, setLarge] = createSignal(false);

@@ -1,5 +1,7 @@
 // Assembles the page: the laboratory with its panels, and the other views.
 
+// Before the style of what lies on the page.
+import './Page.css';
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { createLab } from '../lab/lab';
 import { createPageExperiment } from '../lab/pageExperiment';

@@ -5,6 +5,7 @@ import { LayerMenu } from './LayerMenu';
 import type { MapLayer } from '../plan/layer';
 import { VIEW_MODES, type ViewMode } from './viewMode';
 import type { Lab } from '../lab/slices';
+import './WorkspaceHead.css';
 
 /** Radio buttons, so that arrow keys switch between them. */
 function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {

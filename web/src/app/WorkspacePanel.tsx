@@ -16,6 +16,7 @@ import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
 import { insidePolygon } from '../lab/geometry';
 import type { Lab } from '../lab/slices';
+import './WorkspacePanel.css';
 
 const HELP_ID = 'workspace-help';
 

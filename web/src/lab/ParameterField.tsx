@@ -13,6 +13,7 @@ import {
 } from './parameters';
 import type { Parameters, SceneMessage } from '../net/protocol.gen';
 import type { Session, Trial } from './slices';
+import './ParameterField.css';
 
 export interface Form {
   /** The server's values with pending edits. */

@@ -6,6 +6,7 @@ import { attachPointer } from './pointer';
 import type { Interaction } from './interaction';
 import type { Vec2 } from '../lab/geometry';
 import type { Trial } from '../lab/slices';
+import './ViewCanvas.css';
 
 export interface Size {
   readonly width: number;

@@ -21,6 +21,7 @@ import { handOf, remarkOf } from '../plan/paint';
 import type { SurfaceProps } from '../plan/PlanView';
 import { type Size, ViewCanvas } from '../plan/ViewCanvas';
 import { distance } from '../lab/geometry';
+import './scene.css';
 
 const VIEWPOINTS: readonly ViewpointName[] = ['Home', 'Top', 'Front', 'Side'];
 

@@ -5,6 +5,7 @@ import type uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Theme } from './theme';
 import { createCurve, type CurveContext, type CurveLine } from './curve';
+import './plot.css';
 
 export function CurvePlot(props: {
   title: string;

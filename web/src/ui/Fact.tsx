@@ -1,6 +1,7 @@
 // A named number in a list.
 
 import type { JSX } from 'solid-js';
+import './Fact.css';
 
 export function Fact(props: {
   name: string;

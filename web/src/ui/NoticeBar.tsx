@@ -1,6 +1,7 @@
 // A notice at the panel whose control caused it. It disappears after some time.
 
 import { Show, createEffect, on, onCleanup, type JSX } from 'solid-js';
+import './NoticeBar.css';
 
 const SHOWN_MS = 7000;
 

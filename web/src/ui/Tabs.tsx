@@ -2,6 +2,7 @@
 
 import { For, createEffect, createMemo, createSignal, untrack, type JSX } from 'solid-js';
 import { recall, remember } from './storage';
+import './Tabs.css';
 
 /** Number of tabs that a key moves by. */
 const MOVES: Partial<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };

@@ -5,6 +5,7 @@ import { counted, fixed } from '../../ui/format';
 import { blocksPath, patchPath } from '../../lab/homography';
 import { CAMERA_PX, OBSERVATION_PX, OBSTACLE_MEAN } from '../../net/protocol.gen';
 import type { Notices, Pictures } from '../../lab/slices';
+import './camera.css';
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
 

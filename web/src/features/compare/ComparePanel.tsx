@@ -12,6 +12,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Compared, Notices, Session, Trial } from '../../lab/slices';
+import './compare.css';
 
 const CONTROLLERS: readonly ControllerName[] = ['rl', 'errt', 'attractor'];
 const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));

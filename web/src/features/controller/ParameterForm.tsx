@@ -5,6 +5,7 @@ import { GROUPS, type Group } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
+import './ParameterForm.css';
 
 function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   const { form, group } = props;

@@ -10,6 +10,8 @@ import type {
   StateMessage,
 } from '../../net/protocol.gen';
 import { Fact } from '../../ui/Fact';
+import '../../ui/Fact.css';
+import './SwitchingLaw.css';
 
 const GAUGE_WIDTH = 272;
 const GAUGE_LEFT = 4;

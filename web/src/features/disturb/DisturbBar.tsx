@@ -28,6 +28,7 @@ import { ScriptList } from './ScriptList';
 import { Amount, Choice, type Place, PlaceFields } from './disturbFields';
 import type { Picker } from '../../plan/picker';
 import type { Session, Trial } from '../../lab/slices';
+import './disturb.css';
 
 /** One hour. */
 const LATEST_S = 3600;

@@ -4,6 +4,7 @@ import { For, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Comparison, ControllerName, PairedMean } from '../../net/protocol.gen';
 import { difference } from './table';
+import './tables.css';
 
 function label(controller: string): string {
   return CONTROLLER_LABELS[controller as ControllerName];

@@ -7,6 +7,7 @@ import { createEvaluationList } from './evaluations';
 import { episodesDone, episodesInAll, isActive, numberOf, stageWords, subject } from './progress';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import type { Session, Trial } from '../../lab/slices';
+import './EvaluateView.css';
 
 /** Outside of the component, so that it survives a change to the laboratory and back. */
 const [chosen, setChosen] = createSignal<string>();

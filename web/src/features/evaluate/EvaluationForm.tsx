@@ -17,6 +17,7 @@ import {
   toggled,
 } from './request';
 import type { Session, Trial } from '../../lab/slices';
+import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
 

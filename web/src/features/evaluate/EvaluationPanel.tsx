@@ -19,6 +19,7 @@ import {
 } from './progress';
 import { reportAddress, REPORTS } from './table';
 import type { Session, Trial } from '../../lab/slices';
+import './EvaluationPanel.css';
 
 function Progress(props: {
   summary: EvaluationSummary;

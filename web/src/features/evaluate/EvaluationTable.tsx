@@ -6,6 +6,7 @@ import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net/protocol.gen';
 import { IntervalBar } from './IntervalBar';
 import { cm, decisionWords, percentRange, ratio } from './table';
+import './tables.css';
 
 function Share(props: {
   count: number;

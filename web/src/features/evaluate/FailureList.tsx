@@ -6,6 +6,7 @@ import type { EvaluationFailure, EvaluationReport } from '../../net/protocol.gen
 import { setUpAgain } from './setUp';
 import { reason } from './table';
 import type { Session, Trial } from '../../lab/slices';
+import './tables.css';
 
 /** Number of failures shown at first and added per click: a controller may fail a thousand times. */
 const PAGE = 50;

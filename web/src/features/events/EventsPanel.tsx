@@ -8,6 +8,7 @@ import type { EventMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle } from '../../lab/eventStory';
 import type { Events, Session, Trial } from '../../lab/slices';
+import './events.css';
 
 /** Closer to the end than this, the list follows new events. */
 const FOLLOW_PX = 24;

@@ -4,6 +4,8 @@ import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
 import type { Plane } from '../../net/protocol.gen';
 import { fieldWords, strongestWords } from './plane';
+import '../../ui/legend.css';
+import './field.css';
 
 export function FieldLegend(props: { answer: Answer<Plane> }): JSX.Element {
   return (

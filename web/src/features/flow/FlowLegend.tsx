@@ -4,6 +4,8 @@ import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
 import type { FlowField, Parameters } from '../../net/protocol.gen';
 import type { Flow } from './drawFlow';
+import '../../ui/legend.css';
+import './flow.css';
 
 /** Meaning of the dots. The literal law has no memory; the improved law follows a contour on one side. */
 function trapWords(law: Parameters['attractor_law']): string {

@@ -5,6 +5,7 @@ import type { Lesson, Run } from './lesson';
 import type { Lessons } from './store';
 import type { Track } from './track';
 import type { Session, Trial } from '../../lab/slices';
+import '../../ui/Fact.css';
 
 interface Props {
   readonly lab: Session & Trial;

@@ -4,6 +4,7 @@ import { For, Show, onMount, untrack, type JSX } from 'solid-js';
 import { LessonView } from './LessonView';
 import { LESSONS } from './lessons';
 import { lessonsOf, type Lessons, type LessonsLab } from './store';
+import './lessons.css';
 
 function LessonList(props: { store: Lessons }): JSX.Element {
   const { store } = props;

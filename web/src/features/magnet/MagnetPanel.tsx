@@ -32,6 +32,7 @@ import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Session, Trial } from '../../lab/slices';
+import './magnet.css';
 
 function Magnet(props: {
   lab: Session & Trial;

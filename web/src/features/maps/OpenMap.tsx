@@ -4,6 +4,7 @@ import { createSignal, type JSX } from 'solid-js';
 import { loadMap } from '../../lab/loadMap';
 import { addMap } from './maps';
 import type { Notices, Session, Trial } from '../../lab/slices';
+import './maps.css';
 
 export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element {
   const { lab } = props;

@@ -5,6 +5,8 @@ import { fixed } from '../../ui/format';
 import { MOST_EDGES, type PlanLayer, type StateMessage } from '../../net/protocol.gen';
 import { pathWords } from './plannerFacts';
 import { Fact } from '../../ui/Fact';
+import '../../ui/Fact.css';
+import './planner.css';
 
 export function PlannerFacts(props: { plan: PlanLayer; state: StateMessage }): JSX.Element {
   const edges = (): string => {

@@ -9,6 +9,7 @@ import { PlaceNotice } from '../../lab/PlaceNotice';
 import { Timeline } from './Timeline';
 import { TruthSelect } from '../../ui/ServerSelect';
 import type { Events, Notices, Session, Trial } from '../../lab/slices';
+import './PlaybackBar.css';
 
 /** One second of ticks. */
 const MANY_TICKS = 125;

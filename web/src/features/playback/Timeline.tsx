@@ -7,6 +7,7 @@ import { ticksToControlStep } from './steps';
 import { EventMarks } from './EventMarks';
 import { ScriptMarks } from './ScriptMarks';
 import type { Events, Session, Trial } from '../../lab/slices';
+import './Timeline.css';
 
 const MAX_REWINDS_PER_S = 15;
 /** How long the slider stays where it was released, until the server answers. */

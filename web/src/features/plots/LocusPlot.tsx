@@ -11,6 +11,7 @@ import { LOCUS_LETTER } from './parts';
 import { nearestIndex } from './sample';
 import type { Vec2 } from '../../lab/geometry';
 import type { Trial } from '../../lab/slices';
+import '../../ui/plot.css';
 
 const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
 /** How near to the line a pointer has to be to read it. */

@@ -15,6 +15,7 @@ import { clock } from '../../ui/format';
 import { createPalette, type Palette } from '../../ui/palette';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Events, Notices, Trial } from '../../lab/slices';
+import './plots.css';
 
 /** Time window and files, in the tab bar. */
 function Tools(props: {

@@ -9,6 +9,7 @@ import type { Figure } from './figure';
 import type { Part } from './parts';
 import { nearestIndex } from './sample';
 import { createTimePlot, type PlotContext, showCursor, showSample } from './timePlot';
+import '../../ui/plot.css';
 
 interface TimePlotProps {
   readonly part: Part;

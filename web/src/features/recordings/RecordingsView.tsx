@@ -5,6 +5,7 @@ import type { RecordingFile } from '../../net/protocol.gen';
 import { createRecordings, type Ending, fileAddress, size, startedAt, title } from './recordings';
 import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
+import './recordings.css';
 
 interface RowProps {
   readonly file: RecordingFile;

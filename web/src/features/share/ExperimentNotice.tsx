@@ -4,6 +4,7 @@ import { Match, Switch, type JSX } from 'solid-js';
 import { experimentWords } from '../../lab/experimentLink';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import type { Session } from '../../lab/slices';
+import './share.css';
 
 export function ExperimentNotice(props: { lab: Session; links: PageExperiment }): JSX.Element {
   const { lab, links } = props;

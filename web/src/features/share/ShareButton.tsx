@@ -3,6 +3,7 @@
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import { createPopover } from '../../ui/popover';
+import './share.css';
 
 type Copied = 'no' | 'copied' | 'selected';
 

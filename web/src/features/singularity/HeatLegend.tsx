@@ -4,6 +4,8 @@ import { Show, type JSX } from 'solid-js';
 import type { Answer } from '../../net/requests';
 import type { WorkspaceMap } from '../../net/protocol.gen';
 import { heatRange, heatWords, refusedWords } from './heat';
+import '../../ui/legend.css';
+import './singularity.css';
 
 function Values(props: { map: WorkspaceMap }): JSX.Element {
   return (

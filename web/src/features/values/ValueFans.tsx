@@ -6,6 +6,7 @@ import { fixed } from '../../ui/format';
 import { digits } from '../../lab/parameters';
 import type { JudgementLayer } from '../../net/protocol.gen';
 import { type Axis, bestOf, type Fan, fanAxis, fanOf, percentAlong } from './fans';
+import './values.css';
 
 function Strip(props: { fan: Fan; axis: Axis }): JSX.Element {
   const at = (value: number): string => `${percentAlong(props.axis, value)}%`;

@@ -4,6 +4,8 @@ import { Show, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import type { ValueMap } from '../../net/protocol.gen';
 import { valueRange } from './value';
+import '../../ui/legend.css';
+import './values.css';
 
 function Range(props: { map: ValueMap }): JSX.Element {
   return (

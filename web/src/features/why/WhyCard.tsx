@@ -8,6 +8,7 @@ import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
 import type { Events, OpenTab, Session } from '../../lab/slices';
+import './why.css';
 
 /** e on a scale from 0 to twice the limit. The limit is in the middle. */
 function MarginBar(props: { moment: MomentMessage }): JSX.Element {
