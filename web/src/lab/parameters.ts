@@ -10,6 +10,8 @@ export const CONTROLLER_LABELS: Readonly<Record<ControllerName, string>> = {
   attractor: 'Attractor',
 };
 
+export const CONTROLLERS = Object.keys(CONTROLLER_LABELS) as readonly ControllerName[];
+
 export type NumberName = {
   [K in keyof Parameters]: Parameters[K] extends number ? K : never;
 }[keyof Parameters];

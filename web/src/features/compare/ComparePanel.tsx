@@ -5,7 +5,7 @@ import type uPlot from 'uplot';
 import { centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
 import { createPalette } from '../../ui/palette';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { CONTROLLERS, CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
@@ -14,7 +14,6 @@ import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Compared, Notices, Session, Trial } from '../../lab/slices';
 import './compare.css';
 
-const CONTROLLERS: readonly ControllerName[] = ['rl', 'errt', 'attractor'];
 const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
 const CM = 100;
 

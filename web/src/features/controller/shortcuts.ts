@@ -1,8 +1,6 @@
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { CONTROLLERS, CONTROLLER_LABELS } from '../../lab/parameters';
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import type { Session, Trial } from '../../lab/slices';
-
-const CONTROLLERS = ['rl', 'errt', 'attractor'] as const;
 
 export const CONTROLLER_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) =>
   CONTROLLERS.map((controller, index) => ({
