@@ -166,7 +166,7 @@ impl Subject {
 }
 
 /// A source of the controllers' view of a state: a [`Camera`], or recorded frames.
-pub trait Eye {
+pub trait ImageSource {
     /// # Errors
     /// If the image cannot be taken. The source stays usable unless the error is [`CameraError::DeviceLost`].
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError>;
@@ -294,7 +294,7 @@ impl Camera {
     fn draw<T>(&mut self, mut picture: impl FnMut(&mut Self) -> Result<T, CameraError>) -> Result<T, CameraError> {
         match picture(self) {
             Err(CameraError::DeviceLost { reason }) => {
-                tracing::warn!(reason, "the graphics device was lost and is opened anew");
+                tracing::warn!(reason, "the graphics device was lost; opening another one");
                 let static_scene =
                     StaticScene { workspace: &self.workspace, walls: &self.walls, wall_height_m: self.wall_height_m };
                 self.renderers = Renderers::new(&self.renderers.gpu, &static_scene, self.view_px)?;
@@ -305,7 +305,7 @@ impl Camera {
     }
 }
 
-impl Eye for Camera {
+impl ImageSource for Camera {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         fault_point!("render");
         #[cfg(test)]

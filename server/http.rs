@@ -197,7 +197,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     let connections = accept::serve(listener, router(server.clone()), server.counters.clone(), server.stopping.clone());
     let holder = server.clone();
     let holding = async move {
-        // An error means that the sender is gone, which also means stop.
+        // An error means that the sender was dropped, which also means stop.
         drop(holder.stopping.clone().wait_for(|&stop| stop).await);
         holder.evaluations.stop();
         let hubs = holder.sessions.hold().await;

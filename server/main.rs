@@ -1,6 +1,7 @@
 //! The `ferry` command.
 
-/// Tensors come and go thousands of times a second; glibc would give each back to the system and have it zeroed anew.
+/// Training allocates and frees tensors thousands of times a second; glibc would return each to the system, which then
+/// clears the memory again.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

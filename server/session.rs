@@ -217,10 +217,10 @@ impl Session {
         sink: Box<dyn Sink>,
     ) -> Result<Self, TrialError> {
         let arena = Arena::of(library.find(&scenario.map)?);
-        let make_eye = Box::new(move |arena: &Arena| arena.camera(&gpu));
+        let make_camera = Box::new(move |arena: &Arena| arena.camera(&gpu));
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
-        let worker = worker::Worker::new(scenario, arena, library, make_eye, sink, events.clone())?;
+        let worker = worker::Worker::new(scenario, arena, library, make_camera, sink, events.clone())?;
         let (publish, view) = watch::channel(Arc::new(worker.view()));
         let interrupted = worker.interrupted.clone();
         let thread = std::thread::Builder::new()

@@ -1,7 +1,7 @@
 //! The trial: one episode as a pure loop. Live sessions, evaluation, replay and tests all run this loop.
 //!
 //! It is deterministic: scenario, seed and inputs determine the state at every tick. It reads no clock and
-//! draws random numbers only from the generator in its state. The camera is passed in through [`Eye`], so
+//! draws random numbers only from the generator in its state. The camera is passed in through [`ImageSource`], so
 //! recorded frames or recorded decisions can replace it.
 
 mod case;
@@ -23,7 +23,7 @@ mod tally;
 
 use std::sync::Arc;
 
-use crate::camera::{Camera, CameraError, Eye, Gpu, StaticScene, Subject, VIEW_PX};
+use crate::camera::{Camera, CameraError, Gpu, ImageSource, StaticScene, Subject, VIEW_PX};
 use crate::control::{approach, limits::Limits, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
@@ -42,7 +42,7 @@ pub use log::{InputLog, LogError, LogWriter};
 pub use outcome::GOAL_RADIUS_M;
 pub use phase::{GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
 pub use record::{Moment, Sight, TickRecord};
-pub use replay::{Eyes, ReplayError, Replayed, replay};
+pub use replay::{MakeCamera, ReplayError, Replayed, replay};
 pub use resume::StateError;
 pub use script::Script;
 pub use sink::{Beginning, Nowhere, Sink};
@@ -160,7 +160,7 @@ impl Arena {
 /// Source of a control step's decision.
 pub enum Source<'a> {
     /// The camera: the controllers decide from its image.
-    Eye(&'a mut dyn Eye),
+    Camera(&'a mut dyn ImageSource),
     /// A log: the logged decision is carried out.
     Logged(Option<Decision>),
 }
@@ -270,9 +270,9 @@ impl Trial {
         let mut seen = None;
         if step_is_due(tick) {
             let decided = match source {
-                Source::Eye(eye) => {
+                Source::Camera(camera) => {
                     let tool_m = self.tool_m().xy();
-                    let frame = eye.capture(&self.subject())?;
+                    let frame = camera.capture(&self.subject())?;
                     let percept = Percept::of(&frame, tool_m);
                     let decided = self.decide(&percept);
                     seen = Some(record::Seen { frame, percept, tool_m });

@@ -1,4 +1,4 @@
-//! Who gets in: every Host with every Origin, every credential and every kind of request, over plain sockets.
+//! Access: every Host with every Origin, every credential and every kind of request, over plain sockets.
 
 use std::net::SocketAddr;
 
@@ -7,18 +7,18 @@ use serde_json::json;
 
 use crate::support::{Laboratory, exchange, gpu};
 
-/// How one is asked, and what one answers whom it lets in.
+/// A request, and the status of its answer when it is admitted.
 const REQUESTS: [(&str, &str, u16); 7] = [
     ("GET /api/sessions", "", 200),
     ("GET /healthz", "", 200),
     ("GET /", "", 200),
     ("POST /api/kinematics/forward", "{\"joints_rad\":[]}", 200),
-    ("DELETE /api/sessions/nobody", "", 404),
+    ("DELETE /api/sessions/missing", "", 404),
     ("PUT /api/sessions", "", 405),
     ("GET /api/sessions/main/live", "websocket", 101),
 ];
 
-/// Whether a browser would send the request without a person's wish, or it opens a way in.
+/// Whether a browser might send the request without its user's intent, or the request opens a WebSocket.
 fn changes(request: &str) -> bool {
     !request.starts_with("GET ") || request.ends_with("/live")
 }
@@ -46,7 +46,7 @@ impl Case<'_> {
         text
     }
 
-    /// What the rules say, told in another order than the server asks.
+    /// The expected status, derived in another order than the server checks.
     fn expected(&self, line: &str, status: u16, has_token: bool) -> Vec<u16> {
         if !self.hosts_are_ours {
             return vec![421];
@@ -56,7 +56,7 @@ impl Case<'_> {
         }
         match (has_token, self.credential.0) {
             (false, _) | (true, "token") => vec![status],
-            // Ten a minute, then they are told to wait.
+            // Ten per minute; further ones get 429.
             (true, "wrong token") => vec![401, 429],
             (true, "cookie") if changes(line) && self.origins.is_empty() => vec![403],
             (true, "cookie") => vec![status],
@@ -146,7 +146,7 @@ fn matrix(address: SocketAddr, token: Option<&str>) -> usize {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn every_host_origin_and_credential_gets_what_the_rules_say() {
+async fn every_host_origin_and_credential_gets_the_expected_status() {
     let token = Token::generate().unwrap();
     for token in [None, Some(token.as_str())] {
         let lab = Laboratory::open_with(gpu(), token, |_| ()).await;
@@ -159,7 +159,7 @@ async fn every_host_origin_and_credential_gets_what_the_rules_say() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn the_request_line_and_another_sites_page_do_not_get_round_the_lists() {
+async fn host_and_site_checks_cannot_be_bypassed() {
     let lab = Laboratory::open().await;
     let address = lab.address;
     let ask = move |line: &str, headers: &str| {
@@ -187,7 +187,7 @@ async fn the_request_line_and_another_sites_page_do_not_get_round_the_lists() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn wrong_tokens_run_out_and_the_right_one_never_does() {
+async fn only_wrong_tokens_are_rate_limited() {
     let token = Token::generate().unwrap();
     let lab = Laboratory::open_with(gpu(), Some(&token), |_| ()).await;
     let address = lab.address;
@@ -212,12 +212,12 @@ async fn wrong_tokens_run_out_and_the_right_one_never_does() {
     let token = asked.await.unwrap();
     let bearer = format!("Bearer {token}");
     let (_, listed) = lab.ask_with("GET", "/api/sessions", "", &[("authorization", &bearer)]).await;
-    assert_eq!(listed["sessions"].as_array().unwrap().len(), 1, "no session for who is not in: {listed}");
+    assert_eq!(listed["sessions"].as_array().unwrap().len(), 1, "no session without access: {listed}");
     lab.close().await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn no_path_leads_out_of_the_house() {
+async fn no_path_leads_outside_the_served_files() {
     let lab = Laboratory::open().await;
     std::fs::write(lab.data.path().join("secret.rrd"), "secret").unwrap();
     let address = lab.address;
@@ -241,7 +241,7 @@ async fn no_path_leads_out_of_the_house() {
         }
     });
     asked.await.unwrap();
-    assert_eq!(tree(lab.data.path()), before, "nothing was made either");
+    assert_eq!(tree(lab.data.path()), before, "no file was created");
     lab.close().await;
 }
 

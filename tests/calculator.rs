@@ -1,11 +1,11 @@
-//! Arm and magnet as a calculator over HTTP, and what it refuses.
+//! The HTTP routes that calculate arm and magnet, and their errors.
 
 use serde_json::{Value, json};
 
 use crate::support::Laboratory;
 
 #[tokio::test(flavor = "multi_thread")]
-async fn arm_and_magnet_can_be_asked_for_numbers() {
+async fn the_calculator_answers_for_arm_and_magnet() {
     let lab = Laboratory::open().await;
     let body = json!({"joints_rad": [[0, 0, 0, 0, 0, 0], [0.1, -1.2, 1.5, -1.8, -1.4, 0.6]]}).to_string();
     let (status, forward) = lab.ask("POST", "/api/kinematics/forward", &body).await;
@@ -91,10 +91,10 @@ async fn arm_and_magnet_can_be_asked_for_numbers() {
         let (status, problem) = lab.ask("POST", &format!("/api/{path}"), &body.to_string()).await;
         assert!((400..500).contains(&status) && problem["field"] == field, "{path}: {problem}");
     }
-    // Ten thousand poses fit, more bytes than any are refused as a problem.
+    // Ten thousand poses fit; a larger body is refused.
     let many = json!({"poses": vec![far; 10_000]}).to_string();
     assert_eq!(lab.ask("POST", "/api/kinematics/inverse", &many).await.0, 200);
-    // One byte too many: the server has read all but that when it answers, and nobody writes into a closed socket.
+    // One byte too many: the server has read the rest when it answers, so the client does not write to a closed socket.
     let (status, problem) = lab.ask("POST", "/api/kinematics/inverse", &" ".repeat((8 << 20) + 1)).await;
     assert_eq!((status, &problem["code"]), (413, &json!("too_large")), "{problem}");
     lab.close().await;

@@ -1,4 +1,4 @@
-//! Cases kept from the page: what a hand once did is done again, and must end as it should.
+//! Cases kept from the page: recorded inputs are applied again and must end as expected.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -22,7 +22,7 @@ fn run(case: &Case) -> ferry::trial::CaseOutcome {
 }
 
 #[test]
-fn every_kept_case_ends_as_it_should() {
+fn every_kept_case_ends_as_expected() {
     let paths = kept();
     assert!(paths.len() >= 3, "{paths:?}");
     for path in paths {
@@ -68,7 +68,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     assert_eq!(named, ["set_goal", "set_goal", "drag", "place"], "{text}");
     assert_eq!(case.expect.unwrap().deliveries, 1);
 
-    // The case is where the session was, and then goes on to the end.
+    // The case starts from the session's state and continues to its end.
     let mut at_401 = None;
     let arena = Arena::open("posts").unwrap();
     let outcome = case
@@ -89,7 +89,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     hopeless.expect.as_mut().unwrap().by_tick = 500;
     assert!(!run(&hopeless).meets(&hopeless));
 
-    // It can be drawn.
+    // The case can be rendered.
     let path = lab.data.path().join("case.json");
     std::fs::write(&path, text.to_string()).unwrap();
     let drawn = ferry(&[])

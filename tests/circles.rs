@@ -1,4 +1,4 @@
-//! Sibling files form no circles of imports, also through names that their parent re-exports.
+//! Sibling files do not import each other in circles, also not through names that their parent re-exports.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use super::house::sources;
 
 type Module = Vec<String>;
 
-/// The modules by path, without comments and tests.
+/// The source of each module by its path, without comments and tests.
 fn modules() -> BTreeMap<Module, String> {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/server/");
     let mut modules = BTreeMap::new();
@@ -47,7 +47,7 @@ fn expand(tree: &str) -> Vec<String> {
     paths
 }
 
-/// What a module names: its `use` declarations, and paths in its code.
+/// The paths that a module names: in `use` declarations and in its code.
 fn names(code: &str) -> Vec<String> {
     let starts = code.match_indices("use ").filter(|(at, _)| {
         let before = code[..*at].rsplit('\n').next().unwrap().trim();
@@ -130,7 +130,7 @@ fn sibling_files_import_each_other_in_one_direction() {
         }
     }
     assert!(edges.values().map(BTreeSet::len).sum::<usize>() > 200, "the walk found only {edges:?}");
-    // What imports nothing that is left is taken away until nothing is left but circles.
+    // Modules without imports are removed again and again, until only circles remain.
     loop {
         let before = edges.len();
         let left: BTreeSet<Module> = edges.keys().cloned().collect();

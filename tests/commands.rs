@@ -1,4 +1,4 @@
-//! The command line: what it prints, and how it fails.
+//! The command line: output and errors.
 
 use std::process::Output;
 
@@ -43,7 +43,7 @@ fn the_same_seed_gives_the_same_row_but_for_the_timings() {
 }
 
 #[test]
-fn every_controller_meets_the_same_trials_and_pushes_and_each_trial_is_kept() {
+fn every_controller_gets_the_same_trials_and_each_trial_is_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let [csv, html, record] = ["rows.csv", "report.html", "records"].map(|name| folder.path().join(name));
     let mut command = ferry(&["evaluate", "--map", "posts,open", "--controller", "errt,attractor", "--json"]);
@@ -82,7 +82,7 @@ fn every_controller_meets_the_same_trials_and_pushes_and_each_trial_is_kept() {
         let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 5.0;
         first.iter().zip(&second).all(|(a, b)| near(a, b))
     });
-    // A place too near to where one controller has the bead is drawn again for it alone.
+    // A place too near to the bead of one controller is drawn again for that controller only.
     assert!(alike.count() >= 2);
     assert_eq!(std::fs::read_dir(&record).unwrap().count(), 2 * 8 * 3);
 
@@ -109,7 +109,7 @@ fn every_controller_meets_the_same_trials_and_pushes_and_each_trial_is_kept() {
 }
 
 #[test]
-fn what_replay_cannot_read_is_refused_and_what_was_cut_off_is_not() {
+fn replay_refuses_unreadable_logs_and_accepts_truncated_ones() {
     let folder = tempfile::tempdir().unwrap();
     let recorded = ferry(&["evaluate", "--map", "open", "--episodes", "1", "--record"]).arg(folder.path()).output();
     assert!(recorded.unwrap().status.success());
@@ -170,7 +170,7 @@ fn map_describes_a_drawing_and_names_what_it_refuses() {
 }
 
 #[test]
-fn failures_are_one_sentence_with_the_remedy() {
+fn errors_are_one_sentence_with_a_remedy() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let address = taken.local_addr().unwrap().to_string();
     let message = failure(ferry(&["serve", "--bind", &address]).output().unwrap());
@@ -180,9 +180,9 @@ fn failures_are_one_sentence_with_the_remedy() {
     let open = ferry(&["serve", "--bind", "0.0.0.0:0", "--data"]).arg(&nowhere).output().unwrap();
     let message = failure(open);
     assert!(message.contains("0.0.0.0") && message.contains("`ferry token`"), "{message}");
-    assert!(!nowhere.exists(), "a server that did not start made its folder");
+    assert!(!nowhere.exists(), "a server that did not start created its folder");
 
-    // No driver is left to find.
+    // Hides all graphics drivers.
     let without_driver = ferry(&["evaluate", "--episodes", "1"])
         .env("FERRY_ADAPTER", "vulkan")
         .env("VK_DRIVER_FILES", "/nonexistent")

@@ -1,4 +1,4 @@
-//! The server keeps to its description: asked of schemathesis, which makes requests of it, good and bad.
+//! The server matches its OpenAPI description. schemathesis generates valid and invalid requests from it.
 
 use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 
 use crate::support::{Browser, Ferry, ferry, tool};
 
-/// A plain request cannot become a WebSocket, where there is no token nobody logs in, and it draws no maps (`leases` does).
+/// Operations that never succeed here: a plain request cannot become a WebSocket, no token is set, and generated text is not
+/// a map (`leases` uploads maps).
 const NEVER_ACCEPTED: [&str; 4] =
     ["DELETE /api/maps/{name}", "GET /api/sessions/{id}/live", "POST /api/maps", "POST /login"];
 
@@ -17,8 +18,8 @@ fn ask(ferry: &Ferry, method: &str, path: &str, body: &str) -> Value {
     serde_json::from_str(&response.body_mut().read_to_string().unwrap()).unwrap()
 }
 
-/// Something to be asked about: a goal on its way, an evaluation that has ended, and one that goes on until it is broken
-/// off. Returns the name of a recording.
+/// Prepares data for the requests: a session with a goal, a finished evaluation, and one that runs until it is cancelled.
+/// Returns the name of a recording.
 async fn fill(ferry: &Ferry) -> String {
     let query =
         json!({"controllers": ["attractor", "errt"], "maps": ["posts"], "disturbances": [0], "episodes": 2, "seed": 1});
@@ -42,7 +43,7 @@ async fn fill(ferry: &Ferry) -> String {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn the_server_keeps_to_its_description() {
+async fn the_server_matches_its_description() {
     let data = tempfile::tempdir().unwrap();
     let ferry = Ferry::serve(&mut ferry(&[]), data.path());
     let recording = fill(&ferry).await;
@@ -53,7 +54,7 @@ async fn the_server_keeps_to_its_description() {
         .args(["--report", "json", "--report-json-path"])
         .arg(&report)
         .env("FERRY_RECORDING", recording)
-        // It leaves notes where it runs.
+        // schemathesis writes files into its working directory.
         .current_dir(data.path())
         .stdin(Stdio::null())
         .output()
@@ -66,7 +67,7 @@ async fn the_server_keeps_to_its_description() {
     let document = ask(&ferry, "GET", "/api/openapi.json", "");
     let described: usize =
         document["paths"].as_object().unwrap().values().map(|item| item.as_object().unwrap().len()).sum();
-    // All but the description itself, which it asks for anyway.
+    // All operations except the description itself, which it always requests.
     assert_eq!(report["operations"]["tested"], json!(described - 1), "{told}");
     assert!(report["test_cases"]["generated"].as_u64() > Some(1000), "{told}");
     let accepted: BTreeMap<&str, u64> = report["valid_rates"]

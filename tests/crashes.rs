@@ -1,4 +1,4 @@
-//! The server killed at any moment, or its disk full: what was recorded up to then is there, and readable.
+//! The server is killed at any moment, or its disk is full: what was recorded before stays readable.
 
 use std::path::Path;
 use std::process::Command;
@@ -11,15 +11,15 @@ use serde_json::json;
 
 use crate::support::{Browser, Ferry, ferry, files, read};
 
-/// What a crash may take with it.
+/// Maximum loss at a crash.
 const LOST_TICKS: u64 = 62;
 
-/// How often the server is killed; `FERRY_KILLS=50` is what was promised.
+/// How often the server is killed; the stated guarantee was tested with `FERRY_KILLS=50`.
 fn kills() -> u32 {
     std::env::var("FERRY_KILLS").map_or(10, |count| count.parse().expect("FERRY_KILLS is a count"))
 }
 
-/// Lets a session run and kills the server; returns the last tick that a browser saw.
+/// Runs a session and kills the server; returns the last tick that a browser saw.
 async fn run_and_kill(data: &Path, after: Duration) -> u64 {
     let ferry = Ferry::serve(&mut ferry(&[]), data);
     let mut browser = Browser::at(ferry.address).await;
@@ -66,7 +66,7 @@ async fn a_killed_server_loses_half_a_second_at_most() {
     assert!(lost.iter().all(|&(rrd, log)| rrd <= LOST_TICKS && log <= LOST_TICKS), "{lost:?}");
 }
 
-/// A limit on the size of any file stands in for a full disk: writing fails in the same place.
+/// A limit on the size of files replaces a full disk: writing fails at the same place.
 #[cfg(unix)]
 #[tokio::test(flavor = "multi_thread")]
 async fn a_full_disk_stops_the_recording_visibly_and_nothing_else() {

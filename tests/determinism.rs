@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use ferry::camera::{Camera, CameraError, Eye, Subject};
+use ferry::camera::{Camera, CameraError, ImageSource, Subject};
 use ferry::geometry::Point2;
 use ferry::image::CameraFrame;
 use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
@@ -38,12 +38,12 @@ fn scenario(seed: u64) -> Scenario {
     Scenario { positioner, script, ..random }
 }
 
-/// What an operator does, and when.
+/// Inputs of an operator, with their ticks.
 #[derive(Clone, Debug)]
 struct Script(Vec<(u64, Input)>);
 
 impl Script {
-    /// Applies what is due; refusals are part of the run.
+    /// Applies the inputs that are due; refusals are part of the run.
     fn act(&self, trial: &mut Trial) {
         let tick = trial.state().world.tick;
         for (_, input) in self.0.iter().filter(|(at, _)| *at == tick) {
@@ -86,22 +86,22 @@ fn script(ticks: u64) -> impl Strategy<Value = Script> {
     proptest::collection::vec((0..ticks, input()), 0..8).prop_map(Script)
 }
 
-fn run(trial: &mut Trial, script: &Script, ticks: u64, eye: &mut dyn Eye) -> Vec<LoggedTick> {
+fn run(trial: &mut Trial, script: &Script, ticks: u64, camera: &mut dyn ImageSource) -> Vec<LoggedTick> {
     (0..ticks)
         .map(|_| {
             script.act(trial);
-            LoggedTick::from(&trial.tick(Source::Eye(eye)).unwrap())
+            LoggedTick::from(&trial.tick(Source::Camera(camera)).unwrap())
         })
         .collect()
 }
 
-/// Keeps the frames that a camera takes.
+/// Stores the frames that a camera takes.
 struct Tape {
     camera: Camera,
     frames: Vec<CameraFrame>,
 }
 
-impl Eye for Tape {
+impl ImageSource for Tape {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         let frame = self.camera.capture(subject)?;
         self.frames.push(frame.clone());
@@ -109,10 +109,10 @@ impl Eye for Tape {
     }
 }
 
-/// Shows kept frames again, in order.
+/// Returns stored frames in order.
 struct Playback(std::vec::IntoIter<CameraFrame>);
 
-impl Eye for Playback {
+impl ImageSource for Playback {
     fn capture(&mut self, _: &Subject) -> Result<CameraFrame, CameraError> {
         Ok(self.0.next().expect("as many frames as control steps"))
     }
@@ -121,9 +121,9 @@ impl Eye for Playback {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Snapshot, restore, continue: as if nothing had happened.
+    /// Snapshot, restore and continue give the same result.
     #[test]
-    fn a_restored_trial_continues_as_the_uninterrupted_one(seed in 0..1000u64, cut in 0..400u64, script in script(400)) {
+    fn a_restored_trial_equals_the_uninterrupted_one(seed in 0..1000u64, cut in 0..400u64, script in script(400)) {
         let mut camera = camera();
         let mut whole = Trial::new(scenario(seed), posts()).unwrap();
         run(&mut whole, &script, cut, &mut camera);
@@ -136,7 +136,7 @@ proptest! {
         prop_assert_eq!(expected, found);
     }
 
-    /// A log replays without a camera to the same world, and from the frames to the same mind too.
+    /// A log replays without a camera to the same world, and from the frames to the same controller state.
     #[test]
     fn a_log_and_its_frames_reproduce_the_run(seed in 0..1000u64, script in script(400)) {
         let mut tape = Tape { camera: camera(), frames: Vec::new() };
@@ -156,14 +156,14 @@ proptest! {
         prop_assert_eq!(replay(&log, None, &mut |record| seen.push(record.world.total())).unwrap(), all);
         prop_assert_eq!(seen, recorded.iter().map(|tick| tick.world_hash).collect::<Vec<_>>());
         let mut frames = Some(tape.frames);
-        let mut eyes = |_: &Arena| -> Result<Box<dyn Eye>, CameraError> {
+        let mut make_camera = |_: &Arena| -> Result<Box<dyn ImageSource>, CameraError> {
             Ok(Box::new(Playback(frames.take().expect("one trial").into_iter())))
         };
-        prop_assert_eq!(replay(&log, Some(&mut eyes), &mut |_| {}).unwrap(), all);
+        prop_assert_eq!(replay(&log, Some(&mut make_camera), &mut |_| {}).unwrap(), all);
     }
 }
 
-/// A log in which one thing is not as it was, though every frame is whole.
+/// A log with one changed entry and valid frame hashes.
 fn forged(change: impl Fn(&mut LoggedTick)) -> ReplayError {
     let mut trial = Trial::new(scenario(2), posts()).unwrap();
     let mut entries = vec![Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::SetUp)))];
@@ -176,7 +176,7 @@ fn forged(change: impl Fn(&mut LoggedTick)) -> ReplayError {
 }
 
 #[test]
-fn the_first_difference_is_told_by_tick_and_field() {
+fn the_first_difference_is_reported_by_tick_and_field() {
     let told = |error: ReplayError| match error {
         ReplayError::Differs { trial: 1, tick, fields } => (tick, fields),
         error => panic!("{error}"),
@@ -231,12 +231,15 @@ fn two_processes_agree_at_every_tick() {
 
 #[test]
 fn an_edited_input_changes_the_hash() {
-    let eye = &mut camera();
+    let camera = &mut camera();
     let mut honest = Trial::new(scenario(1), posts()).unwrap();
     let mut edited = Trial::new(scenario(1), posts()).unwrap();
     let goal = Point2::new(0.0, -0.4);
     honest.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y }).unwrap();
     edited.apply(Input::SetGoal { x_m: goal.x + 1e-9, y_m: goal.y }).unwrap();
     let nothing = Script(Vec::new());
-    assert_ne!(run(&mut honest, &nothing, 1, eye)[0].world_hash, run(&mut edited, &nothing, 1, eye)[0].world_hash);
+    assert_ne!(
+        run(&mut honest, &nothing, 1, camera)[0].world_hash,
+        run(&mut edited, &nothing, 1, camera)[0].world_hash
+    );
 }

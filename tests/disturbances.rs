@@ -1,4 +1,4 @@
-//! What befalls a trial by script: kicks, pushes, displacements, a blind tracker; and trials without an arm.
+//! Scripted disturbances: kicks, pushes, displacements, dropouts; and trials without an arm.
 
 use ferry::geometry::Point2;
 use ferry::plant::PositionerKind;
@@ -18,7 +18,7 @@ fn run(scenario: Scenario, ticks: usize) -> Vec<TickRecord> {
     let arena = Arena::open(&scenario.map).unwrap();
     let mut camera = arena.camera(&gpu()).unwrap();
     let mut trial = Trial::new(scenario, arena).unwrap();
-    (0..ticks).map(|_| trial.tick(Source::Eye(&mut camera)).unwrap()).collect()
+    (0..ticks).map(|_| trial.tick(Source::Camera(&mut camera)).unwrap()).collect()
 }
 
 fn disturbed_at(records: &[TickRecord]) -> Vec<usize> {
@@ -31,7 +31,7 @@ fn moved_m(moment: &Moment) -> f64 {
 }
 
 #[test]
-fn a_kick_strikes_at_its_tick_and_not_before() {
+fn a_kick_is_applied_at_its_tick() {
     let kick = Disturbance::Impulse { x_n_s: 3e-4, y_n_s: 0.0 };
     let records = run(scripted(When::Tick(50), kick), 60);
     assert_eq!(disturbed_at(&records), [51], "the tick that begins at 50 ends at 51");
@@ -39,24 +39,24 @@ fn a_kick_strikes_at_its_tick_and_not_before() {
 }
 
 #[test]
-fn a_push_lasts_as_long_as_it_should() {
+fn a_push_lasts_for_its_duration() {
     let push = Disturbance::Drift { x_n: 0.0, y_n: -1.5e-3, for_s: 0.4 };
     let records = run(scripted(When::Tick(10), push), 200);
     let y = |at: usize| records[at].moment.bead_m.y;
-    assert!(y(60) < y(20) - 1e-3, "pushed while it lasts");
-    assert!(y(199) > y(60), "the magnet gets it back");
+    assert!(y(60) < y(20) - 1e-3, "the push moves the bead");
+    assert!(y(199) > y(60), "the magnet pulls the bead back");
 }
 
 #[test]
-fn a_blind_tracker_says_nothing_new_and_then_sees_again() {
+fn a_dropout_stops_the_tracker_for_its_duration() {
     let records = run(scripted(When::Tick(10), Disturbance::Dropout { for_s: 0.8 }), 150);
     let tracked = |at: usize| records[at].moment.tracked_m;
-    assert!((13..110).all(|at| tracked(at) == tracked(12)), "blind for a hundred ticks");
+    assert!((13..110).all(|at| tracked(at) == tracked(12)), "no samples for a hundred ticks");
     assert!((114..149).all(|at| tracked(at) != tracked(12)));
 }
 
 #[test]
-fn a_displacement_comes_at_its_step() {
+fn a_displacement_is_applied_at_its_step() {
     let away = Disturbance::Displace { x_m: 0.2, y_m: -0.3 };
     let scenario = Scenario { goal_m: Some(Point2::new(-0.25, -0.4)), ..scripted(When::Step(5), away) };
     let records = run(scenario, 400);
@@ -85,7 +85,7 @@ fn the_longer_dropout_and_the_last_push_count() {
 }
 
 #[test]
-fn kicks_that_come_together_are_no_stronger_than_the_strongest() {
+fn simultaneous_kicks_are_limited_to_the_maximum() {
     let kick = Scripted { at: When::Tick(5), disturbance: Disturbance::Impulse { x_n_s: 2e-3, y_n_s: 0.0 } };
     let records = run(Scenario { start_m: Some(START), script: vec![kick; 64], ..Scenario::idle("open", 1) }, 6);
     // 4.1 m/s for 8 ms.
@@ -94,7 +94,7 @@ fn kicks_that_come_together_are_no_stronger_than_the_strongest() {
 }
 
 #[test]
-fn a_script_that_cannot_be_is_refused_by_name() {
+fn invalid_scripts_are_refused_by_field() {
     let refusal = |disturbance| {
         let arena = Arena::open("open").unwrap();
         Trial::new(scripted(When::Tick(1), disturbance), arena).unwrap_err()
@@ -109,9 +109,9 @@ fn a_script_that_cannot_be_is_refused_by_name() {
     assert_eq!(long.unwrap_err().to_string(), "script has 65 disturbances, the limit is 64");
 }
 
-/// The paper's Examples 1 and 2, beyond the arm, at the speed at which its robot went: 19 mm a step.
+/// The paper's Examples 1 and 2, beyond the arm's reach, at the speed of its robot: 19 mm per step.
 #[test]
-fn the_stage_delivers_the_papers_examples_where_no_arm_reaches() {
+fn the_planar_stage_delivers_the_papers_examples() {
     let parameters = Parameters { transport_speed_m_s: 0.076, ..Parameters::default() };
     let away = Scripted { at: When::Step(50), disturbance: Disturbance::Displace { x_m: 0.42, y_m: 0.55 } };
     let examples = [
@@ -131,13 +131,17 @@ fn the_stage_delivers_the_papers_examples_where_no_arm_reaches() {
         let last = &records.last().unwrap().moment;
         assert_eq!(last.positioner.kind(), PositionerKind::PlanarStage);
         assert_eq!(last.phase, Phase::Delivered, "from {start}");
-        assert_eq!(last.counters.switches, if disturbed { 2 } else { 0 }, "lost once and fetched, or never");
+        assert_eq!(
+            last.counters.switches,
+            if disturbed { 2 } else { 0 },
+            "the bead is lost and fetched once, or never"
+        );
         assert!(records.iter().all(|record| (record.moment.tool_m.z - 0.1).abs() < 1e-12));
     }
 }
 
 #[test]
-fn the_arm_is_refused_where_it_does_not_reach_and_works_where_it_does() {
+fn the_arm_is_refused_on_maps_beyond_its_reach() {
     let mut scenario = Scenario::idle("attractor-example", 1);
     scenario.start_m = Some(Point2::new(-0.78, 0.73));
     scenario.positioner = Some(PositionerKind::Arm);

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::support::{Laboratory, ferry};
 
-/// More trials than end during a test.
+/// So many trials that they do not end during a test.
 const LONG: u32 = 1000;
 
 fn query(change: Value) -> Value {
@@ -23,7 +23,7 @@ impl Laboratory {
         format!("/api/evaluations/{}", made["id"].as_str().unwrap())
     }
 
-    /// The evaluation at the first look that fits; a minute without anything new is in vain.
+    /// Waits for a state of the evaluation; fails after a minute without progress.
     async fn evaluation(&self, path: &str, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
         let (mut last, mut since) = (Value::Null, Instant::now());
         loop {
@@ -35,7 +35,7 @@ impl Laboratory {
             if report != last {
                 (last, since) = (report, Instant::now());
             }
-            assert!(since.elapsed() < Duration::from_secs(60), "waited in vain: {what}: {last}");
+            assert!(since.elapsed() < Duration::from_secs(60), "no progress: {what}: {last}");
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
     }
@@ -49,7 +49,7 @@ fn stage(report: &Value) -> &str {
     report["stage"].as_str().unwrap()
 }
 
-/// Rows as they are on every machine.
+/// Rows without timings.
 fn timeless(rows: &Value) -> Vec<Value> {
     let mut rows = rows.as_array().unwrap().clone();
     for row in &mut rows {
@@ -68,7 +68,7 @@ fn on_the_command_line(controllers: &str, disturbances: &str) -> Vec<Value> {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn rows_are_those_of_the_command_line_every_time() {
+async fn rows_equal_those_of_the_command_line() {
     let lab = Laboratory::open().await;
     let asked = json!({"controllers": ["attractor", "errt"], "disturbances": [0, 1]});
     let (first, second) = (lab.begin(asked.clone()).await, lab.begin(asked).await);
@@ -89,7 +89,7 @@ async fn rows_are_those_of_the_command_line_every_time() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_failure_set_up_again_fails_again() {
+async fn a_failed_trial_fails_again_in_a_session() {
     let lab = Laboratory::open().await;
     let report = lab.begin(json!({"maps": ["colon"], "disturbances": [1], "seed": 4})).await;
     let report = lab.ended(&report).await;
@@ -114,7 +114,7 @@ async fn a_failure_set_up_again_fails_again() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn what_it_came_to_comes_down_as_files() {
+async fn results_can_be_downloaded() {
     let lab = Laboratory::open().await;
     let asked = json!({"controllers": ["attractor", "errt"], "maps": ["colon"], "seed": 2});
     let path = lab.begin(asked).await;
@@ -131,16 +131,16 @@ async fn what_it_came_to_comes_down_as_files() {
     assert_eq!(from_json["comparisons"], report["comparisons"]);
     assert_eq!(file("report.csv").await.lines().count(), 3);
     let page = file("report.html").await;
-    // The page that a link opens is this server's.
+    // The report's links open this server's page.
     let link = from_json["failures"][0]["link"].as_str().unwrap();
     assert!(page.contains(&format!("href=\"http://{}/{}\"", lab.address, link.replace('&', "&amp;"))), "{link}");
     assert_eq!(lab.ask("GET", &format!("{path}/report.pdf"), "").await.0, 404);
-    assert_eq!(lab.ask("GET", "/api/evaluations/nobody/report.csv", "").await.0, 404);
+    assert_eq!(lab.ask("GET", "/api/evaluations/missing/report.csv", "").await.0, 404);
     lab.close().await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn one_runs_few_wait_and_all_can_be_cancelled() {
+async fn the_queue_is_limited_and_entries_can_be_cancelled() {
     let lab = Laboratory::open().await;
     let long = lab.begin(json!({"controllers": ["errt", "attractor"], "episodes": LONG})).await;
     let under_way = |report: &Value| report["cells"][0]["done"].as_u64() >= Some(1);
@@ -152,18 +152,18 @@ async fn one_runs_few_wait_and_all_can_be_cancelled() {
     let (status, problem) = lab.ask("POST", "/api/evaluations", &query(json!({})).to_string()).await;
     assert_eq!((status, &problem["code"]), (429, &json!("too_many_evaluations")));
 
-    // Who waits leaves at once; who runs stops within moments, without a row.
+    // A waiting evaluation is cancelled at once, a running one soon, without a row.
     let (status, left) = lab.ask("DELETE", &waiting[0], "").await;
     assert_eq!((status, stage(&left)), (202, "cancelled"));
     assert_eq!(lab.ask("DELETE", &waiting[0], "").await.0, 409);
     let asked = Instant::now();
     assert_eq!(lab.ask("DELETE", &long, "").await.0, 202);
     let report = lab.ended(&long).await;
-    // A tick of a trial that gives way to all else.
+    // One tick of a trial at low priority.
     assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
     assert_eq!((stage(&report), &report["rows"], &report["rows_done"]), ("cancelled", &json!([]), &json!(0)));
     assert!(report["cells"][0]["done"].as_u64().unwrap() < u64::from(LONG));
-    // The next one has its turn.
+    // The next one starts.
     assert_eq!(stage(&lab.ended(&waiting[1]).await), "done");
     lab.close().await;
 }
@@ -204,7 +204,7 @@ async fn bad_queries_are_refused_by_field_and_value() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_server_that_stops_breaks_off_what_is_evaluated() {
+async fn stopping_the_server_cancels_evaluations() {
     let lab = Laboratory::open().await;
     let long = lab.begin(json!({"episodes": LONG})).await;
     lab.evaluation(&long, "a first trial", |report| report["cells"][0]["done"].as_u64() >= Some(1)).await;

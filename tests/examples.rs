@@ -32,14 +32,14 @@ fn the_papers_examples_end_at_their_goals() {
         let (episode, figure) = run(scenario, &arena);
         assert!(episode.delivered, "{name}: {}", episode.outcome);
         assert_eq!(episode.disturbances, expected, "{name}");
-        // Gone to fetch it, and back, each time.
+        // Two switches per displacement: to the fetch and back.
         assert!(episode.switches >= 2 * expected, "{name}: {} switches", episode.switches);
         assert!(episode.tally.mean_m() < 0.04, "{name}: {}", episode.tally.mean_m());
         assert!(figure.starts_with("<svg") && figure.contains("tracking error"), "{name}");
     }
 }
 
-/// A room with a goal behind walls, of which one may have a door far off.
+/// A room with a goal behind walls; one wall may have a distant door.
 fn room(door: bool) -> Arc<Arena> {
     let right = if door { 160 } else { 200 };
     let svg = format!(
@@ -59,7 +59,7 @@ fn across(arena: &Arc<Arena>, camera: &mut Camera) -> (Phase, u32) {
     };
     let mut trial = Trial::new(scenario, arena.clone()).unwrap();
     loop {
-        let record = trial.tick(Source::Eye(camera)).unwrap();
+        let record = trial.tick(Source::Camera(camera)).unwrap();
         if record.moment.phase.is_final() {
             return (record.moment.phase, record.moment.counters.steps);
         }
@@ -67,18 +67,18 @@ fn across(arena: &Arc<Arena>, camera: &mut Camera) -> (Phase, u32) {
 }
 
 #[test]
-fn a_way_round_is_explored_for_and_a_goal_that_is_walled_off_is_said_to_be() {
+fn a_detour_is_found_and_a_walled_off_goal_is_reported() {
     let open = room(true);
     assert_eq!(across(&open, &mut open.camera(&gpu()).unwrap()).0, Phase::Delivered);
     let closed = room(false);
     let (phase, steps) = across(&closed, &mut closed.camera(&gpu()).unwrap());
     assert_eq!(phase, Phase::Stopped(StopReason::WalledOff));
-    // Both ends of the wall had to be seen, and no more than that.
+    // Both ends of the wall must be observed, not more.
     assert!((10..120).contains(&steps), "{steps}");
 }
 
 #[test]
-fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
+fn a_planner_restored_during_a_search_finds_the_same_path() {
     let arena = Arena::open("colon-folds").unwrap();
     let mut camera = arena.camera(&gpu()).unwrap();
     let mut scenario = Scenario {
@@ -87,7 +87,7 @@ fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
         controller: ControllerName::Errt,
         ..Scenario::idle("colon-folds", 3)
     };
-    // So few edges a step that a search takes several.
+    // So few edges per step that a search takes several steps.
     scenario.parameters.errt_nodes_per_step = 40;
     let mut trial = Trial::new(scenario, arena).unwrap();
     let mut searched = 0;
@@ -97,17 +97,18 @@ fn a_planner_set_back_in_the_middle_of_its_search_finds_the_same() {
         let mut course = || -> Vec<u64> {
             (0..63)
                 .map(|_| {
-                    let record = trial.tick(Source::Eye(&mut camera)).unwrap();
+                    let record = trial.tick(Source::Camera(&mut camera)).unwrap();
                     searched += u32::from(record.moment.refusal.is_some_and(|why| why.contains("searching")));
                     record.controller_hash
                 })
                 .collect()
         };
         let first = course();
-        // Through bytes and back, what was derived from the map is lost and made anew.
+        // Serialisation drops what was derived from the map; it is calculated again.
         trial.restore(postcard::from_bytes(&bytes).unwrap());
-        let mut again =
-            || -> Vec<u64> { (0..63).map(|_| trial.tick(Source::Eye(&mut camera)).unwrap().controller_hash).collect() };
+        let mut again = || -> Vec<u64> {
+            (0..63).map(|_| trial.tick(Source::Camera(&mut camera)).unwrap().controller_hash).collect()
+        };
         assert_eq!(first, again());
     }
     assert!(searched > 20, "{searched}");

@@ -1,7 +1,7 @@
-//! Pictures as they were judged good: each view at each quality, on Vulkan and on OpenGL.
+//! Golden pictures: each view at each quality, on Vulkan and on OpenGL.
 //!
-//! `FERRY_GENERATE=1 cargo test --release golden` renews them; look at them then. `tests/golden/README.md`
-//! says which adapter drew them. A missing picture or adapter fails.
+//! `FERRY_GENERATE=1 cargo test --release golden` renews them; look at each change. `tests/golden/README.md`
+//! names the adapter that drew them. A missing picture or adapter fails the test.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,14 +13,14 @@ use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrienta
 use ferry::scenario::Parameters;
 use ferry::trial::Arena;
 
-/// Levels by which a channel may differ before its pixel counts.
+/// A pixel counts as different when a channel differs by more than this many levels.
 const TOLERANCE: u8 = 8;
-/// Share of the pixels that may count.
+/// Maximum share of different pixels.
 const MOST_DIFFERENT: f64 = 0.001;
 
 type Draw = fn(&mut Camera, &Subject) -> Picture;
 
-/// Beside the tool and looking at it, with the magnet before it.
+/// A camera beside the tool that looks at it, with the magnet in front.
 fn beside(subject: &Subject) -> Subject {
     let mount = CameraMount {
         offset_m: [0.0, 0.08],
@@ -99,7 +99,7 @@ fn compare_all(choice: AdapterChoice) {
 }
 
 #[test]
-fn pictures_are_as_judged_on_vulkan() {
+fn pictures_match_the_golden_ones_on_vulkan() {
     if std::env::var_os("FERRY_GENERATE").is_some() {
         let gpu = Gpu::open(AdapterChoice::Vulkan).unwrap();
         for (name, quality, draw) in VIEWS {
@@ -111,6 +111,6 @@ fn pictures_are_as_judged_on_vulkan() {
 }
 
 #[test]
-fn pictures_are_as_judged_on_opengl() {
+fn pictures_match_the_golden_ones_on_opengl() {
     compare_all(AdapterChoice::Gl);
 }

@@ -1,4 +1,4 @@
-//! The house of `ARCHITECTURE.md`: who may import whom.
+//! Rules of `ARCHITECTURE.md`: which module may import which, file lengths, impure code, avoided phrases.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ const FLOORS: [&[&str]; 11] = [
     &["cli", "main", "lib"],
 ];
 
-/// Crates that only some modules may name.
+/// Crates that only these modules may use.
 const CONFINED: [(&str, &[&str]); 7] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
@@ -28,10 +28,10 @@ const CONFINED: [(&str, &[&str]); 7] = [
     ("ts_rs", &["protocol"]),
 ];
 
-/// Lines of a file.
+/// Maximum number of lines of a file.
 const LINES_MOST: usize = 400;
 
-/// What would make a trial depend on anything but its scenario, seed and inputs.
+/// Code that would make a trial depend on more than its scenario, seed and inputs.
 const IMPURE: [&str; 6] = ["Instant::now", "SystemTime", "thread_rng", "rand::rng()", "env::var", "static mut"];
 
 pub fn sources() -> Vec<(PathBuf, String, String)> {
@@ -102,7 +102,7 @@ fn no_file_is_long() {
 }
 
 #[test]
-fn confined_crates_stay_where_they_belong() {
+fn confined_crates_stay_in_their_modules() {
     for (path, module, text) in sources() {
         for (name, homes) in CONFINED {
             let used = !names_after(&text, &format!("{name}::")).is_empty();

@@ -1,4 +1,4 @@
-//! The server as a browser meets it: routes, the WebSocket, refusals.
+//! Routes, the WebSocket and refusals, from a browser's side.
 
 use std::cell::Cell;
 use std::time::Duration;
@@ -60,7 +60,7 @@ async fn a_goal_is_delivered_a_disturbance_fetched_and_a_refusal_changes_nothing
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn one_operates_others_watch_and_a_hand_that_is_gone_lets_go() {
+async fn one_browser_operates_and_a_closed_page_releases_the_bead() {
     let lab = Laboratory::open().await;
     let mut first = lab.browser().await;
     first.until("hello", |m| m["role"] == "operator").await;
@@ -75,19 +75,19 @@ async fn one_operates_others_watch_and_a_hand_that_is_gone_lets_go() {
     first.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.5})).await;
     second.state("the hand", |m| !m["hand_m"].is_null()).await;
     drop(first);
-    // The two messages come in either order.
-    let (let_go, turn) = (Cell::new(false), Cell::new(false));
+    // The two messages arrive in either order.
+    let (released, turn) = (Cell::new(false), Cell::new(false));
     let both = |m: &Value| {
-        let_go.set(let_go.get() || m["type"] == "state" && m["hand_m"].is_null());
+        released.set(released.get() || m["type"] == "state" && m["hand_m"].is_null());
         turn.set(turn.get() || m["type"] == "hello" && m["role"] == "operator");
-        let_go.get() && turn.get()
+        released.get() && turn.get()
     };
-    second.until("the hand gone and its turn", both).await;
+    second.until("the release and control", both).await;
     lab.close().await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn time_can_be_stepped_and_gone_back_on() {
+async fn a_session_can_be_stepped_and_rewound() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
     browser.send(json!({"type": "set_goal", "x_m": 0.1, "y_m": -0.5})).await;
@@ -105,7 +105,7 @@ async fn time_can_be_stepped_and_gone_back_on() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn routes_answer_and_foreign_pages_are_kept_out() {
+async fn routes_answer_and_foreign_pages_are_refused() {
     let lab = Laboratory::open().await;
     assert_eq!(lab.ask("GET", "/healthz", "").await, (200, json!("ok\n")));
     let (status, page) = lab.ask_text("GET", "/", "", &[]).await;
@@ -119,7 +119,7 @@ async fn routes_answer_and_foreign_pages_are_kept_out() {
     for path in [
         "/nowhere",
         "/api/nowhere",
-        "/api/sessions/nobody",
+        "/api/sessions/missing",
         "/api/maps/..%2fCargo.toml",
         "/api/recordings/..%2f..%2fx.rrd",
     ] {
@@ -161,7 +161,7 @@ async fn stopping_closes_browsers_with_1001() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_hand_leaves_nothing_behind() {
+async fn a_release_leaves_no_trace_of_the_hand() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
     let drag = |x_m: f64, y_m: f64, lift: bool| json!({"type": "drag", "x_m": x_m, "y_m": y_m, "lift": lift});
@@ -181,7 +181,7 @@ async fn a_hand_leaves_nothing_behind() {
     browser.send(json!({"type": "release"})).await;
     browser.state("back in the channel", |m| m["hand_m"].is_null() && m["bead_m"][1].as_f64().unwrap() < -0.4).await;
 
-    // Gone back to a moment when it was held, it is held no more once time goes on.
+    // After a rewind to a moment when the hand held the bead, running releases it.
     browser.send(drag(0.1, -0.48, false)).await;
     let held = browser.state("held for a while", |m| !m["hand_m"].is_null()).await;
     let tick = held["tick"].as_u64().unwrap() + 63;
@@ -190,7 +190,7 @@ async fn a_hand_leaves_nothing_behind() {
     browser.send(json!({"type": "rewind", "tick": tick})).await;
     let then = browser.state("that moment", |m| m["running"] == false && m["tick"].as_u64().unwrap() <= tick).await;
     assert!(!then["hand_m"].is_null(), "{then}");
-    // A refused input changes nothing, not even that.
+    // A refused input changes nothing, the hand included.
     browser.send(json!({"type": "set_goal", "x_m": 9.0, "y_m": 9.0})).await;
     browser.error().await;
     let after = browser.state("as it was", |m| m["tick"] == then["tick"]).await;
@@ -201,7 +201,7 @@ async fn a_hand_leaves_nothing_behind() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn the_bead_can_be_kicked_and_a_scripted_kick_comes_by_itself() {
+async fn kicks_are_applied_by_command_and_by_script() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
     let kick = |x_n_s: f64| json!({"impulse": {"x_n_s": x_n_s, "y_n_s": 0.0}});
@@ -228,7 +228,7 @@ async fn the_bead_can_be_kicked_and_a_scripted_kick_comes_by_itself() {
     browser.send(json!({"type": "step", "ticks": 10})).await;
     let state = browser.state("struck", |m| m["tick"] == 10 && m["disturbances"] == 1).await;
     assert!(state["joints_rad"].is_null(), "{state}");
-    // Gone back before it, and set up anew, it strikes again.
+    // After a rewind and after a reset the kick is applied again.
     for back in [json!({"type": "rewind", "tick": 0}), json!({"type": "reset"})] {
         browser.send(back).await;
         browser.state("before it", |m| m["tick"] == 0 && m["disturbances"] == 0).await;
@@ -242,7 +242,7 @@ async fn the_bead_can_be_kicked_and_a_scripted_kick_comes_by_itself() {
 async fn a_goal_given_up_does_not_stop_the_fetch() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
-    // So slow that the leg's 150 steps end before the goal.
+    // So slow that the leg's 150 steps end before the tool reaches the goal.
     let mut parameters = lab.default_parameters().await;
     parameters["transport_speed_m_s"] = json!(0.01);
     let load = json!({"type": "load_scenario", "map": "open", "start_m": [-0.25, -0.4], "goal_m": [0.25, -0.4], "parameters": parameters});

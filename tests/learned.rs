@@ -10,7 +10,7 @@ use ferry::trial::Arena;
 use crate::support::{ferry, gpu};
 
 #[test]
-fn every_shipped_policy_is_whole_and_says_where_it_comes_from() {
+fn every_shipped_policy_is_complete_and_has_a_manifest() {
     assert_eq!(Policy::shipped_names(), ["colon", "general"]);
     for name in Policy::shipped_names() {
         let policy = Policy::shipped(&name).unwrap();
@@ -53,7 +53,7 @@ const ROOM: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 250 
     <rect x="-10" y="250" width="20" height="60"/></svg>"#;
 
 #[test]
-fn training_writes_a_policy_that_acts_and_goes_on_where_it_stopped() {
+fn training_writes_a_working_policy_and_can_be_resumed() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("room.svg"), ROOM).unwrap();
     let train = |out: &str, more: &[&str]| {
@@ -63,7 +63,7 @@ fn training_writes_a_policy_that_acts_and_goes_on_where_it_stopped() {
         String::from_utf8(said.stdout).unwrap()
     };
     let said = train("room.safetensors", &["--set", "updates=300", "--set", "images=16"]);
-    // Each of the 200 examined episodes ended in one of three ways; how well it learns, other tests ask.
+    // Each of the 200 examined episodes has one of three results; other tests check how well it learns.
     let examined = said.split("room: ").nth(1).unwrap().lines().next().unwrap();
     let counts = [" collided", " out of steps"].map(|end| {
         let before = examined.split(end).next().unwrap();
@@ -76,15 +76,15 @@ fn training_writes_a_policy_that_acts_and_goes_on_where_it_stopped() {
     for ending in ["curve.csv", "curve.svg", "checkpoint"] {
         assert!(folder.path().join("room").with_extension(ending).exists(), "{ending}");
     }
-    // A finished run is resumed without another update, and ends as it ended.
+    // Resuming a finished run makes no further update and gives the same result.
     let bytes = std::fs::read(folder.path().join("room.safetensors")).unwrap();
     train("room.safetensors", &["--resume", "--set", "updates=300", "--set", "images=16"]);
     assert_eq!(std::fs::read(folder.path().join("room.safetensors")).unwrap(), bytes);
-    // Of another recipe, nothing is resumed.
+    // A run of another recipe cannot be resumed.
     let refused = run_in(&["train", "--map", "room.svg", "--out", "room.safetensors", "--resume"], folder.path());
     let said = String::from_utf8(refused.stderr).unwrap();
     assert!(!refused.status.success() && said.contains("another recipe"), "{said}");
-    // The policy acts live, on the map that it was trained on.
+    // The policy acts in a trial on the map that it was trained on.
     let arguments = ["evaluate", "--map", "room.svg", "--controller", "rl", "--policy", "room.safetensors", "--json"];
     let live = run_in(&[&arguments[..], &["--episodes", "4"]].concat(), folder.path());
     let table: serde_json::Value = serde_json::from_slice(&live.stdout).unwrap();

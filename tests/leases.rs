@@ -1,4 +1,4 @@
-//! Sessions by name, their operators, and what becomes of those that nobody looks at.
+//! Named sessions, their operators, and sessions without browsers.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use tokio_tungstenite::connect_async;
 use crate::support::{Browser, Laboratory, gpu};
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_class_opens_sessions_by_name_up_to_the_cap() {
+async fn sessions_open_by_name_up_to_the_limit() {
     let lab = Laboratory::open_with(gpu(), None, |settings| settings.sessions = 3).await;
     for name in ["anna", "group-7", "anna"] {
         let (status, page) = lab.ask("GET", &format!("/s/{name}"), "").await;
@@ -24,7 +24,7 @@ async fn a_class_opens_sessions_by_name_up_to_the_cap() {
         let (status, problem) = lab.ask("GET", &format!("/s/{bad}"), "").await;
         assert_eq!((status, &problem["code"]), (404, &json!("bad_name")), "{bad}");
     }
-    // Each is its own.
+    // Sessions are independent.
     let (socket, _) = connect_async(format!("ws://{}/api/sessions/anna/live", lab.address)).await.unwrap();
     let mut anna = Browser::of(socket);
     let hello = anna.until("hello", |m| m["type"] == "hello").await;
@@ -38,7 +38,7 @@ async fn a_class_opens_sessions_by_name_up_to_the_cap() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_session_that_nobody_looks_at_stands_still_and_makes_way() {
+async fn an_unwatched_session_is_parked_and_can_be_replaced() {
     let lab = Laboratory::open_with(gpu(), None, |settings| {
         settings.sessions = 2;
         settings.park_after = Duration::from_millis(300);
@@ -90,7 +90,7 @@ async fn a_command_of_an_earlier_lease_is_refused_and_changes_nothing() {
     first.until("free", |m| m["type"] == "hello" && m["operator_present"] == false).await;
     first.send(json!({"type": "take_control"})).await;
     first.until("its turn again", |m| m["role"] == "operator").await;
-    // Sent before all that, and late.
+    // A late command of the first lease.
     first.send(json!({"type": "step", "ticks": 1, "epoch": epoch})).await;
     let error = first.error().await;
     assert_eq!((&error["code"], &error["field"]), (&json!("stale_epoch"), &json!("epoch")), "{error}");
@@ -99,16 +99,17 @@ async fn a_command_of_an_earlier_lease_is_refused_and_changes_nothing() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_hand_that_says_nothing_lets_go_and_time_stands() {
+async fn a_silent_hand_is_released_and_the_session_pauses() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
     browser.send(json!({"type": "run"})).await;
     let began = std::time::Instant::now();
     browser.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.45})).await;
     browser.state("the hand", |m| !m["hand_m"].is_null()).await;
-    // Refused words are none.
+    // Refused messages do not count as a sign of life.
     browser.send(json!({"type": "drag", "x_m": null, "y_m": 0})).await;
-    let error = browser.until("the hand's end", |m| m["type"] == "error" && m["code"] == "hand_silent").await;
+    let error =
+        browser.until("the release of a silent hand", |m| m["type"] == "error" && m["code"] == "hand_silent").await;
     assert!(began.elapsed() > Duration::from_secs(5), "{error}");
     let (_, state) = lab.ask("GET", "/api/sessions/main/state", "").await;
     assert_eq!((&state["hand_m"], &state["running"]), (&Value::Null, &json!(false)), "{state}");
@@ -116,7 +117,7 @@ async fn a_hand_that_says_nothing_lets_go_and_time_stands() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn uploaded_maps_are_kept_found_and_taken_out_again() {
+async fn uploaded_maps_are_stored_listed_and_deleted() {
     let lab = Laboratory::open().await;
     let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\
                    <rect x=\"-20\" y=\"300\" width=\"40\" height=\"30\"/></svg>";
@@ -139,7 +140,7 @@ async fn uploaded_maps_are_kept_found_and_taken_out_again() {
     assert!(status == 200 && sent == drawing);
     assert!(lab.data.path().join("maps/map-1.svg").exists());
     assert_eq!(lab.ask("DELETE", "/api/maps/map-1", "").await.0, 204);
-    anna.until("and of its end", |m| m["type"] == "scene" && !knows(m)).await;
+    anna.until("the map's removal", |m| m["type"] == "scene" && !knows(m)).await;
     assert_eq!(lab.ask("DELETE", "/api/maps/posts", "").await.0, 404);
     assert!(!lab.data.path().join("maps/map-1.svg").exists());
     browser.send(json!({"type": "step", "ticks": 5})).await;
@@ -148,7 +149,7 @@ async fn uploaded_maps_are_kept_found_and_taken_out_again() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_session_holds_so_many_browsers_and_no_more() {
+async fn the_browsers_of_a_session_are_limited() {
     let lab = Laboratory::open().await;
     let address = format!("ws://{}/api/sessions/main/live", lab.address);
     let mut all = Vec::new();
@@ -162,8 +163,8 @@ async fn a_session_holds_so_many_browsers_and_no_more() {
             tokio::time::sleep(Duration::from_millis(50)).await;
         }
     };
-    tokio::time::timeout(Duration::from_secs(10), again).await.expect("a place was given back");
-    // Those who do not read are no burden to who does.
+    tokio::time::timeout(Duration::from_secs(10), again).await.expect("a free place");
+    // Browsers that do not read do not delay the others.
     let mut operator = Browser::of(all.swap_remove(0));
     operator.send(json!({"type": "step", "ticks": 40})).await;
     let stepped = operator.state("forty ticks", |m| m["tick"] == 40);

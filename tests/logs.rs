@@ -1,4 +1,4 @@
-//! What sessions record can be run again, whatever an operator does; what was changed since is found out.
+//! Recorded sessions replay, whatever an operator does; later changes to a log are detected.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use crate::support::gpu;
 
-/// Sessions that the long test records; `FERRY_SESSIONS` makes them fewer.
+/// Number of sessions that the long test records; `FERRY_SESSIONS` changes it.
 fn sessions() -> u64 {
     std::env::var("FERRY_SESSIONS").map_or(100, |count| count.parse().expect("FERRY_SESSIONS is a count"))
 }
@@ -24,7 +24,7 @@ fn place(rng: &mut impl Rng) -> (f64, f64) {
     (rng.random_range(-0.32..0.30), rng.random_range(-0.56..-0.19))
 }
 
-/// Anything that an operator may do; much of it is refused.
+/// A random input of an operator; many are refused.
 fn action(rng: &mut impl Rng, tick: u64) -> Command {
     let (x_m, y_m) = place(rng);
     Command::Input(match rng.random_range(0..15) {
@@ -57,12 +57,12 @@ fn action(rng: &mut impl Rng, tick: u64) -> Command {
     })
 }
 
-/// Who asks a session waits for so long at most.
+/// Time limit for an answer of a session.
 fn clocked() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap()
 }
 
-/// Records a session that an operator plays with at random.
+/// Records a session with random inputs.
 fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let name = format!("random-{seed}");
@@ -74,7 +74,7 @@ fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     obey(Command::SetSpeed(8.0)).unwrap();
     for _ in 0..25 {
         let tick = session.watch().borrow().moment.tick;
-        // Refusals are part of the game.
+        // Refusals are expected.
         let runs = match action(&mut rng, tick) {
             Command::Run => obey(Command::Run).is_ok(),
             command => {
@@ -118,7 +118,7 @@ fn whatever_an_operator_does_is_reproduced_and_an_edited_byte_is_found() {
     assert_eq!(logs.len() as u64, sessions());
     let all: Vec<Replayed> = logs.par_iter().map(|bytes| replayed(bytes)).collect();
     let sum = |of: fn(&Replayed) -> u64| all.iter().map(of).sum::<u64>();
-    // Resets and loads, moments gone back to, and enough ticks to say something.
+    // Resets, loads, rewinds, and a minimum number of ticks.
     assert!(sum(|one| u64::from(one.trials)) > 2 * sessions(), "{all:?}");
     assert!(sum(|one| u64::from(one.resumed)) > sessions() / 2, "{all:?}");
     assert!(sum(|one| one.ticks) > 300 * sessions(), "{all:?}");
@@ -135,7 +135,7 @@ fn whatever_an_operator_does_is_reproduced_and_an_edited_byte_is_found() {
 }
 
 #[test]
-fn parts_follow_each_other_without_a_gap_and_each_replays_alone() {
+fn parts_have_no_gap_and_each_replays_alone() {
     let folder = tempfile::tempdir().unwrap();
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let options = Options { part: Duration::from_millis(250), ..Options::LIVE };

@@ -1,4 +1,4 @@
-//! Tests of the whole, in one binary so that a small machine links once.
+//! Integration tests, in one binary so that they are linked once.
 
 mod access;
 mod calculator;

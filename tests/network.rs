@@ -1,4 +1,4 @@
-//! What comes over the network stays within bounds: sizes, times, counts.
+//! Limits of network input: sizes, times, counts.
 
 use std::io::Write;
 use std::net::{SocketAddr, TcpStream};
@@ -10,9 +10,9 @@ use tokio_tungstenite::tungstenite::Message;
 
 use crate::support::{Laboratory, exchange, gpu, read_answer};
 
-/// Connections that say nothing.
+/// Number of connections that send nothing.
 const IDLE: usize = 2000;
-/// A connection says in this time what it wants, and so much later it is closed at the latest.
+/// Time limit for a request, plus a margin: later the connection must be closed.
 const HEAD_WITHIN: Duration = Duration::from_secs(10);
 const CLOSED_WITHIN: Duration = Duration::from_secs(20);
 
@@ -28,14 +28,14 @@ async fn what_is_too_large_is_refused_and_the_server_goes_on() {
         let long = "x".repeat(512 << 10);
         let many: String = (0..80).map(|i| format!("X-{i}: 1\r\n")).collect();
         let status = |request: String| exchange(address, request.as_bytes()).0;
-        // Who closes before all was read may take the answer with it: 0.
+        // When the server closes before it has read everything, the answer may be lost: 0.
         assert!(matches!(status(head(address, "GET /healthz", &format!("X-Long: {long}\r\n"))), 431 | 0));
         assert_eq!(status(head(address, "GET /healthz", &many)), 431);
         assert!(matches!(status(head(address, &format!("GET /{long}"), "")), 414 | 431 | 0));
         let claimed = "Content-Length: 1048577\r\n";
         let body = "y".repeat((1 << 20) + 1);
         assert_eq!(status(head(address, "POST /api/maps", claimed) + &body), 413);
-        // One that never ends is cut off where it is too large.
+        // An endless body is refused at the size limit.
         let mut stream = TcpStream::connect(address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
         stream.write_all(head(address, "POST /api/maps", "Transfer-Encoding: chunked\r\n").as_bytes()).unwrap();
@@ -93,7 +93,7 @@ async fn a_refusal_is_a_page_for_who_asked_for_a_page() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn slow_and_idle_connections_are_closed_and_keep_nobody_out() {
+async fn slow_and_idle_connections_are_closed_and_others_are_served() {
     let lab = Laboratory::open().await;
     let address = lab.address;
     let mut browser = lab.browser().await;
@@ -104,7 +104,7 @@ async fn slow_and_idle_connections_are_closed_and_keep_nobody_out() {
     });
     let idle = idle.await.unwrap();
     let began = Instant::now();
-    // A byte a second of a head, and of a body.
+    // A head and a body with one byte per second.
     let drip = move |text: String, rest: &'static str| {
         let mut stream = TcpStream::connect(address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
@@ -122,7 +122,7 @@ async fn slow_and_idle_connections_are_closed_and_keep_nobody_out() {
     let slow_body =
         tokio::task::spawn_blocking(move || drip(head(address, "POST /api/maps", "Content-Length: 1000\r\n"), "b"));
 
-    // Meanwhile everybody else is served.
+    // Other clients are served meanwhile.
     let mut slowest = Duration::ZERO;
     while began.elapsed() < Duration::from_secs(5) {
         let asked = Instant::now();
@@ -141,7 +141,7 @@ async fn slow_and_idle_connections_are_closed_and_keep_nobody_out() {
     let closed = tokio::task::spawn_blocking(move || {
         let is_closed = |stream: &TcpStream| {
             stream.set_read_timeout(Some(CLOSED_WITHIN)).unwrap();
-            // At most it is told that it was too slow.
+            // The answer is 408 or missing.
             let mut told = Vec::new();
             match std::io::Read::read_to_end(&mut &*stream, &mut told) {
                 Ok(_) => true,
@@ -163,12 +163,12 @@ async fn slow_and_idle_connections_are_closed_and_keep_nobody_out() {
             tokio::time::sleep(Duration::from_millis(200)).await;
         }
     };
-    tokio::time::timeout(CLOSED_WITHIN, open).await.expect("they are let go");
+    tokio::time::timeout(CLOSED_WITHIN, open).await.expect("the connections close");
     lab.close().await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_flood_of_messages_is_read_later_and_keeps_nobody_waiting() {
+async fn a_flood_of_messages_is_delayed_and_others_are_served() {
     let lab = Laboratory::open().await;
     let mut flooding = lab.browser().await;
     let mut watching = lab.browser().await;

@@ -1,4 +1,4 @@
-//! The API's description as a client gets it, and refusals that are what it says.
+//! The API's description as a client receives it, and errors that match it.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! A closed session's recording is whole, and shows the arm moving: asked of Rerun's own tools.
+//! The recording of a closed session is complete and shows the arm moving, checked with Rerun's own tools.
 
 use std::process::Command;
 
@@ -25,7 +25,7 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
     assert!(verified.status.success(), "{}", String::from_utf8_lossy(&verified.stderr));
     let found = read(std::slice::from_ref(&file)).remove(0);
     assert!(found["tool_path_m"].as_f64() > Some(0.1), "{found}");
-    // In a hurry, not every control step's.
+    // At high speed, not every control step has an image.
     assert!(found["camera_frames"].as_u64() >= Some(1), "{found}");
     for timeline in ["sim_time", "tick"] {
         assert!(found["timelines"].as_array().unwrap().contains(&json!(timeline)), "{found}");
@@ -46,7 +46,7 @@ async fn a_closed_recording_verifies_and_shows_the_arm_moving() {
     }
     assert_eq!(found["blueprint_views"], json!(12), "{found}");
 
-    // The command, with the log's decisions and with the camera's.
+    // `ferry replay`, with the logged decisions and with the camera.
     let log = file.with_extension("ferry");
     for options in [&[][..], &["--camera"]] {
         let replayed = ferry(&[]).arg("replay").args(options).arg(&log).output().unwrap();

@@ -1,5 +1,5 @@
-//! The controllers' view is right to the pixel: against the map's own geometry, on every shipped map, through
-//! Vulkan and OpenGL, and however the camera is mounted.
+//! Compares the controllers' view with the map's geometry to the pixel: on every shipped map, with Vulkan and OpenGL, and
+//! with several camera mounts.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::support::gpu;
 
-/// Heights at which a pixel's ray is held against the walls.
+/// Heights at which a pixel's ray is tested against the walls.
 const SLICES: u32 = 12;
-/// Far outside, where a bead is seen nowhere.
+/// Far outside, where the bead is not visible.
 const NOWHERE: Point2<f64> = Point2::new(50.0, 50.0);
 
 fn subject(tool: Point2<f64>, bead: Point2<f64>, mount: CameraMount) -> Subject {
@@ -32,7 +32,7 @@ fn subject(tool: Point2<f64>, bead: Point2<f64>, mount: CameraMount) -> Subject 
     }
 }
 
-/// The usual mount, and ones that are moved, leaning, wide and narrow.
+/// The default mount, and mounts that are moved, tilted, wide and narrow.
 fn mounts(rng: &mut ChaCha8Rng) -> [CameraMount; 6] {
     let good = CameraMount::default();
     let mut any = |most: f64| rng.random_range(-most..most);
@@ -46,7 +46,7 @@ fn mounts(rng: &mut ChaCha8Rng) -> [CameraMount; 6] {
     ]
 }
 
-/// Whether a pixel's ray meets a wall's prism, or what lies outside the workspace, before the floor.
+/// Whether a pixel's ray meets a wall or the outside of the workspace before it meets the floor.
 fn meets_wall(map: &Map, frame: &CameraFrame, column: u32, row: u32) -> bool {
     let size = f64::from(frame.picture.width_px);
     let place = Vector2::new(2.0 * f64::from(column) + 1.0 - size, size - 2.0 * f64::from(row) - 1.0) / size;
@@ -138,7 +138,7 @@ fn walls_around(at: Point2<f64>, [left, right, low, high]: [f64; 4]) -> [Polygon
     ]
 }
 
-/// Half a pixel is what whole pixels can say; a fiftieth, what a shadow at a wall's foot hides of it.
+/// Tolerance: half a pixel is the resolution; a fiftieth is for the shadow at a wall's foot.
 const HALF_A_PIXEL: f64 = 0.52;
 const AROUND: Rect = Rect { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
@@ -205,7 +205,7 @@ fn a_leaning_camera_keeps_half_a_pixel_too() {
             let along = in_px(foot + Vector2::new(-outward.y, outward.x) * 1e-3) - in_px(foot);
             let normal = Vector2::new(-along.y, along.x).normalize();
             let miss_px = normal.dot(&(in_px(tool + outward * first_m) - in_px(foot))).abs();
-            // Half a pixel either way, as seen by an edge that is askew in the image.
+            // Half a pixel on both sides, for an edge that is oblique in the image.
             let allowed_px = HALF_A_PIXEL * (normal.x.abs() + normal.y.abs()) + 0.02;
             assert!(miss_px <= allowed_px, "{miss_px} of {allowed_px} with {mount:?}");
         }

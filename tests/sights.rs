@@ -1,4 +1,4 @@
-//! What the camera sees and the controllers make of it, as a browser is told.
+//! Camera images and layers, as a browser receives them.
 
 use ferry::camera::{AdapterChoice, Gpu};
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ async fn a_session_goes_on_when_its_graphics_device_is_lost() {
         assert_eq!(then["ended"], Value::Null);
         hashes.push(then["world_hash"].clone());
     }
-    assert_eq!(hashes[0], hashes[1], "the same moment, whatever device saw it");
+    assert_eq!(hashes[0], hashes[1], "the same moment on each device");
     lab.close().await;
 }
 
@@ -80,13 +80,13 @@ async fn a_moved_camera_is_obeyed_shown_and_refused_when_absurd() {
     let scene = browser.until("the new field of view", |m| m["type"] == "scene" && m["parameters"] == moved).await;
     let right = |corner: usize| scene["camera_sees_m"][corner][0].as_f64().unwrap();
     assert!(right(0) < -0.06 && right(1) > 0.06 && right(1) < 0.11, "{}", scene["camera_sees_m"]);
-    // What stands still is seen only as long as nobody moves.
+    // The tool moves, so that the camera observes new places.
     browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
     browser.send(json!({"type": "step", "ticks": 40})).await;
     let overlay = browser.until("blocks", |m| m["type"] == "overlay" && m["tick"] == 33).await;
     let blocks = |kind: &str| overlay["blocks"][kind].as_array().unwrap().len();
     assert!(blocks("rectangles") > 0 && blocks("rectangles") < blocks("dark") && blocks("free") > 0, "{overlay}");
-    let seen = browser.until("what was seen", |m| m["type"] == "seen").await;
+    let seen = browser.until("the obstacle map", |m| m["type"] == "seen").await;
     let cells: u64 = seen["runs"].as_array().unwrap().iter().map(|run| run[1].as_u64().unwrap()).sum();
     assert_eq!(cells, seen["columns"].as_u64().unwrap() * seen["rows"].as_u64().unwrap());
     let free = seen["runs"].as_array().unwrap().iter().any(|run| run[0] == 1);

@@ -1,4 +1,4 @@
-//! SIGTERM: everything is held, written and said within two seconds, whatever goes on.
+//! SIGTERM: sessions end, recordings are written and browsers are informed within two seconds.
 
 use std::io::Write;
 use std::net::TcpStream;
@@ -21,13 +21,13 @@ const WITHIN: Duration = Duration::from_secs(2);
 fn serve(data: &Path, change: impl FnOnce(&mut Command)) -> Ferry {
     let mut command = ferry(&["serve", "--bind", "127.0.0.1:0", "--data"]);
     command.arg(data);
-    // A pipe that nobody reads would fill up.
+    // A pipe that is not read would fill up.
     command.stderr(std::fs::File::create(data.join("log")).unwrap());
     change(&mut command);
     Ferry::start(&mut command)
 }
 
-/// How long the server took to end, and what it had logged.
+/// Time until the server ended, and its log.
 fn terminate(mut ferry: Ferry, data: &Path) -> (Duration, String) {
     let asked = Instant::now();
     kill_process(Pid::from_child(&ferry.child), Signal::TERM).unwrap();
@@ -57,11 +57,11 @@ async fn whatever_goes_on_it_ends_within_two_seconds_and_files_are_whole() {
         browser.state("running", |m| m["tick"].as_u64() > Some(100)).await;
         browsers.push(browser);
     }
-    // Steps for minutes, which nothing else would interrupt.
+    // Steps that take minutes and cannot be interrupted otherwise.
     for _ in 0..50 {
         browsers[0].send(json!({"type": "step", "ticks": 12_500})).await;
     }
-    // One that takes nothing in, one that never says what it wants, one that never ends, and an evaluation.
+    // A client that does not read, one that sends nothing, one that never ends its request, and an evaluation.
     let (_stalled, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
     let _silent = TcpStream::connect(address).unwrap();
     let mut endless = TcpStream::connect(address).unwrap();
@@ -183,7 +183,7 @@ fn settings_that_do_not_go_together_are_refused_before_anything_begins() {
         if !arguments.contains(&"--data") {
             command.arg("--data").arg(data.path().join("data"));
         }
-        // The later of two is meant.
+        // The later of two options counts.
         if arguments.contains(&"--bind") {
             command = ferry(&[]);
             command.args(["serve", "--data"]).arg(data.path().join("data"));

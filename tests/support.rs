@@ -1,4 +1,4 @@
-//! What several tests need: servers, browsers, child processes, recordings' files.
+//! Shared by tests: servers, browsers, child processes, files of recordings.
 
 mod browser;
 mod child;

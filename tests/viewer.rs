@@ -1,4 +1,4 @@
-//! Rerun's viewer as the server hands it out.
+//! Rerun's viewer as the server sends it.
 
 use std::io::Read;
 
@@ -44,7 +44,7 @@ async fn its_files_come_packed_or_plain_and_once() {
     lab.close().await;
 }
 
-/// The version stands in a recording's head, and somewhere among the strings of the viewer.
+/// The version is in a recording's head and among the strings of the viewer.
 #[tokio::test(flavor = "multi_thread")]
 async fn it_has_the_version_that_records() {
     let lab = Laboratory::open().await;

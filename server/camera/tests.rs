@@ -197,5 +197,5 @@ fn cameras_of_one_device_work_in_several_threads() {
 fn a_camera_may_move_to_another_thread() {
     fn assert_send<T: Send>() {}
     assert_send::<Camera>();
-    assert_send::<Box<dyn Eye + Send>>();
+    assert_send::<Box<dyn ImageSource + Send>>();
 }

@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::camera::{CameraError, Eye};
+use crate::camera::{CameraError, ImageSource};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Arena, Entry, Eyes, InputLog, replay};
+use crate::trial::{Arena, Entry, InputLog, MakeCamera, replay};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -34,12 +34,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let bar = ProgressBar::new(ticks as u64)
         .with_style(ProgressStyle::with_template("replaying {bar:30} {pos}/{len} ticks, {eta} left")?);
     let gpu = if arguments.camera { Some(super::open_gpu()?) } else { None };
-    let mut cameras = |arena: &Arena| -> Result<Box<dyn Eye>, CameraError> {
+    let mut cameras = |arena: &Arena| -> Result<Box<dyn ImageSource>, CameraError> {
         let gpu = gpu.as_ref().expect("the adapter is open if cameras are used");
         Ok(Box::new(arena.camera(gpu)?))
     };
-    let eyes: Option<Eyes<'_>> = if arguments.camera { Some(&mut cameras) } else { None };
-    let replayed = replay(&log, eyes, &mut |_| bar.inc(1));
+    let make_camera: Option<MakeCamera<'_>> = if arguments.camera { Some(&mut cameras) } else { None };
+    let replayed = replay(&log, make_camera, &mut |_| bar.inc(1));
     bar.finish_and_clear();
     let replayed = replayed.with_context(|| format!("{path}"))?;
     let compared = if arguments.camera { "world and controller" } else { "world" };

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::Cell;
 use super::course::Course;
 use super::figure::Trace;
-use crate::camera::{Camera, CameraError, Eye, Gpu, Subject};
+use crate::camera::{Camera, CameraError, Gpu, ImageSource, Subject};
 use crate::image::CameraFrame;
 use crate::map::{FreeSpace, MapError};
 use crate::plant::BEAD_RADIUS_M;
@@ -163,14 +163,14 @@ pub struct Watch<'a> {
 
 /// A camera wrapper that notes whether it was used.
 struct Noting<'a> {
-    eye: &'a mut dyn Eye,
-    looked: bool,
+    camera: &'a mut dyn ImageSource,
+    was_used: bool,
 }
 
-impl Eye for Noting<'_> {
+impl ImageSource for Noting<'_> {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
-        self.looked = true;
-        self.eye.capture(subject)
+        self.was_used = true;
+        self.camera.capture(subject)
     }
 }
 
@@ -178,7 +178,7 @@ impl Eye for Noting<'_> {
 pub fn episode(
     scenario: Scenario,
     venue: &Venue,
-    eye: &mut dyn Eye,
+    camera: &mut dyn ImageSource,
     sink: &mut dyn Sink,
     watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
 ) -> Result<Episode, EvaluateError> {
@@ -186,10 +186,10 @@ pub fn episode(
     sink.begin(&trial, Beginning::SetUp);
     let (mut tally, mut course, mut decision_s) = (Tally::default(), Course::default(), Vec::new());
     loop {
-        let mut noting = Noting { eye, looked: false };
+        let mut noting = Noting { camera, was_used: false };
         let started = Instant::now();
-        let record = trial.tick(Source::Eye(&mut noting))?;
-        if noting.looked {
+        let record = trial.tick(Source::Camera(&mut noting))?;
+        if noting.was_used {
             decision_s.push(started.elapsed().as_secs_f64());
         }
         if watch(&record).is_break() {

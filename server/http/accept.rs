@@ -48,7 +48,7 @@ pub async fn serve(listener: TcpListener, app: Router, counters: Arc<Counters>, 
                     continue;
                 }
             },
-            // An error means that the sender is gone, which also means stop.
+            // An error means that the sender was dropped, which also means stop.
             () = async { drop(stopping.wait_for(|&stop| stop).await) } => break,
             // Removes finished connections.
             Some(_) = connections.join_next() => continue,

@@ -110,20 +110,20 @@ impl Access {
         self.check_host(request)?;
         let origin = self.check_origin(headers)?;
         check_site(headers, request.method())?;
-        let stranger = Client::at(address);
+        let by_address = Client::at(address);
         let (client, is_known) = match (&self.token, bearer(headers)) {
-            (None, _) => (stranger, true),
-            (Some(token), Some(presented)) if token.matches(presented) => (stranger, true),
-            (Some(_), Some(_)) => return Err(self.wrong_token(&stranger)),
+            (None, _) => (by_address, true),
+            (Some(token), Some(presented)) if token.matches(presented) => (by_address, true),
+            (Some(_), Some(_)) => return Err(self.wrong_token(&by_address)),
             (Some(_), None) => match self.cookie_key.as_ref().and_then(|key| login::known(headers, key)) {
-                // A browser sends the cookie for any site's request; the origin tells which site it was.
+                // A browser sends the cookie for any site's request; the origin shows which site it was.
                 Some(_) if origin.is_none() && changes_something(request) => {
-                    let detail = "a request with the cookie must say its Origin; programs send the token instead, as \
+                    let detail = "a request with the cookie must have an Origin; programs send the token instead, as \
                                   Authorization: Bearer";
                     return Err(Problem::new(StatusCode::FORBIDDEN, "no_origin", detail).field("Origin"));
                 }
                 Some(login) => (Client::Login(login), true),
-                None => (stranger, false),
+                None => (by_address, false),
             },
         };
         self.rates.request(&client).map_err(|wait| too_often("this client asks too often", wait))?;

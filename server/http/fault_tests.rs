@@ -120,9 +120,9 @@ fn server(data: &std::path::Path) -> Arc<Server> {
     Server::new(gpu, Settings::in_folder(data.to_owned()), access, stopping).unwrap()
 }
 
-/// Who asks and goes away must not have more worked out at once than who stays.
+/// A client that disconnects must not get more workers than one that waits.
 #[tokio::test(flavor = "multi_thread")]
-async fn work_keeps_its_place_until_it_is_done() {
+async fn work_occupies_its_worker_until_it_is_done() {
     let folder = tempfile::tempdir().unwrap();
     let server = server(folder.path());
     for _ in 0..super::WORKERS {
@@ -131,11 +131,11 @@ async fn work_keeps_its_place_until_it_is_done() {
     }
     let began = std::time::Instant::now();
     server.work(|_| ()).await.unwrap();
-    assert!(began.elapsed() > Duration::from_secs(1), "it had to wait {:?}", began.elapsed());
+    assert!(began.elapsed() > Duration::from_secs(1), "it waited {:?}", began.elapsed());
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_session_is_begun_once_though_who_asked_first_has_gone() {
+async fn a_session_starts_once_although_its_first_client_disconnected() {
     let folder = tempfile::tempdir().unwrap();
     let server = server(folder.path());
     for _ in 0..5 {
@@ -150,22 +150,22 @@ async fn a_session_is_begun_once_though_who_asked_first_has_gone() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn of_forks_by_the_hundred_the_last_is_told() {
+async fn of_many_comparisons_the_last_one_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let server = server(folder.path());
     let hub = server.sessions.open("anna").await.unwrap();
     hub.session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
-    let mut told = hub.comparison();
+    let mut reports = hub.comparison();
     for _ in 0..200 {
         hub.compare(0, vec![ControllerName::Attractor]).await.unwrap();
     }
-    let done = told.wait_for(|text| text.contains("\"running\":false"));
-    tokio::time::timeout(Duration::from_secs(60), done).await.expect("the last is told").unwrap();
+    let done = reports.wait_for(|text| text.contains("\"running\":false"));
+    tokio::time::timeout(Duration::from_secs(60), done).await.expect("a report of the last comparison").unwrap();
 }
 
-/// Nobody gets processor time for nothing: the session says how late it is, lets lost time go, and still obeys.
+/// On busy cores a session skips lost time instead of making it up.
 #[tokio::test(flavor = "multi_thread")]
-async fn a_session_on_busy_cores_tells_how_late_it_is_and_still_obeys() {
+async fn a_session_on_busy_cores_reports_its_lateness_and_still_answers() {
     use std::sync::atomic::{AtomicBool, Ordering};
     let session = start("crowded", ControllerName::Rl, Box::new(Nowhere::default()));
     run(&session).await;

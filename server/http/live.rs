@@ -104,11 +104,11 @@ struct Connection {
     socket: WebSocket,
     hand: Arc<Hand>,
     /// Times of its last message and of our last ping.
-    heard: Instant,
+    received: Instant,
     pinged: Instant,
     messages: DefaultDirectRateLimiter,
-    /// It sends too much: nothing is read before this time.
-    deaf_until: Instant,
+    /// When a browser sends too much, nothing is read before this time.
+    read_after: Instant,
 }
 
 /// Versions of the newest messages that this browser has received.
@@ -124,7 +124,7 @@ impl Connection {
         let now = Instant::now();
         let messages = RateLimiter::direct(Quota::per_second(MESSAGES_PER_S).allow_burst(MESSAGES_BURST));
         let hand = Hand::new(seat.own, hub.clone());
-        Self { seat, hub, socket, hand, heard: now, pinged: now, messages, deaf_until: now }
+        Self { seat, hub, socket, hand, received: now, pinged: now, messages, read_after: now }
     }
 
     async fn serve(mut self, stopping: watch::Receiver<bool>) {
@@ -132,7 +132,7 @@ impl Connection {
         let looking_after = tokio::spawn(self.hand.clone().look_after());
         let _ = self.run(stopping).await;
         looking_after.abort();
-        self.hand.let_go().await;
+        self.hand.release().await;
     }
 
     async fn run(&mut self, mut stopping: watch::Receiver<bool>) -> Result<(), axum::Error> {
@@ -177,23 +177,23 @@ impl Connection {
                     }
                     let now = *seats.borrow_and_update();
                     if now.operator != Some(self.seat.own) {
-                        self.hand.let_go().await;
+                        self.hand.release().await;
                     }
                     self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
                 }
-                message = receive(&mut self.socket, self.deaf_until) => {
+                message = receive(&mut self.socket, self.read_after) => {
                     let Some(Ok(message)) = message else { return Ok(()) };
                     if !self.take_in(message).await? {
                         return Ok(());
                     }
                 }
                 () = hand.silenced.notified() => {
-                    let message = format!("nothing was heard from the hand for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
+                    let message = format!("no message from the page that holds the bead for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
                     self.refuse("hand_silent", &message, None).await?;
                 }
                 _ = beat.tick() => {
-                    if self.heard.elapsed() > SILENCE {
-                        return self.close("nothing was heard from this browser").await;
+                    if self.received.elapsed() > SILENCE {
+                        return self.close("no message from this browser").await;
                     }
                     self.beat().await?;
                 }
@@ -205,12 +205,12 @@ impl Connection {
 
     /// Returns whether the connection stays open.
     async fn take_in(&mut self, message: Message) -> Result<bool, axum::Error> {
-        self.heard = Instant::now();
+        self.received = Instant::now();
         if let Err(until) = self.messages.check() {
-            self.deaf_until = self.heard + until.wait_time_from(DefaultClock::default().now());
+            self.read_after = self.received + until.wait_time_from(DefaultClock::default().now());
         }
         match message {
-            Message::Text(text) => self.hear(&text).await?,
+            Message::Text(text) => self.handle(&text).await?,
             Message::Binary(_) => {
                 self.refuse("malformed", "binary messages are not understood", None).await?;
             }
@@ -263,16 +263,16 @@ impl Connection {
         self.socket.flush().await
     }
 
-    async fn hear(&mut self, text: &str) -> Result<(), axum::Error> {
+    async fn handle(&mut self, text: &str) -> Result<(), axum::Error> {
         let (message, epoch) = match ClientMessage::parse_with_epoch(text) {
-            Ok(told) => told,
+            Ok(parsed) => parsed,
             Err(error) => return self.say(&ServerMessage::Error(error)).await,
         };
         let own = self.seat.own;
         match message {
             ClientMessage::TakeControl {} => self.hub.reseat(|seats, now| seats.take(own, now)),
             ClientMessage::ReleaseControl {} => {
-                self.hand.let_go().await;
+                self.hand.release().await;
                 self.hub.reseat(|seats, now| seats.release(own, now));
             }
             message => {

@@ -82,12 +82,12 @@ fn registry(server: &Server) -> Registry {
     registry.register("sessions", "Sessions", of_sessions);
     let floats = [
         ("session_tick", "Ticks since the start of the trial"),
-        ("session_speed", "Achieved simulated seconds a second"),
+        ("session_speed", "Achieved simulated seconds per second"),
         ("session_lateness_seconds", "How late the latest tick of the last half second came"),
-        ("session_missed_deadlines", "How often lost time was let go since the session began"),
+        ("session_missed_deadlines", "How often the session skipped lost time since it began"),
         ("session_viewers", "Browsers"),
-        ("session_parked", "Whether it stands still because nobody looks"),
-        ("session_ended", "Whether it has ended by a fault"),
+        ("session_parked", "Whether it is paused because no browser watches it"),
+        ("session_ended", "Whether it has ended because of a fault"),
         ("session_recording", "Whether it is recorded"),
     ]
     .map(|(name, help)| {

@@ -1,5 +1,5 @@
-//! Refusals as the API's description has them. A route names its own; what access and extractors answer is added to
-//! every route that has it ([`super::openapi`]).
+//! Error responses for the API's description. A route lists its own; those of access and extractors are added to every
+//! route that can return them ([`super::openapi`]).
 
 use std::collections::BTreeMap;
 
@@ -25,13 +25,13 @@ refusals! {
     Malformed = 400 "The body or the path cannot be read.";
     Unauthorized = 401 "The token is missing or wrong.";
     ForeignOrigin = 403 "The request comes from another site's page.";
-    NotFound = 404 "There is no such thing.";
-    TooSlow = 408 "The body did not come in time.";
-    Conflict = 409 "It cannot be done with this one.";
+    NotFound = 404 "Not found.";
+    TooSlow = 408 "The body did not arrive in time.";
+    Conflict = 409 "The resource is in a state that does not allow this.";
     TooLarge = 413 "The body is too large or has too many items.";
-    ForeignHost = 421 "The request names a host that the server does not answer for.";
+    ForeignHost = 421 "The Host header names another server.";
     OutOfRange = 422 "A field has a value that is not allowed.";
     NotUpgraded = 426 "The connection cannot become a WebSocket.";
-    TooMany = 429 "There are as many as there may be, or somebody asks too often.";
+    TooMany = 429 "Too many exist already, or this client sends too many requests.";
     Unavailable = 503 "The session is busy or has ended, or the server is stopping.";
 }

@@ -212,7 +212,7 @@ impl Sessions {
                 hub.set_parked();
                 // An ended session needs no parking; a hanging one must not block the others.
                 let _ = tokio::time::timeout(END_WITHIN, hub.session.send(Command::Pause)).await;
-                tracing::info!(session = hub.id, "session parked: nobody looks");
+                tracing::info!(session = hub.id, "session parked: no browser watches it");
             }
         }
     }
@@ -270,7 +270,7 @@ mod tests {
         tokio::time::timeout(Duration::from_secs(20), ended).await.unwrap().unwrap();
         let again = sessions.open("anna").await.unwrap();
         assert!(!Arc::ptr_eq(&opened, &again) && again.session.watch().borrow().ended.is_none());
-        assert!(*opened.closing().borrow(), "who looks at the old one is sent away");
+        assert!(*opened.closing().borrow(), "browsers of the old session are disconnected");
         assert_eq!(sessions.all().len(), 2);
     }
 

@@ -211,7 +211,7 @@ impl From<&View> for OverlayMessage {
 }
 
 impl OverlayMessage {
-    /// Of what was seen at a tick, and what the arm then did.
+    /// Converts what the controllers saw and decided at `tick`; `motion` is what the arm did then.
     pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: RlPolicy) -> Self {
         let sensed = match &sight.carrier {
             Carrier::Attractor(attractor) => attractor.sensed(),
@@ -303,7 +303,7 @@ impl ValueMap {
 }
 
 impl PlanLayer {
-    /// Of a planner around what is known.
+    /// Converts the planner's tree and path, and the obstacles that it plans around.
     pub fn of(errt: &Errt, known: &ObstacleMap) -> Self {
         let (planner, path) = (errt.planner(), errt.path());
         Self {
@@ -319,7 +319,7 @@ impl PlanLayer {
 }
 
 impl SeenMessage {
-    /// What is known, as message `number`.
+    /// Converts the obstacle map. `number` counts the messages of a session.
     pub fn of(known: &ObstacleMap, number: u64) -> Self {
         let (columns, rows) = known.shape();
         let state = |state| match state {

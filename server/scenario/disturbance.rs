@@ -1,12 +1,12 @@
-//! Scripted disturbances (specification §2): what befalls the bead, or what is known of it, and when.
+//! Scripted disturbances: what moves the bead or blinds the tracker, and when.
 
 use serde::{Deserialize, Serialize};
 
-/// Most disturbances of one script.
+/// Maximum number of disturbances in a script.
 pub const SCRIPT_LIMIT: usize = 64;
-/// Control steps of a goal at which a script may strike: the limit that a goal has.
+/// Last control step of a goal at which a disturbance can be applied: the step limit of a goal.
 pub const MOST_STEPS: u32 = 600;
-/// Largest kick: it sends the resting bead off at about 4 m/s.
+/// Largest kick: a resting bead gets a speed of about 4 m/s.
 pub const MOST_IMPULSE_N_S: f64 = 2e-3;
 /// Largest push: about twice the bead's weight.
 pub const MOST_DRIFT_N: f64 = 0.01;
@@ -17,21 +17,21 @@ pub const MOST_SECONDS: f64 = 60.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
-    /// The bead is lifted and put down here, or where it fits nearest.
+    /// The bead is lifted and put down here, or at the nearest place where it fits.
     Displace {
         /// x.
         x_m: f64,
         /// y.
         y_m: f64,
     },
-    /// A kick.
+    /// A kick: an impulse in newton seconds.
     Impulse {
         /// Along x.
         x_n_s: f64,
         /// Along y.
         y_n_s: f64,
     },
-    /// A steady push.
+    /// A push: a steady force in newtons.
     Drift {
         /// Along x.
         x_n: f64,
@@ -40,7 +40,7 @@ pub enum Disturbance {
         /// Duration.
         for_s: f64,
     },
-    /// The tracker is blind.
+    /// The tracker reports nothing.
     Dropout {
         /// Duration.
         for_s: f64,

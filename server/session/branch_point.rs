@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::camera::{Camera, Eye, Gpu};
+use crate::camera::{Camera, Gpu, ImageSource};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{
@@ -92,10 +92,10 @@ impl BranchPoint {
     }
 
     /// The moment with the observation and decision of its control step.
-    pub fn relive(&self, eye: &mut dyn Eye) -> Result<(Moment, TickRecord), TrialError> {
+    pub fn relive(&self, camera: &mut dyn ImageSource) -> Result<(Moment, TickRecord), TrialError> {
         let mut trial = self.trial()?;
         let before = trial.moment();
-        Ok((before, trial.tick(Source::Eye(eye))?))
+        Ok((before, trial.tick(Source::Camera(camera))?))
     }
 
     /// Continues from here under a controller, with the disturbances of hand and script at their ticks, until all goals
@@ -104,7 +104,7 @@ impl BranchPoint {
     pub fn branch(
         &self,
         controller: ControllerName,
-        eye: &mut dyn Eye,
+        camera: &mut dyn ImageSource,
         watch: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
     ) -> Result<(), TrialError> {
         let mut trial = self.trial()?;
@@ -122,7 +122,7 @@ impl BranchPoint {
                 // For example, the bead may not fit where the hand put it in the session.
                 let _: Result<(), InputError> = trial.apply(input.clone());
             }
-            let record = trial.tick(Source::Eye(eye))?;
+            let record = trial.tick(Source::Camera(camera))?;
             tally.add(&record.moment);
             if delivered_tick.is_none() && record.moment.counters.deliveries > deliveries {
                 delivered_tick = Some(record.tick);

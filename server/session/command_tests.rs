@@ -8,7 +8,7 @@ use tokio::sync::broadcast;
 
 use super::worker::Worker;
 use super::{Command, CommandError, Kept};
-use crate::camera::{CameraError, Eye, Subject};
+use crate::camera::{CameraError, ImageSource, Subject};
 use crate::control::limits::{LIFT_SPEED_M_S, MIN_MANIPULABILITY_M3};
 use crate::geometry::Point2;
 use crate::image::{CameraFrame, Picture};
@@ -51,7 +51,7 @@ impl MadeUp {
     }
 }
 
-impl Eye for MadeUp {
+impl ImageSource for MadeUp {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         let [x_m, y_m, _] = subject.tool_m;
         let cell = (x_m * 20.0).floor() as i64 * 31 + (y_m * 20.0).floor() as i64;
@@ -250,11 +250,11 @@ impl Watch {
 fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
     let mut rng = ChaCha8Rng::seed_from_u64(seed());
     let arena = Arena::open("posts").unwrap();
-    let make_eye = Box::new(|_: &Arena| Ok(MadeUp::new()));
+    let make_camera = Box::new(|_: &Arena| Ok(MadeUp::new()));
     let (events, _) = broadcast::channel(1);
     let scenario = Scenario::idle("posts", 1);
     let sink = Box::new(Nowhere::default());
-    let mut worker = Worker::new(scenario, arena, Arc::default(), make_eye, sink, events).unwrap();
+    let mut worker = Worker::new(scenario, arena, Arc::default(), make_camera, sink, events).unwrap();
     let (mut refused, mut accepted, mut ticks) = (0u64, 0u64, 0u64);
     let mut known = None;
     for _ in 0..commands() {

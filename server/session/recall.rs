@@ -2,11 +2,11 @@
 
 use super::worker::Worker;
 use super::{BranchPoint, CommandError, Recalled};
-use crate::camera::Eye;
+use crate::camera::ImageSource;
 use crate::control::step_is_due;
 use crate::trial::{Case, Timed, TrialState};
 
-impl<E: Eye> Worker<E> {
+impl<E: ImageSource> Worker<E> {
     /// The trial as a test case, with all its inputs.
     pub(super) fn case(&self) -> Result<Case, CommandError> {
         let tick = self.trial.state().world.tick;

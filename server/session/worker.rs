@@ -11,7 +11,7 @@ use tokio::sync::{broadcast, watch};
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
 use super::{Command, CommandError, JOURNAL, Kept, Request, STEP_MAX, Scenery, View};
-use crate::camera::{CameraError, Eye};
+use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
 use crate::map::Library;
@@ -24,12 +24,12 @@ const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
 const DRAIN_EVERY: Duration = Duration::from_millis(4);
 
 /// Creates a camera for an arena.
-pub(super) type MakeEye<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
+pub(super) type MakeCamera<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
 
 pub(super) struct Worker<E> {
     pub(super) trial: Trial,
-    make_eye: MakeEye<E>,
-    eye: E,
+    make_camera: MakeCamera<E>,
+    camera: E,
     sink: Box<dyn Sink>,
     events: broadcast::Sender<Event>,
     pub(super) timeline: Timeline,
@@ -46,27 +46,27 @@ pub(super) struct Worker<E> {
     pub(super) interrupted: Arc<AtomicBool>,
 }
 
-impl<E: Eye> Worker<E> {
+impl<E: ImageSource> Worker<E> {
     pub(super) fn new(
         scenario: Scenario,
         arena: Arc<Arena>,
         library: Arc<Library>,
-        make_eye: MakeEye<E>,
+        make_camera: MakeCamera<E>,
         mut sink: Box<dyn Sink>,
         events: broadcast::Sender<Event>,
     ) -> Result<Self, TrialError> {
-        let mut eye = make_eye(&arena)?;
+        let mut camera = make_camera(&arena)?;
         let trial = Trial::new(scenario, arena)?;
         let scenery = Arc::new(Scenery::of(&trial, library, 0, 0));
         sink.begin(&trial, Beginning::SetUp);
-        let sight = Arc::new((0, trial.look(&mut eye)?));
+        let sight = Arc::new((0, trial.observe(&mut camera)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
         let pace = Pace::new(1.0, Instant::now());
         Ok(Self {
             trial,
-            make_eye,
-            eye,
+            make_camera,
+            camera,
             sink,
             events,
             timeline,
@@ -149,7 +149,7 @@ impl<E: Eye> Worker<E> {
         }
     }
 
-    /// The caller may be gone; then the answer is dropped.
+    /// Runs a request and sends its answer; the answer is dropped when the caller no longer waits.
     fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
         match request {
             Request::Obey { command, answer } => {
@@ -224,7 +224,7 @@ impl<E: Eye> Worker<E> {
                 self.trial.restore(state);
                 self.scenery = Arc::new(self.next_scenery(0));
                 self.sink.begin(&self.trial, Beginning::Resumed);
-                self.look();
+                self.observe();
             }
         }
         Ok(())
@@ -251,7 +251,7 @@ impl<E: Eye> Worker<E> {
             self.scenery = Arc::new(self.next_scenery(0));
         }
         if !self.running {
-            self.look();
+            self.observe();
         }
         Ok(())
     }
@@ -279,18 +279,18 @@ impl<E: Eye> Worker<E> {
         if kept.parameters {
             scenario.parameters = present.world.parameters.clone();
         }
-        let eye = (self.make_eye)(&arena).map_err(TrialError::from)?;
-        let before = std::mem::replace(&mut self.eye, eye);
+        let camera = (self.make_camera)(&arena).map_err(TrialError::from)?;
+        let before = std::mem::replace(&mut self.camera, camera);
         let done = self.set_up(scenario, arena);
         if done.is_err() {
-            self.eye = before;
+            self.camera = before;
         }
         done
     }
 
     fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {
         let trial = Trial::new(scenario, arena)?;
-        let sight = trial.look(&mut self.eye).map_err(TrialError::from)?;
+        let sight = trial.observe(&mut self.camera).map_err(TrialError::from)?;
         self.trial = trial;
         self.running = false;
         self.hand_is_stale = false;
@@ -314,8 +314,8 @@ impl<E: Eye> Worker<E> {
     }
 
     /// Publishes the current camera image, without a control step.
-    fn look(&mut self) {
-        match self.trial.look(&mut self.eye) {
+    fn observe(&mut self) {
+        match self.trial.observe(&mut self.camera) {
             Ok(sight) => self.sight = Arc::new((self.trial.state().world.tick, sight)),
             Err(error) => self.broken = Some(error.into()),
         }
@@ -340,7 +340,7 @@ impl<E: Eye> Worker<E> {
             self.forget_after(tick);
             self.timeline.keep(self.trial.snapshot());
         }
-        let mut record = self.trial.tick(Source::Eye(&mut self.eye))?;
+        let mut record = self.trial.tick(Source::Camera(&mut self.camera))?;
         self.sink.record(&record);
         if self.sink.wants_beginning() {
             self.sink.begin(&self.trial, Beginning::Resumed);

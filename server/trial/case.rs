@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
-use crate::camera::Eye;
+use crate::camera::ImageSource;
 use crate::files::read_at_most;
 use crate::map::{Map, MapError};
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -138,7 +138,7 @@ impl Case {
     pub fn run(
         &self,
         arena: &Arc<Arena>,
-        eye: &mut dyn Eye,
+        camera: &mut dyn ImageSource,
         watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
     ) -> Result<CaseOutcome, TrialError> {
         let mut trial = Trial::new(self.scenario.clone(), arena.clone())?;
@@ -152,7 +152,7 @@ impl Case {
                     refused.push((*tick, error));
                 }
             }
-            let record = trial.tick(Source::Eye(eye))?;
+            let record = trial.tick(Source::Camera(camera))?;
             let stopped = watch(&record).is_break();
             let moment = &record.moment;
             let rests = moment.phase.is_final() && moment.hand.is_none();

@@ -266,7 +266,7 @@ impl Trial {
         if self.state.world.plant.hand.take().is_some() {
             self.set_down();
             let world = &self.state.world;
-            self.events.push(Event::new(world.tick, EventKind::Disturbance, "the hand let go"));
+            self.events.push(Event::new(world.tick, EventKind::Disturbance, "bead released"));
         }
     }
 
@@ -303,7 +303,7 @@ mod tests {
     use crate::trial::{Arena, Source};
 
     #[test]
-    fn while_time_stands_so_many_inputs_wait_and_no_more() {
+    fn inputs_while_paused_are_limited() {
         let mut trial = Trial::new(Scenario::idle("open", 1), Arena::open("open").unwrap()).unwrap();
         trial.apply(Input::Drag { x_m: 0.0, y_m: -0.4, lift: false }).unwrap();
         for _ in 1..WAITING_MOST {
@@ -320,7 +320,7 @@ mod tests {
         }
         trial.apply(Input::Release).unwrap();
         let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
-        assert_eq!(trial.tick(Source::Eye(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);
+        assert_eq!(trial.tick(Source::Camera(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);
         trial.apply(goal).unwrap();
     }
 }

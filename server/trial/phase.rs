@@ -1,12 +1,12 @@
-//! How far the task is.
+//! The phase of the task: from holding to delivered, or stopped by a limit.
 
 use serde::{Deserialize, Serialize};
 
 /// The bead may take this long to follow after the tool has reached the goal.
 pub const SETTLE_S: f64 = 5.0;
-/// Control steps a transport leg, anew after each fetch.
+/// Control steps per transport leg; each fetch begins a new leg.
 pub const LEG_STEP_LIMIT: u32 = 150;
-/// Control steps a goal.
+/// Control steps per goal.
 pub const GOAL_STEP_LIMIT: u32 = 600;
 
 /// Progress of the task.
@@ -20,18 +20,18 @@ pub enum Phase {
     Transporting,
     /// The tool is at the goal, the bead follows.
     Settling {
-        /// Since when.
+        /// Tick at which the tool reached the goal.
         since_tick: u64,
     },
     /// The bead is within 2 cm of the goal.
     Delivered,
     /// The bead jumped to the magnet.
     LiftedOff,
-    /// A limit was met; the arm holds until the goal moves.
+    /// A limit was reached; the arm holds until the goal moves.
     Stopped(StopReason),
 }
 
-/// Which limit.
+/// The limit that stopped a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StopReason {
     /// [`LEG_STEP_LIMIT`].
@@ -40,7 +40,7 @@ pub enum StopReason {
     GoalSteps,
     /// [`SETTLE_S`]: reached, but not delivered.
     Settle,
-    /// No way leads to the goal.
+    /// No path leads to the goal.
     WalledOff,
 }
 

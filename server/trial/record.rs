@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::state::{Counters, TrialState, WorldHashes};
 use super::{Decision, Event, Input, Motion, Phase, Trial};
-use crate::camera::{CameraError, Eye};
+use crate::camera::{CameraError, ImageSource};
 use crate::control::switching;
 use crate::control::transport::Carrier;
 use crate::geometry::{Point2, Point3, Vector2};
@@ -159,8 +159,8 @@ impl Trial {
     }
 
     /// The current observation, outside of control steps. The trial does not change.
-    pub fn look(&self, eye: &mut dyn Eye) -> Result<Sight, CameraError> {
-        let frame = eye.capture(&self.subject())?;
+    pub fn observe(&self, camera: &mut dyn ImageSource) -> Result<Sight, CameraError> {
+        let frame = camera.capture(&self.subject())?;
         let percept = Percept::of(&frame, self.tool_m().xy());
         Ok(self.sight(Arc::new(frame), percept, self.tool_m().xy()))
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::entry::{Entry, LoggedBeginning, LoggedTick};
 use super::log::InputLog;
 use super::{Arena, InputError, Source, TickRecord, Trial, TrialError, TrialState, World};
-use crate::camera::{CameraError, Eye};
+use crate::camera::{CameraError, ImageSource};
 use crate::map::MapError;
 
 /// Result of a replay without differences.
@@ -74,18 +74,18 @@ pub enum ReplayError {
 }
 
 /// Creates cameras for the arenas of a log.
-pub type Eyes<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn Eye>, CameraError>;
+pub type MakeCamera<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn ImageSource>, CameraError>;
 
-/// Runs a log again from its decisions. With `eyes`, every decision is made again from the camera images, and the
+/// Runs a log again from its decisions. With `make_camera`, every decision is made again from the camera images, and the
 /// controller's state is compared too. `watch` is called after each tick.
 pub fn replay(
     log: &InputLog,
-    mut eyes: Option<Eyes<'_>>,
+    mut make_camera: Option<MakeCamera<'_>>,
     watch: &mut dyn FnMut(&TickRecord),
 ) -> Result<Replayed, ReplayError> {
     let mut replayed = Replayed::default();
     let mut arena: Option<Arc<Arena>> = None;
-    let mut running: Option<(Trial, Option<Box<dyn Eye>>)> = None;
+    let mut running: Option<(Trial, Option<Box<dyn ImageSource>>)> = None;
     for entry in &log.entries {
         match entry {
             Entry::Begin(beginning) => {
@@ -94,7 +94,7 @@ pub fn replay(
                     None => replayed.trials += 1,
                 }
                 let number = replayed.trials.max(1);
-                if let (Some(policy_hash), Some(_)) = (beginning.policy_hash, &eyes) {
+                if let (Some(policy_hash), Some(_)) = (beginning.policy_hash, &make_camera) {
                     return Err(ReplayError::Policy { trial: number, policy_hash });
                 }
                 if let Some(map) = &beginning.map {
@@ -102,14 +102,14 @@ pub fn replay(
                 }
                 // The first entry of a log always contains a map.
                 let Some(arena) = &arena else { continue };
-                running = Some(begin(beginning, arena, &mut eyes).map_err(|error| {
+                running = Some(begin(beginning, arena, &mut make_camera).map_err(|error| {
                     let tick = beginning.state.as_ref().map_or(0, |state| state.world.tick);
                     ReplayError::Trial { trial: number, tick, error }
                 })?);
             }
             Entry::Tick(logged) => {
-                let Some((trial, eye)) = &mut running else { continue };
-                let record = repeat(trial, eye.as_deref_mut(), logged, replayed.trials.max(1))?;
+                let Some((trial, camera)) = &mut running else { continue };
+                let record = repeat(trial, camera.as_deref_mut(), logged, replayed.trials.max(1))?;
                 replayed.ticks += 1;
                 watch(&record);
             }
@@ -121,20 +121,20 @@ pub fn replay(
 fn begin(
     beginning: &LoggedBeginning,
     arena: &Arc<Arena>,
-    eyes: &mut Option<Eyes<'_>>,
-) -> Result<(Trial, Option<Box<dyn Eye>>), TrialError> {
+    make_camera: &mut Option<MakeCamera<'_>>,
+) -> Result<(Trial, Option<Box<dyn ImageSource>>), TrialError> {
     let mut trial = Trial::new(beginning.scenario.clone(), arena.clone())?;
     trial.take_events();
     if let Some(state) = &beginning.state {
         trial.resume(TrialState::clone(state))?;
     }
-    let eye = eyes.as_mut().map(|make| make(arena)).transpose()?;
-    Ok((trial, eye))
+    let camera = make_camera.as_mut().map(|make| make(arena)).transpose()?;
+    Ok((trial, camera))
 }
 
 fn repeat(
     trial: &mut Trial,
-    eye: Option<&mut (dyn Eye + 'static)>,
+    camera: Option<&mut (dyn ImageSource + 'static)>,
     logged: &LoggedTick,
     number: u32,
 ) -> Result<TickRecord, ReplayError> {
@@ -142,9 +142,9 @@ fn repeat(
     for input in &logged.inputs {
         trial.apply(input.clone()).map_err(|error| ReplayError::Refused { trial: number, tick, error })?;
     }
-    let sees = eye.is_some();
-    let source = match eye {
-        Some(eye) => Source::Eye(eye),
+    let sees = camera.is_some();
+    let source = match camera {
+        Some(camera) => Source::Camera(camera),
         None => Source::Logged(logged.decision.clone()),
     };
     let record = trial.tick(source).map_err(|error| ReplayError::Trial { trial: number, tick, error })?;

@@ -1,4 +1,4 @@
-//! The script of a trial's disturbances: what is still to come, and what lasts.
+//! The disturbances of a trial: those that are pending, and those that last.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,20 +7,20 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Point2;
 use crate::scenario::Scripted;
 
-/// Disturbances still to come, and those that last.
+/// Disturbances that are pending, and those that last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Script {
-    /// How many random displacements.
+    /// Number of random displacements that remain.
     pub remaining: u32,
-    /// How many of them have struck.
+    /// Number of random displacements so far.
     pub struck: u32,
-    /// At which step of the present leg the next one strikes; drawn when the leg begins.
+    /// Step of the present leg at which the next one is applied; drawn when the leg begins.
     pub at_leg_step: Option<u32>,
-    /// The scenario's own that have not struck yet.
+    /// The scenario's disturbances that were not applied yet.
     pub pending: Vec<Scripted>,
     /// Where the bead was before the last tick.
     pub bead_before_m: Option<Point2<f64>>,
-    /// Tick at which a drift ends.
+    /// Tick at which a push ends.
     pub drift_until: u64,
     /// Tick at which the tracker sees again.
     pub dropout_until: u64,
@@ -34,7 +34,7 @@ pub(super) enum Draw {
 }
 
 impl Script {
-    /// The next displacement's generator: its own, so that every controller meets the same, whatever else was drawn.
+    /// A generator for each displacement, so that every controller gets the same ones, whatever else was drawn.
     pub(super) fn draws(&self, seed: u64, draw: Draw) -> ChaCha8Rng {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         // The trial's own generator has stream 0.
@@ -42,7 +42,7 @@ impl Script {
         rng
     }
 
-    /// Draws the step of a leg of `least_steps` at which the next displacement strikes.
+    /// Draws the step at which the next displacement is applied, for a leg of at least `least_steps` steps.
     pub(super) fn draw_step(&mut self, seed: u64, least_steps: u32) {
         let share: f64 = self.draws(seed, Draw::Step).random();
         self.at_leg_step = Some(1 + (share * f64::from(least_steps)) as u32);

@@ -19,7 +19,7 @@ fn run_s(arena: &Arc<Arena>, camera: &mut Camera, sink: &mut dyn Sink) -> f64 {
     sink.begin(&trial, Beginning::SetUp);
     let begun = Instant::now();
     for _ in 0..TICKS {
-        sink.record(&trial.tick(Source::Eye(camera)).unwrap());
+        sink.record(&trial.tick(Source::Camera(camera)).unwrap());
     }
     begun.elapsed().as_secs_f64()
 }

@@ -143,7 +143,7 @@ fn trial(controller: ControllerName) -> Vec<Entry> {
         {
             trial.apply(input).unwrap();
         }
-        let record = trial.tick(Source::Eye(&mut Spots)).unwrap();
+        let record = trial.tick(Source::Camera(&mut Spots)).unwrap();
         if !(2..30).contains(&tick) {
             entries.push(Entry::Tick(LoggedTick::from(&record)));
         }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex};
 
-use ferry::camera::{CameraError, Eye, Subject};
+use ferry::camera::{CameraError, ImageSource, Subject};
 use ferry::image::{CameraFrame, Picture};
 use ferry::map::{FreeSpace, Map};
 use ferry::policy::Policy;
@@ -112,7 +112,7 @@ fn run(log: &InputLog) -> bool {
                 running = arena.as_ref().and_then(|arena| begin(beginning, arena));
                 // Decide from what is seen, too.
                 if let Some(mut trial) = running.clone() {
-                    let _ = (0..TICKS).try_for_each(|_| trial.tick(Source::Eye(&mut Spots)).map(|_| ()));
+                    let _ = (0..TICKS).try_for_each(|_| trial.tick(Source::Camera(&mut Spots)).map(|_| ()));
                 }
             }
             Entry::Tick(logged) => {
@@ -160,7 +160,7 @@ fn policy(bytes: &[u8]) -> bool {
         ..Scenario::idle("open", 1)
     };
     let mut trial = Trial::new(scenario, arena).unwrap();
-    trial.tick(Source::Eye(&mut Spots)).unwrap();
+    trial.tick(Source::Camera(&mut Spots)).unwrap();
     true
 }
 
@@ -192,7 +192,7 @@ fn shipped(name: &str) -> Option<Arc<Arena>> {
 /// Sees dark spots wherever it looks: no graphics adapter is needed.
 pub struct Spots;
 
-impl Eye for Spots {
+impl ImageSource for Spots {
     fn capture(&mut self, subject: &Subject) -> Result<CameraFrame, CameraError> {
         const SIDE_PX: u32 = 480;
         static PICTURE: LazyLock<Picture> = LazyLock::new(|| {

@@ -1,4 +1,4 @@
-//! A WebSocket, as a browser opens it.
+//! A WebSocket client.
 
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -15,7 +15,7 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// Of the session `main` of a server.
+    /// Connects to the session `main` of a server.
     pub async fn at(address: SocketAddr) -> Self {
         let (socket, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
         Self::of(socket)
@@ -33,7 +33,7 @@ impl Browser {
         self.socket.send(Message::text(text)).await.unwrap();
     }
 
-    /// The next text message that fits, within 30 s.
+    /// Waits up to 30 s for a text message that fits.
     pub async fn until(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
         let found = async {
             while let Some(message) = self.socket.next().await {

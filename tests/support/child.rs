@@ -1,4 +1,4 @@
-//! The program in a process of its own.
+//! The program in a separate process.
 
 use std::io::{BufRead, BufReader};
 use std::net::SocketAddr;
@@ -11,7 +11,7 @@ pub fn ferry(arguments: &[&str]) -> Command {
     command
 }
 
-/// A server that does not outlive its test.
+/// A server that is killed at the end of its test.
 pub struct Ferry {
     pub child: Child,
     pub address: SocketAddr,
@@ -36,7 +36,7 @@ impl Ferry {
 
 impl Drop for Ferry {
     fn drop(&mut self) {
-        // As `kill -9` does; it may have ended by itself.
+        // Like `kill -9`; it may have ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

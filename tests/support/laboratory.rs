@@ -28,12 +28,12 @@ impl Laboratory {
         Self::open_on(gpu()).await
     }
 
-    /// The same with a graphics device of its own.
+    /// The same with a separate graphics device.
     pub async fn open_on(gpu: Arc<Gpu>) -> Self {
         Self::open_with(gpu, None, |_| ()).await
     }
 
-    /// The same behind a token, or with other settings.
+    /// The same with a token or other settings.
     pub async fn open_with(gpu: Arc<Gpu>, token: Option<&str>, change: impl FnOnce(&mut Settings)) -> Self {
         let data = tempfile::tempdir().unwrap();
         let (stop, stopping) = watch::channel(false);
@@ -89,7 +89,7 @@ impl Laboratory {
         .unwrap()
     }
 
-    /// Stops the server as SIGTERM does, and waits.
+    /// Stops the server like SIGTERM, and waits.
     pub async fn close(self) -> tempfile::TempDir {
         self.stop.send(true).unwrap();
         tokio::time::timeout(Duration::from_secs(5), self.served).await.expect("closes in time").unwrap();
@@ -111,7 +111,7 @@ impl Answer {
 }
 
 impl Laboratory {
-    /// Asks without a client, which would unpack the answer by itself.
+    /// Sends a request without an HTTP client, because a client would decompress the answer.
     pub async fn fetch(&self, method: &str, path: &str, headers: &[(&str, &str)]) -> Answer {
         let mut stream = TcpStream::connect(self.address).await.unwrap();
         let mut request = format!("{method} {path} HTTP/1.0\r\nhost: {}\r\n", self.address);

@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
-/// What is sent, byte for byte; status and text of what comes back until the server has no more to say.
+/// Sends these bytes; returns status and text of the answer until the server closes or the body is complete.
 pub fn exchange(address: SocketAddr, request: &[u8]) -> (u16, String) {
     let mut stream = TcpStream::connect(address).unwrap();
     stream.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
@@ -13,7 +13,7 @@ pub fn exchange(address: SocketAddr, request: &[u8]) -> (u16, String) {
     read_answer(&mut stream)
 }
 
-/// Head, and body as far as its length tells; 0 when nothing came.
+/// Head and body up to its stated length; status 0 when no answer came.
 pub fn read_answer(stream: &mut TcpStream) -> (u16, String) {
     let (mut bytes, mut chunk) = (Vec::new(), [0; 4096]);
     loop {

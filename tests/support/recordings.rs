@@ -1,4 +1,4 @@
-//! Files of recordings, and Rerun's own tools for them.
+//! Files of recordings, and Rerun's tools for them.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,7 +19,7 @@ pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// What Rerun's own reader finds in files.
+/// The content of files, read with Rerun's own reader.
 pub fn read(files: &[PathBuf]) -> Vec<Value> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/read_recording.py");
     let read = Command::new(tool("python")).arg(script).args(files).output().unwrap();

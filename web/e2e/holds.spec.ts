@@ -9,7 +9,7 @@ const LONGER_MS = 6500;
 const LONGER_TICKS = LONGER_MS / 8;
 /** The page reports a still hand each second. */
 const REPORT_TICKS = 1200 / 8;
-const SILENT = /nothing was heard from the hand/i;
+const SILENT = /no message from the page that holds the bead/i;
 
 async function takeByMouse(lab: Lab) {
   await lab.pull(lab.freePoints(await lab.bead(), 0.05, 0.1)[0]);

@@ -73,10 +73,10 @@ pub async fn login(
 }
 
 /// Deletes the cookie in this browser.
-#[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "It is gone.")))]
+#[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "The cookie is deleted.")))]
 pub async fn logout() -> Response {
-    let gone = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
-    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, gone.removal().build().to_string())]).into_response()
+    let cookie = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
+    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, cookie.removal().build().to_string())]).into_response()
 }
 
 /// A random number and the time when the login ends.

@@ -50,7 +50,7 @@ impl Hand {
     }
 
     /// Releases the bead if the hand holds it; returns whether it did.
-    pub async fn let_go(&self) -> bool {
+    pub async fn release(&self) -> bool {
         let held = std::mem::take(&mut self.holds().bead);
         if held {
             // The session may have ended, together with the hand.
@@ -70,8 +70,8 @@ impl Hand {
             tokio::time::sleep(BEAT).await;
             self.hub.reseat(|seats, now| seats.take_if_unanswered(self.own, now));
             if self.hub.seats().borrow().operator != Some(self.own) {
-                self.let_go().await;
-            } else if self.is_silent() && self.let_go().await {
+                self.release().await;
+            } else if self.is_silent() && self.release().await {
                 // An ended session is paused anyway.
                 let _ = self.hub.session.send(Command::Pause).await;
                 self.silenced.notify_one();

@@ -117,7 +117,7 @@ mod tests {
         seats.take(two, now);
         assert_eq!((seats.operator, seats.epoch, seats.viewers), (Some(two), 4, 2));
         seats.take(two, now);
-        assert_eq!(seats.epoch, 4, "it is its own already");
+        assert_eq!(seats.epoch, 4, "the browser has the seat already");
     }
 
     #[test]
@@ -127,7 +127,7 @@ mod tests {
         let mut seats = Seats::new(start);
         let [one, two] = [(); 2].map(|()| seats.join(start).unwrap());
         seats.take_if_unanswered(two, later(1000));
-        assert_eq!(seats.operator, Some(one), "nobody asked");
+        assert_eq!(seats.operator, Some(one), "no other browser requested the seat");
         seats.take(two, later(1000));
         seats.command(later(1020));
         seats.take_if_unanswered(two, later(1049));

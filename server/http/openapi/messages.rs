@@ -35,8 +35,8 @@ mod tests {
     }
 
     #[test]
-    fn they_are_those_that_are_parsed() {
-        // Who sends another one is told them all.
+    fn described_messages_are_those_that_are_parsed() {
+        // The error for an unknown type lists all known types.
         let refusal = ClientMessage::parse(r#"{"type":"fly"}"#).unwrap_err().message;
         let mut known: Vec<&str> = refusal.split('`').skip(1).step_by(2).filter(|name| *name != "fly").collect();
         let variants = variants();

@@ -140,7 +140,7 @@ pub async fn file(
 
 /// Deletes an uploaded map; sessions that have loaded it keep it.
 #[utoipa::path(delete, path = "/api/maps/{name}", tag = "maps", operation_id = "delete_map", params(MapPath),
-    responses((status = 204, description = "It is gone."), NotFound, Unavailable))]
+    responses((status = 204, description = "The map is deleted."), NotFound, Unavailable))]
 pub async fn delete(
     State(server): State<Arc<Server>>,
     Path(MapPath { name }): Path<MapPath>,

@@ -1,4 +1,4 @@
-//! What is known of a parameter besides its value: names, unit, range, step, group.
+//! The description of a parameter: names, unit, range, step, group.
 
 use std::f64::consts::PI;
 

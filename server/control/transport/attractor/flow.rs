@@ -20,7 +20,7 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// Toward a goal, around what was seen.
+    /// Calculates the flow toward a goal, around the obstacle map.
     pub fn of(known: &ObstacleMap, goal_m: Option<Point2<f64>>, parameters: &Parameters, spacing_m: f64) -> Self {
         let area = known.workspace();
         let size = area.size_m();
