@@ -1,20 +1,21 @@
-// Each place of the page in both themes: axe, names, sizes, the Tab order, and a picture of each panel in test-output.
+// Contrast, names, sizes and Tab order of every view, tab and popover in both themes.
+// Saves a picture of each panel in test-output.
 
 import { fileURLToPath } from 'node:url';
 import type { Locator } from '@playwright/test';
-import { isKnown } from './controls/table';
+import { hasRow } from './controls/table';
 import { type Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { DESKTOP, TABLET } from './support/browser';
-import { LEAST_PX, controls, faultsOf, unreached } from './support/inventory';
+import { MIN_SIDE_PX, controls, faultsOf, unreached } from './support/inventory';
 import {
   type Place,
   type Places,
   controllers,
-  moments,
-  settle,
+  prepare,
+  refusalsHelpAndRoles,
+  sceneView,
   slug,
-  space,
   tabs,
   view,
 } from './support/places';
@@ -28,21 +29,21 @@ const PLACES: Record<string, Places> = {
   ...Object.fromEntries(VIEWS.map((name) => [`the view ${name}`, view(name)])),
   ...Object.fromEntries(TAB_AREAS.map((area) => [`the tabs ${area}`, tabs(area)])),
   'each controller': controllers,
-  'refusals, help and roles': moments,
-  'the 3-D view': space,
+  'refusals, help and roles': refusalsHelpAndRoles,
+  'the 3-D view': sceneView,
 };
 
-/** A picture of a panel from its top. */
-async function shoot(panel: Locator, name: string) {
+/** Saves a picture of a panel, scrolled to its top. */
+async function savePicture(panel: Locator, name: string) {
   await panel.evaluate((part) => {
     for (const one of part.querySelectorAll('*')) one.scrollTop = 0;
   });
   await panel.screenshot({ path: `${PICTURES}panel-${name}.png` });
 }
 
-async function shootAll(lab: Lab, place: Place, theme: string) {
+async function savePictures(lab: Lab, place: Place, theme: string) {
   if (!VIEWS.includes(place.name)) {
-    await shoot(place.panel, `${slug(place.name)}-${theme}`);
+    await savePicture(place.panel, `${slug(place.name)}-${theme}`);
     return;
   }
   for (const panel of await place.panel.locator('section.panel').all()) {
@@ -50,7 +51,7 @@ async function shootAll(lab: Lab, place: Place, theme: string) {
     const [, name = slug(label ?? 'panel')] = ((await panel.getAttribute('class')) ?? '').split(
       ' ',
     );
-    await shoot(panel, `${name}-${theme}`);
+    await savePicture(panel, `${name}-${theme}`);
   }
   await lab.page.screenshot({ path: `${PICTURES}web-${slug(place.name)}-${theme}.png` });
 }
@@ -69,25 +70,25 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
       }) => {
         const faults = new Set<string>();
         const known = new Set<string>();
-        await settle(lab);
-        // The test of a view has all of it; the others only what they open.
+        await prepare(lab);
+        // The test of a view checks the whole page, the other tests only controls that they open.
         if (!isView) for (const { key } of await controls(lab.page)) known.add(key);
         for await (const place of places(lab)) {
           for (const colorScheme of THEMES) {
             await lab.page.emulateMedia({ colorScheme });
             for (const one of await violations(lab.page)) faults.add(`${place.name}, ${one}`);
-            if (!isTouch) await shootAll(lab, place, colorScheme);
+            if (!isTouch) await savePictures(lab, place, colorScheme);
           }
           const all = await controls(lab.page);
-          for (const fault of faultsOf(all, isTouch ? LEAST_PX.touch : LEAST_PX.mouse)) {
+          for (const fault of faultsOf(all, isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse)) {
             faults.add(fault);
           }
-          const fresh = all.filter(({ key }) => !known.has(key));
-          for (const one of fresh) {
+          const added = all.filter(({ key }) => !known.has(key));
+          for (const one of added) {
             known.add(one.key);
-            if (!isKnown(one)) faults.add(`no row of e2e/controls knows “${one.key}”`);
+            if (!hasRow(one)) faults.add(`“${one.key}” has no row in e2e/controls`);
           }
-          for (const fault of await unreached(lab.page, all, fresh, place.opener)) {
+          for (const fault of await unreached(lab.page, all, added, place.opener)) {
             faults.add(fault);
           }
         }
@@ -97,7 +98,7 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
   });
 }
 
-test('no view and no list of tabs is left out above', async ({ lab }) => {
+test('the tests above cover every view and every tab list', async ({ lab }) => {
   const views = lab.page.getByRole('navigation', { name: 'Views' }).getByRole('button');
   await expect(views).toHaveText(VIEWS);
   for (const name of VIEWS) {
@@ -114,7 +115,7 @@ for (const [name, width, height] of [
   ['small', 1280, 800],
   ['tablet', 820, 1180],
 ] as const) {
-  test(`takes pictures of a ${name} page`, async ({ lab }) => {
+  test(`fits into a ${name} window, and saves its pictures`, async ({ lab }) => {
     await lab.page.setViewportSize({ width, height });
     await lab.reset({ speed: '8' });
     await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.4)[0]);
@@ -128,6 +129,6 @@ for (const [name, width, height] of [
     }
     const isWider = () =>
       lab.page.evaluate(() => document.documentElement.scrollWidth > window.innerWidth);
-    expect(await isWider(), 'the page scrolls sideways').toBe(false);
+    expect(await isWider(), 'the page scrolls horizontally').toBe(false);
   });
 }

@@ -1,20 +1,20 @@
-// What the page may weigh, cost and lag. Other tests run meanwhile: the times may be LENIENCY times as long, so that a
-// fault shows and a busy minute does not.
+// Budgets of the page: download size, script time per frame, and delay to the screen.
+// Other tests run at the same time, so a time may be LENIENCY times its budget.
 
 import { gzipSync } from 'node:zlib';
 import type { Response } from '@playwright/test';
 import { Lab, expect, test } from './fixtures';
-import { Meter, figuresOf, overruns, stepThrough, words } from './support/meter';
+import { Meter, figuresOf, overruns, stepThrough, summaryOf } from './support/meter';
 import { must, until } from './support/wait';
 
-const MOST_GZIP_BYTES = 500_000;
+const MAX_GZIP_BYTES = 500_000;
 const LENIENCY = 3;
 const RUN_TICKS = 625;
 const STEPS = 30;
-/** What takes the processors for some seconds is not the page's fault. */
+/** Another program may take the processors for some seconds, so the measurement is repeated. */
 const ATTEMPTS = 3;
 
-test('weighs at most 500 kB before anything is opened', async ({ page, session }) => {
+test('loads at most 500 kB, compressed', async ({ page, session }) => {
   const parts: Response[] = [];
   page.on('response', (response) => {
     const kind = response.request().resourceType();
@@ -26,11 +26,11 @@ test('weighs at most 500 kB before anything is opened', async ({ page, session }
   let bytes = 0;
   for (const part of parts) bytes += gzipSync(await part.body()).length;
   expect(parts.length).toBeGreaterThan(2);
-  expect(bytes).toBeLessThanOrEqual(MOST_GZIP_BYTES);
+  expect(bytes).toBeLessThanOrEqual(MAX_GZIP_BYTES);
 });
 
-/** The figures of a page that steps, and then runs. */
-async function measured(meter: Meter, lab: Lab) {
+/** Steps the session, then runs it, and returns the figures of both. */
+async function measure(meter: Meter, lab: Lab) {
   await lab.reset();
   await stepThrough(lab, 3);
   await meter.start();
@@ -38,7 +38,7 @@ async function measured(meter: Meter, lab: Lab) {
   const { step_to_frame_p95_ms } = figuresOf([await meter.stop()]);
   await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1), 'a goal'));
   await lab.run();
-  await until('a second', () => lab.state.sim_time_s > 1);
+  await until('one second', () => lab.state.sim_time_s > 1);
   await meter.start();
   await lab.later(RUN_TICKS);
   const figures = { ...figuresOf([await meter.stop()]), step_to_frame_p95_ms };
@@ -48,13 +48,13 @@ async function measured(meter: Meter, lab: Lab) {
   return figures;
 }
 
-test('keeps its budgets of time', async ({ page, session }, testInfo) => {
+test('keeps its time budgets', async ({ page, session }, testInfo) => {
   const meter = await Meter.attach(page);
   const lab = await Lab.attach(page, session.url);
   let over: string[] = [];
   for (let attempt = 0; attempt < ATTEMPTS; attempt++) {
-    const figures = await measured(meter, lab);
-    testInfo.annotations.push({ type: 'figures', description: words(figures) });
+    const figures = await measure(meter, lab);
+    testInfo.annotations.push({ type: 'figures', description: summaryOf(figures) });
     over = overruns(figures, LENIENCY);
     if (over.length === 0) break;
   }

@@ -1,25 +1,25 @@
-// What each of the controllers shows: the policy's quantiles, ERRT's plan, the attractor's flow.
+// What each controller shows: RL's value map and action values, ERRT's plan, the attractor flow.
 
 import { type Lab, expect, test } from './fixtures';
 import type { PointLike } from './support/table';
 import { must, until } from './support/wait';
 
-/** The server looks at a map from every free centimetre before it first sends values. */
+/** The server sweeps a map before it first sends values. */
 const FIRST_VALUES_MS = 60_000;
 const WITHOUT_GOAL = /Set a goal/i;
 
-/** Showing a layer changes one of a few places, and hiding it changes them back. */
-async function shows(lab: Lab, layer: string, points: readonly PointLike[]) {
+/** Checks that a layer changes the picture around `points`, and that hiding it restores it. */
+async function expectLayer(lab: Lab, layer: string, points: readonly PointLike[]) {
   await lab.layer(layer, false);
-  const bare = await lab.look(...points);
+  const bare = await lab.pixelsAround(...points);
   await lab.layer(layer);
-  await until(`the layer ${layer}`, async () => (await lab.look(...points)) !== bare);
+  await until(`the layer ${layer}`, async () => (await lab.pixelsAround(...points)) !== bare);
   await lab.layer(layer, false);
-  await until(`no layer ${layer}`, async () => (await lab.look(...points)) === bare);
+  await until(`no layer ${layer}`, async () => (await lab.pixelsAround(...points)) === bare);
   await lab.layer(layer);
 }
 
-test('shows the values of a policy', async ({ lab }) => {
+test('shows the value map of a policy', async ({ lab }) => {
   const { page } = lab;
   await lab.map('colon');
   await lab.controller('RL');
@@ -28,7 +28,7 @@ test('shows the values of a policy', async ({ lab }) => {
     if (request.url().endsWith('/values')) requests += 1;
   });
 
-  // The legend is as high without values as with them: the map does not move under the points.
+  // The legend has its full height already, so the map does not move under the points later.
   const legend = page.getByRole('group', { name: 'Values' });
   await lab.layer('Value');
   await expect(legend).toContainText(WITHOUT_GOAL);
@@ -36,13 +36,13 @@ test('shows the values of a policy', async ({ lab }) => {
   const goal = must(lab.freePoints(bead, 0.25, 0.4).at(-1), 'a goal');
   const places = lab.freePoints(bead, 0.06, 0.2).slice(0, 3);
   const bare = await until('a picture that does not change', async () => {
-    const first = await lab.look(...places);
-    return first === (await lab.look(...places)) && first;
+    const first = await lab.pixelsAround(...places);
+    return first === (await lab.pixelsAround(...places)) && first;
   });
   await lab.click(goal);
   await expect(page.getByTestId('value-least')).toHaveCount(1, { timeout: FIRST_VALUES_MS });
   expect(await lab.number('value-least')).toBeLessThan(await lab.number('value-greatest'));
-  await until('the layer Value', async () => (await lab.look(...places)) !== bare);
+  await until('the layer Value', async () => (await lab.pixelsAround(...places)) !== bare);
 
   await lab.tune('Threshold T', '8');
   await lab.label('Shield').uncheck();
@@ -57,7 +57,7 @@ test('shows the values of a policy', async ({ lab }) => {
   await expect(legend).toHaveCount(0);
 });
 
-test('decides by quantiles', async ({ lab }) => {
+test('shows the action values of a policy and its decision', async ({ lab }) => {
   const { page } = lab;
   await lab.reset({ map: 'colon', speed: '8' });
   await lab.controller('RL');
@@ -66,17 +66,17 @@ test('decides by quantiles', async ({ lab }) => {
   await until('a judgement', () => lab.overlay?.judgement);
   await lab.pause();
   const names = ['plus-x', 'minus-x', 'plus-y', 'minus-y'];
-  // What is shown may be a frame behind what has come.
-  const { values, judgement } = await until('the values that came', async () => {
-    const came = lab.overlay;
+  // The page may be a frame behind the last message.
+  const { values, judgement } = await until('the last values on the page', async () => {
+    const received = lab.overlay;
     const now = await Promise.all(names.map((name) => lab.number(`rl-value-${name}`)));
     const isSame = now.every(
-      (value, index) => Math.abs(value - (came?.judgement?.values[index] ?? NaN)) < 0.001,
+      (value, index) => Math.abs(value - (received?.judgement?.values[index] ?? NaN)) < 0.001,
     );
     return (
-      came?.judgement &&
-      came === lab.overlay &&
-      isSame && { values: now, judgement: came.judgement }
+      received?.judgement &&
+      received === lab.overlay &&
+      isSame && { values: now, judgement: received.judgement }
     );
   });
   const { taken, trained_on } = judgement;
@@ -116,7 +116,7 @@ test('carries the bead along a planned path', async ({ lab }) => {
   await lab.pause();
 
   const { way, obstacles } = must(lab.overlay?.plan, 'a plan');
-  await shows(lab, 'Plan', way.slice(0, 3));
+  await expectLayer(lab, 'Plan', way.slice(0, 3));
   const largest = obstacles
     .map(({ x_min_m, x_max_m, y_min_m, y_max_m }) => ({
       at: [x_max_m, (y_min_m + y_max_m) / 2] as const,
@@ -124,7 +124,7 @@ test('carries the bead along a planned path', async ({ lab }) => {
     }))
     .sort((a, b) => b.area - a.area)
     .slice(0, 3);
-  await shows(
+  await expectLayer(
     lab,
     'Obstacles',
     largest.map(({ at }) => at),
@@ -138,7 +138,7 @@ test('carries the bead along a planned path', async ({ lab }) => {
   await expect(lab.page.getByTestId('plan-plans')).toHaveCount(0);
 });
 
-test('shows where the attractor leads', async ({ lab }) => {
+test('shows the attractor flow, and closes the menu without setting a goal', async ({ lab }) => {
   const legend = lab.page.getByRole('group', { name: 'Arrows and dots' });
   await lab.layer('Attractor flow');
   await expect(legend).toContainText(WITHOUT_GOAL);
@@ -147,12 +147,12 @@ test('shows where the attractor leads', async ({ lab }) => {
   await expect(lab.page.getByTestId('flow-traps')).toHaveText(/\d|none/);
   await expect(legend).toContainText(/direction of the attractor flow/i);
 
-  // Places of the grid: an arrow goes through each, unless it is over a wall.
+  // Points of the grid. An arrow crosses each of them that is not over a wall.
   const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;
   const spacing_m = Math.max(x_max_m - x_min_m, y_max_m - y_min_m) / 40;
   const across = Math.floor((y_max_m - y_min_m) / spacing_m + 1e-9);
   const margin_m = (y_max_m - y_min_m - across * spacing_m) / 2;
-  await shows(
+  await expectLayer(
     lab,
     'Attractor flow',
     [8, 20, 32].map((column) => [
@@ -161,16 +161,16 @@ test('shows where the attractor leads', async ({ lab }) => {
     ]),
   );
 
-  // A click beside the menu closes it, and places no goal.
+  // A click beside the menu only closes it.
   await lab.button('Layers').click();
   const menu = lab.page.getByRole('group', { name: 'Layers' });
   await menu.waitFor();
   lab.sent = {};
-  // On the left, where the menu covers nothing.
+  // On the left, which the menu does not cover.
   const beside = lab.freePoints(goal, 0.1, 0.6).find(([x]) => x < x_min_m + 0.1);
   await lab.click(must(beside, 'a point on the left'));
   await expect(menu).toHaveCount(0);
-  // The next message: what the click would have sent would have been sent before.
+  // Sends the next message. A goal from the click would have been sent before it.
   await lab.button('Step').click();
   await until('a step', () => lab.sent.step);
   expect(lab.sent.set_goal, 'the click placed a goal').toBeUndefined();

@@ -1,4 +1,4 @@
-// The paper's experiment on the page: started by keyboard, watched, cancelled, and a failed episode set up again.
+// The view Evaluate: form by keyboard, progress, results, cancelling, setting up a failed episode.
 
 import type { Locator, Page } from '@playwright/test';
 import { type Lab, expect, test } from './fixtures';
@@ -6,15 +6,15 @@ import { distance } from './support/table';
 import { must, until } from './support/wait';
 import type { EvaluationReport, Evaluations } from './support/wire';
 
-const LONG = 1000;
+const MANY_EPISODES = 1000;
 const RUN_MS = 90_000;
 const PROGRESS = /^[1-9]\d* of 4000 episodes, about .* left$/i;
 const ALL_ROWS = /2 of 2 rows/i;
-const BROKEN_OFF = /stopped/i;
-const NOT_BEGUN = /not started/i;
+const STOPPED = /stopped/i;
+const NOT_STARTED = /not started/i;
 const NAMES: Record<string, string> = { errt: 'ERRT', attractor: 'Attractor' };
 
-interface Wish {
+interface FormValues {
   readonly controllers: readonly string[];
   readonly maps: readonly string[];
   readonly disturbances: readonly string[];
@@ -31,14 +31,14 @@ async function tabTo(page: Page, control: Locator) {
   throw new Error('Tab does not reach a control');
 }
 
-/** The form, filled in by keyboard alone. */
-async function fillIn(page: Page, wish: Wish) {
+/** Fills in the form by keyboard only. */
+async function fillIn(page: Page, values: FormValues) {
   const form = page.getByRole('region', { name: 'New evaluation' });
   await page.getByRole('button', { name: 'Evaluate', exact: true }).focus();
   for (const [legend, wanted] of [
-    ['Controllers', wish.controllers],
-    ['Maps', wish.maps],
-    ['Disturbances per episode', wish.disturbances],
+    ['Controllers', values.controllers],
+    ['Maps', values.maps],
+    ['Disturbances per episode', values.disturbances],
   ] as const) {
     for (const box of await form.getByRole('group', { name: legend }).getByRole('checkbox').all()) {
       const name = await box.evaluate((one: HTMLInputElement) => one.labels?.[0]?.textContent);
@@ -50,8 +50,8 @@ async function fillIn(page: Page, wish: Wish) {
     }
   }
   for (const [label, value] of [
-    ['Episodes per cell', wish.episodes],
-    ['Seed', wish.seed],
+    ['Episodes per cell', values.episodes],
+    ['Seed', values.seed],
   ] as const) {
     await tabTo(page, form.getByLabel(label, { exact: true }));
     await page.keyboard.press('ControlOrMeta+a');
@@ -70,14 +70,14 @@ const count = async (lab: Lab) =>
 const stageOf = (lab: Lab) => lab.page.getByTestId('evaluation-stage');
 const rowsOf = (lab: Lab) => lab.page.getByTestId('evaluation-row');
 
-/** The evaluation that the page shows, from the server. */
+/** Reads the report of the shown evaluation from the server. */
 async function shownReport(lab: Lab) {
   const heading = lab.page.getByRole('heading', { name: /^Evaluation \d+/ });
   const number = must(/\d+/.exec(await heading.innerText()), 'a number')[0];
   return get<EvaluationReport>(lab, `/api/evaluations/evaluation-${number}`);
 }
 
-/** A row of the report as the page has to write it. */
+/** The cells that the page must show for a row of the report. */
 function cellsOf(row: EvaluationReport['rows'][number]) {
   const percent = ([low, high]: readonly [number, number]) =>
     `${(100 * low).toFixed(0)}–${(100 * high).toFixed(0)} %`;
@@ -98,7 +98,7 @@ function cellsOf(row: EvaluationReport['rows'][number]) {
   ];
 }
 
-const SMALL: Wish = {
+const SMALL: FormValues = {
   controllers: ['ERRT', 'Attractor'],
   maps: ['posts'],
   disturbances: ['0'],
@@ -106,8 +106,8 @@ const SMALL: Wish = {
   seed: 1,
 };
 
-test('refuses an evaluation without episodes, at its field', async ({ lab, watch }) => {
-  // The browser itself reports a refusal; this one is wanted.
+test('refuses an evaluation without episodes, and marks the field', async ({ lab, watch }) => {
+  // The browser reports each refused request; the test causes this one.
   watch.allow(/422/);
   await lab.view('Evaluate').click();
   const form = await fillIn(lab.page, { ...SMALL, episodes: 0 });
@@ -122,7 +122,7 @@ test('refuses an evaluation without episodes, at its field', async ({ lab, watch
   expect(await count(lab)).toBe(before);
 });
 
-test('evaluates what the keyboard chose', async ({ lab }) => {
+test('runs an evaluation that is filled in by keyboard', async ({ lab }) => {
   const { page } = lab;
   await lab.view('Evaluate').click();
   const before = await count(lab);
@@ -164,16 +164,16 @@ test('cancels an evaluation that a viewer watches', async ({ lab, openLab }) => 
     controllers: ['RL', 'ERRT'],
     maps: ['colon'],
     disturbances: ['0', '3'],
-    episodes: LONG,
+    episodes: MANY_EPISODES,
     seed: 2,
   });
   await form.getByRole('button', { name: 'Run', exact: true }).press('Enter');
   const progress = (where: Lab) => where.page.getByTestId('evaluation-progress');
-  // A first episode and an estimate.
+  // Waits for a first episode and an estimate of the time left.
   await expect(progress(lab)).toHaveText(PROGRESS, { timeout: RUN_MS });
   await expect(stageOf(lab)).toHaveText('runs');
 
-  // A viewer watches, also one whose page is new.
+  // A viewer that opens the page later also sees the progress.
   const viewer = await openLab({ colorScheme: 'light' });
   await viewer.view('Evaluate').click();
   await expect(progress(viewer)).toHaveText(PROGRESS);
@@ -186,8 +186,8 @@ test('cancels an evaluation that a viewer watches', async ({ lab, openLab }) => 
   expect(report.stage).toBe('cancelled');
   expect(report.rows).toEqual([]);
   await expect(lab.button('Cancel')).toHaveCount(0);
-  await expect(rowsOf(lab).nth(0)).toContainText(BROKEN_OFF);
-  await expect(rowsOf(lab).nth(3)).toContainText(NOT_BEGUN);
+  await expect(rowsOf(lab).nth(0)).toContainText(STOPPED);
+  await expect(rowsOf(lab).nth(3)).toContainText(NOT_STARTED);
 });
 
 test('sets up a failed episode again', async ({ lab }) => {
@@ -209,12 +209,12 @@ test('sets up a failed episode again', async ({ lab }) => {
   await expect(again).toHaveCount(failures.length);
   await again.last().press('Enter');
   await expect(lab.canvas).toBeVisible();
-  // The server reads decimals to within a bit.
+  // The server reads decimals to within one bit.
   const isNear = (a: [number, number] | null, b: [number, number] | null) =>
     a !== null && b !== null && distance(a, b) < 1e-12;
   await until('that episode', () => isNear(lab.scene.scenario.goal_m, last.goal_m));
   const { scenario } = lab.scene;
-  expect(isNear(scenario.start_m, last.start_m), 'it starts elsewhere').toBe(true);
+  expect(isNear(scenario.start_m, last.start_m), 'the start differs').toBe(true);
   expect({ ...cells[last.cell] }).toMatchObject({
     map: scenario.map,
     controller: scenario.controller,

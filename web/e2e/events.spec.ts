@@ -1,4 +1,4 @@
-// Going back: why a switch came, and what other controllers would have done from a moment on.
+// Events: the explanation of a switch, test cases, and comparisons of controllers from a moment on.
 
 import { readFile } from 'node:fs/promises';
 import { type Lab, expect, test } from './fixtures';
@@ -10,25 +10,25 @@ const SWITCHED = /Sub-controller 1 takes over: bead lost: \d+ mm away, more than
 const FLIES = /Sub-controller 1 flies to the bead/i;
 const OVER_THE_LIMIT = /over the limit/i;
 
-/** A carry with the bead taken away in the middle of it, delivered in the end. */
-async function disturbedCarry(lab: Lab) {
+/** Runs a transport, moves the bead away in the middle of it, and waits for the delivery. */
+async function disturbedTransport(lab: Lab) {
   await lab.reset({ speed: '4' });
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.3, 0.5)[0]);
   await lab.run();
   await until('transport', () => lab.state.leg_steps > 4);
   await lab.pause();
-  // While paused a drag puts the bead down: nothing depends on how fast this machine is.
+  // While paused, a drag places the bead, so the speed of this machine does not matter.
   const [away] = lab.freePoints(await lab.bead(), 0.15, 0.25);
-  await lab.pull(away);
+  await lab.startDrag(away);
   await lab.page.mouse.up();
-  await until('the bead away', async () => distance(await lab.bead(), away) < 0.01);
+  await until('the bead at its new place', async () => distance(await lab.bead(), away) < 0.01);
   await lab.speed('8');
   await lab.run();
   await lab.delivered(1);
   await lab.pause();
 }
 
-/** Opens an event of a kind, by way of the others when they share a button. */
+/** Opens an event of a kind. *Next event* reaches an event that shares its button with others. */
 async function openEvent(lab: Lab, kind: string) {
   const bar = lab.page.getByRole('toolbar', { name: 'Events in time' });
   await bar.getByRole('button').first().click();
@@ -42,8 +42,8 @@ async function openEvent(lab: Lab, kind: string) {
   }
 }
 
-test('explains a switch', async ({ lab }) => {
-  await disturbedCarry(lab);
+test('explains a switch, and rewinds to it', async ({ lab }) => {
+  await disturbedTransport(lab);
   const card = await openEvent(lab, 'Switch');
   await expect(card).toContainText(OVER_THE_LIMIT);
   await expect(card).toContainText(SWITCHED);
@@ -54,19 +54,19 @@ test('explains a switch', async ({ lab }) => {
     .toBe(480);
   const before = lab.state.tick;
   await card.getByRole('button', { name: 'Rewind to here' }).click();
-  await until('back in time', () => lab.state.tick < before);
-  await until('the second sub-controller before', () => lab.state.mode === 2);
+  await until('an earlier tick', () => lab.state.tick < before);
+  await until('sub-controller 2', () => lab.state.mode === 2);
   await lab.page.keyboard.press('Escape');
   await expect(card).toHaveCount(0);
   await expect(lab.page.locator(':focus')).toHaveClass('mark');
 });
 
 test('keeps a drag as a test case', async ({ lab }) => {
-  await disturbedCarry(lab);
+  await disturbedTransport(lab);
   await lab.tab('Events').click();
-  const coming = lab.page.waitForEvent('download');
+  const downloading = lab.page.waitForEvent('download');
   await lab.page.getByRole('link', { name: 'Keep as test case' }).click();
-  const download = await coming;
+  const download = await downloading;
   expect(download.suggestedFilename()).toMatch(/-seed-\d+\.json$/);
   const kept = JSON.parse(await readFile(await download.path(), 'utf8')) as {
     scenario: { map: string };
@@ -80,15 +80,18 @@ test('keeps a drag as a test case', async ({ lab }) => {
 });
 
 test('compares controllers from a moment on', async ({ lab }) => {
-  await disturbedCarry(lab);
+  await disturbedTransport(lab);
   const { newest_tick: newest, world_hash: hash } = lab.state;
   const panel = lab.page.getByRole('tabpanel').filter({ has: lab.button('Play ghosts') });
   const card = await openEvent(lab, 'Disturbance');
   await card.getByRole('button', { name: 'Compare controllers from here' }).click();
-  // What is cleared stays away though more of it is computed, until it is requested again.
+  // A cleared comparison stays hidden while its results still come, until the next request.
   await lab.button('Clear ghosts').click();
-  const first = lab.comparison;
-  await until('more of it', () => lab.comparison !== first || lab.comparison?.running === false);
+  const cleared = lab.comparison;
+  await until(
+    'further results',
+    () => lab.comparison !== cleared || lab.comparison?.running === false,
+  );
   await lab.drawn();
   await expect(panel).toHaveCount(0);
 
@@ -96,8 +99,8 @@ test('compares controllers from a moment on', async ({ lab }) => {
   lab.sent = {};
   await card.getByRole('button', { name: 'Compare controllers from here' }).click();
   await until('the request', () => lab.sent.fork);
-  // What was computed of this moment is shown until the new answers come: the last of these is waited for.
-  await until('all of it', () => lab.comparison?.running === false, COMPUTED_MS);
+  // The page shows the earlier results of this moment until new ones come: wait for the last one.
+  await until('all results', () => lab.comparison?.running === false, COMPUTED_MS);
   const rows = panel.getByRole('row');
   const column = (index: number) =>
     rows.evaluateAll(
@@ -114,8 +117,8 @@ test('compares controllers from a moment on', async ({ lab }) => {
     COMPUTED_MS,
   );
   expect((await column(0)).join()).toMatch(/^RL,ERRT,Attractor\s*in use$/);
-  expect(lab.state.world_hash, 'the session moved').toBe(hash);
-  expect(lab.state.newest_tick, 'the future was lost').toBe(newest);
+  expect(lab.state.world_hash, 'the session changed').toBe(hash);
+  expect(lab.state.newest_tick, 'the later ticks were lost').toBe(newest);
 
   const time = lab.label('Time of the ghosts');
   const now = async () => Number(await time.inputValue());
@@ -124,7 +127,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
   const drawn = () => lab.canvas.evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
   const atEnd = await drawn();
   await lab.button('Play ghosts').click();
-  await until('ghosts on their path', async () => (await now()) < end - 50);
+  await until('ghosts before their end', async () => (await now()) < end - 50);
   await lab.button('Pause ghosts').click();
   expect((await drawn()) === atEnd, 'the ghosts do not move').toBe(false);
   await time.focus();
@@ -141,7 +144,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
   await lab.button('Clear ghosts').click();
 });
 
-test('closes a story with its trial, and compares nothing without a goal', async ({ lab }) => {
+test('closes an explanation on reset, and refuses a comparison without a goal', async ({ lab }) => {
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
   await lab.run();
   await lab.later(10);

@@ -1,5 +1,5 @@
-// What each test gets: a server that a worker shares, a session of its own, and a page on it. At the end of each test
-// the browser must have reported no error and sent no request to another host.
+// Fixtures: one server per worker, and one session with an operator's page per test.
+// A test fails if the browser reports an error or sends a request to another host.
 
 import { type BrowserContextOptions, test as base, expect } from '@playwright/test';
 import { Lab } from './support/lab';
@@ -25,12 +25,12 @@ interface WorkerFixtures {
 
 interface TestFixtures {
   watch: Watch;
-  /** Named sessions besides the test's own end with the test. */
+  /** Names a further session. It ends with the test. */
   newSession: () => Session;
   session: Session;
-  /** An operator's page. */
+  /** The operator's page. */
   lab: Lab;
-  /** Opens another page in a browser context of its own. */
+  /** Opens a further page in its own browser context. */
   openLab: (options?: OpenOptions) => Promise<Lab>;
 }
 
@@ -62,7 +62,7 @@ export const test = base.extend<TestFixtures, WorkerFixtures>({
       if (testInfo.status !== testInfo.expectedStatus) {
         await testInfo.attach('server.log', { body: server.log, contentType: 'text/plain' });
       }
-      expect.soft(watch.messages, 'messages on the console').toEqual([]);
+      expect.soft(watch.messages, 'console messages').toEqual([]);
       expect.soft(watch.foreign, 'requests to other hosts').toEqual([]);
     },
     { auto: true },
@@ -75,7 +75,7 @@ export const test = base.extend<TestFixtures, WorkerFixtures>({
       names.push(name);
       return { name, url: `${server.url}/s/${name}` };
     });
-    // A test may have ended its server.
+    // A test may have stopped its server.
     const end = (name: string) => fetch(`${server.url}/api/sessions/${name}`, { method: 'DELETE' });
     await Promise.allSettled(names.map(end));
   },

@@ -1,4 +1,5 @@
-// The hand on the bead: mouse and touch, and everything that makes it release.
+// Drags the bead in the plan view by mouse and by touch, and tests every event that releases it.
+// The test that drags the bead by keyboard is in laboratory.spec.ts.
 
 import { TABLET } from './support/browser';
 import { type Lab, expect, test } from './fixtures';
@@ -8,25 +9,25 @@ import { must, until } from './support/wait';
 const beside = async (lab: Lab) => lab.freePoints(await lab.bead(), 0.05, 0.1)[0];
 const released = (lab: Lab) => until('no hand', () => !lab.state.hand_m);
 
-/** Presses the mouse on the bead, once it rests, and drags it to a place beside it. */
-async function take(lab: Lab) {
+/** Waits until the bead rests and drags it by mouse to a place beside it, without releasing it. */
+async function takeBead(lab: Lab) {
   let before: PointLike | undefined;
   await until('a bead at rest', () => {
-    const rests = before && distance(before, lab.state.bead_m) < 1e-4;
+    const isAtRest = before && distance(before, lab.state.bead_m) < 1e-4;
     before = lab.state.bead_m;
-    return rests;
+    return isAtRest;
   });
   const away = await beside(lab);
-  await lab.pull(away);
+  await lab.startDrag(away);
   return away;
 }
 
-test('shows that the bead can be taken', async ({ lab }) => {
+test('marks the bead under the pointer, and distinguishes a click from a drag', async ({ lab }) => {
   const { mouse } = lab.page;
   const [x, y] = await lab.px(await lab.bead());
   await mouse.move(x + 60, y - 40);
   await expect(lab.canvas).toHaveCSS('cursor', 'crosshair');
-  // The ring is 16 px around the bead; just inside its edge lies its tint.
+  // The ring has a radius of 16 px around the bead. These pixels are just inside it.
   const tint = async () => {
     const clip = { x: Math.round(x) + 10, y: Math.round(y) - 8, width: 3, height: 3 };
     return (await lab.page.screenshot({ clip })).toString('base64');
@@ -36,7 +37,7 @@ test('shows that the bead can be taken', async ({ lab }) => {
   await expect(lab.canvas).toHaveCSS('cursor', 'grab');
   await until('the ring', async () => (await tint()) !== bare);
 
-  // Two pixels are still a click, which places a goal; more is a pull.
+  // A movement by two pixels is still a click, which places a goal. More is a drag.
   await mouse.move(x, y);
   await mouse.down();
   await mouse.move(x + 2, y + 2);
@@ -52,15 +53,15 @@ test('shows that the bead can be taken', async ({ lab }) => {
   await expect(lab.canvas).toHaveCSS('cursor', 'grabbing');
   await mouse.up();
   await released(lab);
-  expect(lab.state.goal_m, 'a pull placed a goal').toBeNull();
+  expect(lab.state.goal_m, 'a drag placed a goal').toBeNull();
 });
 
-test('places the bead while paused', async ({ lab }) => {
+test('places the bead on release while paused', async ({ lab }) => {
   await lab.reset();
-  const to = await take(lab);
-  expect(distance(await lab.bead(), to), 'it moves only when released').toBeGreaterThan(0.03);
+  const to = await takeBead(lab);
+  expect(distance(await lab.bead(), to), 'distance before the release').toBeGreaterThan(0.03);
   await lab.page.mouse.up();
-  await until('the bead there', async () => distance(await lab.bead(), to) < 0.01);
+  await until('the bead at its new place', async () => distance(await lab.bead(), to) < 0.01);
 });
 
 const ENDS: Record<string, (lab: Lab) => Promise<unknown>> = {
@@ -74,39 +75,38 @@ const ENDS: Record<string, (lab: Lab) => Promise<unknown>> = {
     }),
   'another view opens': async (lab) => {
     await lab.page.keyboard.press('Escape');
-    // As with the keyboard: the mouse is busy.
+    // By script, because the mouse button is pressed.
     await lab.button('Recordings').evaluate((button: HTMLElement) => {
       button.click();
     });
   },
 };
 
-for (const [when, happen] of Object.entries(ENDS)) {
+for (const [when, cause] of Object.entries(ENDS)) {
   test(`releases the bead when ${when}`, async ({ lab }) => {
     await lab.run();
-    await take(lab);
-    await happen(lab);
+    await takeBead(lab);
+    await cause(lab);
     await released(lab);
     await lab.page.mouse.up();
     await lab.view('Laboratory').click();
     await lab.pause();
-    // What was drawn of the hand is removed, and one press is still one goal.
+    // The page draws no hand any more, and a click sets one goal.
     let sockets = 0;
     lab.page.on('websocket', () => (sockets += 1));
     await lab.setGoal(await beside(lab));
-    expect(sockets, 'coming back opened another WebSocket').toBe(0);
+    expect(sockets, 'the page opened another WebSocket').toBe(0);
   });
 }
 
-test('releases the bead when the socket closes', async ({ lab, openLab }) => {
+test('releases the bead when the connection closes', async ({ lab, openLab }) => {
   await lab.releaseControl();
-  // Control that is free goes to the next who comes.
+  // Free control goes to the next browser that connects.
   const other = await openLab();
   await other.isRole('operator');
   await other.reset();
-  await take(other);
-  await until('the hand, seen from here', () => lab.state.hand_m);
-  // The page closes with the bead in the hand.
+  await takeBead(other);
+  await until("the hand on the viewer's page", () => lab.state.hand_m);
   await other.page.close();
   await released(lab);
   await lab.takeControl();
@@ -115,7 +115,7 @@ test('releases the bead when the socket closes', async ({ lab, openLab }) => {
 test.describe('on a tablet', () => {
   test.use({ ...TABLET, isMobile: true });
 
-  test('follows a finger', async ({ lab }) => {
+  test('drags the bead with one finger, and scrolls and zooms elsewhere', async ({ lab }) => {
     const { page } = lab;
     const cdp = await page.context().newCDPSession(page);
     const touch = (
@@ -130,7 +130,7 @@ test.describe('on a tablet', () => {
     const bead = await lab.bead();
     const [x, y] = await lab.px(bead);
 
-    // A tap is a goal.
+    // A tap places a goal.
     const [goal] = lab.freePoints(bead, 0.1, 0.2);
     await page.touchscreen.tap(...(await lab.px(goal)));
     await until('a goal under the finger', () => {
@@ -138,7 +138,7 @@ test.describe('on a tablet', () => {
       return set && distance(set, goal) < 0.005;
     });
 
-    // A finger beside the bead still takes it, and the page stays where it is.
+    // A finger beside the bead still takes it, and the page does not scroll.
     await touch('touchStart', [x + 12, y - 12]);
     for (let i = 1; i <= 8; i++) await touch('touchMove', [x + 12, y - 12 - 10 * i]);
     await until('the hand', () => lab.state.hand_m);
@@ -146,7 +146,7 @@ test.describe('on a tablet', () => {
     await touch('touchEnd');
     await released(lab);
 
-    // Where the browser takes the finger for itself, to zoom with a second one, the hand releases.
+    // The hand releases when the browser cancels the touch, as it does for a zoom.
     const [bx, by] = await lab.px(await lab.bead());
     await touch('touchStart', [bx, by]);
     await touch('touchMove', [bx, by - 30]);
@@ -154,7 +154,7 @@ test.describe('on a tablet', () => {
     await touch('touchCancel');
     await released(lab);
 
-    // Elsewhere a finger scrolls.
+    // Elsewhere a finger scrolls the page.
     const heading = page.getByRole('heading', { name: 'Workspace' });
     const head = must(await heading.boundingBox(), 'a heading');
     await touch('touchStart', [head.x + 20, head.y + 8]);
@@ -162,7 +162,7 @@ test.describe('on a tablet', () => {
     await touch('touchEnd');
     await expect.poll(scrolled, { message: 'a scrolled page' }).toBeGreaterThan(20);
 
-    // Two fingers on the plan zoom, and neither place a goal nor take the bead.
+    // Two fingers on the plan view zoom. They neither place a goal nor take the bead.
     const before = flat(must(lab.state.goal_m, 'a goal'));
     const box = must(await lab.canvas.boundingBox(), 'the canvas');
     const fingers = (half: number): PointLike[] =>
@@ -171,7 +171,7 @@ test.describe('on a tablet', () => {
     for (let i = 1; i <= 8; i++) await touch('touchMove', ...fingers(40 + 10 * i));
     await touch('touchEnd');
     await expect
-      .poll(() => page.evaluate(() => window.visualViewport?.scale), { message: 'a larger page' })
+      .poll(() => page.evaluate(() => window.visualViewport?.scale), { message: 'a zoomed page' })
       .toBeGreaterThan(1.5);
     expect(lab.state.hand_m, 'two fingers took the bead').toBeNull();
     expect(flat(must(lab.state.goal_m, 'a goal'))).toEqual(before);

@@ -1,18 +1,19 @@
-// A hand that holds the bead and does not move: its page says that it is there. Without that it releases.
+// Holding the bead without moving it: the page reports the hand to the server each second.
+// Without these reports the server releases the bead.
 
 import { type Lab, expect, test } from './fixtures';
-import { inSpace } from './support/moments';
+import { openSceneView } from './support/preconditions';
 import { until } from './support/wait';
 
-/** The server releases a hand that it has received nothing of for five seconds. */
+/** The server releases a hand after five seconds without a report. */
 const LONGER_MS = 6500;
 const LONGER_TICKS = LONGER_MS / 8;
-/** The page reports a still hand each second. */
+/** Longer than the second between two reports. */
 const REPORT_TICKS = 1200 / 8;
 const SILENT = /no message from the page that holds the bead/i;
 
 async function takeByMouse(lab: Lab) {
-  await lab.pull(lab.freePoints(await lab.bead(), 0.05, 0.1)[0]);
+  await lab.startDrag(lab.freePoints(await lab.bead(), 0.05, 0.1)[0]);
   await lab.page.keyboard.press(' ');
   await until('running', () => lab.state.running);
 }
@@ -24,8 +25,8 @@ async function takeByKeyboard(lab: Lab) {
   await until('the hand', () => lab.state.hand_m);
 }
 
-async function takeInSpace(lab: Lab) {
-  await inSpace(lab);
+async function takeIn3dView(lab: Lab) {
+  await openSceneView(lab);
   await lab.run();
   await lab.label('Scene').focus();
   await lab.page.keyboard.press('d');
@@ -39,30 +40,30 @@ const HOLDS = {
     end: (lab: Lab) => lab.page.keyboard.press('Escape'),
   },
   'the keyboard in the 3-D view': {
-    take: takeInSpace,
+    take: takeIn3dView,
     end: (lab: Lab) => lab.page.keyboard.press('Escape'),
   },
 };
 
 for (const [how, { take, end }] of Object.entries(HOLDS)) {
-  test(`holds the bead with a still hand by ${how}`, async ({ lab }) => {
+  test(`holds the bead by ${how} without moving it`, async ({ lab }) => {
     await lab.reset();
     await take(lab);
     // At speed 1 a tick is 8 ms.
     await lab.later(LONGER_TICKS);
-    expect(lab.state.hand_m, 'the hand').not.toBeNull();
+    expect(lab.state.hand_m, 'the hand is kept').not.toBeNull();
     await end(lab);
     await until('no hand', () => !lab.state.hand_m);
     lab.sent = {};
     await lab.later(REPORT_TICKS);
-    expect(lab.sent.drag, 'a report of a hand that has released').toBeUndefined();
+    expect(lab.sent.drag, 'a report after the release').toBeUndefined();
   });
 }
 
-test('releases the bead while its page sleeps', async ({ lab }) => {
+test('releases the bead when the page does not respond', async ({ lab }) => {
   await lab.reset();
   await takeByMouse(lab);
-  // The page's thread does something else.
+  // Blocks the page's thread.
   await lab.page.evaluate((ms) => {
     const end = performance.now() + ms;
     while (performance.now() < end);
@@ -70,7 +71,7 @@ test('releases the bead while its page sleeps', async ({ lab }) => {
   await lab.notice('workspace').getByText(SILENT).waitFor();
   await until('no hand', () => !lab.state.hand_m);
   await until('paused', () => !lab.state.running);
-  // Awake again, it does not take by moving what it had been holding.
+  // When the page responds again, a pointer movement does not take the bead again.
   lab.sent = {};
   const [x, y] = await lab.px(await lab.bead());
   await lab.page.mouse.move(x + 40, y + 20, { steps: 4 });

@@ -1,4 +1,5 @@
-// Keys that work all over the page, and what the page says to assistive technology.
+// Keyboard shortcuts of the whole page, and announcements to assistive technology.
+// The keys of the workspace are tested in laboratory.spec.ts, of the 3-D view in scene.spec.ts.
 
 import { expect, test } from './fixtures';
 import { until } from './support/wait';
@@ -6,10 +7,10 @@ import { until } from './support/wait';
 const WATCHING = 'You are watching.';
 const IN_CONTROL = 'You have control.';
 const WORKSPACE_KEYS = 'grab or release the bead';
-/** Announcements come one second apart; a busy page is late. */
-const LEAST_APART_MS = 700;
+/** Announcements are one second apart. A late one on a busy page shortens the next gap. */
+const MIN_GAP_MS = 700;
 
-test('obeys keys all over the page', async ({ lab }) => {
+test('runs shortcuts anywhere, except while typing and in a dialog', async ({ lab }) => {
   const { page } = lab;
   const { keyboard } = page;
   await page.getByRole('heading', { name: 'Workspace' }).click();
@@ -17,7 +18,7 @@ test('obeys keys all over the page', async ({ lab }) => {
   await expect(page.getByTestId('tick')).toHaveText('tick 1');
   await keyboard.press(',');
   await until('the control step', () => lab.state.tick === 32);
-  // What a key does follows from what the page shows, a frame after its WebSocket received it.
+  // A shortcut depends on what the page shows, which is a frame behind its WebSocket.
   const speed = lab.label('Speed');
   await keyboard.press(']');
   await expect(speed).toHaveValue('2');
@@ -32,14 +33,14 @@ test('obeys keys all over the page', async ({ lab }) => {
   await keyboard.press(' ');
   await lab.button('Run').waitFor();
 
-  // Not while typing.
+  // While typing, shortcuts do nothing.
   const seed = lab.label('Seed');
   await seed.focus();
   for (const key of ['2', 'r', 'g']) await keyboard.press(key);
   await expect(seed).toBeFocused();
   await seed.blur();
   expect(lab.state.controller).toBe('attractor');
-  expect(lab.state.tick, 'a key was obeyed while typing').toBeGreaterThan(0);
+  expect(lab.state.tick, 'a shortcut ran while typing').toBeGreaterThan(0);
 
   const larger = lab.button('Larger');
   await larger.focus();
@@ -49,14 +50,14 @@ test('obeys keys all over the page', async ({ lab }) => {
   await keyboard.press('r');
   await keyboard.press('Escape');
   await expect(help).toBeHidden();
-  expect(lab.state.tick, 'the dialog let a key through').toBeGreaterThan(0);
+  expect(lab.state.tick, 'a shortcut ran behind the dialog').toBeGreaterThan(0);
   await expect(larger).toBeFocused();
   await keyboard.press('g');
   await expect(lab.canvas).toBeFocused();
   await keyboard.press('r');
   await until('the start', () => lab.state.tick === 0);
 
-  // They can be switched off.
+  // Shortcuts can be switched off.
   await lab.button('Keyboard shortcuts').click();
   await help.getByRole('checkbox').uncheck();
   await keyboard.press('Escape');
@@ -68,16 +69,16 @@ test('obeys keys all over the page', async ({ lab }) => {
   await help.getByRole('button', { name: 'Close' }).click();
 });
 
-test('says what happens, one thing at a time', async ({ lab, openLab }) => {
-  const said = await lab.page.getByTestId('live-region').evaluateHandle((region) => {
+test('announces events one at a time', async ({ lab, openLab }) => {
+  const announced = await lab.page.getByTestId('live-region').evaluateHandle((region) => {
     const texts: (readonly [number, string])[] = [];
     new MutationObserver(() => {
       texts.push([performance.now(), region.textContent.trim()]);
     }).observe(region, { characterData: true, childList: true, subtree: true });
     return texts;
   });
-  const texts = async () => (await said.jsonValue()).map(([, text]) => text);
-  // Somebody else watches: control that is released stays free.
+  const texts = async () => (await announced.jsonValue()).map(([, text]) => text);
+  // A second page is connected, so released control stays free.
   await openLab();
   await lab.button('Disturb').click();
   await lab.page.getByLabel('Strength of the kick in mN·s').fill('0.8');
@@ -90,9 +91,9 @@ test('says what happens, one thing at a time', async ({ lab, openLab }) => {
   await lab.takeControl();
   await expect.poll(texts).toContain(IN_CONTROL);
   expect((await texts()).join('|')).toContain('a kick of 0.80 mN·s');
-  const times = (await said.jsonValue()).map(([at]) => at);
+  const times = (await announced.jsonValue()).map(([at]) => at);
   times.slice(1).forEach((at, index) => {
-    expect(at - (times[index] ?? 0), 'milliseconds apart').toBeGreaterThan(LEAST_APART_MS);
+    expect(at - (times[index] ?? 0), 'milliseconds apart').toBeGreaterThan(MIN_GAP_MS);
   });
   await expect(lab.page.getByRole('log')).toHaveAttribute('aria-live', 'off');
 });

@@ -1,11 +1,12 @@
-// The laboratory: goals, disturbances, parameters, layers, time.
+// The laboratory: goals, the bead by mouse and by keyboard, parameters, kicks, timeline and speed.
+// More tests of dragging the bead are in gestures.spec.ts and holds.spec.ts.
 
 import { expect, test } from './fixtures';
 import { Server } from './support/server';
 import { distance, distanceToSegment } from './support/table';
 import { must, until } from './support/wait';
 
-/** Comfortably more than the default threshold of the switching law. */
+/** More than the default threshold T of 10 cm. */
 const LOST_M = 0.14;
 const SAFETY = /simulation, not safety-rated/i;
 
@@ -36,34 +37,34 @@ test('delivers the bead to a clicked goal', async ({ lab }) => {
   await lab.delivered(1);
 });
 
-test('recovers when the mouse drags the bead away', async ({ lab }) => {
+test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) => {
   await lab.reset();
   const [goal] = lab.freePoints(await lab.bead(), 0.3, 0.5);
   await lab.setGoal(goal);
   await lab.run();
   await expect(lab.page.getByTestId('phase')).toHaveText('transporting');
-  // Every text that the mode badge shows from now on.
+  // Records every text that the mode badge shows from now on.
   const modes = await lab.page.getByTestId('mode').evaluateHandle((badge) => {
-    const seen = [badge.textContent];
-    new MutationObserver(() => seen.push(badge.textContent)).observe(badge, {
+    const texts = [badge.textContent];
+    new MutationObserver(() => texts.push(badge.textContent)).observe(badge, {
       characterData: true,
       childList: true,
       subtree: true,
     });
-    return seen;
+    return texts;
   });
-  // While paused, the bead does not leave the pointer, however slow this machine is.
+  // While paused, the bead stays at the pointer, also on a slow machine.
   const { mouse, keyboard } = lab.page;
   await keyboard.press(' ');
-  await until('a pause', () => !lab.state.running);
+  await until('paused', () => !lab.state.running);
 
   const bead = await lab.bead();
-  // Off the path to the goal: a bead dragged along it on a slow machine would never be lost.
+  // Off the path to the goal: along it, on a slow machine, the tool would not lose the bead.
   const away = must(
     lab.freePoints(bead, 0.15, 0.3).find((point) => distanceToSegment(point, bead, goal) > LOST_M),
     'a free point off the path',
   );
-  await lab.pull(away);
+  await lab.startDrag(away);
   await keyboard.press(' ');
   await until('the bead at the hand', async () => distance(await lab.bead(), away) < 0.01);
   await mouse.up();
@@ -76,7 +77,7 @@ test('recovers when the mouse drags the bead away', async ({ lab }) => {
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
 });
 
-test('refuses a goal in a wall, beside it', async ({ lab }) => {
+test('refuses a goal in a wall with a notice, and keeps the old goal', async ({ lab }) => {
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
   const goal = await lab.point('goal');
   await lab.click(lab.wallPoint());
@@ -84,7 +85,7 @@ test('refuses a goal in a wall, beside it', async ({ lab }) => {
   expect(await lab.point('goal')).toEqual(goal);
 });
 
-test('obeys the keyboard', async ({ lab }) => {
+test('places a goal, runs, drags the bead and pauses by keyboard', async ({ lab }) => {
   await lab.canvas.focus();
   const { keyboard } = lab.page;
   const bead = await lab.bead();
@@ -102,7 +103,7 @@ test('obeys the keyboard', async ({ lab }) => {
 
   await keyboard.press(' ');
   await until('running', () => lab.state.running);
-  // A key that is held takes once.
+  // A held key repeats, but takes the bead only once.
   await keyboard.down('d');
   await until('the hand', () => lab.state.hand_m);
   for (let i = 0; i < 3; i++) await keyboard.down('d');
@@ -115,11 +116,11 @@ test('obeys the keyboard', async ({ lab }) => {
   await until('paused', () => !lab.state.running);
 });
 
-test('changes a parameter from the form, and the form from the defaults', async ({ lab }) => {
+test('changes a parameter in the form, and restores the defaults', async ({ lab }) => {
   const threshold = lab.spin('Threshold T');
   await lab.tune('Threshold T', '8');
   await until('T = 8 cm', () => lab.scene.parameters.threshold_m === 0.08);
-  // A slider that goes back to where it was leaves nothing behind.
+  // A slider that returns to its start leaves the value unchanged.
   const slider = lab.page.getByRole('slider', { name: 'Threshold T slider' });
   await expect(threshold).toHaveValue('8.0');
   const box = await lab.boxOf(slider);
@@ -154,7 +155,7 @@ test('kicks the bead', async ({ lab }) => {
   await expect(lab.page.getByRole('log').getByText(/a kick of 0\.80 mN·s/)).toBeVisible();
 });
 
-test('goes back in time', async ({ lab }) => {
+test('goes back in time by mouse and by keyboard', async ({ lab }) => {
   await lab.speed('8');
   await lab.run();
   await until('three seconds', () => lab.state.sim_time_s > 3);
@@ -169,17 +170,20 @@ test('goes back in time', async ({ lab }) => {
   await until('an earlier tick', () => lab.state.tick < 0.6 * end);
   const earlier = lab.state.tick;
 
-  // By keyboard from one control step to the next, both ways.
+  // An arrow key moves by one control step, in both directions.
   await timeline.focus();
   await keyboard.press('ArrowRight');
-  const next = await until('the next step', () => lab.state.tick > earlier && lab.state.tick);
+  const next = await until(
+    'the next control step',
+    () => lab.state.tick > earlier && lab.state.tick,
+  );
   expect([31, 32]).toContain(next - earlier);
   await expect.poll(thumb).toBe(next);
   await keyboard.press('ArrowLeft');
-  await until('the step before', () => lab.state.tick === earlier);
+  await until('the previous control step', () => lab.state.tick === earlier);
   await expect.poll(thumb).toBe(earlier);
 
-  // Away and back to where it began: after that, the thumb follows time again.
+  // Drags the thumb away and back to its start. After that it follows the tick again.
   const share = await timeline.evaluate(
     (one: HTMLInputElement) =>
       (one.valueAsNumber - Number(one.min)) / (Number(one.max) - Number(one.min)),
@@ -188,34 +192,34 @@ test('goes back in time', async ({ lab }) => {
   await mouse.move(at, y);
   await mouse.down();
   await mouse.move(at - 60, y, { steps: 4 });
-  await until('a tick before', () => lab.state.tick < earlier);
+  await until('an earlier tick', () => lab.state.tick < earlier);
   await mouse.move(at, y, { steps: 4 });
   await mouse.up();
-  await until('the tick again', () => Math.abs(lab.state.tick - earlier) <= 1);
-  await until('the thumb there', async () => (await thumb()) === lab.state.tick);
+  await until('the first tick again', () => Math.abs(lab.state.tick - earlier) <= 1);
+  await until('the thumb at this tick', async () => (await thumb()) === lab.state.tick);
   const { tick } = lab.state;
   await lab.button('Step').click();
   await until('one tick', () => lab.state.tick === tick + 1);
   await expect.poll(thumb).toBe(tick + 1);
 });
 
-test('keeps time', async ({ lab }) => {
+test('steps by one control step, and shows the achieved speed', async ({ lab }) => {
   await lab.button('Step ¼ s').click();
   await expect(lab.page.getByTestId('tick')).toHaveText('tick 32');
   await lab.button('Step ¼ s').click();
-  await until('the next', () => lab.state.tick === 63);
+  await until('the next control step', () => lab.state.tick === 63);
   await lab.speed('64');
   await lab.run();
   const achieved = lab.page.locator('.achieved');
-  await until('what is achieved', async () => {
+  await until('the achieved speed', async () => {
     const text = await achieved.innerText();
     const [factor] = /[\d.]+/.exec(text) ?? [];
-    // It says so only where less is achieved than requested.
+    // The page names the limit only below 85 % of the requested speed.
     return factor && text.includes('machine limit') === Number(factor) < 54.4;
   });
 });
 
-test('reports that the server has ended', async ({ openLab, watch }) => {
+test('reports a lost connection when the server is killed', async ({ openLab, watch }) => {
   const server = await Server.start();
   watch.allowHost(server.url);
   watch.allow(/ERR_CONNECTION_REFUSED|WebSocket/);

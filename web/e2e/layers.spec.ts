@@ -1,4 +1,4 @@
-// What is drawn below the bead: the magnet's reach and field, singularities, what the camera sees.
+// Layers and panels of the magnet and the camera: capture, field, singularities, observed area.
 
 import { type Lab, expect, test } from './fixtures';
 import { until } from './support/wait';
@@ -6,23 +6,23 @@ import { until } from './support/wait';
 const summaryOf = (lab: Lab, name: string) =>
   lab.page.locator('summary').filter({ hasText: new RegExp(`^${name}`) });
 
-/** In words, once the server has answered. */
-function captureWords(lab: Lab) {
+/** The capture range as text, once the server has answered. */
+function captureText(lab: Lab) {
   return until('a capture', async () => {
     const text = await lab.text('magnet-capture');
     return text !== '–' && text;
   });
 }
 
-test('shows what the magnet can do', async ({ lab }) => {
+test('updates the capture range while the friction slider is dragged', async ({ lab }) => {
   const { mouse } = lab.page;
   await lab.tab('Magnet').click();
   await summaryOf(lab, 'Magnet and bead').click();
-  expect(await captureWords(lab)).toBe('4 to 95 mm');
+  expect(await captureText(lab)).toBe('4 to 95 mm');
   const hidden = await lab.page
     .locator('.magnet-words')
     .evaluate((words) => words.scrollHeight - words.clientHeight);
-  expect(hidden, 'hidden pixels of the words beside the curves').toBeLessThanOrEqual(0);
+  expect(hidden, 'hidden pixels of the text beside the curves').toBeLessThanOrEqual(0);
 
   const slider = lab.page.getByRole('slider', { name: 'Friction μ slider' });
   await slider.scrollIntoViewIfNeeded();
@@ -32,17 +32,17 @@ test('shows what the magnet can do', async ({ lab }) => {
   await mouse.move(box.x + 0.2 * box.width, y);
   await mouse.down();
   await mouse.move(box.x + 0.4 * box.width, y, { steps: 5 });
-  await until('less captured', async () => (await captureWords(lab)) !== '4 to 95 mm');
+  await until('another capture range', async () => (await captureText(lab)) !== '4 to 95 mm');
   expect(lab.scene.parameters.friction, 'the friction before the slider is released').toBe(0.2);
   await mouse.up();
   await until('the friction', () => lab.scene.parameters.friction > 0.3);
-  expect(await captureWords(lab)).not.toBe('4 to 95 mm');
+  expect(await captureText(lab)).not.toBe('4 to 95 mm');
 
   await lab.restoreDefaults();
-  await until('the defaults', async () => (await captureWords(lab)) === '4 to 95 mm');
+  await until('the defaults', async () => (await captureText(lab)) === '4 to 95 mm');
 });
 
-test('bends the curves of the magnet beside them', async ({ lab }) => {
+test('changes parameters of the magnet beside its curves and in the form', async ({ lab }) => {
   const { page } = lab;
   await lab.tab('Magnet').click();
   await summaryOf(lab, 'Magnet and bead').click();
@@ -51,7 +51,7 @@ test('bends the curves of the magnet beside them', async ({ lab }) => {
   await expect(weight).toContainText('%');
   const before = await weight.innerText();
 
-  // By keyboard: a press of an arrow is a millimetre, here and in the form.
+  // By keyboard: one press of an arrow key is one millimetre. The form follows.
   const height = panel.getByRole('slider', { name: 'Height' });
   await height.focus();
   for (let i = 0; i < 5; i++) await page.keyboard.press('ArrowRight');
@@ -60,7 +60,7 @@ test('bends the curves of the magnet beside them', async ({ lab }) => {
   const inForm = page.getByRole('spinbutton', { name: 'Tool height' });
   await expect(inForm).toHaveValue('105');
 
-  // And the other way.
+  // A change in the form changes the curves.
   await inForm.fill('92');
   await inForm.press('Enter');
   await expect(weight).toContainText('lifts off');
@@ -74,27 +74,27 @@ test('bends the curves of the magnet beside them', async ({ lab }) => {
   expect(lab.scene.parameters.block_orientation).toBe('A');
 });
 
-test('shows singularities', async ({ lab }) => {
+test('shows the layer Singularity', async ({ lab }) => {
   // Far from all moving parts, and off the grid.
   const [x, y] = lab.freePoints(await lab.bead(), 0.3, 0.5)[0];
-  const look = () => lab.look([x + 0.007, y + 0.007]);
-  const bare = await look();
+  const pixels = () => lab.pixelsAround([x + 0.007, y + 0.007]);
+  const bare = await pixels();
   await lab.layer('Singularity');
-  await until('the layer', async () => (await look()) !== bare);
+  await until('the layer', async () => (await pixels()) !== bare);
   const least = await lab.number('heat-least');
   expect(least).toBeGreaterThanOrEqual(2);
   expect(await lab.number('heat-greatest')).toBeGreaterThan(least);
   await lab.layer('Singularity', false);
-  await until('the bare floor', async () => (await look()) === bare);
+  await until('no layer', async () => (await pixels()) === bare);
 });
 
-test("shows the magnet's field", async ({ lab }) => {
+test('shows the layer Field and pull', async ({ lab }) => {
   // Between the arrows, some centimetres beside the tool.
   const [x, y] = await lab.bead();
-  const look = () => lab.look([x + 0.04, y - 0.005]);
-  const bare = await look();
+  const pixels = () => lab.pixelsAround([x + 0.04, y - 0.005]);
+  const bare = await pixels();
   await lab.layer('Field and pull');
-  await until('the layer', async () => (await look()) !== bare);
+  await until('the layer', async () => (await pixels()) !== bare);
   // The dipole of the block at 10 cm; specification §2 has its pull.
   const field_mt = await lab.number('field-greatest');
   expect(field_mt).toBeGreaterThan(1.5);
@@ -105,14 +105,14 @@ test("shows the magnet's field", async ({ lab }) => {
 
   await summaryOf(lab, 'Magnet and bead').click();
   await lab.tune('Tool height', '150');
-  await until('less of it', async () => (await lab.number('field-greatest')) < 0.5 * field_mt);
+  await until('a weaker field', async () => (await lab.number('field-greatest')) < 0.5 * field_mt);
   await lab.restoreDefaults();
-  await until('as before', async () => (await lab.number('field-greatest')) === field_mt);
+  await until('the field as before', async () => (await lab.number('field-greatest')) === field_mt);
   await lab.layer('Field and pull', false);
-  await until('the bare floor', async () => (await look()) === bare);
+  await until('no layer', async () => (await pixels()) === bare);
 });
 
-test('shows what the camera sees', async ({ lab }) => {
+test("shows the camera's blocks and the observed area", async ({ lab }) => {
   const { page } = lab;
   await lab.reset({ map: 'colon', speed: '8' });
   const blocks = page.getByTestId('blocks');
@@ -125,24 +125,26 @@ test('shows what the camera sees', async ({ lab }) => {
   await lab.tune('Smallest block', '50');
   await until('fewer blocks', async () => ((await counts())[0] ?? Infinity) < rectangles);
 
-  // Beside the tool and tilted toward it.
-  const seen = JSON.stringify(lab.scene.camera_sees_m);
+  // Moves the camera beside the tool and tilts it toward the tool.
+  const before = JSON.stringify(lab.scene.camera_sees_m);
   await lab.tune('Offset y', '8');
   await lab.tune('Tilt y', '-15');
   await page.getByLabel('Magnet in the picture').check();
-  await until('another view', () => JSON.stringify(lab.scene.camera_sees_m) !== seen);
+  await until('another camera field', () => JSON.stringify(lab.scene.camera_sees_m) !== before);
   await lab.label('Blocks').selectOption('rectangles');
   await lab.run();
-  await until('a second', () => lab.state.sim_time_s > 1);
+  await until('one second', () => lab.state.sim_time_s > 1);
   await lab.pause();
 
   const [x, y] = lab.state.tool_m;
-  const look = () => lab.look([x + 0.25 * (x > 0 ? -1 : 1), y]);
-  const bare = await look();
+  const pixels = () => lab.pixelsAround([x + 0.25 * (x > 0 ? -1 : 1), y]);
+  const bare = await pixels();
   await lab.layer('Seen so far');
-  await until('the unseen in gray', async () => (await look()) !== bare);
+  await until('the area not observed in gray', async () => (await pixels()) !== bare);
   for (const name of ['Quadtree', 'Rectangles']) await lab.layer(name);
   await lab.drawn();
   await lab.restoreDefaults();
-  await until('the usual view', () => JSON.stringify(lab.scene.camera_sees_m) === seen);
+  await until('the camera field as before', () => {
+    return JSON.stringify(lab.scene.camera_sees_m) === before;
+  });
 });

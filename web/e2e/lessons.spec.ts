@@ -1,4 +1,4 @@
-// The lessons, each to its end: what it claims is what its experiments show.
+// Does every lesson to its end: its experiments must confirm its claim.
 
 import { type Lab, expect, test } from './fixtures';
 import { until } from './support/wait';
@@ -10,7 +10,7 @@ interface Lesson {
   /** The right prediction. */
   readonly choice: string;
   readonly runs: number;
-  /** What has to be done in the first run: a button of the lesson, and after which task. */
+  /** The button to press in the first run, the task after which to press it, and the speed. */
   readonly action?: { readonly button: string; readonly after: string; readonly speed: string };
 }
 
@@ -61,11 +61,11 @@ async function setUp(lab: Lab, press: () => Promise<unknown>) {
   const { trial } = lab.scene;
   await press();
   await until('another trial', () => lab.scene.trial !== trial && lab.state.tick === 0);
-  // Its tasks are followed from the start on.
+  // From here on the lesson checks its tasks.
   await lab.button('Set it up again').waitFor();
 }
 
-/** Presses the button of a lesson until its task is done: once, or step by step. */
+/** Presses the button of a lesson: once, or for *Lower by 2 mm* until the task is done. */
 async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
   await tasksOf(lab).getByText(after).waitFor({ timeout: LESSON_MS });
   await lab.button(button).click();
@@ -77,7 +77,7 @@ async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
       const height_m = lab.scene.parameters.tool_height_m;
       await lab.button(button).click();
       await until('a lower tool', () => lab.scene.parameters.tool_height_m !== height_m);
-      // Time enough to see what it does.
+      // Waits until the change has had an effect.
       await lab.later(300);
       return false;
     },
@@ -86,7 +86,7 @@ async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
 }
 
 for (const { title, choice, runs, action } of LESSONS) {
-  test(`the lesson “${title}” shows what it claims`, async ({ lab }) => {
+  test(`the experiments of the lesson “${title}” confirm its claim`, async ({ lab }) => {
     await lab.tab('Lessons').click();
     await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
     await lab.page.getByRole('radio', { name: choice }).check();
@@ -108,7 +108,7 @@ for (const { title, choice, runs, action } of LESSONS) {
   });
 }
 
-test('teaches the first lesson by keyboard, and remembers it', async ({ lab }) => {
+test('does the first lesson by keyboard, and remembers it after a reload', async ({ lab }) => {
   const { page } = lab;
   const { keyboard } = page;
   const [first, second] = FIRST.choices;
@@ -116,7 +116,7 @@ test('teaches the first lesson by keyboard, and remembers it', async ({ lab }) =
   await keyboard.press('ArrowRight');
   await page.getByRole('button', { name: FIRST.title }).focus();
   await keyboard.press('Enter');
-  await expect(lab.button('Next'), 'without a prediction').toBeDisabled();
+  await expect(lab.button('Next'), 'Next without a prediction').toBeDisabled();
   await page.getByLabel(first).focus();
   await keyboard.press(' ');
   await keyboard.press('ArrowDown');
@@ -124,7 +124,7 @@ test('teaches the first lesson by keyboard, and remembers it', async ({ lab }) =
   await lab.button('Next').press('Enter');
   await setUp(lab, () => lab.button('Set it up').press('Enter'));
   expect(lab.scene.map).toBe('open');
-  await until('its goal', () => lab.state.goal_m);
+  await until('the goal of the lesson', () => lab.state.goal_m);
   await lab.speed('8');
   await lab.canvas.focus();
   await keyboard.press(' ');
@@ -144,7 +144,7 @@ test('teaches the first lesson by keyboard, and remembers it', async ({ lab }) =
   await expect(page.getByLabel(second)).toBeChecked();
 });
 
-test('lets a viewer predict', async ({ lab, openLab }) => {
+test('allows a viewer to predict, but not to set up a run', async ({ lab, openLab }) => {
   const viewer = await openLab();
   await viewer.tab('Lessons').click();
   await viewer.page.getByRole('button', { name: VIEWER_LESSON.title }).click();

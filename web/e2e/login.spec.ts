@@ -1,15 +1,15 @@
-// With the token one gets in, and the token is sent in the body of one request only.
+// Login: a page with the token opens; the token is sent in one request body only.
 
 import type { BrowserContext, Page } from '@playwright/test';
 import { Lab, expect, test as base } from './fixtures';
 import { violations } from './support/axe';
-import { LEAST_PX, controls, faultsOf } from './support/inventory';
+import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
 
-/** What the browser itself reports of a page that needs a token. */
+/** The browser reports this for a page that needs a token. */
 const REFUSED = /status of 401 /i;
-const GONE = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
+const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const WRONG = 'this is not the token';
 const LOGIN_ENDED = 'login has ended';
 
@@ -32,7 +32,7 @@ const test = base.extend<{ guarded: Guarded }>({
 const field = (page: Page) => page.getByLabel('Token', { exact: true });
 const isLive = (page: Page) => expect(page.getByTestId('connection')).toHaveText('live');
 
-/** All addresses that a page sends. What follows the `#` is not sent. */
+/** All addresses that a page sends. A browser does not send the part after the `#`. */
 function addressesOf(context: BrowserContext) {
   const sent: string[] = [];
   const add = (address: string) => sent.push(address.split('#')[0] ?? '');
@@ -51,7 +51,7 @@ async function historyOf(page: Page) {
   return entries.map(({ url }) => url);
 }
 
-test('asks for the token and sends it nowhere else', async ({ context, guarded }) => {
+test('asks for the token, and sends it in the request body only', async ({ context, guarded }) => {
   const { url, token } = guarded;
   const addresses = addressesOf(context);
   const page = await context.newPage();
@@ -60,13 +60,13 @@ test('asks for the token and sends it nowhere else', async ({ context, guarded }
   for (const colorScheme of ['dark', 'light'] as const) {
     await page.emulateMedia({ colorScheme });
     expect(await violations(page)).toEqual([]);
-    expect(faultsOf(await controls(page), LEAST_PX.mouse)).toEqual([]);
+    expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
   }
   await expect(field(page)).toBeFocused();
   await page.keyboard.type('ab'.repeat(32));
   await page.keyboard.press('Enter');
   await page.getByText(WRONG).waitFor();
-  // What was wrong is marked, and typed over.
+  // The page selects the wrong token, so that typing replaces it.
   await page.keyboard.type(token);
   await page.keyboard.press('Enter');
   await isLive(page);
@@ -77,9 +77,9 @@ test('asks for the token and sends it nowhere else', async ({ context, guarded }
     { httpOnly: true, sameSite: 'Strict' },
   ]);
   expect(JSON.stringify(cookies), 'the cookie is the token').not.toContain(token);
-  expect(await page.evaluate(() => document.cookie), 'a script reads the cookie').toBe('');
+  expect(await page.evaluate(() => document.cookie), 'a script can read the cookie').toBe('');
 
-  // Requests of the page are answered until the login has ended.
+  // The server answers requests until the login has ended.
   await page.getByRole('button', { name: 'Recordings' }).click();
   await page.getByRole('heading', { name: 'Recordings' }).waitFor();
   await expect(page.getByRole('row', { name: 'anna' }).first()).toBeVisible();
@@ -90,7 +90,7 @@ test('asks for the token and sends it nowhere else', async ({ context, guarded }
   expect([...addresses, ...(await historyOf(page))].join(' ')).not.toContain(token);
 });
 
-test('logs in by a link that has the token after its #', async ({ context, guarded }) => {
+test('logs in by a link with the token after the #', async ({ context, guarded }) => {
   const { url, token } = guarded;
   const addresses = addressesOf(context);
   const page = await context.newPage();
@@ -99,7 +99,7 @@ test('logs in by a link that has the token after its #', async ({ context, guard
     await page.goto(link);
     await isLive(page);
     await expect(page, round).toHaveURL(`${url}/s/anna`);
-    // Followed in the same tab: only what follows the `#` changes.
+    // In the same tab, only the part after the `#` changes.
     const again = page.waitForEvent('load');
     await page.evaluate((address) => {
       document.location.href = address;
@@ -112,10 +112,10 @@ test('logs in by a link that has the token after its #', async ({ context, guard
   expect([...addresses, ...(await historyOf(page))].join(' ')).not.toContain(token);
 });
 
-/** The server restarts with another token. */
-test('says when a login has ended', async ({ page, watch }) => {
+/** The login ends because the server restarts with another token. */
+test('reports that the login has ended', async ({ page, watch }) => {
   watch.allow(REFUSED);
-  watch.allow(GONE);
+  watch.allow(CONNECTION_LOST);
   const token = Server.newToken();
   let server = await Server.start({ token });
   try {

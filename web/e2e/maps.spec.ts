@@ -1,4 +1,4 @@
-// Uploaded maps: drawn, opened, and refused where a file is not one.
+// Uploaded maps: a valid drawing opens, other files are refused.
 
 import { expect, test } from './fixtures';
 import { DRAWING, openMap } from './support/maps';
@@ -8,7 +8,7 @@ const REFUSED: Record<string, { text: string; words: string }> = {
     text: DRAWING.replace('viewBox', 'data-box'),
     words: 'viewBox',
   },
-  'a text': { text: 'no drawing at all', words: 'map' },
+  'a text file': { text: 'no drawing at all', words: 'map' },
   'a drawing that is too large': {
     text: DRAWING.replace('</svg>', `<!--${' '.repeat(1024 * 1024)}--></svg>`),
     words: '1 MiB',
@@ -26,7 +26,7 @@ for (const [what, { text, words }] of Object.entries(REFUSED)) {
   });
 }
 
-test('opens an uploaded map', async ({ lab, server }) => {
+test('opens an uploaded map, and delivers the bead on it', async ({ lab, server }) => {
   const { page } = lab;
   await lab.map('colon');
   await openMap(page, () => lab.button('Open map…').click());
@@ -35,8 +35,8 @@ test('opens an uploaded map', async ({ lab, server }) => {
   expect(lab.scene.walls.length).toBe(2);
   expect(lab.scene.maps).toContain(name);
   await expect(lab.label('Map')).toHaveValue(name);
-  const kept = await page.request.get(`${server.url}/api/maps/${name}`);
-  expect(await kept.text()).toBe(DRAWING);
+  const stored = await page.request.get(`${server.url}/api/maps/${name}`);
+  expect(await stored.text()).toBe(DRAWING);
   await lab.reset({ speed: '8', map: name });
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.2)[0]);
   await lab.run();

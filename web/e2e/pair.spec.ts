@@ -1,10 +1,10 @@
-// Two browsers at one session: who may act, and what the other sees.
+// Operator and viewer at one session: which of them may send commands, and what the viewer sees.
 
 import { type Lab, expect, test } from './fixtures';
 import { distance } from './support/table';
 import { until } from './support/wait';
 
-const ACTS = [
+const OPERATOR_BUTTONS = [
   'Run',
   'Step',
   'Reset',
@@ -15,21 +15,21 @@ const ACTS = [
   'Clear goal',
 ];
 const TAKE_CONTROL = /Take control/i;
-const HAS_TO_RELEASE = /Request sent/i;
-const ASKS = /asks for control/i;
+const REQUEST_SENT = /Request sent/i;
+const CONTROL_REQUESTED = /asks for control/i;
 
-const near = async (lab: Lab) => lab.freePoints(await lab.bead(), 0.1, 0.3)[0];
+const freePointNearBead = async (lab: Lab) => lab.freePoints(await lab.bead(), 0.1, 0.3)[0];
 
-test('offers a viewer nothing to do', async ({ lab, openLab }) => {
+test("disables the operator's controls for a viewer", async ({ lab, openLab }) => {
   const viewer = await openLab();
   await viewer.isRole('viewer');
   await lab.isRole('operator');
-  for (const name of ACTS) await expect(viewer.button(name)).toBeDisabled();
+  for (const name of OPERATOR_BUTTONS) await expect(viewer.button(name)).toBeDisabled();
   for (const field of await viewer.page.locator('.parameters input, .parameters select').all()) {
     await expect(field).toBeDisabled();
   }
-  // The workspace is no button: it says why it does nothing.
-  await viewer.click(await near(viewer));
+  // A click into the workspace shows a notice and sends no goal.
+  await viewer.click(await freePointNearBead(viewer));
   await expect(viewer.notice('workspace').getByText(TAKE_CONTROL)).toBeVisible();
   expect(viewer.sent.set_goal).toBeUndefined();
 });
@@ -39,7 +39,7 @@ test('shows a viewer what the operator does', async ({ lab, openLab }) => {
   await viewer.isRole('viewer');
   const before = viewer.state;
   const received = viewer.events.length;
-  await lab.click(await near(lab));
+  await lab.click(await freePointNearBead(lab));
   await lab.run();
   await until('the goal', () => viewer.state.goal_m);
   await until('a moving bead', () => distance(viewer.state.bead_m, before.bead_m) > 0.01);
@@ -51,32 +51,32 @@ test('shows a viewer what the operator does', async ({ lab, openLab }) => {
   await until('paused', () => !viewer.state.running);
 });
 
-test('hands control over when the operator releases it', async ({ lab, openLab }) => {
+test('passes released control to the viewer that requested it', async ({ lab, openLab }) => {
   const viewer = await openLab();
   await viewer.isRole('viewer');
   // A request is granted when the operator releases control.
   await viewer.button('Take control').click();
-  await expect(viewer.notice('session').getByText(HAS_TO_RELEASE)).toBeVisible();
+  await expect(viewer.notice('session').getByText(REQUEST_SENT)).toBeVisible();
   await lab.page.getByTestId('asked').waitFor();
-  await expect(lab.page.getByRole('log').getByText(ASKS).first()).toBeVisible();
+  await expect(lab.page.getByRole('log').getByText(CONTROL_REQUESTED).first()).toBeVisible();
   await lab.isRole('operator');
   await lab.releaseControl();
   await viewer.isRole('operator');
   await expect(viewer.button('Run')).toBeEnabled();
   await expect(lab.button('Run')).toBeDisabled();
 
-  // Control that is free is there to take.
+  // A viewer can take free control.
   await viewer.releaseControl();
   await lab.takeControl();
 });
 
-test('releases the bead when its operator leaves', async ({ lab, openLab }) => {
+test('releases the bead when the operator closes the browser', async ({ lab, openLab }) => {
   await lab.releaseControl();
   const other = await openLab();
   await other.isRole('operator');
   await other.reset();
-  await other.pull(other.freePoints(await other.bead(), 0.05, 0.1)[0]);
-  await until('the hand, seen by the viewer', () => lab.state.hand_m);
+  await other.startDrag(other.freePoints(await other.bead(), 0.05, 0.1)[0]);
+  await until("the hand on the viewer's page", () => lab.state.hand_m);
   await other.page.context().close();
   await until('no hand', () => !lab.state.hand_m);
   await lab.takeControl();

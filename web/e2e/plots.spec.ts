@@ -1,4 +1,4 @@
-// The plots: what each part reads, and the files that they are saved as.
+// The tab Plots: the values that each part shows, and saving as CSV, PNG and SVG.
 
 import { readFile } from 'node:fs/promises';
 import { type Lab, expect, test } from './fixtures';
@@ -8,7 +8,7 @@ const PARTS = ['a', 'b', 'c', 'd', 'e', 'f'];
 
 const pictureOf = (lab: Lab, part: string) => lab.page.locator(`[data-part=${part}] [role=img]`);
 
-async function wordsOf(lab: Lab, part: string) {
+async function textOf(lab: Lab, part: string) {
   return must(await pictureOf(lab, part).getAttribute('aria-label'), part);
 }
 
@@ -20,42 +20,42 @@ async function saved(lab: Lab, kind: 'CSV' | 'PNG' | 'SVG') {
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
 }
 
-async function rows(lab: Lab) {
+async function csvRows(lab: Lab) {
   return (await saved(lab, 'CSV')).bytes.toString().trim().split('\n');
 }
 
-test("plots the paper's figure", async ({ lab }) => {
+test("plots the paper's figure, and saves it", async ({ lab }) => {
   const { page } = lab;
   await lab.tab('Plots').click();
   await lab.reset({ speed: '8' });
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4)[0]);
   await lab.run();
-  await until('some of the path', () => lab.state.sim_time_s > 4);
+  await until('four seconds', () => lab.state.sim_time_s > 4);
   await lab.pause();
   for (const part of PARTS) await expect(pictureOf(lab, part)).toHaveAttribute('aria-label', /\d/);
 
-  // A pointer over one part reads the same moment in all of them.
+  // With the pointer over one part, all parts show the values of the same moment.
   const box = await lab.boxOf(page.locator('[data-part=e] .plot-area'));
-  const places = await wordsOf(lab, 'f');
+  const locus = await textOf(lab, 'f');
   await page.mouse.move(box.x + 0.35 * box.width, box.y + box.height / 2);
   const moment = await until('another moment', async () => {
-    const at = /at ([\d.:]+ s)/.exec(await wordsOf(lab, 'e'))?.[1];
+    const at = /at ([\d.:]+ s)/.exec(await textOf(lab, 'e'))?.[1];
     return at && Math.abs(parseFloat(at) - lab.state.sim_time_s) > 1 && at;
   });
   for (const part of ['a', 'b', 'c', 'd']) {
-    expect(await wordsOf(lab, part)).toContain(`at ${moment}`);
+    expect(await textOf(lab, part)).toContain(`at ${moment}`);
   }
-  expect(await wordsOf(lab, 'f'), 'the locus shows the present').not.toBe(places);
+  expect(await textOf(lab, 'f'), 'the locus shows the present').not.toBe(locus);
   await page.mouse.move(0, 0);
 
-  // Going back keeps what came after, until time runs on from there.
-  const all = await rows(lab);
+  // Going back keeps the later rows until the session runs again.
+  const all = await csvRows(lab);
   expect(all[0]).toMatch(/^tick,sim_time_s,tool_x_m/);
   const end = lab.state.tick;
   const track = await lab.boxOf(page.getByLabel('Timeline'));
   await page.mouse.click(track.x + 0.3 * track.width, track.y + track.height / 2);
   await until('an earlier tick', () => lab.state.tick < end / 2);
-  expect((await rows(lab)).length).toBe(all.length);
+  expect((await csvRows(lab)).length).toBe(all.length);
 
   const svg = await saved(lab, 'SVG');
   expect(svg.name).toMatch(/\.svg$/);

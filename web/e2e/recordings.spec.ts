@@ -1,10 +1,10 @@
-// Recordings: the list and the files.
+// The view Recordings: the list, and the download of recordings and input logs.
 
 import { readFile } from 'node:fs/promises';
 import { expect, test } from './fixtures';
 import { until } from './support/wait';
 
-test('lists recordings and gives their files', async ({ lab, session }) => {
+test('lists recordings, and downloads their files', async ({ lab, session }) => {
   await lab.reset({ speed: '8' });
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.4)[0]);
   await lab.run();
@@ -17,9 +17,9 @@ test('lists recordings and gives their files', async ({ lab, session }) => {
   await expect(row).toContainText(/\d+[.,]?\d* [kM]B/);
   await expect(row).toContainText(String(new Date().getFullYear()));
 
-  const coming = lab.page.waitForEvent('download');
+  const downloading = lab.page.waitForEvent('download');
   await row.getByRole('link', { name: `Download ${session.name}` }).click();
-  const download = await coming;
+  const download = await downloading;
   expect(download.suggestedFilename()).toMatch(new RegExp(`-${session.name}\\.rrd$`));
   const bytes = await readFile(await download.path());
   expect(bytes.subarray(0, 4).toString()).toBe('RRF2');

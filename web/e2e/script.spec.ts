@@ -1,4 +1,4 @@
-// Disturbances by script: added, struck, shown in time, removed.
+// Script: disturbances are added, applied at their time, shown on the timeline and removed.
 
 import { expect, test } from './fixtures';
 import { distance } from './support/table';
@@ -7,7 +7,7 @@ import { must, until } from './support/wait';
 const X_LABEL = 'x of the new place in metres';
 const Y_LABEL = 'y of the new place in metres';
 
-test('disturbs by script', async ({ lab }) => {
+test('adds, applies, shows and removes a disturbance of the script', async ({ lab }) => {
   const { page } = lab;
   const { seed } = lab.scene;
   const start = await lab.bead();
@@ -18,7 +18,7 @@ test('disturbs by script', async ({ lab }) => {
   await page.getByLabel('Kind of disturbance').selectOption('Move');
   await page.getByLabel('Time of the disturbance').selectOption('at a time');
   await page.getByLabel('Time in seconds').fill('2');
-  // The next click on the plan view is the place, and no goal.
+  // The next click on the plan view picks the place and sets no goal.
   await lab.button('Pick the new place on the map').click();
   await lab.click(away);
   const x = page.getByLabel(X_LABEL);
@@ -33,32 +33,32 @@ test('disturbs by script', async ({ lab }) => {
   const entry = page.getByRole('list', { name: 'Script' }).getByRole('listitem');
   await expect(entry).toHaveText(/^at 2\.0 s: move to/);
 
-  // So slow that a pause comes soon after the move, by the length of the timeline.
+  // Slow, so that the pause comes soon after the move, compared with the timeline's length.
   await lab.speed('2');
   await lab.run();
   await until('the move', () => lab.state.disturbances === 1);
   await lab.pause();
-  // Back before it: the hollow mark lies ahead.
+  // Before the move, its mark is hollow and ahead.
   const track = await lab.boxOf(page.getByLabel('Timeline'));
   await page.mouse.click(track.x + 0.2 * track.width, track.y + track.height / 2);
-  await until('before it', () => lab.state.tick < 200 && lab.state.disturbances === 0);
+  await until('a tick before the move', () => lab.state.tick < 200 && lab.state.disturbances === 0);
   await expect(page.locator('.script-marks circle')).toHaveCount(1);
 
   const random = page.getByLabel('Number of random moves');
   await random.fill('3');
   await lab.button('Set and restart').click();
-  await until('random ones', () => lab.scene.scenario.disturbances === 3);
+  await until('three random moves', () => lab.scene.scenario.disturbances === 3);
   expect(lab.scene.scenario.script.length).toBe(1);
   await page.getByRole('button', { name: /^Remove and restart/ }).click();
   await until('no script', () => lab.scene.scenario.script.length === 0);
-  // The restart sets the field once more.
+  // The restart sets the field again.
   await lab.drawn();
   await random.fill('0');
   await page.keyboard.press('Enter');
-  await until('none at random', () => lab.scene.scenario.disturbances === 0);
+  await until('no random moves', () => lab.scene.scenario.disturbances === 0);
   await lab.drawn();
 
-  // Now, by keyboard alone: key by key, with signs and points.
+  // A move at once, by keyboard only: the field accepts signs and points key by key.
   await page.getByLabel('Time of the disturbance').selectOption('now');
   for (const [label, value] of [
     [X_LABEL, away[0]],
@@ -71,10 +71,10 @@ test('disturbs by script', async ({ lab }) => {
     await expect(field).toHaveValue(value.toFixed(3));
   }
   await x.press('Enter');
-  await until('moved now', async () => distance(await lab.bead(), away) < 0.01);
+  await until('the bead at its new place', async () => distance(await lab.bead(), away) < 0.01);
 
-  // A restart has made the goal part of the scenario; another map has none.
+  // The restart made the goal part of the scenario. Another map has no goal.
   await lab.reset({ map: 'colon' });
   await lab.reset();
-  expect(lab.state.goal_m, 'the goal stays').toBeNull();
+  expect(lab.state.goal_m, 'the goal was kept').toBeNull();
 });

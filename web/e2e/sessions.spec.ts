@@ -1,17 +1,17 @@
-// Sessions by address: whose page it is, and what happens when the server restarts or the session ends.
+// Sessions by address: restart of the server, end of a session, stale commands, invalid names.
 
 import { expect, test } from './fixtures';
 import { violations } from './support/axe';
-import { LEAST_PX, controls, faultsOf } from './support/inventory';
+import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
 
-const GONE = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
+const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const ENDED = /The session has ended: the camera was lost/i;
 const RESTART = 'Restart';
 const PASSED_ON = /control has passed on/i;
 
-test('has a session for each address', async ({ lab, openLab, newSession }) => {
+test('opens one session per address', async ({ lab, openLab, newSession }) => {
   const second = newSession();
   const other = await openLab({ url: second.url });
   const { page } = other;
@@ -20,11 +20,11 @@ test('has a session for each address', async ({ lab, openLab, newSession }) => {
   await other.isRole('operator');
   await lab.isRole('operator');
   await other.run();
-  await until('time', () => other.state.tick > 50);
+  await until('50 ticks', () => other.state.tick > 50);
   expect(lab.state.running).toBe(false);
-  expect(lab.state.tick, 'one session moved the time of another').toBe(0);
+  expect(lab.state.tick, 'the tick of a paused session').toBe(0);
 
-  // What the page requests besides is about its own session.
+  // The page's HTTP requests and links name its own session.
   await other.setGoal(other.freePoints(await other.bead(), 0.2, 0.3)[0]);
   const api = `/api/sessions/${second.name}`;
   const requested = (path: string) => page.waitForRequest((one) => one.url().includes(path));
@@ -41,27 +41,27 @@ test('has a session for each address', async ({ lab, openLab, newSession }) => {
     .click();
   await moment;
   await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
-  const kept = page.getByRole('link', { name: 'Keep as test case' });
-  await expect(kept).toHaveAttribute('href', new RegExp(`/${second.name}/`));
+  const testCase = page.getByRole('link', { name: 'Keep as test case' });
+  await expect(testCase).toHaveAttribute('href', new RegExp(`/${second.name}/`));
   await other.button('Share').click();
   const link = page.getByLabel('Link to this experiment');
   expect(await link.inputValue()).toContain(`${second.url}#`);
 });
 
-test('gives the session main no name', async ({ openLab, server }) => {
+test('shows no name for the session main', async ({ openLab, server }) => {
   const main = await openLab({ url: server.url });
   await expect(main.page.getByTestId('session-name')).toHaveCount(0);
   expect(main.hello.session).toBe('main');
 });
 
-test('opens its session again on another server', async ({ openLab, watch }) => {
-  watch.allow(GONE);
+test('opens its session again after the server restarts', async ({ openLab, watch }) => {
+  watch.allow(CONNECTION_LOST);
   let server = await Server.start();
   try {
     watch.allowHost(server.url);
     const lab = await openLab({ url: `${server.url}/s/anna` });
     await lab.run();
-    await until('time', () => lab.state.tick > 50);
+    await until('50 ticks', () => lab.state.tick > 50);
     const { port } = server;
     await server.stop();
     const connection = lab.page.getByTestId('connection');
@@ -75,8 +75,8 @@ test('opens its session again on another server', async ({ openLab, watch }) => 
   }
 });
 
-/** The page receives that its session has ended: a fault cannot be caused on purpose. */
-test('says why its session ended, and restarts it', async ({ page, session }) => {
+/** The test changes a message to report the end, because it cannot cause a fault of the server. */
+test('shows why its session ended, and restarts it', async ({ page, session }) => {
   let connections = 0;
   await page.routeWebSocket(/\/live$/, (socket) => {
     connections += 1;
@@ -93,13 +93,13 @@ test('says why its session ended, and restarts it', async ({ page, session }) =>
       void socket.close({ code: 1001, reason: 'the session has ended' });
     });
   });
-  // The timers of the page run when they are told.
+  // The test advances the page's timers.
   await page.clock.install();
   await page.goto(session.url);
   await expect(page.getByText(ENDED)).toBeVisible();
   await expect(page.getByText('session ended')).toBeVisible();
   await expect(page.getByRole('button', { name: 'Run', exact: true })).toBeDisabled();
-  // An ended session is not opened again by itself.
+  // The page does not reopen an ended session by itself.
   await page.clock.runFor(10_000);
   expect(connections).toBe(1);
   const restart = page.getByRole('button', { name: RESTART });
@@ -109,11 +109,11 @@ test('says why its session ended, and restarts it', async ({ page, session }) =>
   await expect(restart).toHaveCount(0);
 });
 
-test('acts under its lease', async ({ lab }) => {
+test('sends the epoch of its lease, and the server refuses an earlier one', async ({ lab }) => {
   await lab.button('Step').click();
   await until('a step', () => lab.state.tick === 1);
   expect(lab.sent.step).toMatchObject({ epoch: lab.hello.epoch });
-  // What was meant under one lease does not happen under another.
+  // The next command has the epoch of an earlier lease.
   await lab.page.evaluate(() => {
     const { prototype } = window.WebSocket;
     // eslint-disable-next-line @typescript-eslint/unbound-method
@@ -126,17 +126,17 @@ test('acts under its lease', async ({ lab }) => {
   });
   await lab.button('Run').click();
   await expect(lab.notice('session').getByText(PASSED_ON)).toBeVisible();
-  expect(lab.state.running, 'a stale command was obeyed').toBe(false);
+  expect(lab.state.running, 'the server carried out a stale command').toBe(false);
   await lab.notice('session').getByRole('button', { name: 'Dismiss' }).click();
 });
 
-test('explains an address that is not the name of a session', async ({ page, server, watch }) => {
+test('explains why a name in the address is invalid', async ({ page, server, watch }) => {
   watch.allow(/status of 404/);
   await page.goto(`${server.url}/s/Anna%20B`);
   for (const colorScheme of ['dark', 'light'] as const) {
     await page.emulateMedia({ colorScheme });
     expect(await violations(page)).toEqual([]);
-    expect(faultsOf(await controls(page), LEAST_PX.mouse)).toEqual([]);
+    expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
   }
   const reason = page.locator('.reason');
   await expect(reason).toContainText('Anna B');

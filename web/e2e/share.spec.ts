@@ -1,4 +1,4 @@
-// Experiment links and presets.
+// Experiment links (copied, opened, refused) and presets.
 
 import { type Lab, expect, test } from './fixtures';
 import { until } from './support/wait';
@@ -19,20 +19,20 @@ async function sharedLink(lab: Lab) {
   return link;
 }
 
-/** As if it had been typed after the page's address. */
-async function visit(lab: Lab, hash: string) {
+/** Changes the part of the address after `#`, as if it was typed. */
+async function setHash(lab: Lab, hash: string) {
   await lab.page.evaluate((text) => {
     document.location.hash = text;
   }, hash);
 }
 
-/** An experiment unlike the usual one, and its link. */
-async function shareOne(lab: Lab) {
+/** Changes the experiment and returns its link. */
+async function shareChanged(lab: Lab) {
   await lab.map('colon');
   await lab.controller('ERRT');
   await lab.tune('Threshold T', '8');
   await lab.tune('Fetch radius', '1.5');
-  await until('both', () => lab.scene.parameters.fetch_radius_m === 0.015);
+  await until('both parameters', () => lab.scene.parameters.fetch_radius_m === 0.015);
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
   return sharedLink(lab);
 }
@@ -40,7 +40,7 @@ async function shareOne(lab: Lab) {
 const isColon = (lab: Lab) => () => lab.scene.map === 'colon' && lab.state.goal_m;
 
 test('copies the link of an experiment', async ({ lab }) => {
-  const link = await shareOne(lab);
+  const link = await shareChanged(lab);
   for (const part of ['map=colon', 'controller=errt', 'threshold_m=0.08', 'fetch_radius_m=0.015']) {
     expect(link).toContain(part);
   }
@@ -49,8 +49,8 @@ test('copies the link of an experiment', async ({ lab }) => {
   await expect(lab.page.locator('.share-done')).toHaveText(/\S/);
 });
 
-test('asks a viewer before it loads an experiment', async ({ lab, openLab }) => {
-  const link = await shareOne(lab);
+test('asks a viewer before it loads a linked experiment', async ({ lab, openLab }) => {
+  const link = await shareChanged(lab);
   const { seed } = lab.scene;
   const start = await lab.bead();
   await lab.restoreDefaults();
@@ -63,7 +63,7 @@ test('asks a viewer before it loads an experiment', async ({ lab, openLab }) => 
   expect(second.scene.map, 'a viewer loaded it').toBe('posts');
   await lab.releaseControl();
   await question.getByRole('button', { name: 'Load' }).click();
-  await until('the colon', isColon(second));
+  await until('the map colon', isColon(second));
   expect({
     seed: second.scene.seed,
     controller: second.state.controller,
@@ -73,48 +73,52 @@ test('asks a viewer before it loads an experiment', async ({ lab, openLab }) => 
   }).toEqual({ seed, controller: 'errt', threshold_m: 0.08, start, link });
   await expect(question).toHaveText('');
 
-  // It is a question once: control given and taken, another map; the address stays as it is.
+  // The page asks only once, although the address keeps the link: neither another map nor a change
+  // of control loads the experiment again.
   await second.reset({ map: 'open' });
   await second.releaseControl();
   await lab.takeControl();
   expect(second.scene.map, 'it was loaded again').toBe('open');
 });
 
-test('loads the experiment of its address at once for an operator', async ({ lab }) => {
-  const link = await shareOne(lab);
+test('loads a linked experiment at once for the operator', async ({ lab }) => {
+  const link = await shareChanged(lab);
   await lab.restoreDefaults();
   await lab.reset({ map: 'posts' });
-  await visit(lab, new URL(link).hash);
-  await until('the colon', isColon(lab));
-  // And when opened.
+  await setHash(lab, new URL(link).hash);
+  await until('the map colon', isColon(lab));
+  // The page also loads it when it opens.
   await lab.restoreDefaults();
   await lab.reset({ map: 'posts' });
   await lab.page.reload();
-  await until('the colon again', isColon(lab));
+  await until('the map colon again', isColon(lab));
   await lab.live();
 });
 
 test('refuses a broken link', async ({ lab }) => {
   const before = await sharedLink(lab);
   const question = questionOf(lab);
-  await visit(lab, '#v=1&map=liver&controller=errt&seed=1');
+  await setHash(lab, '#v=1&map=liver&controller=errt&seed=1');
   await expect(question).toContainText(UNKNOWN_MAP);
   await question.getByRole('button', { name: 'Dismiss the link' }).click();
   await expect(question).toHaveText('');
 
-  // What only the server can check.
-  await visit(lab, '#v=1&map=posts&controller=errt&seed=1&friction=7');
+  // Only the server can check the range of a parameter.
+  await setHash(lab, '#v=1&map=posts&controller=errt&seed=1&friction=7');
   await expect(lab.notice('controller').getByText(OUT_OF_RANGE)).toBeVisible();
-  expect(await sharedLink(lab), 'something was loaded').toBe(before);
+  expect(await sharedLink(lab), 'the experiment changed').toBe(before);
 });
 
 test('loads a preset', async ({ lab }) => {
-  const shown = lab.label('Preset').locator('option:checked');
-  await expect(shown).toHaveText('Preset…');
+  const selected = lab.label('Preset').locator('option:checked');
+  await expect(selected).toHaveText('Preset…');
   await lab.label('Preset').selectOption(PRESET);
-  await until('it', () => lab.scene.map === 'open' && lab.scene.parameters.threshold_m === 0.03);
+  await until(
+    'the preset',
+    () => lab.scene.map === 'open' && lab.scene.parameters.threshold_m === 0.03,
+  );
   expect(lab.scene.scenario.script.length, 'kicks').toBe(4);
-  await expect(shown).toHaveText(PRESET);
+  await expect(selected).toHaveText(PRESET);
   await lab.restoreDefaults();
-  await expect(shown).toHaveText('Preset…');
+  await expect(selected).toHaveText('Preset…');
 });

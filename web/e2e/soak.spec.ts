@@ -1,30 +1,30 @@
-// A page left open while a session runs: its budgets, and whether it or its server grows.
+// A long run: the page keeps its budgets, and the memory of the page and the server does not grow.
 // `[SOAK_MINUTES=30] npm run soak`
 
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { Lab, expect, test } from './fixtures';
-import { Meter, type Count, figuresOf, overruns, stepThrough, words } from './support/meter';
+import { Meter, type Count, figuresOf, overruns, stepThrough, summaryOf } from './support/meter';
 import { must } from './support/wait';
 
 const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
 const MINUTES = Number(process.env.SOAK_MINUTES ?? 30);
 const MINUTE_MS = 60_000;
-/** What is kept has an end: the log's lines, the moments to go back to. First, all of it is filled. */
-const KEPT_S = 620;
-const KEPT_LINES = 300;
-const MOST_FILLING_MS = 5 * MINUTE_MS;
+/** The history and the event log have limits. Both are filled before the measurement. */
+const HISTORY_S = 620;
+const LOG_LINES = 300;
+const MAX_FILLING_MS = 5 * MINUTE_MS;
 const SETTLED_MINUTES = Math.max(1, Math.min(5, Math.floor(MINUTES / 2)));
 const COMPARED_MINUTES = 5;
-const MOST_GROWTH = 0.1;
+const MAX_GROWTH = 0.1;
 const STEPS = 100;
 const SEED = 7;
-const GROWS = ['heap_bytes', 'dom_nodes', 'listeners', 'server_rss_bytes'] as const;
+const MEMORY = ['heap_bytes', 'dom_nodes', 'listeners', 'server_rss_bytes'] as const;
 
-type Sample = { minute: number } & Record<(typeof GROWS)[number], number>;
+type Sample = { minute: number } & Record<(typeof MEMORY)[number], number>;
 
-/** Numbers from 0 to 1, the same ones each time (mulberry32). */
-function random(seed: number) {
+/** Numbers from 0 to 1, which follow from the seed (mulberry32). */
+function mulberry32(seed: number) {
   let state = seed;
   return () => {
     state = (state + 0x6d2b79f5) | 0;
@@ -39,14 +39,14 @@ async function rssBytes(pid: number | undefined) {
   return 1024 * Number(/VmRSS:\s+(\d+)/.exec(status)?.[1]);
 }
 
-/** What an operator does: another goal, now and then the bead taken away. */
-async function play(lab: Lab, chance: () => number, pause_ms: number) {
+/** Acts as an operator: sets another goal or, one time in four, drags the bead away. */
+async function act(lab: Lab, random: () => number, pause_ms: number) {
   const bead = await lab.bead();
-  const near = (least_m: number, most_m: number) => {
-    const points = lab.freePoints(bead, least_m, most_m);
-    return points[Math.floor(chance() * points.length)] ?? points[0];
+  const near = (min_m: number, max_m: number) => {
+    const points = lab.freePoints(bead, min_m, max_m);
+    return points[Math.floor(random() * points.length)] ?? points[0];
   };
-  if (chance() < 0.25) {
+  if (random() < 0.25) {
     const { mouse } = lab.page;
     await mouse.move(...(await lab.px(bead)));
     await mouse.down();
@@ -55,17 +55,17 @@ async function play(lab: Lab, chance: () => number, pause_ms: number) {
   } else {
     await lab.click(near(0.1, 0.5));
   }
-  // Nothing is waited for here: the page is left alone.
+  // A plain delay: the page is left alone, and there is no condition to wait for.
   await new Promise((resolve) => setTimeout(resolve, pause_ms));
 }
 
-/** As fast as it goes, until no more is kept than before. */
-async function fill(lab: Lab, chance: () => number) {
-  const end = Date.now() + MOST_FILLING_MS;
+/** Runs at full speed until the history and the event log have reached their limits. */
+async function fill(lab: Lab, random: () => number) {
+  const end = Date.now() + MAX_FILLING_MS;
   await lab.speed('64');
   const lines = lab.page.getByRole('log').locator('.log-line');
-  const isFull = async () => lab.state.sim_time_s > KEPT_S && (await lines.count()) >= KEPT_LINES;
-  while (!(await isFull()) && Date.now() < end) await play(lab, chance, 100);
+  const isFull = async () => lab.state.sim_time_s > HISTORY_S && (await lines.count()) >= LOG_LINES;
+  while (!(await isFull()) && Date.now() < end) await act(lab, random, 100);
   await lab.speed('1');
   console.log(`filled: ${lab.state.sim_time_s.toFixed(0)} s, ${await lines.count()} lines`);
 }
@@ -75,13 +75,16 @@ function median(samples: readonly Sample[], name: keyof Sample) {
   return sorted[Math.floor(sorted.length / 2)] ?? NaN;
 }
 
-/** What grew by more than it may since things had settled: the median of some minutes, since one alone may be odd. */
+/**
+ * The figures that grew by more than MAX_GROWTH. Compares the medians of some minutes near the
+ * start and at the end, because one minute alone may be an exception.
+ */
 function growth(samples: readonly Sample[]) {
   const from = samples.findIndex(({ minute }) => minute === SETTLED_MINUTES);
   const settled = samples.slice(from, from + COMPARED_MINUTES);
   const last = samples.slice(-COMPARED_MINUTES);
-  return GROWS.filter((name) => median(last, name) > median(settled, name) * (1 + MOST_GROWTH)).map(
-    (name) => `${name} went from ${median(settled, name)} to ${median(last, name)}`,
+  return MEMORY.filter((name) => median(last, name) > median(settled, name) * (1 + MAX_GROWTH)).map(
+    (name) => `${name} grew from ${median(settled, name)} to ${median(last, name)}`,
   );
 }
 
@@ -91,14 +94,14 @@ test('keeps its budgets and does not grow', async ({ page, session, server }) =>
   await lab.isRole('operator');
   await lab.reset();
   await lab.run();
-  const chance = random(SEED);
-  await fill(lab, chance);
+  const random = mulberry32(SEED);
+  await fill(lab, random);
   const counts: Count[] = [];
   const samples: Sample[] = [];
   for (let minute = 1; minute <= MINUTES; minute++) {
     const end = Date.now() + MINUTE_MS;
     await meter.start();
-    while (Date.now() < end) await play(lab, chance, 3000 + 5000 * chance());
+    while (Date.now() < end) await act(lab, random, 3000 + 5000 * random());
     const count = await meter.stop();
     counts.push(count);
     const sample = {
@@ -110,8 +113,9 @@ test('keeps its budgets and does not grow', async ({ page, session, server }) =>
     samples.push(sample);
     const mb = (bytes: number) => (bytes / 1e6).toFixed(1);
     console.log(
-      `${String(minute).padStart(3)} min: heap ${mb(sample.heap_bytes)} MB, ${sample.dom_nodes} nodes, ` +
-        `${sample.listeners} listeners, server ${mb(sample.server_rss_bytes)} MB; ${words(sample)}`,
+      `${String(minute).padStart(3)} min: heap ${mb(sample.heap_bytes)} MB, ` +
+        `${sample.dom_nodes} nodes, ${sample.listeners} listeners, ` +
+        `server ${mb(sample.server_rss_bytes)} MB; ${summaryOf(sample)}`,
     );
   }
   await lab.pause();
@@ -126,7 +130,8 @@ test('keeps its budgets and does not grow', async ({ page, session, server }) =>
     `${JSON.stringify({ minutes: MINUTES, seed: SEED, figures, faults, samples }, null, 2)}\n`,
   );
   console.log(
-    `in all: ${words(figures)}, step to frame p95 ${step_to_frame_p95_ms?.toFixed(1) ?? '–'} ms`,
+    `in all: ${summaryOf(figures)}, ` +
+      `step to frame p95 ${step_to_frame_p95_ms?.toFixed(1) ?? '–'} ms`,
   );
   expect(faults).toEqual([]);
 });

@@ -1,10 +1,10 @@
-// Rerun's viewer in its frame: it needs WebGL, which the other tests do without.
+// Rerun's viewer in its frame: a recording, colours and focus. Needs the arguments for WebGL.
 
 import { CHROMIUM_ARGUMENTS, SOFTWARE_WEBGL } from './support/browser';
 import { type Lab, expect, test } from './fixtures';
 import { must, until } from './support/wait';
 
-/** Forty megabytes of WebAssembly, compiled and drawn without a graphics card. */
+/** The browser compiles 40 MB of WebAssembly and draws without a graphics card. */
 const VIEWER_MS = 90_000;
 const MISSING = /there is no recording "none/i;
 
@@ -16,7 +16,7 @@ test.use({
 });
 
 /** A pixel of the viewer's top bar, which is either dark or light. */
-async function look(lab: Lab) {
+async function barPixel(lab: Lab) {
   const box = must(await lab.page.locator('iframe').boundingBox(), 'the viewer');
   const clip = { x: box.x + box.width / 2, y: box.y + 6, width: 2, height: 2 };
   return (await lab.page.screenshot({ clip })).toString('base64');
@@ -24,31 +24,31 @@ async function look(lab: Lab) {
 
 test('opens a recording in Rerun’s viewer', async ({ lab, session, server, watch }) => {
   test.setTimeout(240_000);
-  // The viewer warns of what is missing here, a graphics card; it must report no errors.
+  // The viewer warns that there is no graphics card. It must report no errors.
   watch.allow(/^\s*WARN /);
   const { page } = lab;
   await lab.run();
   await lab.later(100);
   await lab.pause();
-  // By keyboard alone.
+  // By keyboard only.
   await lab.view('Recordings').press('Enter');
   const opener = page.getByRole('button', { name: `Open ${session.name}` });
   await opener.press('Enter');
   const body = page.frameLocator('iframe[title="Rerun viewer"]').locator('body');
   await expect(body).toHaveAttribute('data-state', /open|failed/, { timeout: VIEWER_MS });
   await expect(body, await body.innerText()).toHaveAttribute('data-state', 'open');
-  // The file is open before all of the viewer is drawn: its bar has one colour when it is.
+  // The file opens before the viewer is completely drawn. When it is, its bar keeps one colour.
   const light = lab.button('Use light colours');
   const dark = lab.button('Use dark colours');
   await light.click();
-  const bright = await steady(lab);
+  const bright = await steadyBarPixel(lab);
   await dark.click();
-  await until('a dark viewer', async () => (await look(lab)) !== bright, VIEWER_MS);
-  const dim = await steady(lab);
+  await until('a dark viewer', async () => (await barPixel(lab)) !== bright, VIEWER_MS);
+  const dim = await steadyBarPixel(lab);
   await light.click();
-  await until('a light viewer', async () => (await look(lab)) === bright, VIEWER_MS);
+  await until('a light viewer', async () => (await barPixel(lab)) === bright, VIEWER_MS);
   await dark.click();
-  await until('a dark viewer again', async () => (await look(lab)) === dim, VIEWER_MS);
+  await until('a dark viewer again', async () => (await barPixel(lab)) === dim, VIEWER_MS);
 
   await page.locator('iframe').focus();
   await page.keyboard.press('Tab');
@@ -56,7 +56,7 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   await expect(lab.button('Close'), 'F6 leads out of the viewer').toBeFocused();
   await page.keyboard.press('Enter');
   await expect(page.locator('iframe')).toHaveCount(0);
-  await expect(opener, 'the focus returns').toBeFocused();
+  await expect(opener, 'the focus returns to the button').toBeFocused();
 
   expect(watch.messages).toEqual([]);
   watch.allow(/status of 404/);
@@ -64,14 +64,14 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   await expect(page.getByText(MISSING)).toBeVisible({ timeout: VIEWER_MS });
 });
 
-/** The colour of the bar when several pictures in a row show the same. */
-async function steady(lab: Lab) {
+/** The colour of the bar, once several pictures in a row show the same colour. */
+async function steadyBarPixel(lab: Lab) {
   let before: string | undefined;
   let times = 0;
   return until(
     'a viewer that does not change',
     async () => {
-      const now = await look(lab);
+      const now = await barPixel(lab);
       times = now === before ? times + 1 : 0;
       before = now;
       return times >= 5 && now;

@@ -1,11 +1,11 @@
-// The floors of imports, the size limit of files, and the places of style sheets.
+// Rules of the structure: floors of imports, sizes of files, and places of style sheets.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
 import { expect, it } from 'vitest';
 
 const SRC = import.meta.dirname;
-/** A file imports from its own floor and from lower ones; `ui` and `net` do not import each other. */
+/** A file imports from its own folder and from lower floors. `ui` and `net` are on one floor. */
 const FLOORS: readonly (readonly string[])[] = [
   ['styles'],
   ['ui', 'net'],
@@ -63,12 +63,12 @@ it('allows imports only from lower floors, and none between features', () => {
   expect(wrong).toEqual([]);
 });
 
-it('has few loose files', () => {
+it('has few files outside the folders', () => {
   const loose = files.filter((file) => !file.includes('/'));
   expect(loose.length, loose.join(', ')).toBeLessThanOrEqual(MAX_LOOSE);
 });
 
-it('has no long files', () => {
+it('has no file above the size limit', () => {
   const long = files.filter(
     (file) =>
       /\.(tsx?|css)$/.test(file) &&
@@ -78,7 +78,7 @@ it('has no long files', () => {
   expect(long).toEqual([]);
 });
 
-/** The first class of each selector: what a rule is for. */
+/** The first class of each selector: the class that the rule styles. */
 function styledClasses(sheet: string): string[] {
   const text = read(sheet).replaceAll(/\/\*.*?\*\//gs, '');
   const selectors = [...text.matchAll(/([^{};]+)\{/g)].flatMap(([, list = '']) => list.split(','));
@@ -89,7 +89,7 @@ it('keeps the style of a component beside it', () => {
   // The other pages have their markup in HTML files.
   const ofComponents = sheets.filter((sheet) => partOf(sheet) !== 'pages');
   const wrong = ofComponents.flatMap((sheet) => {
-    // Classes of `ui` serve every folder.
+    // Every folder may use the classes of `ui`.
     const isShared = partOf(sheet) === 'ui';
     const users = scripts.filter((file) => isShared || dirname(file) === dirname(sheet)).map(read);
     return styledClasses(sheet)
@@ -101,7 +101,7 @@ it('keeps the style of a component beside it', () => {
   expect(wrong).toEqual([]);
 });
 
-it('names the sizes of the window in one place', () => {
+it('has the sizes of the window in one file', () => {
   const wrong = sheets.filter(
     (sheet) => sheet !== BREAKPOINTS && /@media[^{]*(width|height|pointer)/.test(read(sheet)),
   );

@@ -1,10 +1,17 @@
-// Rows of the table of controls: the bars, the workspace, tabs and layers.
+// Rows of the control table: bars, tabs, workspace, playback, maps, presets and layers.
 
 import { expect } from '@playwright/test';
-import type { Hand } from '../support/hands';
+import type { InputMethod } from '../support/inputMethods';
 import type { ControllerLabel, Lab } from '../support/lab';
 import { openMap } from '../support/maps';
-import { nearby, open, pause, run, withGoal, withHistory } from '../support/moments';
+import {
+  ensureGoal,
+  ensureHistory,
+  ensurePaused,
+  ensureRunning,
+  freePointNearBead,
+  open,
+} from '../support/preconditions';
 import { must, until } from '../support/wait';
 import { RESTORE } from './parameters';
 import { type Row, type Section, expanded, toggle, view } from './row';
@@ -20,24 +27,24 @@ const layers = (lab: Lab) =>
     return stored?.sort() ?? null;
   });
 
-const wearing = (wish: 'light' | 'dark') => async (lab: Lab) => {
-  const button = lab.button(`Use ${wish} colours`);
+const ensureTheme = (name: 'light' | 'dark') => async (lab: Lab) => {
+  const button = lab.button(`Use ${name} colours`);
   if (await button.count()) await button.click();
 };
-const controller = (wish: ControllerLabel): Row => ({
+const controller = (name: ControllerLabel): Row => ({
   see: (lab) => lab.state.controller,
-  after: (lab) => until(wish, () => lab.state.controller === wish.toLowerCase()),
+  after: (lab) => until(name, () => lab.state.controller === name.toLowerCase()),
 });
 const backToPosts = (lab: Lab) => lab.map('posts');
 
-async function typeSeed(hand: Hand, locator: Parameters<Hand['press']>[0]) {
-  const { keyboard } = hand.page;
+async function typeSeed(input: InputMethod, locator: Parameters<InputMethod['press']>[0]) {
+  const { keyboard } = input.page;
   const seed = Number(await locator.inputValue());
-  // Leaving the field does not reset a trial: Enter does.
+  // Enter resets the trial. Leaving the field does not.
   await locator.focus();
-  if (hand.name === 'keyboard') await keyboard.press('ArrowUp');
+  if (input.name === 'keyboard') await keyboard.press('ArrowUp');
   else {
-    await hand.press(locator);
+    await input.press(locator);
     await keyboard.press('Control+a');
     await keyboard.type(String((seed + 1) % 1000));
   }
@@ -50,8 +57,8 @@ const VIEWS: Section = {
     'button Laboratory': { see: shownView, ready: view('Recordings') },
     'button Recordings': { see: shownView, after: view('Laboratory') },
     'button Evaluate': { see: shownView, after: view('Laboratory') },
-    'button Use light colours': { see: theme, ready: wearing('dark') },
-    'button Use dark colours': { see: theme, ready: wearing('light') },
+    'button Use light colours': { see: theme, ready: ensureTheme('dark') },
+    'button Use dark colours': { see: theme, ready: ensureTheme('light') },
     'button Release control': { see: role },
     'button Take control': { see: role },
     'tab Events': { see: isSelected },
@@ -72,14 +79,17 @@ const WORKSPACE: Section = {
   name: 'the workspace',
   rows: {
     'application Workspace': [
-      { see: (lab) => lab.state.goal_m, act: (hand) => hand.placeGoal(nearby(hand.lab)) },
+      {
+        see: (lab) => lab.state.goal_m,
+        act: (input) => input.placeGoal(freePointNearBead(input.lab)),
+      },
       {
         see: (lab) => lab.state.bead_m,
-        act: (hand) => hand.dragBead(),
+        act: (input) => input.dragBead(),
         after: (lab) => until('no hand', () => !lab.state.hand_m),
       },
     ],
-    'button Clear goal': { see: (lab) => lab.state.goal_m, ready: withGoal },
+    'button Clear goal': { see: (lab) => lab.state.goal_m, ready: ensureGoal },
     'button Dismiss': {
       see: (lab) => lab.notice('workspace').count(),
       ready: async (lab) => {
@@ -101,11 +111,15 @@ const WORKSPACE: Section = {
 const PLAYBACK: Section = {
   name: 'the playback bar',
   rows: {
-    'button Run': { see: (lab) => lab.state.running, ready: pause },
-    'button Pause': { see: (lab) => lab.state.running, ready: run, after: pause },
+    'button Run': { see: (lab) => lab.state.running, ready: ensurePaused },
+    'button Pause': {
+      see: (lab) => lab.state.running,
+      ready: ensureRunning,
+      after: ensurePaused,
+    },
     'button Step ¼ s': { see: (lab) => lab.state.tick },
     'button Step': { see: (lab) => lab.state.tick },
-    'slider Timeline': { see: (lab) => lab.state.tick, ready: withHistory },
+    'slider Timeline': { see: (lab) => lab.state.tick, ready: ensureHistory },
     'button Reset': { see: trial },
     'combobox Speed': { see: (lab) => lab.state.speed_target },
     'spinbutton Seed': { see: (lab) => lab.scene.seed, act: typeSeed },
@@ -119,15 +133,15 @@ const EXPERIMENTS: Section = {
     'combobox Map': { see: (lab) => lab.scene.map, after: backToPosts },
     'button Open map…': {
       see: (lab) => lab.scene.map,
-      act: (hand, locator) => openMap(hand.page, () => hand.press(locator)),
-      // Other tests of this server find the maps that they know.
+      act: (input, locator) => openMap(input.page, () => input.press(locator)),
+      // Removes the map: other tests on this server expect the shipped maps only.
       after: async (lab) => {
         const name = lab.scene.map;
         await backToPosts(lab);
         const { origin } = new URL(lab.page.url());
         const removed = await lab.page.request.delete(`${origin}/api/maps/${name}`);
         expect(removed.status()).toBe(204);
-        await until('no more of it', () => !lab.scene.maps.includes(name));
+        await until('the removal of the map', () => !lab.scene.maps.includes(name));
       },
     },
     'button Restore defaults': RESTORE,
@@ -155,7 +169,7 @@ const LAYER_NAMES = [
 const LAYERS: Section = {
   name: 'layers',
   ready: async (lab) => {
-    // Nothing is stored before something is chosen.
+    // The page stores the layers only after a change.
     await lab.layer('Trails', false);
     await lab.layer('Trails');
     must(await layers(lab), 'stored layers');

@@ -1,7 +1,7 @@
-// The parameters as rows of the table of controls: each by its name on the page and in the messages.
+// Rows of the control table: all parameters, by their label on the page and their name in messages.
 
 import { expect } from '@playwright/test';
-import type { Hand } from '../support/hands';
+import type { InputMethod } from '../support/inputMethods';
 import type { ControllerLabel, Lab } from '../support/lab';
 import { until } from '../support/wait';
 import type { Parameters } from '../support/wire';
@@ -106,16 +106,19 @@ const GROUPS: readonly Group[] = [
   },
 ];
 
-/** By whatever hand changed something. */
-async function restore(lab: Lab, hand: Hand) {
-  await hand.press(lab.button('Restore defaults'));
+/** Restores the defaults with the input method of the test. */
+async function restore(lab: Lab, input: InputMethod) {
+  await input.press(lab.button('Restore defaults'));
   await until('the defaults', () => {
     const { defaults, parameters } = lab.scene;
     return JSON.stringify(parameters) === JSON.stringify(defaults);
   });
 }
 
-/** A control of one parameter. A slider goes far, and how far others may go depends on it. */
+/**
+ * A control of one parameter. A slider changes its value by much, which may narrow the range of
+ * other parameters, so the test restores the defaults after it.
+ */
 export const bound = (name: Name, role?: Role): Row => ({
   see: (lab) => lab.scene.parameters[name],
   ...(role === 'slider' ? { after: restore } : {}),

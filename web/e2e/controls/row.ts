@@ -1,36 +1,37 @@
-// A row of the table of controls: how a control is found, and what it changes.
+// A row of the control table: how a test uses a control, and what the control changes.
 
 import type { Locator } from '@playwright/test';
-import type { Hand } from '../support/hands';
+import type { InputMethod } from '../support/inputMethods';
 import type { Lab } from '../support/lab';
 
 export type Work = (lab: Lab) => Promise<unknown>;
 
 export interface Row {
-  /** What the control changes. Anything that JSON can hold. */
+  /** Reads the value that the control changes. The tests compare it as JSON. */
   readonly see: (lab: Lab, locator: Locator) => unknown;
-  /** What has to be done before. */
+  /** Runs before the control is used. */
   readonly ready?: Work;
-  /** What one does with it, if not what its role suggests. */
-  readonly act?: (hand: Hand, locator: Locator) => Promise<unknown>;
-  readonly after?: (lab: Lab, hand: Hand) => Promise<unknown>;
-  /** Done twice, it is as before. */
+  /** Uses the control. If missing, the test does what fits the control's role. */
+  readonly act?: (input: InputMethod, locator: Locator) => Promise<unknown>;
+  /** Runs after the value has changed. */
+  readonly after?: (lab: Lab, input: InputMethod) => Promise<unknown>;
+  /** A second use restores the value. */
   readonly isToggle?: boolean;
 }
 
-/** A control that the title of another test promises to use. */
+/** A control that another test uses: the one with this title. */
 export interface Elsewhere {
   readonly elsewhere: string;
 }
 
-/** By role and name. A name between slashes is a pattern. */
+/** Keys are role and accessible name. A name between slashes is a regular expression. */
 export type Rows = Record<string, Row | Elsewhere | readonly Row[]>;
 
 export interface Section {
   readonly name: string;
-  /** Opens what the controls are in. */
+  /** Opens the part of the page that has the controls. Runs once. */
   readonly ready?: Work;
-  /** The same before each row. */
+  /** Runs before each row. */
   readonly rowReady?: Work;
   readonly rows: Rows;
 }

@@ -1,19 +1,24 @@
-// All controls of the page by accessible name, and what each changes. A control that is on the page and not in this
-// table fails a test, and so does a row whose control changes nothing.
+// The control table: all controls of the page by role and accessible name, and what each changes.
+// A test fails when a control of the page has no row, or when a control does not change its value.
 
 import { type Locator, type Page, expect } from '@playwright/test';
-import type { Hand } from '../support/hands';
-import { isChosen, setOf } from '../support/hands';
+import type { InputMethod } from '../support/inputMethods';
+import { isChosen, setOf } from '../support/inputMethods';
 import { LABORATORY } from './laboratory';
 import { PARAMETERS } from './parameters';
-import { PAST } from './past';
+import { EVENTS_AND_LESSONS } from './events';
 import type { Row, Section } from './row';
 import { TOOLS } from './tools';
 
 const EFFECT_MS = 20_000;
 const INTERVALS = [25];
 
-export const SECTIONS: readonly Section[] = [...LABORATORY, ...TOOLS, ...PAST, ...PARAMETERS];
+export const SECTIONS: readonly Section[] = [
+  ...LABORATORY,
+  ...TOOLS,
+  ...EVENTS_AND_LESSONS,
+  ...PARAMETERS,
+];
 
 type AriaRole = Parameters<Page['getByRole']>[0];
 
@@ -26,18 +31,18 @@ function parse(key: string) {
 
 function locate(page: Page, key: string): Locator {
   const { role, name, pattern } = parse(key);
-  // Chromium gives summaries a role that selectors do not have.
+  // Chromium gives summaries a role that getByRole does not know.
   if (role === 'summary') {
     return page
       .locator('summary')
       .filter({ hasText: new RegExp(`^${name}( \\d+ changed|\\d+ changed)?$`) });
   }
-  // Of those that a pattern matches, one; a whole name belongs to one control only.
+  // Several controls may match a pattern; the first is used. A full name has one control only.
   if (pattern) return page.getByRole(role as AriaRole, { name: pattern }).first();
   return page.getByRole(role as AriaRole, { name, exact: true });
 }
 
-/** The next number that a field takes. */
+/** The next number that a field accepts. */
 async function nextNumber(locator: Locator) {
   const { value, step, max } = await locator.evaluate((one: HTMLInputElement) => ({
     value: one.valueAsNumber,
@@ -48,11 +53,11 @@ async function nextNumber(locator: Locator) {
   return String(Number(next.toFixed(6)));
 }
 
-const press = (hand: Hand, locator: Locator) => hand.press(locator);
-const pick = (hand: Hand, locator: Locator) => hand.pick(locator);
+const press = (input: InputMethod, locator: Locator) => input.press(locator);
+const pick = (input: InputMethod, locator: Locator) => input.pick(locator);
 
-/** What one does with a control of a role, unless its row says otherwise. */
-const ACTS: Record<string, (hand: Hand, locator: Locator) => Promise<unknown>> = {
+/** How a control of each role is used, unless its row has an `act`. */
+const ACTS: Record<string, (input: InputMethod, locator: Locator) => Promise<unknown>> = {
   button: press,
   textbox: press,
   link: press,
@@ -60,52 +65,52 @@ const ACTS: Record<string, (hand: Hand, locator: Locator) => Promise<unknown>> =
   checkbox: press,
   radio: pick,
   tab: pick,
-  combobox: (hand, locator) => hand.choose(locator),
-  slider: (hand, locator) => hand.slide(locator),
-  spinbutton: async (hand, locator) => hand.type(locator, await nextNumber(locator)),
+  combobox: (input, locator) => input.choose(locator),
+  slider: (input, locator) => input.slide(locator),
+  spinbutton: async (input, locator) => input.type(locator, await nextNumber(locator)),
 };
 
-/** Of a set, another one is chosen first. False if there is no choice. */
+/** Chooses another radio or tab of the set. False if the set has only one. */
 async function unpick(role: string, locator: Locator) {
   if (role !== 'radio' && role !== 'tab') return true;
   const [first, second] = await setOf(locator).getByRole(role).all();
   if (!first || !second) return false;
   if (await isChosen(locator)) {
-    const isFirst = await first.evaluate((one, it) => one === it, await locator.elementHandle());
+    const isFirst = await first.evaluate((a, b) => a === b, await locator.elementHandle());
     await (isFirst ? second : first).click();
     await expect.poll(() => isChosen(locator), { intervals: INTERVALS }).toBe(false);
   }
   return true;
 }
 
-/** Uses a control and waits for what its row says to change. */
-export async function exercise(hand: Hand, key: string, row: Row) {
-  const { lab } = hand;
+/** Uses a control and waits until the value in its row changes. */
+export async function exercise(input: InputMethod, key: string, row: Row) {
+  const { lab } = input;
   const { role } = parse(key);
   const locator = locate(lab.page, key);
   await row.ready?.(lab);
   if (!(await unpick(role, locator))) return;
   const see = async () => JSON.stringify((await row.see(lab, locator)) ?? null);
   const act = row.act ?? ACTS[role];
-  if (!act) throw new Error(`nothing to do with a ${role}`);
+  if (!act) throw new Error(`no action for the role ${role}`);
   const options = { message: key, intervals: INTERVALS, timeout: EFFECT_MS };
   const before = await see();
-  await act(hand, locator);
+  await act(input, locator);
   await expect.poll(see, options).not.toBe(before);
   if (row.isToggle) {
-    await act(hand, locator);
+    await act(input, locator);
     await expect.poll(see, options).toBe(before);
   }
-  await row.after?.(lab, hand);
+  await row.after?.(lab, input);
 }
 
-const KNOWN = SECTIONS.flatMap(({ rows }) =>
+const ROWS = SECTIONS.flatMap(({ rows }) =>
   Object.keys(rows).map((key) => ({ key, ...parse(key) })),
 );
 
-/** Whether a row is about this control. */
-export function isKnown({ key, role, name }: { key: string; role: string; name: string }) {
-  return KNOWN.some((row) =>
+/** Whether the table has a row for this control. */
+export function hasRow({ key, role, name }: { key: string; role: string; name: string }) {
+  return ROWS.some((row) =>
     row.pattern ? row.role === role && row.pattern.test(name) : row.key === key,
   );
 }

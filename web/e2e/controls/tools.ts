@@ -1,10 +1,10 @@
-// Rows of the table of controls: plots, magnet, disturbances, the 3-D view, recordings, evaluations.
+// Rows of the control table: plots, 3-D view, magnet, disturbances, recordings, evaluations.
 
 import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import { startEvaluation } from '../support/evaluations';
-import { inSpace, open } from '../support/moments';
-import { arrived, freeInPicture, px } from '../support/space';
+import { open, openSceneView } from '../support/preconditions';
+import { cameraAtRest, freeInPicture, px } from '../support/scene';
 import { must } from '../support/wait';
 import { bound } from './parameters';
 import {
@@ -21,9 +21,9 @@ import {
 } from './row';
 
 const box: Row = { see: isChecked, isToggle: true };
-const disturbed = lastSent('disturb');
+const sentDisturbance = lastSent('disturb');
 const script = (lab: Lab) => lab.scene.scenario.script;
-const magnetFact = (lab: Lab) => lab.page.locator('.magnet-words .facts').innerText();
+const magnetFacts = (lab: Lab) => lab.page.locator('.magnet-words .facts').innerText();
 const scenes = (lab: Lab) => lab.label('Scene').count();
 
 const choose = (label: string, option: string) => (lab: Lab) =>
@@ -31,24 +31,24 @@ const choose = (label: string, option: string) => (lab: Lab) =>
 const kind = (option: string) => choose('Kind of disturbance', option);
 const time = (option: string) => choose('Time of the disturbance', option);
 
-/** A field or a choice that is sent with the button of the bar. */
-const strikes = (ready: Work, work?: 'choose'): Row => ({
-  see: disturbed,
+/** A field or a select whose value the button of the disturbance bar sends. */
+const sentByButton = (ready: Work, work?: 'choose'): Row => ({
+  see: sentDisturbance,
   ready,
-  act: async (hand, locator) => {
-    if (work === 'choose') await hand.choose(locator);
-    else await hand.type(locator, (await locator.inputValue()) === '0.5' ? '0.7' : '0.5');
-    await hand.press(hand.page.locator('.disturb button[type=submit]').first());
+  act: async (input, locator) => {
+    if (work === 'choose') await input.choose(locator);
+    else await input.type(locator, (await locator.inputValue()) === '0.5' ? '0.7' : '0.5');
+    await input.press(input.page.locator('.disturb button[type=submit]').first());
   },
 });
 
-/** A field of a form that Enter would submit: only typed into. */
+/** A field of a form. The test only types into it, because Enter would submit the form. */
 const typed: Row = {
   see: valueOf,
-  act: async (hand, locator) => {
-    const { keyboard } = hand.page;
-    if (hand.name === 'keyboard') await locator.focus();
-    else await hand.press(locator);
+  act: async (input, locator) => {
+    const { keyboard } = input.page;
+    if (input.name === 'keyboard') await locator.focus();
+    else await input.press(locator);
     await keyboard.press('Control+a');
     await keyboard.type((await locator.inputValue()) === '2' ? '3' : '2');
   },
@@ -62,13 +62,13 @@ const DISTURB: Section = {
   rows: {
     'combobox Kind of disturbance': { see: valueOf, after: kind('kick') },
     'button Kick now': { see: (lab) => lab.events.length },
-    'spinbutton Strength of the kick in mN·s': strikes(kind('kick')),
-    'combobox Direction of kick and push': strikes(kind('kick'), 'choose'),
-    'button Push now': { see: disturbed, ready: kind('push') },
-    'spinbutton Force of the push in mN': strikes(kind('push')),
-    'spinbutton Duration of the push in seconds': strikes(kind('push')),
-    'button Blind tracker now': { see: disturbed, ready: kind('blind') },
-    'spinbutton Duration of the blindness in seconds': strikes(kind('blind')),
+    'spinbutton Strength of the kick in mN·s': sentByButton(kind('kick')),
+    'combobox Direction of kick and push': sentByButton(kind('kick'), 'choose'),
+    'button Push now': { see: sentDisturbance, ready: kind('push') },
+    'spinbutton Force of the push in mN': sentByButton(kind('push')),
+    'spinbutton Duration of the push in seconds': sentByButton(kind('push')),
+    'button Blind tracker now': { see: sentDisturbance, ready: kind('blind') },
+    'spinbutton Duration of the blindness in seconds': sentByButton(kind('blind')),
     'combobox Time of the disturbance': { see: valueOf, after: time('now') },
     'spinbutton Time in seconds': { see: valueOf, ready: time('time') },
     'spinbutton Control step on the way to a goal': { see: valueOf, ready: time('step') },
@@ -76,7 +76,7 @@ const DISTURB: Section = {
     'spinbutton Distance from the place in cm': { see: valueOf, ready: time('near') },
     'button Add to script and restart': { see: script, ready: time('time') },
     'button /^Remove and restart: /': { see: script },
-    // The restart of the row before sets it once more, a frame after the message.
+    // The restart of the row before sets this field again, a frame after the message.
     [`spinbutton ${RANDOM_MOVES}`]: { ...typed, ready: (lab) => lab.drawn() },
     'button Set and restart': {
       see: (lab) => lab.scene.trial,
@@ -89,34 +89,34 @@ const DISTURB: Section = {
   },
 };
 
-/** The viewpoint: from another one, first. */
+/** The button of a viewpoint. The button `from` sets another viewpoint first. */
 const viewpoint = (from: string): Row => ({
   see: (lab) => lab.label('Scene').getAttribute('data-px-from-table'),
   ready: async (lab) => {
-    await inSpace(lab);
+    await openSceneView(lab);
     await lab.button(from).click();
-    await arrived(lab);
+    await cameraAtRest(lab);
   },
 });
 
-const SPACE: Section = {
+const SCENE_VIEW: Section = {
   name: 'the 3-D view',
   rows: {
     'radio 3-D': { see: scenes, after: (lab) => lab.radio('Plan').check() },
     'radio Plan': { see: scenes },
     'application Scene': {
       see: (lab) => lab.state.goal_m,
-      ready: inSpace,
-      act: async (hand, locator) => {
-        const { lab, page } = hand;
+      ready: openSceneView,
+      act: async (input, locator) => {
+        const { lab, page } = input;
         await locator.scrollIntoViewIfNeeded();
-        if (hand.name === 'keyboard') {
+        if (input.name === 'keyboard') {
           await locator.focus();
           for (const key of ['ArrowRight', 'ArrowUp', 'Enter']) await page.keyboard.press(key);
           return;
         }
         const at = await px(lab, await freeInPicture(lab, 0.03, 0.2));
-        await (hand.name === 'touch' ? page.touchscreen.tap(...at) : page.mouse.click(...at));
+        await (input.name === 'touch' ? page.touchscreen.tap(...at) : page.mouse.click(...at));
       },
     },
     'button Home': viewpoint('Top'),
@@ -154,9 +154,9 @@ const MAGNET: Section = {
   name: 'the magnet',
   ready: tab('Magnet'),
   rows: {
-    'radio the bead': { see: magnetFact },
-    'radio x': { see: magnetFact },
-    'radio y': { see: magnetFact },
+    'radio the bead': { see: magnetFacts },
+    'radio x': { see: magnetFacts },
+    'radio y': { see: magnetFacts },
     'combobox Magnet': bound('block_orientation'),
     'spinbutton Height': bound('tool_height_m'),
     'slider Height slider': bound('tool_height_m', 'slider'),
@@ -178,16 +178,16 @@ const RECORDINGS: Section = {
               .filter(({ name }) => name.endsWith('/api/recordings')).length,
         ),
     },
-    // Rerun's viewer needs a browser with WebGL.
+    // Rerun's viewer needs the WebGL arguments of viewer.spec.ts.
     'button /^Open /': { elsewhere: 'opens a recording in Rerun’s viewer' },
     'link /^Download /': { see: downloads },
   },
 };
 
-/** What only some evaluations have. */
+/** Controls of a run and of its report. */
 const REPORT_ROWS: Section['rows'] = {
   'button /per cell, seed/': {
-    // The last one is shown, the first of the list.
+    // The last evaluation of the list is shown first, so that the row changes to the first one.
     see: (_lab, locator) => locator.getAttribute('aria-current'),
     ready: (lab) =>
       lab.page
@@ -198,11 +198,11 @@ const REPORT_ROWS: Section['rows'] = {
   'link HTML': { see: downloads },
   'link JSON': { see: downloads },
   'link CSV': { see: downloads },
-  'button Run': { elsewhere: 'evaluates what the keyboard chose' },
+  'button Run': { elsewhere: 'runs an evaluation that is filled in by keyboard' },
   'button Cancel': { elsewhere: 'cancels an evaluation that a viewer watches' },
   'button /^Set it up: episode /': { elsewhere: 'sets up a failed episode again' },
-  // Only after more than 50 failures, which take minutes.
-  'button /^Show more of /': { elsewhere: 'nowhere' },
+  // Not tested: it appears only after more than 50 failures, which take minutes.
+  'button /^Show more of /': { elsewhere: 'not tested' },
 };
 
 const EVALUATE: Section = {
@@ -238,4 +238,4 @@ const EVALUATE: Section = {
   },
 };
 
-export const TOOLS: readonly Section[] = [PLOTS, SPACE, MAGNET, DISTURB, RECORDINGS, EVALUATE];
+export const TOOLS: readonly Section[] = [PLOTS, SCENE_VIEW, MAGNET, DISTURB, RECORDINGS, EVALUATE];

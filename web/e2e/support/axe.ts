@@ -1,3 +1,5 @@
+// Accessibility faults that axe-core finds on the page.
+
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import type { Page } from '@playwright/test';
@@ -13,11 +15,11 @@ const source = await readFile(
   createRequire(import.meta.url).resolve('axe-core/axe.min.js'),
   'utf8',
 );
-const GRAVE = ['serious', 'critical'];
+const REPORTED_IMPACTS = ['serious', 'critical'];
 
-/** One line for each serious or critical violation: the rule, the first elements, why. */
+/** One line per element with a serious or critical violation: the rule, the element, the reason. */
 export async function violations(page: Page) {
-  // The page's policy forbids foreign scripts as elements; the debugger may evaluate.
+  // The content security policy forbids a script element. The debugger may evaluate the source.
   if (!(await page.evaluate('typeof axe === "object"'))) await page.evaluate(source);
   const found = await page.evaluate(async () => {
     const { violations: all } = await window.axe.run(document, {
@@ -30,11 +32,11 @@ export async function violations(page: Page) {
       impact,
       nodes: nodes.map(({ target, any, all: every, none }) => ({
         target: target.join(' '),
-        why: [...any, ...every, ...none][0]?.message ?? '',
+        reason: [...any, ...every, ...none][0]?.message ?? '',
       })),
     }));
   });
   return found
-    .filter(({ impact }) => GRAVE.includes(impact ?? ''))
-    .flatMap(({ id, nodes }) => nodes.map(({ target, why }) => `${id}: ${target}: ${why}`));
+    .filter(({ impact }) => REPORTED_IMPACTS.includes(impact ?? ''))
+    .flatMap(({ id, nodes }) => nodes.map(({ target, reason }) => `${id}: ${target}: ${reason}`));
 }

@@ -1,4 +1,6 @@
-/** For every test. */
+// Arguments and window sizes of the browser.
+
+/** Arguments of every test. */
 export const CHROMIUM_ARGUMENTS = [
   '--headless',
   '--no-sandbox',
@@ -9,7 +11,7 @@ export const CHROMIUM_ARGUMENTS = [
   '--disable-sync',
 ];
 
-/** WebGL without a graphics card, in place of `--disable-gpu`. */
+/** WebGL without a graphics card. Replaces `--disable-gpu`. */
 export const SOFTWARE_WEBGL = [
   '--use-gl=angle',
   '--use-angle=swiftshader',

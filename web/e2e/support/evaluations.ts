@@ -1,9 +1,11 @@
+// Evaluations that are started by request.
+
 import { type APIRequestContext, expect } from '@playwright/test';
 import type { EvaluationReport } from './wire';
 
 const RUN_MS = 60_000;
 
-/** Starts an evaluation and waits for its end. */
+/** Starts an evaluation, waits until it is done, and returns its id. */
 export async function startEvaluation(
   request: APIRequestContext,
   origin: string,

@@ -1,4 +1,5 @@
-// All controls that the browser reports to assistive technology, and what is wrong with them.
+// Lists all controls that the browser reports to assistive technology, and finds their faults:
+// missing names, small sizes, no focus by Tab.
 
 import type { CDPSession, Locator, Page } from '@playwright/test';
 
@@ -15,8 +16,8 @@ interface AXNode {
 interface Measured {
   width: number;
   height: number;
-  isGone: boolean;
-  /** One of a set is reached by Tab, the others by arrow keys from it. */
+  isDetached: boolean;
+  /** The group that the control belongs to: Tab reaches one member, arrow keys the others. */
   set: string;
   html: string;
 }
@@ -58,8 +59,8 @@ const ROLES = new Set([
   'textbox',
   'treeitem',
 ]);
-/** Chromium's names of roles that the tests call otherwise. */
-const NAMES: Record<string, string> = {
+/** The names in the tests for roles that Chromium names differently. */
+const ROLE_NAMES: Record<string, string> = {
   DisclosureTriangle: 'summary',
   PopUpButton: 'button',
   ToggleButton: 'button',
@@ -81,10 +82,10 @@ const GROUPS = new Set([
   'toolbar',
 ]);
 
-/** Least side of what is pressed: by WCAG for a mouse, and what the page promises to fingers. */
-export const LEAST_PX = { mouse: 24, touch: 36 };
+/** Minimum side of a control: WCAG's for a mouse, and the page's own for touch. */
+export const MIN_SIDE_PX = { mouse: 24, touch: 36 };
 
-/** Runs in the page: where a control is and how large the part is that can be pressed. */
+/** Runs in the page: measures the area of a control that can be pressed, including its labels. */
 function measure(this: HTMLInputElement & Indexed, index: number): Measured {
   this.ferryIndex = index;
   const labels = (this.labels as NodeListOf<HTMLElement> | null | undefined) ?? [];
@@ -95,13 +96,13 @@ function measure(this: HTMLInputElement & Indexed, index: number): Measured {
   return {
     width,
     height,
-    isGone: !this.isConnected,
+    isDetached: !this.isConnected,
     set: this.type === 'radio' ? `radio ${this.name}` : (list?.getAttribute('aria-label') ?? ''),
     html: this.outerHTML.slice(0, 120),
   };
 }
 
-/** `undefined` for what has been removed meanwhile, a notice or a mark. */
+/** `undefined` if the element has been removed meanwhile, such as a notice or a mark. */
 async function objectOf(cdp: CDPSession, backendNodeId: number | undefined) {
   try {
     if (backendNodeId === undefined) return undefined;
@@ -111,7 +112,7 @@ async function objectOf(cdp: CDPSession, backendNodeId: number | undefined) {
   }
 }
 
-/** All controls on the page now; each element gets its index as `ferryIndex`. */
+/** All controls that are on the page now. Each element gets its index as `ferryIndex`. */
 export async function controls(page: Page): Promise<Control[]> {
   const cdp = await page.context().newCDPSession(page);
   const { nodes } = (await cdp.send('Accessibility.getFullAXTree')) as { nodes: AXNode[] };
@@ -125,7 +126,7 @@ export async function controls(page: Page): Promise<Control[]> {
   const found: Control[] = [];
   for (const node of nodes) {
     const chromium = node.role?.value ?? '';
-    if (node.ignored || !(ROLES.has(chromium) || chromium in NAMES)) continue;
+    if (node.ignored || !(ROLES.has(chromium) || chromium in ROLE_NAMES)) continue;
     const objectId = (await objectOf(cdp, node.backendDOMNodeId))?.objectId;
     if (!objectId) continue;
     const { result } = await cdp.send('Runtime.callFunctionOn', {
@@ -135,8 +136,8 @@ export async function controls(page: Page): Promise<Control[]> {
       returnByValue: true,
     });
     const measured = result.value as Measured;
-    if (measured.isGone) continue;
-    const role = NAMES[chromium] ?? chromium;
+    if (measured.isDetached) continue;
+    const role = ROLE_NAMES[chromium] ?? chromium;
     const name = node.name?.value?.trim() ?? '';
     const group = groupOf(node);
     found.push({
@@ -156,27 +157,27 @@ export async function controls(page: Page): Promise<Control[]> {
   return found;
 }
 
-/** What is wrong with the names and sizes of controls. */
-export function faultsOf(all: readonly Control[], leastPx: number) {
+/** Missing and repeated names, and sides below `minSidePx`. */
+export function faultsOf(all: readonly Control[], minSidePx: number) {
   const faults: string[] = [];
   const seen = new Set<string>();
   for (const one of all) {
     if (!one.name) faults.push(`${one.role} without a name: ${one.html}`);
     const own = `${one.group} ${one.key}`;
-    if (seen.has(own)) faults.push(`two are “${one.key}” in ${one.groupName}`);
+    if (seen.has(own)) faults.push(`two controls “${one.key}” in ${one.groupName}`);
     seen.add(own);
-    // Browsers round borders: half a pixel does not count.
-    if (Math.min(one.width, one.height) < leastPx - 0.5) {
+    // Browsers round borders, so half a pixel is allowed.
+    if (Math.min(one.width, one.height) < minSidePx - 0.5) {
       const size = `${one.width.toFixed(0)}×${one.height.toFixed(0)}`;
-      faults.push(`${one.key} is ${size} px, less than ${leastPx}`);
+      faults.push(`${one.key} is ${size} px, less than ${minSidePx}`);
     }
   }
   return faults;
 }
 
 /**
- * Which of `wanted`, some of `all` that `controls` has just found, Tab does not reach from `opener` on.
- * Disabled controls need not be reached.
+ * Presses Tab from `opener` on, and names the controls of `wanted` that get no focus. `all` is the
+ * latest result of `controls`; it contains `wanted`. Disabled controls are skipped.
  */
 export async function unreached(
   page: Page,
@@ -191,8 +192,8 @@ export async function unreached(
   const stops = await page.evaluate(() => {
     window.ferryFocused = new Set();
     if (!window.ferryListens) {
-      const note = ({ target }: Event) => window.ferryFocused.add((target as Indexed).ferryIndex);
-      document.addEventListener('focusin', note, true);
+      const record = ({ target }: Event) => window.ferryFocused.add((target as Indexed).ferryIndex);
+      document.addEventListener('focusin', record, true);
       window.ferryListens = true;
     }
     return document.querySelectorAll('button, input, select, summary, a, [tabindex]').length;
@@ -204,13 +205,13 @@ export async function unreached(
     const focused = new Set(await page.evaluate(() => [...window.ferryFocused]));
     for (const one of all) if (focused.has(one.index)) missing.delete(one.set || one.key);
   }
-  // A message may have been removed meanwhile.
-  const there = new Set(
+  // A notice may have been removed meanwhile.
+  const present = new Set(
     await page.evaluate(() =>
       [...document.querySelectorAll('*')].map((one: Indexed) => one.ferryIndex),
     ),
   );
   return [...missing.values()]
-    .filter(({ index }) => there.has(index))
+    .filter(({ index }) => present.has(index))
     .map((one) => `Tab does not reach ${one.key}`);
 }

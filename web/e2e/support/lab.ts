@@ -1,4 +1,4 @@
-// The page as an operator uses it. Read are only the page itself and the messages of its WebSocket.
+// Operates the page as an operator does. Reads only the page and the messages of its WebSocket.
 
 import { type Locator, type Page, expect } from '@playwright/test';
 import { Messages } from './messages';
@@ -21,7 +21,7 @@ export class Lab extends Messages {
     page.on('download', () => (this.downloads += 1));
   }
 
-  /** Goes to a session's page and waits until it is connected. */
+  /** Opens a session's page and waits until it is connected. */
   static async attach(page: Page, url: string) {
     const lab = new Lab(page);
     await page.goto(url);
@@ -34,7 +34,7 @@ export class Lab extends Messages {
     await expect(this.page.getByTestId('connection')).toHaveText('live', { timeout: OPEN_MS });
   }
 
-  /** What has come over the WebSocket is on the page when this returns: it is drawn in a frame. */
+  /** Waits two frames. After that the page shows all messages that it has received. */
   drawn() {
     return this.page.evaluate(
       () =>
@@ -80,7 +80,7 @@ export class Lab extends Messages {
   }
 
   spin(name: string) {
-    // A changed one has a dot after its name.
+    // The name of a changed parameter ends in a dot.
     const words = name.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');
     return this.page.getByRole('spinbutton', { name: new RegExp(`^${words}( •)?$`) });
   }
@@ -93,7 +93,7 @@ export class Lab extends Messages {
     return this.page.locator(`[data-place=${place}] .notice`);
   }
 
-  /** Where the canvas draws the bead or the goal. */
+  /** Where the plan view draws the bead or the goal, in metres. */
   async point(name: 'bead' | 'goal'): Promise<Point | undefined> {
     await this.drawn();
     const text = await this.canvas.getAttribute(`data-${name}`);
@@ -105,11 +105,11 @@ export class Lab extends Messages {
     return must(await this.point('bead'), 'the bead');
   }
 
-  /** Where something is on the page, once that does not change from frame to frame. */
+  /** The box of an element on the page, once two frames show the same box. */
   async boxOf(locator: Locator) {
     await locator.scrollIntoViewIfNeeded();
     let before = '';
-    return until('a place on the page', async () => {
+    return until('a box that does not move', async () => {
       await this.drawn();
       const box = await locator.boundingBox();
       const isSame = JSON.stringify(box) === before;
@@ -131,8 +131,8 @@ export class Lab extends Messages {
     ];
   }
 
-  /** The pixels of the page around some points of the table, and between them. */
-  async look(...points: readonly PointLike[]) {
+  /** A picture of the page's rectangle around some points of the table. */
+  async pixelsAround(...points: readonly PointLike[]) {
     const at: Point[] = [];
     for (const point of points) at.push(await this.px(point));
     const [left, top] = [0, 1].map((axis) =>
@@ -146,7 +146,7 @@ export class Lab extends Messages {
     return (await this.page.screenshot({ clip })).toString('base64');
   }
 
-  /** Shows or hides a layer, and leaves the menu closed: it covers a part of the map. */
+  /** Shows or hides a layer, and closes the menu, which covers a part of the map. */
   async layer(name: string, on = true) {
     await this.button('Layers').click();
     const layers = this.page.getByRole('group', { name: 'Layers' });
@@ -176,7 +176,7 @@ export class Lab extends Messages {
 
   async reset({ speed = '1', map = 'posts' } = {}) {
     await this.map(map);
-    // It may be at tick 0 already.
+    // The tick may be 0 already, so wait for another trial.
     const { trial } = this.scene;
     await this.button('Reset').click();
     await until('another trial', () => this.scene.trial !== trial && this.state.tick === 0);
@@ -193,13 +193,13 @@ export class Lab extends Messages {
     await until(name, () => this.state.controller === name.toLowerCase());
   }
 
-  /** Waits for the goal that is the `count`th since the reset. */
+  /** Waits for delivery number `count` since the reset. */
   async delivered(count: number) {
     await expect(this.page.getByTestId('deliveries')).toHaveText(String(count), {
       timeout: DELIVERY_MS,
     });
-    const left = distance(await this.bead(), must(await this.point('goal'), 'the goal'));
-    expect(left, 'distance of the bead from the goal in metres').toBeLessThanOrEqual(GOAL_RADIUS_M);
+    const distance_m = distance(await this.bead(), must(await this.point('goal'), 'the goal'));
+    expect(distance_m, 'distance from bead to goal in metres').toBeLessThanOrEqual(GOAL_RADIUS_M);
   }
 
   async run() {
@@ -212,7 +212,7 @@ export class Lab extends Messages {
     await until('paused', () => !this.state.running);
   }
 
-  /** Waits for a later tick: `ticks` of 8 ms, at the speed that is set. */
+  /** Waits until the session has run for `ticks` more ticks. */
   async later(ticks: number) {
     const { tick } = this.state;
     await until(`${ticks} ticks later`, () => this.state.tick >= tick + ticks);
@@ -237,22 +237,22 @@ export class Lab extends Messages {
     await this.drawn();
   }
 
-  /** Types a parameter into its field. */
+  /** Types the value of a parameter into its field. */
   async tune(name: string, value: string) {
     await this.spin(name).fill(value);
     await this.spin(name).press('Enter');
   }
 
-  freePoints(from: PointLike, least_m: number, most_m: number) {
-    return freePoints(this.scene, from, least_m, most_m);
+  freePoints(from: PointLike, min_m: number, max_m: number) {
+    return freePoints(this.scene, from, min_m, max_m);
   }
 
   wallPoint() {
     return wallPoint(this.scene);
   }
 
-  /** Presses the mouse on the bead and moves it to a point of the table, still pressed. */
-  async pull(to: PointLike) {
+  /** Drags the bead by mouse to a point of the table, and keeps the button pressed. */
+  async startDrag(to: PointLike) {
     const { mouse } = this.page;
     await mouse.move(...(await this.px(await this.bead())));
     await mouse.down();

@@ -1,3 +1,5 @@
+// A map to upload.
+
 import { Buffer } from 'node:buffer';
 import type { Page } from '@playwright/test';
 
@@ -6,11 +8,11 @@ export const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="-300 21
   <rect x="40" y="300" width="60" height="80"/>
 </svg>`;
 
-/** Opens the file dialog by `press` and gives it a drawing. */
+/** Opens the file dialog by `press` and chooses a file with `text`. */
 export async function openMap(page: Page, press: () => Promise<unknown>, text = DRAWING) {
-  const coming = page.waitForEvent('filechooser');
+  const opening = page.waitForEvent('filechooser');
   await press();
-  const chooser = await coming;
+  const chooser = await opening;
   const file = { name: 'mine.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(text) };
   await chooser.setFiles(file);
 }

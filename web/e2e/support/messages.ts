@@ -1,3 +1,5 @@
+// Records the WebSocket messages of a page.
+
 import type { Page, WebSocket } from '@playwright/test';
 import { must } from './wait';
 import type {
@@ -14,7 +16,7 @@ import type {
 /** The last message of each type that the page sent. */
 type Sent = { [T in ClientMessage['type']]?: Extract<ClientMessage, { type: T }> };
 
-/** The messages of a page's WebSocket, both ways. */
+/** The messages of a page's WebSocket in both directions. */
 export class Messages {
   sent: Sent & Record<string, ClientMessage | undefined> = {};
   readonly events: EventMessage[] = [];
@@ -42,7 +44,7 @@ export class Messages {
     return must(this.lastState, 'the message state');
   }
 
-  /** Whether a state and a scene have come. */
+  /** Whether the page has received a state and a scene. */
   get isComplete() {
     return this.lastState !== undefined && this.lastScene !== undefined;
   }
@@ -54,11 +56,11 @@ export class Messages {
       if (message.type === 'fork') this.comparison = undefined;
     });
     socket.on('framereceived', ({ payload }) => {
-      if (typeof payload === 'string') this.take(JSON.parse(payload) as ServerMessage);
+      if (typeof payload === 'string') this.store(JSON.parse(payload) as ServerMessage);
     });
   }
 
-  private take(message: ServerMessage) {
+  private store(message: ServerMessage) {
     switch (message.type) {
       case 'hello':
         this.lastHello = message;

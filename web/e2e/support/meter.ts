@@ -1,4 +1,4 @@
-// What the page costs and how late it is, measured in the page and by its browser.
+// Measures the page: script time per frame, delay from a message to the screen, and memory.
 
 import { type CDPSession, type Page, expect } from '@playwright/test';
 import type { Lab } from './lab';
@@ -32,34 +32,34 @@ declare global {
   }
 }
 
-/** Upper limits. `npm run soak` keeps the page to them, on a machine that does nothing else. */
-export const MOST: Partial<Record<keyof Figures, number>> = {
+/** Upper limits. `npm run soak` checks them on a machine that does nothing else. */
+export const BUDGETS: Partial<Record<keyof Figures, number>> = {
   script_ms_per_frame: 4,
   state_to_frame_p95_ms: 50,
-  // From above what a state takes from the session to the screen: the request is in it, the tick, and the camera's
-  // picture when one is due.
+  // An upper bound for the time of a state from the session to the screen: it includes the request,
+  // the tick and, when one is due, the camera's picture.
   step_to_frame_p95_ms: 100,
 };
 
-/** Which of `figures` exceed their budget times `leniency`. */
+/** One line for each of `figures` that exceeds its budget times `leniency`. */
 export function overruns(figures: Figures, leniency = 1) {
-  return (Object.entries(MOST) as [keyof Figures, number][])
-    .filter(([name, most]) => (figures[name] ?? 0) > most * leniency)
-    .map(([name, most]) => `${name} is ${figures[name]?.toFixed(1) ?? '–'}, budget ${most}`);
+  return (Object.entries(BUDGETS) as [keyof Figures, number][])
+    .filter(([name, budget]) => (figures[name] ?? 0) > budget * leniency)
+    .map(([name, budget]) => `${name} is ${figures[name]?.toFixed(1) ?? '–'}, budget ${budget}`);
 }
 
 /**
- * Runs in the page before any of its scripts: notes when a state came, when a step was requested, and when the frame
- * that shows a tick was surely on the screen.
+ * Runs in the page before the page's scripts. Records when a state arrives, when a step is
+ * requested, and when a tick is on the screen.
  *
- * The canvas has the tick that it shows as `data-tick`, written in the frame that draws it. The next frame can only
- * begin after that one was handed over; its start is taken as the time when the tick was seen. So each figure is up to
- * a frame too large, never too small.
+ * The canvas writes the tick that it shows to `data-tick` in the frame that draws it. The next
+ * frame begins only after the browser has taken that frame, so its start counts as the time when
+ * the tick is on the screen. Each figure is at most one frame too large, and never too small.
  */
 function probe() {
   const meter: Counted = { frames: 0, shown: [], steps: [] };
   window.ferryMeter = meter;
-  const came = new Map<string | undefined, number>();
+  const received = new Map<string | undefined, number>();
   let requested_ms: number | undefined;
   const Native = window.WebSocket;
   window.WebSocket = class extends Native {
@@ -68,7 +68,7 @@ function probe() {
       this.addEventListener('message', ({ data }: MessageEvent<unknown>) => {
         if (typeof data !== 'string' || !data.startsWith('{"type":"state"')) return;
         const tick = /"tick":(\d+)/.exec(data)?.[1];
-        if (!came.has(tick)) came.set(tick, performance.now());
+        if (!received.has(tick)) received.set(tick, performance.now());
       });
     }
 
@@ -87,18 +87,18 @@ function probe() {
       work(now);
     });
 
-  const shows = (tick: string | undefined) => {
-    const came_ms = came.get(tick);
-    came.clear();
-    const from_ms = requested_ms;
+  const record = (tick: string | undefined) => {
+    const received_ms = received.get(tick);
+    received.clear();
+    const stepped_ms = requested_ms;
     requested_ms = undefined;
     request((now) => {
-      if (came_ms !== undefined) meter.shown.push(now - came_ms);
-      if (from_ms !== undefined) meter.steps.push(now - from_ms);
+      if (received_ms !== undefined) meter.shown.push(now - received_ms);
+      if (stepped_ms !== undefined) meter.steps.push(now - stepped_ms);
     });
   };
   new MutationObserver((changes) => {
-    shows((changes.at(-1)?.target as HTMLElement | undefined)?.dataset.tick);
+    record((changes.at(-1)?.target as HTMLElement | undefined)?.dataset.tick);
   }).observe(document, { subtree: true, attributeFilter: ['data-tick'] });
 }
 
@@ -110,7 +110,7 @@ export class Meter {
     private readonly cdp: CDPSession,
   ) {}
 
-  /** Before the page is opened. */
+  /** Must be called before the page is opened. */
   static async attach(page: Page) {
     await page.addInitScript(probe);
     const cdp = await page.context().newCDPSession(page);
@@ -125,7 +125,7 @@ export class Meter {
     this.before = await this.metrics();
   }
 
-  /** What was counted since `start`. */
+  /** The counts since `start`. */
   async stop(): Promise<Count> {
     const after = await this.metrics();
     const counted = await this.page.evaluate(() => window.ferryMeter);
@@ -138,9 +138,9 @@ export class Meter {
     };
   }
 
-  /** What stays after the garbage is collected. */
+  /** The memory in use after garbage collection. */
   async memory() {
-    // Twice: what the first finds free may have held more.
+    // Twice: objects that the first collection frees may have held others.
     await this.cdp.send('HeapProfiler.collectGarbage');
     await this.cdp.send('HeapProfiler.collectGarbage');
     const { JSHeapUsedSize, Nodes, JSEventListeners } = await this.metrics();
@@ -162,7 +162,7 @@ function percentile(values: readonly number[], share: number) {
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
-/** Means over the frames and percentiles, of several counts together. */
+/** Means per frame and percentiles, over several counts. */
 export function figuresOf(counts: readonly Count[]): Figures {
   const sum = (name: 'frames' | 'time_s' | 'script_s' | 'tasks_s') =>
     counts.reduce((total, count) => total + count[name], 0);
@@ -180,16 +180,16 @@ export function figuresOf(counts: readonly Count[]): Figures {
   };
 }
 
-export const words = (figures: Figures) =>
+export const summaryOf = (figures: Figures) =>
   [
-    `${figures.frames} frames, ${figures.frames_per_s.toFixed(1)} a second`,
-    `script ${figures.script_ms_per_frame.toFixed(2)} ms a frame`,
+    `${figures.frames} frames, ${figures.frames_per_s.toFixed(1)} per second`,
+    `script ${figures.script_ms_per_frame.toFixed(2)} ms per frame`,
     `all tasks ${figures.tasks_ms_per_frame.toFixed(2)} ms`,
     `state to frame p50 ${figures.state_to_frame_p50_ms?.toFixed(1) ?? '–'} ms`,
     `p95 ${figures.state_to_frame_p95_ms?.toFixed(1) ?? '–'} ms`,
   ].join(', ');
 
-/** Single steps of a paused session, each seen before the next is requested. */
+/** Steps a paused session, and waits after each step until the plan view shows it. */
 export async function stepThrough(lab: Lab, count: number) {
   for (let i = 0; i < count; i++) {
     const { tick } = lab.state;

@@ -1,19 +1,19 @@
-// The places of the page: views, tabs, what buttons and summaries open, each controller, and the moments in which the
-// page looks different. Places are found, not listed: a new tab is looked at without a change here.
+// Visits the places of the page: views, tabs, what buttons and summaries open, each controller,
+// refusals and roles. The places are read from the page, so a new tab needs no change here.
 
 import { type Locator, type Page, expect } from '@playwright/test';
 import type { Lab } from './lab';
-import { inSpace } from './moments';
+import { openSceneView } from './preconditions';
 import { must, until } from './wait';
 
-/** Ticks of history, so that there are moments to go back to. */
+/** Ticks to run, so that the timeline has a history. */
 const HISTORY_TICKS = 250;
 
 export interface Place {
   readonly name: string;
-  /** The panel that it is in, for a picture. */
+  /** The panel to take a picture of. */
   readonly panel: Locator;
-  /** What was pressed to get there. */
+  /** The control that was pressed to get there. */
   readonly opener?: Locator;
 }
 
@@ -21,27 +21,28 @@ export type Places = (lab: Lab) => AsyncGenerator<Place>;
 
 export const slug = (text: string) => text.toLowerCase().replaceAll(/\W+/g, '-');
 
-/** Opens everything that folds. */
-async function unfold(page: Page) {
+/** Opens all `details` elements. */
+async function openDetails(page: Page) {
   await page.evaluate(() => {
     for (const one of document.querySelectorAll('details')) one.open = true;
   });
 }
 
-/** A goal is placed, time has passed, and the session is paused. */
-export async function settle(lab: Lab) {
+/** Sets a goal, runs until there is a history, and pauses. */
+export async function prepare(lab: Lab) {
   await lab.reset({ speed: '8' });
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
   await lab.run();
   await until('a history', () => lab.state.newest_tick > HISTORY_TICKS);
   await lab.pause();
-  await unfold(lab.page);
+  await openDetails(lab.page);
 }
 
-/** The panel or bar that something is in. */
+/** The panel or bar that contains an element. */
 const panelOf = (locator: Locator) =>
   locator.locator('xpath=(ancestor::section | ancestor::*[contains(@class, "bar ")])[last()]');
 
+/** Opens each button of `scope` that opens something, one at a time. */
 async function* popovers(page: Page, scope: Locator, within: string): AsyncGenerator<Place> {
   const closed = scope.locator('button[aria-expanded=false]:enabled:visible');
   const names = await closed.evaluateAll((all) =>
@@ -51,26 +52,26 @@ async function* popovers(page: Page, scope: Locator, within: string): AsyncGener
     const opener = scope.getByRole('button', { name, exact: true }).first();
     const isOpen = async () => (await opener.getAttribute('aria-expanded')) === 'true';
     await opener.click();
-    await unfold(page);
+    await openDetails(page);
     yield { name: `${within}: ${name}`, panel: panelOf(opener), opener };
-    // The Tab key may have closed it.
+    // Pressing Tab may have closed it.
     if (await isOpen()) await page.keyboard.press('Escape');
     if (await isOpen()) await opener.click();
   }
 }
 
-/** A view, and what its buttons open. */
+/** A view, and each part that its buttons open. */
 export const view = (name: string): Places =>
   async function* (lab) {
     const opener = lab.view(name);
     await opener.click();
     await lab.drawn();
-    await unfold(lab.page);
+    await openDetails(lab.page);
     yield { name, panel: lab.page.locator('main'), opener };
     yield* popovers(lab.page, lab.page.locator('body'), name);
   };
 
-/** The tabs of a list, and what buttons open in them. */
+/** Each tab of a tab list, and each part that buttons open in it. */
 export const tabs = (area: string): Places =>
   async function* ({ page }) {
     const list = page.locator(`.${area}`).getByRole('tablist');
@@ -79,7 +80,7 @@ export const tabs = (area: string): Places =>
     for (const tab of all) {
       const name = await tab.innerText();
       await tab.click();
-      await unfold(page);
+      await openDetails(page);
       const content = page.locator(`[id="${must(await tab.getAttribute('aria-controls'), name)}"]`);
       yield { name, panel: panelOf(tab), opener: tab };
       yield* popovers(page, content, name);
@@ -94,13 +95,13 @@ export const controllers: Places = async function* (lab) {
     await radio.check();
     await until(value, () => lab.state.controller === value);
     await lab.button('Step').click();
-    await unfold(page);
+    await openDetails(page);
     yield { name: `controller ${value}`, panel: page.locator('section.panel.controller') };
   }
 };
 
-/** What a person may come upon. */
-export const moments: Places = async function* (lab) {
+/** A refusal, the help, a running session, and the page of a viewer. */
+export const refusalsHelpAndRoles: Places = async function* (lab) {
   const { page } = lab;
   await lab.click(lab.wallPoint());
   await lab.notice('workspace').waitFor();
@@ -116,7 +117,7 @@ export const moments: Places = async function* (lab) {
   yield { name: 'viewer', panel: page.locator('header.bar') };
 };
 
-export const space: Places = async function* (lab) {
-  await inSpace(lab);
+export const sceneView: Places = async function* (lab) {
+  await openSceneView(lab);
   yield { name: '3-D', panel: lab.page.locator('section.panel.workspace') };
 };

@@ -1,3 +1,5 @@
+// Starts and stops a Ferry server for the tests.
+
 import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { mkdtemp, rm } from 'node:fs/promises';
@@ -9,14 +11,14 @@ import { fileURLToPath } from 'node:url';
 const BINARY =
   process.env.FERRY_BIN ?? fileURLToPath(new URL('../../../target/release/ferry', import.meta.url));
 const START_MS = 60_000;
-/** A test has one session, seldom two, and ends them. */
+/** Limit of open sessions. A test has one session or two, and ends them. */
 const SESSIONS = 16;
 const KEPT_LINES = 200;
 
 export interface ServerOptions {
-  /** A free one if not set. */
+  /** A free port if not set. */
   readonly port?: string;
-  /** Open to everybody if not set. */
+  /** Without a login if not set. */
   readonly token?: string;
 }
 
@@ -72,7 +74,7 @@ export class Server {
     return new URL(this.url).port;
   }
 
-  /** The last lines that it wrote. */
+  /** The last lines of the server's output. */
   get log() {
     return this.lines.join('\n');
   }

@@ -3,10 +3,10 @@
 import type { SceneMessage } from './wire';
 
 export type Point = readonly [number, number];
-/** The bead and the goal have a height, which does not matter here. */
+/** The bead and the goal have a height, which is ignored here. */
 export type PointLike = readonly [number, number, ...number[]];
 
-/** A bead behind its magnet cuts corners; farther from walls than this, it passes. */
+/** The bead cuts corners when it follows the magnet. At this distance from walls it passes. */
 const CLEARANCE_M = 0.025;
 const STEP_M = 0.01;
 const GRID_M = 0.02;
@@ -27,22 +27,22 @@ interface Wall {
   readonly box: readonly [number, number, number, number];
 }
 
-const known = new WeakMap<SceneMessage, readonly Wall[]>();
+const cache = new WeakMap<SceneMessage, readonly Wall[]>();
 
-/** The walls with the rectangles around them: most points are outside. */
+/** The walls with the rectangles around them, which exclude most points quickly. */
 function wallsOf(scene: SceneMessage) {
-  const found = known.get(scene);
-  if (found) return found;
+  const cached = cache.get(scene);
+  if (cached) return cached;
   const walls = scene.walls.map(({ exterior, holes }): Wall => {
     const [xs, ys] = [exterior.map(([x]) => x), exterior.map(([, y]) => y)];
     const box = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)] as const;
     return { rings: [exterior, ...holes], box };
   });
-  known.set(scene, walls);
+  cache.set(scene, walls);
   return walls;
 }
 
-/** Whether the rectangle, grown by `margin_m`, has the point. */
+/** Whether the rectangle, enlarged by `margin_m`, contains the point. */
 const isInBox = ({ box }: Wall, [x, y]: PointLike, margin_m = 0) =>
   x >= box[0] - margin_m &&
   x <= box[1] + margin_m &&
@@ -65,7 +65,7 @@ function isInside(wall: Wall, point: PointLike) {
   return crossings % 2 === 1;
 }
 
-/** Whether a disc of CLEARANCE_M at `point` touches neither wall nor border. */
+/** Whether a disc of radius CLEARANCE_M at `point` touches neither wall nor border. */
 function isClear(scene: SceneMessage, point: PointLike) {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
   const near = wallsOf(scene).filter((wall) => isInBox(wall, point, CLEARANCE_M));
@@ -80,6 +80,7 @@ function isClear(scene: SceneMessage, point: PointLike) {
   return true;
 }
 
+/** The share of the straight line from `a` to `b` that is not clear. */
 function blockedShare(scene: SceneMessage, a: PointLike, b: PointLike) {
   const steps = Math.ceil(distance(a, b) / STEP_M);
   let blocked = 0;
@@ -91,30 +92,33 @@ function blockedShare(scene: SceneMessage, a: PointLike, b: PointLike) {
   return blocked / steps;
 }
 
-/** Free points `least_m` to `most_m` from `from`; first those with the shortest free straight line to it. */
+/**
+ * Free points at a distance of `min_m` to `max_m` from `from`. Sorted by the blocked share of the
+ * straight line from there, then by distance.
+ */
 export function freePoints(
   scene: SceneMessage,
   from: PointLike,
-  least_m: number,
-  most_m: number,
+  min_m: number,
+  max_m: number,
 ): [Point, ...Point[]] {
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
   const points: { at: Point; blocked: number; away: number }[] = [];
   for (let x = x_min_m; x <= x_max_m; x += GRID_M) {
     for (let y = y_min_m; y <= y_max_m; y += GRID_M) {
       const away = distance([x, y], from);
-      if (away >= least_m && away <= most_m && isClear(scene, [x, y])) {
+      if (away >= min_m && away <= max_m && isClear(scene, [x, y])) {
         points.push({ at: [x, y], blocked: blockedShare(scene, from, [x, y]), away });
       }
     }
   }
   points.sort((a, b) => a.blocked - b.blocked || a.away - b.away);
   const [first, ...others] = points.map(({ at }) => at);
-  if (!first) throw new Error(`no free point ${least_m} to ${most_m} m from ${from.join()}`);
+  if (!first) throw new Error(`no free point ${min_m} to ${max_m} m from ${from.join()}`);
   return [first, ...others];
 }
 
-/** The middle of a wall that a click can hit. */
+/** A point inside a wall, far enough from its edge for a click. */
 export function wallPoint(scene: SceneMessage): Point {
   const walls = wallsOf(scene);
   const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
@@ -130,5 +134,5 @@ export function wallPoint(scene: SceneMessage): Point {
       if (walls.some((wall) => around.every((one) => isInside(wall, one)))) return [x, y];
     }
   }
-  throw new Error('the map has no wall inside');
+  throw new Error('the map has no wall that a click can hit');
 }

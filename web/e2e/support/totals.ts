@@ -1,6 +1,6 @@
 import type { Reporter, Suite } from '@playwright/test/reporter';
 
-/** Ends the output with one line that scripts can read. */
+/** A reporter that ends the output with one line for scripts. */
 export default class Totals implements Reporter {
   private suite: Suite | undefined;
 
@@ -8,7 +8,7 @@ export default class Totals implements Reporter {
     this.suite = suite;
   }
 
-  // The last of all: the list reporter writes its summary in `onEnd`.
+  // Comes last: the list reporter writes its summary in `onEnd`.
   onExit(): Promise<void> {
     const all = this.suite?.allTests() ?? [];
     const passed = all.filter((one) => one.outcome() === 'expected').length;

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 
-/** Often: what is waited for comes within a few frames. */
+/** Short: most conditions become true within a few frames. */
 const INTERVAL_MS = 25;
 const WAIT_MS = 20_000;
 
@@ -25,7 +25,7 @@ export async function until<T>(
   return value as Truthy<T>;
 }
 
-/** For what must exist. */
+/** Returns the value, and throws if it is missing. */
 export function must<T>(value: T | null | undefined, what: string): T {
   if (value === null || value === undefined) throw new Error(`missing: ${what}`);
   return value;

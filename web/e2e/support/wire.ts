@@ -1,4 +1,4 @@
-// The types of the messages: the only import from the page's sources.
+// The types of the messages. This is the only import from the page's sources.
 
 export type {
   ClientMessage,

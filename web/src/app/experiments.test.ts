@@ -21,7 +21,7 @@ const KNOWN: Known = {
   defaults,
 };
 
-describe('links that come with the page', () => {
+describe('links of presets and lessons', () => {
   const links = [
     ...PRESETS.map(({ name, link }) => [name, link] as const),
     ...LESSONS.flatMap(({ title, runs }) => runs.map(({ link }) => [title, link] as const)),

@@ -4,18 +4,18 @@ import { MAP_LAYERS } from './layers';
 
 const ids = MAP_LAYERS.map(({ id }) => id);
 
-it('keep the ids that browsers have stored', () => {
+it('layers keep the ids that browsers have stored', () => {
   expect(ids.join(' ')).toBe(
     'singularity value seen flow blocks rectangles sensed obstacles plan ghosts field trail camera capture',
   );
 });
 
-it('shown by default cover nothing', () => {
+it('layers that are shown by default do not cover the map', () => {
   const first = MAP_LAYERS.filter(({ shownAtFirst }) => shownAtFirst).map(({ id }) => id);
   expect(first.sort()).toEqual(['camera', 'capture', 'ghosts', 'plan', 'sensed', 'trail']);
 });
 
-it('include those that lessons switch on', () => {
+it('layers include those that lessons switch on', () => {
   const wanted = LESSONS.flatMap(({ runs }) => runs.flatMap(({ layers }) => layers));
   for (const id of wanted) expect(ids).toContain(id);
 });

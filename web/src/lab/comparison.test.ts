@@ -12,14 +12,14 @@ const long = branchOf('errt', [
   [0, 2, 0, 0],
 ]);
 
-test('a ghost is where its branch was, and stays where it ended', () => {
+test('a ghost is at the position of its branch, and stays at the last one', () => {
   const comparison = comparisonOf(100, [short, long]);
   expect(lastTick(comparison)).toBe(115);
   expect(ghostAt(comparison, short, 105)?.bead_m).toEqual([0.03, 0.04]);
   expect(ghostAt(comparison, short, 111)?.tool_m).toEqual([1, 0]);
   expect(ghostAt(comparison, short, 115)?.tool_m).toEqual([1, 0]);
   expect(ghostAt(comparison, long, 115)?.tool_m).toEqual([0, 2]);
-  // The first sample of each branch is the moment itself.
+  // The first sample of each branch is the moment of the comparison.
   expect(ghostAt(comparison, long, 100)?.tool_m).toEqual([0, 0]);
 });
 

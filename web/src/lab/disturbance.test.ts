@@ -13,7 +13,7 @@ import type { Scripted } from '../net/protocol.gen';
 import { sceneOf, stateAt } from './testing';
 
 describe('a direction', () => {
-  it('is as drawn: x to the right, y up', () => {
+  it('is as on the screen: x to the right, y up', () => {
     expect(unitVector('left', 0.3)).toEqual([-1, 0]);
     expect(unitVector('up', 0.3)).toEqual([0, 1]);
   });

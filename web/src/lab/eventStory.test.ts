@@ -21,7 +21,7 @@ test('a margin has a distance and a side', () => {
   );
 });
 
-test('the story of a sub-controller names its inputs', () => {
+test('the explanation of a sub-controller names its inputs', () => {
   const fetching = whatItSaw(momentOf({ mode: 1, bead_m: [0.1, 0], bead_tracked_m: [0.101, 0] }));
   expect(fetching).toContain('(0.101, 0.000) m, 1.0 mm from its true position');
   expect(fetching).toContain('Sub-controller 1 flies to the bead');
@@ -35,7 +35,7 @@ test('the story of a sub-controller names its inputs', () => {
   );
 });
 
-test('the story of a policy names its action and the value', () => {
+test('the explanation of a policy names its action and the value', () => {
   const chosen = momentOf({ mode: 2, goal_m: [0.3, 0], controller: 'rl' });
   const judgement: JudgementLayer = {
     quantiles: [[], [], [], []],

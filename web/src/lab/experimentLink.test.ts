@@ -128,7 +128,7 @@ describe('a link', () => {
     });
   });
 
-  it('is readable', () => {
+  it('is readable, and contains only parameters that are not at their default', () => {
     const scene = sceneOf('colon');
     scene.seed = 7;
     scene.parameters = { ...scene.parameters, threshold_m: 0.08 };
@@ -138,13 +138,13 @@ describe('a link', () => {
     );
   });
 
-  it('contains the present seed, parameters, controller and goal, and the original start and script', () => {
+  it('contains the current goal, controller and parameters, and the original start', () => {
     const scene = sceneOf('posts');
     scene.scenario.start_m = [0.1, -0.3];
     scene.scenario.disturbances = 2;
     scene.scenario.script = [{ at: { step: 3 }, disturbance: { dropout: { for_s: 2 } } }];
     scene.scenario.positioner = 'planar_stage';
-    // Set with the mouse.
+    // A goal from the mouse is rounded.
     const goal_m: [number, number, number] = [0.123456789, -0.3000001, 0];
     expect(experimentOf(scene, stateAt(5, { goal_m, controller: 'rl' }))).toEqual({
       map: 'posts',

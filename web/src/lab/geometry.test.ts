@@ -4,7 +4,7 @@ import { clampToRect, insidePolygon } from './geometry';
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
 describe('rectangles', () => {
-  it('clamp what is outside and keep what is inside', () => {
+  it('clamp points outside and keep points inside', () => {
     expect(clampToRect(WORKSPACE, [1, -1])).toEqual([0.28, -0.54]);
     expect(clampToRect(WORKSPACE, [0.1, -0.3])).toEqual([0.1, -0.3]);
   });
@@ -24,7 +24,7 @@ describe('insidePolygon', () => {
     [3, 1],
   ];
 
-  it('knows inside, outside and hole', () => {
+  it('distinguishes inside, outside and hole', () => {
     const polygon = { exterior: ring, holes: [hole] };
     expect(insidePolygon(polygon, [0.5, 0.5])).toBe(true);
     expect(insidePolygon(polygon, [2, 2])).toBe(false);

@@ -35,7 +35,7 @@ describe('History', () => {
     expect(history.newest_s).toBeCloseTo(0.072);
   });
 
-  it('cuts windows at both ends, ends included', () => {
+  it('returns a window that includes both of its ends', () => {
     const [times, errors] = filled(100, 50).window(10 * 0.008, 20 * 0.008, [
       'sim_time_s',
       'error_m',
@@ -45,7 +45,7 @@ describe('History', () => {
     expect(filled(100, 50).window(90, 100, ['tick'])[0]).toHaveLength(0);
   });
 
-  it('stores nothing after a rewind', () => {
+  it('stores no state that is older than the newest one', () => {
     const history = filled(100, 10);
     history.push(stateAt(4));
     expect(ticks(history)).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
@@ -67,7 +67,7 @@ describe('History', () => {
     expect(history.length).toBe(0);
   });
 
-  it('is cut correctly among thinned samples', () => {
+  it('can be cut between thinned samples', () => {
     const history = filled(16, 100);
     const before = ticks(history);
     history.cutAfter(60);

@@ -20,7 +20,7 @@ describe('the picture of the table', () => {
     expect(pictureFromTable(leaning, [0.1, -0.3])[0]).toBeCloseTo(240 / 1.1);
   });
 
-  it('is undefined at the horizon', () => {
+  it('is NaN at the horizon', () => {
     const level: Homography = [ABOVE[0], ABOVE[1], [0, 0, 0]];
     expect(pictureFromTable(level, [0.1, -0.3])).toEqual([NaN, NaN]);
   });

@@ -16,7 +16,7 @@ describe('the queue before a frame', () => {
     expect(queue).toEqual([scene, state(3)]);
   });
 
-  it('loses no event', () => {
+  it('keeps every event', () => {
     const queue: Input[] = [];
     for (const tick of [1, 2, 3]) {
       enqueue(queue, {

@@ -11,7 +11,7 @@ describe('the layers', () => {
   });
 
   it('are the stored ones that still exist', () => {
-    expect([...layersFrom('["flow","gone",7]', KNOWN)]).toEqual(['flow']);
+    expect([...layersFrom('["flow","removed",7]', KNOWN)]).toEqual(['flow']);
     expect([...layersFrom('[]', KNOWN)]).toEqual([]);
   });
 });

@@ -133,10 +133,10 @@ describe('a refusal', () => {
   });
 
   it('because of a silent hand is counted and stays when the hold ends', () => {
-    const silent = message({ type: 'error', code: 'hand_silent', message: 'let go' });
+    const silent = message({ type: 'error', code: 'hand_silent', message: 'released' });
     const model = play(silent, { type: 'sent', command: 'release' });
     expect(model.silences).toBe(1);
-    expect(model.notices.workspace?.text).toBe('let go');
+    expect(model.notices.workspace?.text).toBe('released');
   });
 
   it('disappears with the next attempt or when dismissed, but a newer one stays', () => {

@@ -15,7 +15,7 @@ const SEEN: SeenMessage = {
   ],
 };
 
-it('knows whether the camera has shown a point', () => {
+it('the obstacle map reports whether the camera has shown a point', () => {
   const isSeen = seenAt(SEEN);
   expect(isSeen([0.5, 0.5])).toBe(true);
   expect(isSeen([0.5, 2])).toBe(true);

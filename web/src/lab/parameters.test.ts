@@ -50,7 +50,7 @@ describe('the form', () => {
     expect(storedValue(field('fetch_radius_m'), 15, defaults)).toBe(defaults.threshold_m);
   });
 
-  it('keeps the waypoint probability within what the goal leaves', () => {
+  it('keeps the sum of waypoint probability and goal probability at most 1', () => {
     const parameters = { ...defaults, errt_goal_probability: 0.7 };
     const waypoints = field('errt_waypoint_probability');
     expect(shownMost(waypoints, defaults)).toBe(90);

@@ -107,7 +107,7 @@ describe('a connection', () => {
     expect(socket().sent).toEqual([{ type: 'run' }]);
   });
 
-  it('requests its session before a new attempt, and reports why the session does not exist', async () => {
+  it('requests its session before each new attempt, and reports a refusal', async () => {
     const answers = [{ isOpen: false, why: 'no room' }, { isOpen: false }, { isOpen: true }];
     const reopen = vi.fn(() => Promise.resolve(answers.shift() ?? { isOpen: true }));
     open({ reopen });

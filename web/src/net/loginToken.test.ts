@@ -23,7 +23,7 @@ describe('takeToken', () => {
     });
   });
 
-  it('leaves other addresses alone', () => {
+  it('does not change other addresses', () => {
     expect(at('')).toEqual({ token: undefined, address: undefined });
     expect(at('#v=1&map=colon')).toEqual({ token: undefined, address: undefined });
   });

@@ -20,7 +20,7 @@ it('repeats the newest value at every interval until it stops', () => {
   ]);
 });
 
-it('starts again once after a stop', () => {
+it('repeats a new value after a stop', () => {
   const clock = manualClock();
   const said: string[] = [];
   const repeater = new Repeater<string>(500, (value) => said.push(value), clock);

@@ -77,7 +77,7 @@ describe('the asker', () => {
     expect(answers.at(-1)).toEqual({ data: 1, error: 'no room', key: 'posts' });
   });
 
-  it('does not report after it was closed', async () => {
+  it('does not report an answer after it was closed', async () => {
     const { asker, pending, answers, settle } = bench();
     asker.ask('late');
     asker.forget();

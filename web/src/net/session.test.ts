@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { sessionOf, sessionPath } from './session';
 
-it('is named by the address', () => {
+it('the address names the session', () => {
   for (const [pathname, session] of [
     ['/', 'main'],
     ['/s/anna', 'anna'],
@@ -15,6 +15,6 @@ it('is named by the address', () => {
   }
 });
 
-it('has its resources below its name', () => {
+it('the resources of a session are below its name', () => {
   expect(sessionPath('anna', 'case.json')).toBe('/api/sessions/anna/case.json');
 });

@@ -46,7 +46,7 @@ describe('a press and release', () => {
 });
 
 describe('a drag of the bead', () => {
-  it('pulls after the threshold and releases at the end', () => {
+  it('begins after the threshold and releases at the end', () => {
     const { state, effects } = play([down(true), move(12), move(14), move(30), up()]);
     expect(state).toBe(IDLE);
     expect(effects).toEqual([
@@ -56,7 +56,7 @@ describe('a drag of the bead', () => {
     ]);
   });
 
-  it('keeps pulling when it returns to its start', () => {
+  it('continues when it returns to its start', () => {
     expect(play([down(true), move(20), move(10)]).state.kind).toBe('held');
   });
 

@@ -28,7 +28,7 @@ describe('a table of two metres by one', () => {
     expect(gridStepM(view.pxPerM)).toBe(0.2);
   });
 
-  it('shows the bead enlarged, and a capture ring wider than the hand', () => {
+  it('shows the bead enlarged, and a capture ring wider than the grab distance', () => {
     expect(BEAD_RADIUS_M * view.pxPerM).toBeLessThan(1);
     expect(beadRadiusPx(view, BEAD_RADIUS_M)).toBeGreaterThanOrEqual(4);
     expect(CAPTURE_M * view.pxPerM).toBeGreaterThan(1.5 * GRAB_MOUSE_PX);

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { floorMargins } from './floorPicture';
 
-test('the space for the numbers grows with the workspace, like the numbers', () => {
+test('the margins for the numbers grow with the workspace, like the numbers', () => {
   const small = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
   const large = { x_min_m: -1, x_max_m: 1, y_min_m: 0, y_max_m: 1 };
   const margins = floorMargins(small);

@@ -23,7 +23,7 @@ const ENDED: Record<ReleaseCause, readonly [boolean, boolean, boolean]> = {
 };
 
 describe('a release', () => {
-  it.each(RELEASE_CAUSES)('%s', (cause) => {
+  it.each(RELEASE_CAUSES)('because of “%s” ends the right presses and holds', (cause) => {
     expect([PRESSED, DRAGGED, BY_KEYBOARD].map((drag) => ends(cause, drag, 1))).toEqual(
       ENDED[cause],
     );
@@ -45,11 +45,11 @@ describe('a change of the laboratory', () => {
     [{ tick: 99 }, 'session rewound'],
     [{ tick: 101 }, undefined],
     [{}, undefined],
-  ] as const)('%o: %s', (change, cause) => {
+  ] as const)('of %o has the cause: %s', (change, cause) => {
     expect(causeOf(BEFORE, { ...BEFORE, ...change })).toBe(cause);
   });
 
-  it('does not end the press of a viewer, because a click shows why nothing happens', () => {
+  it('does not end the press of a viewer, because the click shows a notice', () => {
     const viewer = { ...BEFORE, canOperate: false };
     expect(causeOf(viewer, { ...viewer, tick: 101 })).toBeUndefined();
   });

@@ -5,7 +5,7 @@ const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21
 const INSETS = { left: 40, right: 10, top: 10, bottom: 20 };
 
 describe('fitView', () => {
-  it('shows the whole world inside the insets, y up', () => {
+  it('shows the whole workspace inside the insets, with y up', () => {
     for (const [width, height] of [
       [700, 400],
       [300, 900],

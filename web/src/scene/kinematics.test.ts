@@ -2,7 +2,7 @@ import { Matrix4 } from 'three';
 import { expect, test } from 'vitest';
 import { linkFrames } from './kinematics';
 
-/** Joints, and the flange that the server's `POST /api/kinematics/forward` answers for them. */
+/** Joint angles, and the flange that `POST /api/kinematics/forward` of the server returns. */
 const FLANGES: { joints_rad: number[]; position_m: number[]; rotation: number[][] }[] = [
   {
     joints_rad: [0, 0, 0, 0, 0, 0],
@@ -42,7 +42,7 @@ const FLANGES: { joints_rad: number[]; position_m: number[]; rotation: number[][
   },
 ];
 
-test('the flange is where the server says', () => {
+test('the flange has the pose that the server calculates', () => {
   const frames = Array.from({ length: 6 }, () => new Matrix4());
   for (const { joints_rad, position_m, rotation } of FLANGES) {
     linkFrames(joints_rad, frames);
@@ -56,7 +56,7 @@ test('the flange is where the server says', () => {
   }
 });
 
-test('a flange is not of the joints before', () => {
+test('the frames depend only on the given joint angles, not on earlier ones', () => {
   const frames = Array.from({ length: 6 }, () => new Matrix4());
   linkFrames([1, 2, 3, 4, 5, 6], frames);
   const first = frames.map((frame) => frame.clone());

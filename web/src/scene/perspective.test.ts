@@ -4,10 +4,10 @@ import { perspectiveView, pxFromTable } from './perspective';
 
 const [WIDTH, HEIGHT] = [800, 400];
 
-function cameraAt(eye: Vector3, target: Vector3): PerspectiveCamera {
+function cameraAt(position: Vector3, target: Vector3): PerspectiveCamera {
   const camera = new PerspectiveCamera(40, WIDTH / HEIGHT, 0.01, 10);
   camera.up.set(0, 0, 1);
-  camera.position.copy(eye);
+  camera.position.copy(position);
   camera.lookAt(target);
   camera.updateMatrixWorld();
   return camera;
@@ -38,14 +38,14 @@ test('points on the table and above it have the pixels that three calculates', (
   }
 });
 
-test('a pixel leads back to its point of the table', () => {
+test('a pixel is mapped back to its point of the table', () => {
   const px = view.toPx([0.13, -0.47]);
   const [x, y] = (px && view.toWorld(px)) ?? [];
   expect(x).toBeCloseTo(0.13, 9);
   expect(y).toBeCloseTo(-0.47, 9);
 });
 
-test('a pixel above the horizon has no table point, and a point behind the camera has no pixel', () => {
+test('a pixel above the horizon has no point, a point behind the camera has no pixel', () => {
   const low = cameraAt(new Vector3(0, -1, 0.1), new Vector3(0, 0, 0.1));
   const horizontal = perspectiveView(clipFromBase(low), WIDTH, HEIGHT);
   expect(horizontal.toWorld([WIDTH / 2, HEIGHT / 2 - 20])).toBeUndefined();
@@ -62,7 +62,7 @@ test('a view does not follow later changes of the camera', () => {
   expect(before.toPx([0.1, 0.1], 0.05)).toEqual(px);
 });
 
-test('the matrix for tests is the mapping itself', () => {
+test('the matrix for browser tests maps a point to the same pixel as the view', () => {
   const at = new Vector3(0.2, -0.3, 1).applyMatrix3(
     pxFromTable(clipFromBase(camera), WIDTH, HEIGHT),
   );

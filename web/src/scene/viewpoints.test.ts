@@ -4,7 +4,7 @@ import { distanceFor, hidingAt, turnedArrow, viewpointOf, VIEWPOINTS } from './v
 
 const WORKSPACE = { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 };
 
-test('every viewpoint shows its bounds, large enough', () => {
+test('every viewpoint shows all of its bounds, and they fill the picture', () => {
   for (const name of VIEWPOINTS) {
     for (const aspect of [0.6, 1, 1.8, 3]) {
       const viewpoint = viewpointOf(name, WORKSPACE);
@@ -29,7 +29,7 @@ test('every viewpoint shows its bounds, large enough', () => {
 });
 
 test('an arrow key moves the cursor along the arrow on the screen', () => {
-  // From the front, as in the plan view; from +x, where +y is to the right.
+  // From the front, the arrows are as in the plan view. From +x, +y is to the right.
   const [quarter, up, right] = [Math.PI / 2, [0, 1], [1, 0]] as const;
   expect(turnedArrow(up, 0.3)).toEqual([0, 1]);
   expect(turnedArrow(up, quarter).map(Math.round)).toEqual([-1, 0]);

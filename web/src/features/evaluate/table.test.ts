@@ -31,7 +31,7 @@ const FAILURE: EvaluationFailure = {
 };
 
 describe('text of a row', () => {
-  it('is short', () => {
+  it('has percentages, centimetres, milliseconds and the reason of a failure', () => {
     expect(percentRange([0.8333, 1])).toBe('83–100 %');
     expect(cm(0.0141)).toBe('1.4');
     expect(cm(null)).toBe('–');
@@ -51,7 +51,7 @@ describe('differences', () => {
 });
 
 describe('files', () => {
-  it('come from the server', () => {
+  it('have addresses on the server', () => {
     expect(REPORTS.map((ending) => reportAddress('evaluation-3', ending))).toEqual([
       '/api/evaluations/evaluation-3/report.html',
       '/api/evaluations/evaluation-3/report.csv',

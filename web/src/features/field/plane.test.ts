@@ -3,7 +3,7 @@ import type { Plane } from '../../net/protocol.gen';
 import { sceneOf } from '../../lab/testing';
 import { fieldWords, planeArrows, planePixels, planeQuery, SIDE_PX, strongestWords } from './plane';
 
-/** Strongest in the middle, with a pull toward it. */
+/** A field that is strongest in the middle, with a pull toward the middle. */
 const { reach_m, count } = planeQuery(sceneOf('open').parameters);
 const places = Array.from({ length: count * count }, (_, place) => {
   const along = (index: number): number => (2 * reach_m * index) / (count - 1) - reach_m;

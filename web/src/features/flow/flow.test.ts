@@ -7,7 +7,7 @@ const SPACING_M = 0.02;
 const everywhere = () => true;
 const GOAL: readonly [number, number] = [0.3, 0.1];
 
-/** Sixteen by eleven places. */
+/** A flow at 16 × 11 grid points. */
 function fieldOf(velocity: (x: number, y: number) => [number, number] | null): FlowField {
   const [columns, rows] = [16, 11];
   const places = Array.from({ length: columns * rows }, (_, place) =>
@@ -16,7 +16,7 @@ function fieldOf(velocity: (x: number, y: number) => [number, number] | null): F
   return { columns, rows, origin_m: [0, 0], spacing_m: SPACING_M, velocity_m_s: places };
 }
 
-/** Straight to the goal, at one speed. */
+/** A flow straight to the goal, with constant speed. */
 function toward(x: number, y: number): [number, number] {
   const [dx, dy] = [GOAL[0] - x * SPACING_M, GOAL[1] - y * SPACING_M];
   const length = Math.hypot(dx, dy) || 1;
@@ -24,7 +24,7 @@ function toward(x: number, y: number): [number, number] {
 }
 
 describe('the spacing', () => {
-  it('gives forty places across, within the server’s limits', () => {
+  it('gives forty grid points across, within the server’s limits', () => {
     const square = (side_m: number) => ({ x_min_m: 0, x_max_m: side_m, y_min_m: 0, y_max_m: 0.1 });
     expect(flowSpacingM(square(0.6))).toBeCloseTo(0.015);
     expect(flowSpacingM(square(0.1))).toBe(0.005);
@@ -45,7 +45,7 @@ describe('the key', () => {
 });
 
 describe('the arrows', () => {
-  it('grow with the speed and never reach the next place', () => {
+  it('grow with the speed and never reach the next grid point', () => {
     const arrows = flowArrows(
       fieldOf((x, y) => (y > 0 ? null : x === 0 ? [0.04, 0] : x === 1 ? [0, -0.02] : [0, 0])),
       everywhere,

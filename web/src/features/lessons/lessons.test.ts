@@ -33,7 +33,7 @@ describe('every lesson', () => {
     expect(ids.length).toBeGreaterThanOrEqual(2);
     expect(ids.length).toBeLessThanOrEqual(4);
     const tracks = one.runs.map(() => START);
-    // With any measurement, one of the choices comes true, and there are numbers.
+    // For any measurement, the outcome is one of the choices, and there are facts.
     expect(ids).toContain(one.outcome(tracks));
     expect(one.facts(tracks).length).toBeGreaterThan(0);
     for (const run of one.runs) {

@@ -28,13 +28,13 @@ function frame(
   return { scene, state, overlay: undefined, marks };
 }
 
-function fold(frames: readonly Frame[]): Track {
+function trackOf(frames: readonly Frame[]): Track {
   return frames.reduce(observe, startTrack(frame(0)));
 }
 
 describe('a track', () => {
   it('measures the path length, and the greatest distance in total and while carrying', () => {
-    const track = fold([
+    const track = trackOf([
       frame(1, { tool_m: [0.04, 0, 0.1], tracking_error_m: 0.016 }),
       frame(2, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.01 }),
       frame(3, { tool_m: [0.04, 0.03, 0.1], tracking_error_m: 0.2, phase: 'approaching', mode: 1 }),
@@ -45,7 +45,7 @@ describe('a track', () => {
   });
 
   it('does not count an error while the hand holds the bead', () => {
-    const track = fold([frame(1, { tracking_error_m: 0.09, hand_m: [0.1, 0] })]);
+    const track = trackOf([frame(1, { tracking_error_m: 0.09, hand_m: [0.1, 0] })]);
     expect(track.carryingError_m).toBe(0);
   });
 
@@ -57,10 +57,10 @@ describe('a track', () => {
       event(3.5, 'switch', FETCHED),
       event(5, 'switch', LOST),
     ];
-    const track = fold([frame(6, { switches: 4 }, marks)]);
+    const track = trackOf([frame(6, { switches: 4 }, marks)]);
     expect(track).toMatchObject({ losses: 2, lostAt_s: 2, fetchedAt_s: 3.5, switches: 4 });
     // The oldest events may be missing.
-    expect(fold([frame(6, {}, marks), frame(7, {}, marks.slice(3))])).toMatchObject({
+    expect(trackOf([frame(6, {}, marks), frame(7, {}, marks.slice(3))])).toMatchObject({
       losses: 2,
       lostAt_s: 2,
       fetchedAt_s: 3.5,
@@ -71,7 +71,7 @@ describe('a track', () => {
     const overlay = (plans: number): Frame['overlay'] =>
       ({ plan: { plans } }) as unknown as Frame['overlay'];
     const there = event(10, 'delivered');
-    const track = fold([
+    const track = trackOf([
       { ...frame(5), overlay: overlay(9) },
       { ...frame(10, {}, [there]), overlay: overlay(13) },
       { ...frame(15, {}, [there]), overlay: overlay(14) },
@@ -86,17 +86,17 @@ describe('a track', () => {
   it('measures how long the tool stayed in one place during a transport', () => {
     const at = (x: number): Partial<StateMessage> => ({ tool_m: [x, 0, 0.1] });
     const frames = [frame(1, at(0.04)), frame(2, at(0.08)), frame(5, at(0.09)), frame(9, at(0.07))];
-    // It arrived there at 2 s.
-    expect(fold(frames).lingered_s).toBeCloseTo(7, 6);
+    // The tool arrived there at 2 s.
+    expect(trackOf(frames).lingered_s).toBeCloseTo(7, 6);
     const holding = frames.map((frame) => ({
       ...frame,
       state: { ...frame.state, phase: 'delivered' },
     }));
-    expect(fold(holding).lingered_s).toBe(0);
+    expect(trackOf(holding).lingered_s).toBe(0);
   });
 
   it('keeps the height at which the bead jumped', () => {
-    const track = fold([
+    const track = trackOf([
       frame(1, { lift_ratio: 0.98, tool_m: [0, 0, 0.095] }),
       frame(2, { lift_ratio: 1.2, tool_m: [0, 0, 0.094], phase: 'lifted off' }),
       frame(3, { lift_ratio: 9, tool_m: [0, 0, 0.09], phase: 'lifted off' }),
@@ -105,7 +105,7 @@ describe('a track', () => {
   });
 
   it('is not changed by another trial', () => {
-    const track = fold([frame(1)]);
+    const track = trackOf([frame(1)]);
     expect(observe(track, { ...frame(2), scene: sceneOf('posts', 4) })).toBe(track);
   });
 });

@@ -64,7 +64,7 @@ describe('the requests', () => {
     });
   });
 
-  it('ask for all heights or the current one, and never without drag', () => {
+  it('contain all heights or the current one, and always a drag', () => {
     const all = reachQuery(parameters({ drag_n_s_m: 0 }), 0, 'all');
     expect([all.lowest_m, all.highest_m, all.count]).toEqual([0.09, 0.2, 56]);
     expect(all.drag_n_s_m).toBeGreaterThan(0);

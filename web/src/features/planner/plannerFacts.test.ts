@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { pathLengthM, pathWords } from './plannerFacts';
 
-const WAY: [number, number][] = [
+const PATH: [number, number][] = [
   [0, 0],
   [0.3, 0.4],
   [0.3, 0.5],
@@ -9,12 +9,12 @@ const WAY: [number, number][] = [
 
 describe('the path', () => {
   it('has the sum of the lengths of its parts', () => {
-    expect(pathLengthM(WAY)).toBeCloseTo(0.6);
+    expect(pathLengthM(PATH)).toBeCloseTo(0.6);
     expect(pathLengthM([])).toBe(0);
   });
 
   it('is searched only during a transport', () => {
-    expect(pathWords(WAY, 'transporting')).toBe('60.0 cm');
+    expect(pathWords(PATH, 'transporting')).toBe('60.0 cm');
     expect(pathWords([], 'transporting')).toBe('searching');
     expect(pathWords([], 'approaching')).toBe('none');
   });

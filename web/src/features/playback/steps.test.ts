@@ -9,7 +9,7 @@ import {
 } from './steps';
 
 describe('speeds', () => {
-  it('go up and down by one, and end', () => {
+  it('go up and down by one step, within the limits', () => {
     expect(nextSpeed(1, 1)).toBe(2);
     expect(nextSpeed(1, -1)).toBe(0.5);
     expect(nextSpeed(3, 1)).toBe(4);
@@ -22,7 +22,7 @@ describe('speeds', () => {
     expect(speedName(0.125)).toBe('1/8×');
   });
 
-  it('shows when the machine is at its limit', () => {
+  it('are marked when the machine is at its limit', () => {
     expect(achievedWords(1, 0.97)).toEqual({ text: 'achieved 0.97×', limited: false });
     // The simulation has just started to run.
     expect(achievedWords(8, 0)).toEqual({ text: 'achieved –', limited: false });

@@ -9,7 +9,7 @@ import { axisRange } from './parts';
 import { Rotation } from './rotation';
 import { csvOf, nearestIndex, shownWindow, spansOf, takeSample, thinnedIndices } from './sample';
 
-const struckAt = (tick: number): EventMessage => ({
+const disturbanceAt = (tick: number): EventMessage => ({
   tick,
   sim_time_s: tick * 0.008,
   kind: 'disturbance',
@@ -54,9 +54,9 @@ describe('a sample', () => {
   it('has the times of sub-controller 1 and of the disturbances', () => {
     const history = run(2000, (tick) => ({ mode: tick >= 500 && tick < 700 ? 1 : 2 }));
     const sample = takeSample(history, 'all', 4, [
-      struckAt(500),
-      { ...struckAt(600), kind: 'goal' },
-      struckAt(9000),
+      disturbanceAt(500),
+      { ...disturbanceAt(600), kind: 'goal' },
+      disturbanceAt(9000),
     ]);
     expect(sample.approaches).toEqual([[4, expect.closeTo(5.6)]]);
     expect(sample.struck).toEqual([{ time_s: 4, at_m: [-499, 0] }]);
@@ -75,7 +75,7 @@ describe('a sample', () => {
     expect(nearestIndex(new Float64Array(), 1)).toBeUndefined();
   });
 
-  it('is found by its place; the later of two passes wins', () => {
+  it('is found by its position; the later of two passes is returned', () => {
     const sample = takeSample(
       run(100, (tick) => ({ bead_m: [tick % 50, 0, 0], tool_m: [tick % 50, 1, 0] })),
       'all',
@@ -90,7 +90,7 @@ describe('a sample', () => {
 
   it('becomes a table with every sample', () => {
     const history = run(3);
-    const lines = csvOf(history, takeSample(history, 'all', 0, [struckAt(1)]))
+    const lines = csvOf(history, takeSample(history, 'all', 0, [disturbanceAt(1)]))
       .trim()
       .split('\n');
     expect(lines).toHaveLength(4);
@@ -150,7 +150,7 @@ describe('the figure as a file', () => {
     const svg = figureSvg({
       title: 'a <map> & more',
       palette,
-      sample: takeSample(history, 'all', 16, [struckAt(1000)]),
+      sample: takeSample(history, 'all', 16, [disturbanceAt(1000)]),
       threshold_m: 0.1,
       workspace,
       walls: [

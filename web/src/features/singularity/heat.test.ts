@@ -30,11 +30,11 @@ describe('the request', () => {
   });
 
   it('is not sent without an arm', () => {
-    const stage = { ...scene, positioner: 'planar_stage' as const };
-    expect(workspaceQuery(stage, scene.parameters)).toBeUndefined();
+    const planar = { ...scene, positioner: 'planar_stage' as const };
+    expect(workspaceQuery(planar, scene.parameters)).toBeUndefined();
   });
 
-  it('asks for coarser cells on a larger table', () => {
+  it('has coarser cells on a larger table', () => {
     const table = { x_min_m: -1, x_max_m: 1, y_min_m: 0, y_max_m: 1 };
     expect(2 / cellM(table)).toBeLessThanOrEqual(120);
   });
@@ -73,7 +73,7 @@ describe('the colours', () => {
 });
 
 describe('the hatching', () => {
-  it('covers what is singular or out of reach, in runs', () => {
+  it('covers cells that are singular or out of reach, in runs', () => {
     expect(refusedRuns(MAP)).toEqual([
       [0, 0, 1],
       [1, 0, 2],

@@ -62,11 +62,11 @@ describe('the picture', () => {
 describe('the arrows', () => {
   it('point along the best step and stay in their cells', () => {
     const arrows = valueArrows(MAP, 2000);
-    const ways = arrows.map(({ from_m, to_m }) => [
+    const steps = arrows.map(({ from_m, to_m }) => [
       Math.round((to_m[0] - from_m[0]) * 1e4) / 1e4,
       Math.round((to_m[1] - from_m[1]) * 1e4) / 1e4,
     ]);
-    expect(ways).toEqual([
+    expect(steps).toEqual([
       [0.006, 0],
       [0, 0.006],
       [0, -0.006],

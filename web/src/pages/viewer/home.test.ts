@@ -17,14 +17,14 @@ test('sends requests only to its own server', async () => {
     `${HOME}/rerun/re_viewer.js`,
     `${HOME}/api/recordings`,
   ]);
-  for (const stranger of [
+  for (const foreign of [
     'https://tel.rerun.io/api/pog',
     '//example.org/',
     'http://127.0.0.1:8081/',
     'https://127.0.0.1:8080/',
     new Request('https://app.rerun.io/x', { method: 'POST' }),
   ]) {
-    expect((await kept(stranger)).status).toBe(403);
+    expect((await kept(foreign)).status).toBe(403);
   }
   expect(requested).toHaveLength(3);
 });

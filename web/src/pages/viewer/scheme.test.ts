@@ -5,7 +5,7 @@ class List extends EventTarget {
   readonly matches = true;
 }
 
-test('answers with the theme and reports a change', () => {
+test('answers media queries by the theme, and reports a change of it', () => {
   const scheme = new Scheme('dark');
   const matchMedia = scheme.answering(() => new List() as unknown as MediaQueryList);
   const dark = matchMedia('(prefers-color-scheme: dark)');

@@ -1,16 +1,17 @@
-// The 3-D view: what the plan view can do, it can do.
+// The 3-D view supports every action of the plan view, by mouse and by keyboard.
+// Also: its viewpoints, its graphics memory, and browsers without WebGL 2.
 
 import { type Lab, expect, test } from './fixtures';
-import { inSpace } from './support/moments';
+import { openSceneView } from './support/preconditions';
 import {
   beadPx,
   freeInPicture,
-  onTheCard,
+  gpuObjects,
   projection,
   px,
   sceneOf,
   settled,
-} from './support/space';
+} from './support/scene';
 import { distance } from './support/table';
 import { must, until } from './support/wait';
 
@@ -23,7 +24,7 @@ const differ = (a: readonly number[], b: readonly number[]) =>
 const picture = (lab: Lab) => sceneOf(lab).screenshot();
 
 test('places a goal in the 3-D view', async ({ lab }) => {
-  await inSpace(lab);
+  await openSceneView(lab);
   await expect(lab.canvas).toBeHidden();
   const goal = await freeInPicture(lab, 0.1, 0.25);
   await lab.page.mouse.click(...(await px(lab, goal)));
@@ -34,8 +35,8 @@ test('places a goal in the 3-D view', async ({ lab }) => {
   await until('a carried bead', () => lab.state.phase === 'transporting');
 });
 
-test('drags the bead in the 3-D view', async ({ lab }) => {
-  await inSpace(lab);
+test('drags the bead by mouse in the 3-D view', async ({ lab }) => {
+  await openSceneView(lab);
   const { mouse } = lab.page;
   await settled(lab);
   const camera = await projection(lab);
@@ -46,7 +47,10 @@ test('drags the bead in the 3-D view', async ({ lab }) => {
   await expect(sceneOf(lab)).toHaveAttribute('data-cursor', 'near-bead');
   await mouse.down();
   await mouse.move(...(await px(lab, away)), { steps: 10 });
-  await until('the hand there', () => lab.state.hand_m && distance(lab.state.hand_m, away) < 0.003);
+  await until(
+    'the hand at the pointer',
+    () => lab.state.hand_m && distance(lab.state.hand_m, away) < 0.003,
+  );
   await until('the bead at the hand', () => distance(lab.state.bead_m, away) < 0.01);
   expect(distance(lab.state.bead_m, bead)).toBeGreaterThan(0.03);
   await expect(lab.page.locator('.spring-label')).toHaveText(/\d N · |mN · /);
@@ -56,8 +60,8 @@ test('drags the bead in the 3-D view', async ({ lab }) => {
   expect(lab.state.goal_m, 'dragging the bead placed a goal').toBeNull();
 });
 
-test('turns the 3-D view', async ({ lab }) => {
-  await inSpace(lab);
+test('turns and zooms the 3-D view, and returns to its viewpoints', async ({ lab }) => {
+  await openSceneView(lab);
   await settled(lab);
   const { mouse, keyboard } = lab.page;
   const canvas = sceneOf(lab);
@@ -85,19 +89,19 @@ test('turns the 3-D view', async ({ lab }) => {
   await until('home', async () => differ(await projection(lab), home) < 1e-3);
 });
 
-test("shows the magnet's field in the 3-D view", async ({ lab }) => {
-  await inSpace(lab);
+test('shows the layer Field and pull in the 3-D view', async ({ lab }) => {
+  await openSceneView(lab);
   await settled(lab);
   const bare = await picture(lab);
   await lab.layer('Field and pull');
-  await until('a picture with it', async () => !(await picture(lab)).equals(bare));
+  await until('a picture with the layer', async () => !(await picture(lab)).equals(bare));
   await settled(lab);
   await lab.layer('Field and pull', false);
-  await until('a picture without it', async () => (await picture(lab)).equals(bare));
+  await until('a picture without the layer', async () => (await picture(lab)).equals(bare));
 });
 
-test('obeys the keyboard in the 3-D view', async ({ lab }) => {
-  await inSpace(lab);
+test('places a goal, runs and drags the bead by keyboard in the 3-D view', async ({ lab }) => {
+  await openSceneView(lab);
   await sceneOf(lab).focus();
   const { keyboard } = lab.page;
   await keyboard.press('Home');
@@ -117,46 +121,46 @@ test('obeys the keyboard in the 3-D view', async ({ lab }) => {
   await until('running', () => lab.state.running);
   await keyboard.press('d');
   const held = await until('the hand', () => lab.state.hand_m);
-  // The hand stays where it is on the table while the view turns under it.
+  // The hand keeps its place on the table while the view turns.
   await keyboard.press(']');
   await keyboard.press('ArrowRight');
   const moved = await until('a hand that follows', () => {
     const hand = lab.state.hand_m;
     return hand && distance(hand, held) > 0 && hand;
   });
-  expect(distance(moved, held), 'turning the view flung the hand away').toBeLessThan(0.008);
+  expect(distance(moved, held), 'distance by which the hand moved').toBeLessThan(0.008);
   await keyboard.press('Escape');
   await until('no hand', () => !lab.state.hand_m);
 });
 
-test('frees what the 3-D view held', async ({ lab }) => {
-  // What a reset leaves of the hand and the trails may go a frame later: fewer things are no leak.
+test('frees the graphics memory of the 3-D view', async ({ lab }) => {
+  // A reset may remove the hand and the trails a frame later. So only a growth is a leak.
   const grew = (now: readonly number[], before: readonly number[]) =>
     now.some((count, i) => count > (before[i] ?? 0));
-  await inSpace(lab);
-  const first = await onTheCard(lab);
+  await openSceneView(lab);
+  const first = await gpuObjects(lab);
   await lab.reset({ map: 'colon' });
   await settled(lab);
   await lab.button('Use light colours').click();
   await settled(lab);
   await lab.button('Use dark colours').click();
   await lab.reset();
-  await until(`no more than ${first.join()}`, async () => !grew(await onTheCard(lab), first));
+  await until(`no more than ${first.join()}`, async () => !grew(await gpuObjects(lab), first));
 
   for (let i = 0; i < TOGGLES; i++) {
-    // A browser keeps a few contexts only, and is late to free one that is merely forgotten.
+    // A browser allows few contexts, and frees an unused one late unless the page releases it.
     const old = must(await sceneOf(lab).elementHandle(), 'the scene');
     await lab.radio('Plan').check();
-    await until('the context to go', () =>
+    await until('a released context', () =>
       old.evaluate((canvas) => (canvas as HTMLCanvasElement).getContext('webgl2')?.isContextLost()),
     );
-    await inSpace(lab);
+    await openSceneView(lab);
   }
-  await until(`${first.join()} again`, async () => !grew(await onTheCard(lab), first));
+  await until(`${first.join()} again`, async () => !grew(await gpuObjects(lab), first));
 });
 
-test('goes back from the 3-D view, which it remembers, to the plan', async ({ lab }) => {
-  await inSpace(lab);
+test('remembers the 3-D view after a reload, and returns to the plan view', async ({ lab }) => {
+  await openSceneView(lab);
   await lab.page.reload();
   await expect(sceneOf(lab)).toBeVisible();
   await lab.live();
@@ -168,7 +172,7 @@ test('goes back from the 3-D view, which it remembers, to the plan', async ({ la
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.2)[0]);
 });
 
-test('says that there is no 3-D', async ({ lab }) => {
+test('explains that the browser has no WebGL 2', async ({ lab }) => {
   // As in a browser without WebGL 2, or where it is switched off.
   await lab.page.evaluate(() => {
     const { prototype } = HTMLCanvasElement;

@@ -1,16 +1,22 @@
-// Rows of the table of controls: experiment links, the story of an event, comparisons, lessons.
+// Rows of the control table: experiment links, events and their explanations, comparisons, lessons.
 
 import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
-import { open, pause, withGoal, withHistory, withoutGoal } from '../support/moments';
+import {
+  ensureGoal,
+  ensureHistory,
+  ensureNoGoal,
+  ensurePaused,
+  open,
+} from '../support/preconditions';
 import { must, until } from '../support/wait';
 import { type Section, dialogs, downloads, isChecked, lastSent, tab } from './row';
 
 const COMPUTED_MS = 60_000;
 
-const title = async (lab: Lab) =>
+const explanation = async (lab: Lab) =>
   (await dialogs(lab)) && lab.page.locator('#why-title, .why-sentence').allInnerTexts();
-const heading = (lab: Lab) => lab.page.locator('.lesson-head h3').count();
+const lessonHeadings = (lab: Lab) => lab.page.locator('.lesson-head h3').count();
 const step = (lab: Lab) => lab.page.locator('.lesson-steps [aria-current=step]').allInnerTexts();
 
 async function close(lab: Lab) {
@@ -19,14 +25,14 @@ async function close(lab: Lab) {
   await expect(dialog).toHaveCount(0);
 }
 
-/** One that is not reached yet. */
-async function anotherGoal(lab: Lab) {
-  await withoutGoal(lab);
-  await withGoal(lab);
+/** Sets a goal that the tool has not reached yet. */
+async function setNewGoal(lab: Lab) {
+  await ensureNoGoal(lab);
+  await ensureGoal(lab);
 }
 
-/** The story of an event that has others before and after it. */
-async function inspect(lab: Lab) {
+/** Opens the explanation of an event that has others before and after it. */
+async function openExplanation(lab: Lab) {
   if (await dialogs(lab)) return;
   await lab.tab('Events').click();
   await lab.page
@@ -39,40 +45,40 @@ async function inspect(lab: Lab) {
 const timeOf = (lab: Lab) => lab.label('Time of the ghosts');
 const ghostTime = (lab: Lab) => timeOf(lab).inputValue();
 
-/** All of them have come: until then they do not play. */
-async function ghosts(lab: Lab) {
-  await until('ghosts', () => lab.comparison?.running === false, COMPUTED_MS);
+/** Waits until all ghosts are computed: before that they do not play. */
+async function ghostsComputed(lab: Lab) {
+  await until('the ghosts', () => lab.comparison?.running === false, COMPUTED_MS);
   await expect
     .poll(() => timeOf(lab).evaluate((one: HTMLInputElement) => Number(one.max) - Number(one.min)))
     .toBeGreaterThan(0);
 }
 
-async function withGhosts(lab: Lab) {
+async function ensureGhosts(lab: Lab) {
   if (await lab.button('Clear ghosts').count()) return;
-  // Far off: a short path is over before the ghosts are stopped on it.
-  await withoutGoal(lab);
+  // A far goal: on a short path the ghosts would arrive before the test pauses them.
+  await ensureNoGoal(lab);
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.3, 0.5)[0]);
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
   lab.sent = {};
   await lab.button('Compare from here').click();
   await until('the request', () => lab.sent.fork);
-  await ghosts(lab);
+  await ghostsComputed(lab);
 }
 
-/** From their start: where others left them, they may be over before they are stopped. */
+/** Plays the ghosts from their start. Near the end they would stop before the test pauses them. */
 async function playGhosts(lab: Lab) {
-  await withGhosts(lab);
+  await ensureGhosts(lab);
   if (await lab.button('Pause ghosts').count()) await lab.button('Pause ghosts').click();
   await timeOf(lab).fill(must(await timeOf(lab).getAttribute('min'), 'the start'));
   await lab.button('Play ghosts').click();
   await lab.button('Pause ghosts').waitFor();
 }
 
-async function withoutGhosts(lab: Lab) {
+async function clearGhosts(lab: Lab) {
   if (await lab.button('Clear ghosts').count()) await lab.button('Clear ghosts').click();
 }
 
-const asked = (type: string, ready: (lab: Lab) => Promise<unknown>) => ({
+const sends = (type: string, ready: (lab: Lab) => Promise<unknown>) => ({
   see: lastSent(type),
   ready: async (lab: Lab) => {
     await ready(lab);
@@ -97,9 +103,9 @@ const SHARE: Section = {
 const EVENTS: Section = {
   name: 'events',
   ready: async (lab) => {
-    // Each goal is an event: some before the one whose story is opened, some after it.
-    for (let i = 0; i < 2; i++) await anotherGoal(lab);
-    await withHistory(lab);
+    // Each goal is an event. The explained event needs one before and one after it.
+    for (let i = 0; i < 2; i++) await setNewGoal(lab);
+    await ensureHistory(lab);
     await lab.tab('Events').click();
   },
   rows: {
@@ -107,18 +113,21 @@ const EVENTS: Section = {
     'button /^(?!Why)[A-Z][a-z -]* at \\d/': { see: dialogs, after: close },
     'button /^Why: /': { see: dialogs, after: close },
     'link Keep as test case': { see: downloads },
-    'button Previous event': { see: title, ready: inspect, after: close },
-    'button Next event': { see: title, ready: inspect, after: close },
-    'button Close': { see: dialogs, ready: inspect },
-    'button Rewind to here': { ...asked('rewind', inspect), after: close },
-    'button Compare controllers from here': { ...asked('fork', inspect), after: ghosts },
+    'button Previous event': { see: explanation, ready: openExplanation, after: close },
+    'button Next event': { see: explanation, ready: openExplanation, after: close },
+    'button Close': { see: dialogs, ready: openExplanation },
+    'button Rewind to here': { ...sends('rewind', openExplanation), after: close },
+    'button Compare controllers from here': {
+      ...sends('fork', openExplanation),
+      after: ghostsComputed,
+    },
   },
 };
 
 const COMPARE: Section = {
   name: 'comparisons',
   ready: async (lab) => {
-    await pause(lab);
+    await ensurePaused(lab);
     await lab.tab('Compare').click();
   },
   rows: {
@@ -126,20 +135,23 @@ const COMPARE: Section = {
     'checkbox Compare ERRT': { see: isChecked, isToggle: true },
     'checkbox Compare Attractor': { see: isChecked, isToggle: true },
     'button Compare from here': {
-      ...asked('fork', anotherGoal),
-      // Their goal is near: those that are played below have a longer path.
+      ...sends('fork', setNewGoal),
+      // The goal of these ghosts is near. The rows below need ghosts with a longer path.
       after: async (lab) => {
-        await ghosts(lab);
-        await withoutGhosts(lab);
+        await ghostsComputed(lab);
+        await clearGhosts(lab);
       },
     },
-    'slider Time of the ghosts': { see: ghostTime, ready: withGhosts },
-    'button Play ghosts': { see: ghostTime, ready: withGhosts },
+    'slider Time of the ghosts': { see: ghostTime, ready: ensureGhosts },
+    'button Play ghosts': { see: ghostTime, ready: ensureGhosts },
     'button Pause ghosts': {
       see: (lab) => lab.button('Play ghosts').count(),
       ready: playGhosts,
     },
-    'button Clear ghosts': { see: (lab) => lab.button('Clear ghosts').count(), ready: withGhosts },
+    'button Clear ghosts': {
+      see: (lab) => lab.button('Clear ghosts').count(),
+      ready: ensureGhosts,
+    },
   },
 };
 
@@ -159,18 +171,18 @@ const allLessons = async (lab: Lab) => {
   const back = lab.button('All lessons');
   if (await back.count()) await back.click();
 };
-const inLesson = async (lab: Lab) => {
+const openLesson = async (lab: Lab) => {
   if (await lab.button('All lessons').count()) return;
   await lab.page.getByRole('button', { name: /^Meet the magnet/ }).click();
 };
-/** At its start, with a prediction made. */
-const predicted = async (lab: Lab) => {
-  await inLesson(lab);
+/** Goes to the first step of the lesson and makes a prediction. */
+const predict = async (lab: Lab) => {
+  await openLesson(lab);
   while (await lab.button('Back').isEnabled()) await lab.button('Back').click();
   await lab.page.getByRole('radio', { name: FIRST_CHOICES }).first().check();
 };
-const atRun = async (lab: Lab) => {
-  await predicted(lab);
+const goToRun = async (lab: Lab) => {
+  await predict(lab);
   await lab.button('Next').click();
 };
 
@@ -179,16 +191,19 @@ const LESSONS: Section = {
   ready: tab('Lessons'),
   rows: {
     ...Object.fromEntries(
-      LESSON_TITLES.map((name) => [`button /^${name} /`, { see: heading, after: allLessons }]),
+      LESSON_TITLES.map((name) => [
+        `button /^${name} /`,
+        { see: lessonHeadings, after: allLessons },
+      ]),
     ),
-    [`radio /${FIRST_CHOICES.source}/`]: { see: isChecked, ready: inLesson },
-    'button Next': { see: step, ready: predicted },
-    'button Back': { see: step, ready: atRun },
-    'button Set it up': { see: (lab) => lab.scene.trial, ready: atRun },
+    [`radio /${FIRST_CHOICES.source}/`]: { see: isChecked, ready: openLesson },
+    'button Next': { see: step, ready: predict },
+    'button Back': { see: step, ready: goToRun },
+    'button Set it up': { see: (lab) => lab.scene.trial, ready: goToRun },
     'button Set it up again': { see: (lab) => lab.scene.trial },
-    'button All lessons': { see: heading, ready: inLesson },
+    'button All lessons': { see: lessonHeadings, ready: openLesson },
     'button Start over': { see: (lab) => lab.button('Start over').isDisabled() },
   },
 };
 
-export const PAST: readonly Section[] = [SHARE, EVENTS, COMPARE, LESSONS];
+export const EVENTS_AND_LESSONS: readonly Section[] = [SHARE, EVENTS, COMPARE, LESSONS];

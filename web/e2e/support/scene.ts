@@ -1,4 +1,4 @@
-// The 3-D view: positions in its picture.
+// Positions in the picture of the 3-D view, and waits until it is drawn.
 
 import type { Lab } from './lab';
 import type { Point } from './table';
@@ -13,7 +13,7 @@ async function numbers(lab: Lab, name: string) {
 
 const boxOf = async (lab: Lab) => must(await sceneOf(lab).boundingBox(), 'the scene');
 
-/** Waits until the picture shows the last messages of the server: until no more frames are drawn. */
+/** Waits until the 3-D view has drawn the last messages: until it draws no more frames. */
 export async function settled(lab: Lab) {
   let before: string | null = null;
   let times = 0;
@@ -26,11 +26,11 @@ export async function settled(lab: Lab) {
   });
 }
 
-/** The homography from the table, in metres, to the picture, in pixels: nine numbers, row by row. */
+/** The homography from the table in metres to the picture in pixels: nine numbers, row by row. */
 export const projection = (lab: Lab) => numbers(lab, 'px-from-table');
 
-/** Geometries and textures on the graphics card. */
-export async function onTheCard(lab: Lab) {
+/** Numbers of geometries and textures on the graphics card. */
+export async function gpuObjects(lab: Lab) {
   await settled(lab);
   return [...(await numbers(lab, 'geometries')), ...(await numbers(lab, 'textures'))];
 }
@@ -49,23 +49,23 @@ export async function beadPx(lab: Lab): Promise<[number, number]> {
   return [box.x + x, box.y + y];
 }
 
-/** A free point to which a hand can go without leaving the picture. */
-export async function freeInPicture(lab: Lab, least_m: number, most_m: number) {
+/** A free point of the table that lies well inside the picture. */
+export async function freeInPicture(lab: Lab, min_m: number, max_m: number) {
   const box = await boxOf(lab);
-  for (const point of lab.freePoints(lab.state.bead_m, least_m, most_m)) {
+  for (const point of lab.freePoints(lab.state.bead_m, min_m, max_m)) {
     const [x, y] = await px(lab, point);
-    // Below the buttons that lie on the picture.
+    // Below the buttons that cover the top of the picture.
     const isInside = x > box.x + 20 && x < box.x + box.width - 20 && y > box.y + 60;
     if (isInside && y < box.y + box.height - 20) return point;
   }
   throw new Error('no free point in the picture');
 }
 
-/** The camera moves for a while: waits until it has arrived. */
-export async function arrived(lab: Lab) {
+/** Waits until the scene camera has stopped at its new viewpoint. */
+export async function cameraAtRest(lab: Lab) {
   let before: string | undefined;
   let times = 0;
-  await until('a camera at rest', async () => {
+  await until('a scene camera at rest', async () => {
     await lab.drawn();
     const now = (await projection(lab)).join();
     times = now === before ? times + 1 : 0;

@@ -1,4 +1,4 @@
-// The ways to operate a control: by mouse, by touch, by keyboard alone.
+// Input methods that operate a control: by mouse, by touch, by keyboard only.
 
 import type { Locator } from '@playwright/test';
 import type { Lab } from './lab';
@@ -7,14 +7,14 @@ import { until } from './wait';
 
 type Px = readonly [number, number];
 
-/** Text fields take letters from the keyboard by whatever hand they were focused. */
-async function enter(hand: Hand, text: string) {
-  await hand.page.keyboard.press('Control+a');
-  await hand.page.keyboard.type(text);
+/** Replaces the text of the focused field. Every input method types on the keyboard. */
+async function replaceText(input: InputMethod, text: string) {
+  await input.page.keyboard.press('Control+a');
+  await input.page.keyboard.type(text);
 }
 
-/** Where to drag a slider: to the side with more room. */
-async function slideOf(lab: Lab, locator: Locator): Promise<[Px, Px]> {
+/** Start and end of a drag of a slider: from the thumb to the side with more room. */
+async function sliderDrag(lab: Lab, locator: Locator): Promise<[Px, Px]> {
   const box = await lab.boxOf(locator);
   const share = await locator.evaluate(
     (one: HTMLInputElement) =>
@@ -24,15 +24,15 @@ async function slideOf(lab: Lab, locator: Locator): Promise<[Px, Px]> {
   return [at(Math.min(0.95, Math.max(0.05, share))), at(share > 0.5 ? 0.25 : 0.75)];
 }
 
-/** The native list of a select is open: the next option, or the one before the last. */
-async function chooseNext(hand: Hand, locator: Locator) {
+/** Chooses the next option of the focused select; from the last option, the previous one. */
+async function chooseNext(input: InputMethod, locator: Locator) {
   const isLast = await locator.evaluate(
     (one: HTMLSelectElement) => one.selectedIndex === one.options.length - 1,
   );
-  await hand.page.keyboard.press(isLast ? 'ArrowUp' : 'ArrowDown');
+  await input.page.keyboard.press(isLast ? 'ArrowUp' : 'ArrowDown');
 }
 
-/** The set that a radio or a tab is one of. */
+/** The radio group or the tab list that contains a radio or a tab. */
 export const setOf = (locator: Locator) =>
   locator.locator('xpath=ancestor::*[@role="tablist" or @role="radiogroup"][1]');
 
@@ -41,7 +41,7 @@ export const isChosen = (locator: Locator) =>
     (one: HTMLInputElement) => one.checked || one.getAttribute('aria-selected') === 'true',
   );
 
-/** A disabled control takes no focus, and the next key would go to what had it before. */
+/** Waits for the focus: a disabled control takes none, and the next key would go elsewhere. */
 async function focus(locator: Locator) {
   await until('the focus', async () => {
     await locator.focus();
@@ -49,7 +49,7 @@ async function focus(locator: Locator) {
   });
 }
 
-export abstract class Hand {
+export abstract class InputMethod {
   abstract readonly name: 'mouse' | 'touch' | 'keyboard';
 
   constructor(readonly lab: Lab) {}
@@ -64,7 +64,7 @@ export abstract class Hand {
   abstract placeGoal(point: Point): Promise<void>;
   abstract dragBead(): Promise<void>;
 
-  /** A radio or a tab. Another one of its set has to be chosen before. */
+  /** Chooses a radio or a tab. Another one of its set must be chosen before. */
   pick(locator: Locator) {
     return this.press(locator);
   }
@@ -76,12 +76,12 @@ export abstract class Hand {
   }
 }
 
-/** Mouse and touch: both drag. */
-abstract class Pointer extends Hand {
+/** Mouse and touch, which both drag. */
+abstract class Pointer extends InputMethod {
   abstract drag(from: Px, to: Px, whileHeld?: () => Promise<unknown>): Promise<void>;
 
   async slide(locator: Locator) {
-    await this.drag(...(await slideOf(this.lab, locator)));
+    await this.drag(...(await sliderDrag(this.lab, locator)));
   }
 
   async dragBead() {
@@ -112,7 +112,7 @@ class Mouse extends Pointer {
 
   async type(locator: Locator, text: string) {
     await locator.click();
-    await enter(this, text);
+    await replaceText(this, text);
     await this.page.keyboard.press('Tab');
   }
 
@@ -142,7 +142,8 @@ class Touch extends Pointer {
       ]);
     }
     await whileHeld?.();
-    // A finger that lifts while it moves scrolls on, and the next tap would only stop that.
+    // A finger that lifts while it moves makes the page scroll on, and the next tap would only stop
+    // that. So the finger rests before it lifts.
     for (let i = 0; i < 4; i++) {
       await this.lab.drawn();
       await send('touchMove', [to]);
@@ -153,7 +154,7 @@ class Touch extends Pointer {
 
   async type(locator: Locator, text: string) {
     await locator.tap();
-    await enter(this, text);
+    await replaceText(this, text);
     await this.page.keyboard.press('Enter');
   }
 
@@ -162,8 +163,8 @@ class Touch extends Pointer {
   }
 }
 
-/** The focus is set here; that Tab reaches everything is another test. */
-class Keyboard extends Hand {
+/** Sets the focus by script. That Tab reaches each control is tested in appearance.spec.ts. */
+class Keyboard extends InputMethod {
   readonly name = 'keyboard';
 
   async press(locator: Locator) {
@@ -172,7 +173,7 @@ class Keyboard extends Hand {
     await this.page.keyboard.press(isBox ? ' ' : 'Enter');
   }
 
-  /** By arrows, from the one that is chosen now. */
+  /** Presses arrow keys, beginning at the chosen one. */
   override async pick(locator: Locator) {
     const role = await locator.evaluate(
       (one: HTMLInputElement) => one.getAttribute('role') ?? one.type,
@@ -180,13 +181,13 @@ class Keyboard extends Hand {
     const all = await setOf(locator)
       .getByRole(role as 'radio' | 'tab')
       .all();
-    let isAny = false;
+    let hasChosen = false;
     for (const one of all) {
       if (!(await isChosen(one))) continue;
       await focus(one);
-      isAny = true;
+      hasChosen = true;
     }
-    if (!isAny) {
+    if (!hasChosen) {
       await focus(locator);
       await this.page.keyboard.press(' ');
     }
@@ -209,18 +210,18 @@ class Keyboard extends Hand {
     await this.page.keyboard.press(isHigh ? 'ArrowLeft' : 'ArrowRight');
   }
 
-  /** One step by arrow where the field has steps, else by digits. */
+  /** Presses an arrow key once where the field has steps, and types digits elsewhere. */
   async type(locator: Locator, text: string) {
     await focus(locator);
     const { step, isUp } = await locator.evaluate(
-      (one: HTMLInputElement, wish) => ({
+      (one: HTMLInputElement, wanted) => ({
         step: one.step,
-        isUp: Number(wish) > one.valueAsNumber,
+        isUp: Number(wanted) > one.valueAsNumber,
       }),
       text,
     );
     if (step && step !== 'any') await this.page.keyboard.press(isUp ? 'ArrowUp' : 'ArrowDown');
-    else await enter(this, text);
+    else await replaceText(this, text);
     await this.page.keyboard.press('Enter');
   }
 
@@ -238,4 +239,4 @@ class Keyboard extends Hand {
   }
 }
 
-export const HANDS = { mouse: Mouse, keyboard: Keyboard, touch: Touch };
+export const INPUT_METHODS = { mouse: Mouse, keyboard: Keyboard, touch: Touch };
