@@ -1,6 +1,6 @@
 //! Ferry: a browser laboratory in which a UR5 carries a magnetic bead through an intestine.
 //!
-//! The map of the house, ground floor first. A module imports only from floors below it; the test
+//! The modules, lowest floor first. A module imports only from floors below it; the test
 //! `tests/house.rs` walks the imports. `ARCHITECTURE.md` says what each must never know.
 //!
 //! - floor 1: [`geometry`], [`image`], [`files`]: frames, poses, shapes; camera frames and gray images; bounded files.

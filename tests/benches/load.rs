@@ -1,6 +1,6 @@
 //! What many browsers, a stalled one, and several sessions cost: `make soak` runs it and fails beyond the budgets.
 //!
-//! The server is a process of its own without recordings, whose own memory goes up and down; who asks runs beside it on
+//! The server is a separate process, without recordings, because they change its memory. The clients run beside it on
 //! the same cores.
 
 use std::io::{BufRead, BufReader};

@@ -37,7 +37,7 @@ fn survives(target: Target, default: usize) {
         let seed = target.seeds().choose(&mut rng).expect("a target has seeds");
         let bytes = mutate::mutated(target, seed, &mut rng);
         let path = std::env::temp_dir().join(format!("ferry-fuzz-{}-{}", target.name(), std::process::id()));
-        // A process that ends, as with its stack, tells nothing.
+        // A process that dies, for example of its stack, writes no report.
         std::fs::write(&path, &bytes).unwrap();
         let before = spent();
         let is_read = target.reads(&bytes);

@@ -119,7 +119,7 @@ fn inputs() -> Vec<Input> {
     ]
 }
 
-/// Entries of a trial that begins, is told this and that, and then goes on from its state.
+/// Entries of a trial that begins, receives several inputs, and then continues from its state.
 fn trial(controller: ControllerName) -> Vec<Entry> {
     let arena = Arena::of(Map::from_svg("small", SMALL_MAP).unwrap());
     let scenario = Scenario {

@@ -45,7 +45,7 @@ impl Target {
         }
     }
 
-    /// Reads the bytes, and works with what they are; tells whether they were accepted.
+    /// Parses the bytes and uses the result. Returns whether they were accepted.
     pub fn reads(self, bytes: &[u8]) -> bool {
         match self {
             Self::Message => std::str::from_utf8(bytes).is_ok_and(message),

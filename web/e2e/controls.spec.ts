@@ -1,27 +1,32 @@
 // Every control of the page by mouse, keyboard and touch. e2e/controls lists what each changes.
 
-import { SECTIONS, exercise } from './controls/table';
-import { test } from './fixtures';
+import { SECTIONS_BY_TEST, exercise } from './controls/table';
+import type { Section } from './controls/row';
+import { type Lab, test } from './fixtures';
 import { DESKTOP, TABLET } from './support/browser';
-import { INPUT_METHODS } from './support/inputMethods';
+import { INPUT_METHODS, type InputMethod } from './support/inputMethods';
 
-for (const [name, InputMethod] of Object.entries(INPUT_METHODS)) {
+async function exerciseAll(lab: Lab, input: InputMethod, section: Section) {
+  await section.ready?.(lab);
+  for (const [key, row] of Object.entries(section.rows)) {
+    if ('elsewhere' in row) continue;
+    for (const one of [row].flat()) {
+      await test.step(key, async () => {
+        await section.rowReady?.(lab);
+        await exercise(input, key, one);
+      });
+    }
+  }
+}
+
+for (const [name, Method] of Object.entries(INPUT_METHODS)) {
   test.describe(`by ${name}`, () => {
     test.use(name === 'touch' ? TABLET : DESKTOP);
 
-    for (const section of SECTIONS) {
-      test(`each control of ${section.name} works by ${name}`, async ({ lab }) => {
-        const input = new InputMethod(lab);
-        await section.ready?.(lab);
-        for (const [key, row] of Object.entries(section.rows)) {
-          if ('elsewhere' in row) continue;
-          for (const one of [row].flat()) {
-            await test.step(key, async () => {
-              await section.rowReady?.(lab);
-              await exercise(input, key, one);
-            });
-          }
-        }
+    for (const [title, sections] of SECTIONS_BY_TEST) {
+      test(`each control of ${title} works by ${name}`, async ({ lab }) => {
+        const input = new Method(lab);
+        for (const section of sections) await exerciseAll(lab, input, section);
       });
     }
   });

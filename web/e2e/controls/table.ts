@@ -20,6 +20,14 @@ export const SECTIONS: readonly Section[] = [
   ...PARAMETERS,
 ];
 
+/** The sections of each test. Opening a page takes longer than a small section, so all parameters share one. */
+export const SECTIONS_BY_TEST: ReadonlyMap<string, readonly Section[]> = new Map([
+  ...[...LABORATORY, ...TOOLS, ...EVENTS_AND_LESSONS].map(
+    (section) => [section.name, [section]] as const,
+  ),
+  ['the parameters', PARAMETERS],
+]);
+
 type AriaRole = Parameters<Page['getByRole']>[0];
 
 function parse(key: string) {
