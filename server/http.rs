@@ -38,15 +38,15 @@ use routes::maps::Maps;
 use routes::values::Atlases;
 use sessions::Sessions;
 
-/// Long computations that run at the same time; others wait.
+/// Number of long computations that run at the same time; others wait.
 const WORKERS: usize = 4;
-/// Maximum waiting time.
+/// Maximum time that a computation waits for its start.
 const WORK_WAITS: Duration = Duration::from_secs(10);
-/// Interval of parking sessions and forgetting old clients.
+/// Interval at which sessions are parked and inactive clients forgotten.
 const SWEEP_EVERY: Duration = Duration::from_secs(10);
-/// When the server stops, browsers have this long to receive the last message and sessions to close their files.
-const LAST_WORDS: Duration = Duration::from_millis(500);
-const LAST_WRITES: Duration = Duration::from_millis(1000);
+/// When the server stops: time for browsers to disconnect, and then for sessions to close their files.
+const DISCONNECT_WITHIN: Duration = Duration::from_millis(500);
+const CLOSE_WITHIN: Duration = Duration::from_millis(1000);
 
 /// Why the server could not start or had to stop.
 #[derive(Debug, thiserror::Error)]
@@ -71,16 +71,16 @@ pub enum ServeError {
 pub struct Settings {
     /// Folder of recordings, uploaded maps and sweeps.
     pub data: PathBuf,
-    /// Limits for old recordings.
+    /// Limits beyond which old recordings are deleted.
     pub retention: Retention,
     /// Maximum number of sessions, at least 1.
     pub sessions: usize,
-    /// A session without viewers is parked after this time.
+    /// Time after which a session without browsers is parked.
     pub park_after: Duration,
 }
 
 impl Settings {
-    /// The defaults, with this data folder.
+    /// Default settings with this data folder.
     pub fn in_folder(data: PathBuf) -> Self {
         Self { data, retention: Retention::default(), sessions: 8, park_after: Duration::from_secs(600) }
     }
@@ -91,10 +91,10 @@ pub struct Server {
     gpu: Arc<Gpu>,
     access: Access,
     counters: Arc<Counters>,
-    /// The sessions' recordings.
+    /// Recordings of the sessions.
     recordings: Arc<Archive>,
     maps: Maps,
-    /// Images of maps for value maps.
+    /// Images of maps, for value maps.
     atlases: Atlases,
     /// Evaluations in the background.
     evaluations: Queue,
@@ -138,7 +138,7 @@ impl Server {
         }))
     }
 
-    /// Runs a long or blocking computation. Returns 503 if the queue is full.
+    /// Runs a long or blocking computation. Returns 503 if it cannot start in time.
     async fn work<T: Send + 'static>(
         self: &Arc<Self>,
         work: impl FnOnce(&Arc<Self>) -> T + Send + 'static,
@@ -146,28 +146,28 @@ impl Server {
         self.work_at(&self.workers, WORK_WAITS, work).await
     }
 
-    /// The same with another set of permits.
+    /// Like [`Self::work`], with other permits and another waiting time.
     async fn work_at<T: Send + 'static>(
         self: &Arc<Self>,
-        places: &Arc<Semaphore>,
-        most_wait: Duration,
+        permits: &Arc<Semaphore>,
+        max_wait: Duration,
         work: impl FnOnce(&Arc<Self>) -> T + Send + 'static,
     ) -> Result<T, Problem> {
-        let Ok(place) = tokio::time::timeout(most_wait, places.clone().acquire_owned()).await else {
-            let detail = "many wait for an answer already; come again soon";
+        let Ok(permit) = tokio::time::timeout(max_wait, permits.clone().acquire_owned()).await else {
+            let detail = "too many requests are waiting; try again soon";
             return Err(Problem::new(StatusCode::SERVICE_UNAVAILABLE, "busy", detail).retry_after(1));
         };
-        let place = place.map_err(Problem::internal)?;
+        let permit = permit.map_err(Problem::internal)?;
         let server = self.clone();
         let working = tokio::task::spawn_blocking(move || {
             // The permit belongs to the work, which continues even if the client has disconnected.
-            let _place = place;
+            let _permit = permit;
             work(&server)
         });
         working.await.map_err(Problem::internal)
     }
 
-    /// Parks sessions and forgets old clients, periodically.
+    /// Parks sessions without browsers and forgets inactive clients, periodically.
     async fn sweep(&self) {
         loop {
             tokio::time::sleep(SWEEP_EVERY.min(self.sessions.park_after())).await;
@@ -183,41 +183,41 @@ pub fn router(server: Arc<Server>) -> Router {
     routes::served().layer(guard).with_state(server)
 }
 
-/// Opens the listener; the error suggests what to do.
+/// Opens the listener; the error suggests a remedy.
 pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
     TcpListener::bind(address).await.map_err(|error| ServeError::Bind { address, error })
 }
 
 /// Serves until `stopping` becomes true. Then pauses every session, disconnects the browsers, closes the recordings and
-/// cancels evaluations, all within two seconds.
+/// cancels the evaluations, all within two seconds.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     accept::raise_file_limit();
     let sweeper = server.clone();
     let sweeping = tokio::spawn(async move { sweeper.sweep().await });
     let connections = accept::serve(listener, router(server.clone()), server.counters.clone(), server.stopping.clone());
-    let holder = server.clone();
-    let holding = async move {
-        // An error means that the sender was dropped, which also means stop.
-        drop(holder.stopping.clone().wait_for(|&stop| stop).await);
-        holder.evaluations.stop();
-        let hubs = holder.sessions.hold().await;
-        holder.sockets.close();
-        if tokio::time::timeout(LAST_WORDS, holder.sockets.wait()).await.is_err() {
-            tracing::warn!("some browsers did not take the last word");
+    let stopped = server.clone();
+    let pausing = async move {
+        // An error means that the sender was dropped, which also stops the server.
+        drop(stopped.stopping.clone().wait_for(|&stop| stop).await);
+        stopped.evaluations.stop();
+        let hubs = stopped.sessions.hold().await;
+        stopped.sockets.close();
+        if tokio::time::timeout(DISCONNECT_WITHIN, stopped.sockets.wait()).await.is_err() {
+            tracing::warn!("some browsers did not disconnect in time");
         }
         hubs
     };
-    let ((), hubs) = tokio::join!(connections, holding);
+    let ((), hubs) = tokio::join!(connections, pausing);
     sweeping.abort();
-    // Joining threads and closing files blocks; each session has separate files.
+    // Joining threads and closing files blocks; sessions do this in parallel.
     let mut closing: tokio::task::JoinSet<()> = tokio::task::JoinSet::new();
     for hub in hubs {
         closing.spawn_blocking(move || hub.shut());
     }
     let evaluations = server.clone();
     closing.spawn_blocking(move || evaluations.evaluations.close());
-    if tokio::time::timeout(LAST_WRITES, closing.join_all()).await.is_err() {
-        tracing::error!("a session or an evaluation did not end in time");
+    if tokio::time::timeout(CLOSE_WITHIN, closing.join_all()).await.is_err() {
+        tracing::error!("a session or an evaluation did not close in time");
     }
     Ok(())
 }

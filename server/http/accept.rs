@@ -1,4 +1,4 @@
-//! Connections: their number, their time limits, and how they end.
+//! Accepts connections: limits their number and their idle time, and closes them when the server stops.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -20,58 +20,59 @@ use super::metrics::Counters;
 
 /// Maximum number of connections, including idle ones.
 pub const CONNECTION_CAP: usize = 4096;
-/// Time for the next request of a connection; then it is closed.
-const HEAD_WITHIN: Duration = Duration::from_secs(10);
+/// A connection is closed if its next request does not arrive within this time.
+const REQUEST_WITHIN: Duration = Duration::from_secs(10);
 /// Maximum size of the request line with all headers.
 const HEAD_BYTES: usize = 64 << 10;
 const HEADERS: usize = 64;
-/// Send buffer in the kernel for a browser that does not read. Newer messages replace older ones before they reach it.
+/// Size of the kernel's send buffer, which fills up if a browser does not read. Until a message enters this buffer, a
+/// newer one can replace it.
 const SEND_BUFFER_BYTES: usize = 256 << 10;
-/// A peer that receives nothing for this long counts as disconnected.
+/// A peer that does not acknowledge data for this long counts as disconnected.
 const SILENCE: Duration = Duration::from_secs(60);
-/// Time for running requests when the server stops.
-const LAST_ANSWERS: Duration = Duration::from_millis(500);
-/// Pause when the system cannot accept another connection.
-const NO_ROOM: Duration = Duration::from_millis(50);
+/// Time for running requests to finish when the server stops.
+const FINISH_WITHIN: Duration = Duration::from_millis(500);
+/// Pause after the system could not accept a connection.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
-/// Serves connections until `stopping` becomes true; then running answers may finish.
+/// Serves connections until `stopping` becomes true; then running requests may finish.
 pub async fn serve(listener: TcpListener, app: Router, counters: Arc<Counters>, mut stopping: watch::Receiver<bool>) {
-    let places = Arc::new(Semaphore::new(CONNECTION_CAP));
+    let permits = Arc::new(Semaphore::new(CONNECTION_CAP));
     let mut connections = tokio::task::JoinSet::new();
     loop {
         let (stream, address) = tokio::select! {
             accepted = listener.accept() => match accepted {
                 Ok(accepted) => accepted,
                 Err(error) => {
-                    tracing::warn!(%error, "no connection accepted");
-                    tokio::time::sleep(NO_ROOM).await;
+                    tracing::warn!(%error, "connection not accepted");
+                    tokio::time::sleep(ACCEPT_PAUSE).await;
                     continue;
                 }
             },
-            // An error means that the sender was dropped, which also means stop.
+            // An error means that the sender was dropped, which also stops the server.
             () = async { drop(stopping.wait_for(|&stop| stop).await) } => break,
             // Removes finished connections.
             Some(_) = connections.join_next() => continue,
         };
-        let Ok(place) = places.clone().try_acquire_owned() else {
-            counters.turn_away();
+        let Ok(permit) = permits.clone().try_acquire_owned() else {
+            counters.refuse_connection();
             continue;
         };
         if let Err(error) = prepare(&stream) {
-            tracing::debug!(%error, "socket options");
+            tracing::debug!(%error, "socket options not set");
         }
         let app = app.clone();
         let service = service_fn(move |request| answer(app.clone(), request, address));
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
-            .header_read_timeout(HEAD_WITHIN)
+            .header_read_timeout(REQUEST_WITHIN)
             .max_headers(HEADERS)
             .max_buf_size(HEAD_BYTES)
             .serve_connection(TokioIo::new(stream), service)
             .with_upgrades();
         let (counted, mut stopping) = (counters.clone(), stopping.clone());
         connections.spawn(async move {
-            let _place = place;
+            let _permit = permit;
             counted.connect(1);
             let mut connection = std::pin::pin!(connection);
             let ended = tokio::select! {
@@ -81,16 +82,16 @@ pub async fn serve(listener: TcpListener, app: Router, counters: Arc<Counters>, 
                     connection.await
                 }
             };
-            // The peer may disconnect at any time or send invalid HTTP; it has been answered if possible.
+            // The peer may disconnect at any time or send invalid HTTP. Hyper has answered it if possible.
             if let Err(error) = ended {
-                tracing::debug!(%error, %address, "connection");
+                tracing::debug!(%error, %address, "connection ended with an error");
             }
             counted.connect(-1);
         });
     }
     drop(listener);
     let ending = async { while connections.join_next().await.is_some() {} };
-    if tokio::time::timeout(LAST_ANSWERS, ending).await.is_err() {
+    if tokio::time::timeout(FINISH_WITHIN, ending).await.is_err() {
         connections.shutdown().await;
     }
 }
@@ -107,7 +108,7 @@ async fn answer(
 
 fn prepare(stream: &TcpStream) -> std::io::Result<()> {
     let socket = socket2::SockRef::from(stream);
-    // State messages are small and must not wait for each other.
+    // State messages are small and must be sent without delay.
     socket.set_tcp_nodelay(true)?;
     socket.set_send_buffer_size(SEND_BUFFER_BYTES)?;
     socket.set_keepalive(true)?;

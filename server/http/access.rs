@@ -1,5 +1,5 @@
-//! Access control. Host and Origin are checked on every route, so that neither another site's page nor a foreign name that
-//! resolves to this machine can reach the laboratory. With a token, every client must present it.
+//! Access control. Host and Origin are checked on every route, so that neither another site's page nor a foreign name
+//! that resolves to this machine can reach the laboratory. If the server has a token, every client must send it.
 
 pub mod login;
 mod origins;
@@ -34,7 +34,8 @@ const FETCH_DEST: HeaderName = HeaderName::from_static("sec-fetch-dest");
 pub enum AccessError {
     /// Other machines could connect without a token.
     #[error(
-        "--bind {address} lets other machines in: give a token too, in the file of --token-file or as FERRY_TOKEN (`ferry token` makes one)"
+        "--bind {address} allows access from other machines, which requires a token: use --token-file or FERRY_TOKEN \
+         (`ferry token` makes a token)"
     )]
     NoToken {
         /// The requested address.
@@ -42,15 +43,17 @@ pub enum AccessError {
     },
     /// A proxy would let other machines connect without a token.
     #[error(
-        "--origin {origin} lets other machines in: give a token too, in the file of --token-file or as FERRY_TOKEN (`ferry token` makes one)"
+        "--origin {origin} allows access from other machines, which requires a token: use --token-file or FERRY_TOKEN \
+         (`ferry token` makes a token)"
     )]
     NoTokenForOrigin {
         /// The requested origin.
         origin: String,
     },
-    /// The name that browsers use is unknown.
+    /// The address that browsers use is unknown.
     #[error(
-        "--bind {address} has no name of its own: say under which one browsers ask, as in --origin http://lab.local:8080"
+        "--bind {address} does not determine the page's address: give it with --origin, as in --origin \
+         http://lab.local:8080"
     )]
     NoOrigin {
         /// The requested address.
@@ -72,7 +75,7 @@ impl Access {
         self.origins.address_of(host)
     }
 
-    /// For a listener at `address` that browsers also reach by `origins`.
+    /// The rules for a listener at `address` that browsers also reach under `origins`.
     ///
     /// # Errors
     /// Other machines could connect without a token, or no origin is allowed.
@@ -104,37 +107,37 @@ impl Access {
         self.rates.forget();
     }
 
-    /// Admits a request, or returns why not.
+    /// Admits a request, or returns the reason for its refusal.
     fn admit(&self, request: &Request, address: IpAddr) -> Result<Client, Problem> {
         let headers = request.headers();
         self.check_host(request)?;
         let origin = self.check_origin(headers)?;
         check_site(headers, request.method())?;
         let by_address = Client::at(address);
-        let (client, is_known) = match (&self.token, bearer(headers)) {
+        let (client, is_authenticated) = match (&self.token, bearer(headers)) {
             (None, _) => (by_address, true),
             (Some(token), Some(presented)) if token.matches(presented) => (by_address, true),
             (Some(_), Some(_)) => return Err(self.wrong_token(&by_address)),
-            (Some(_), None) => match self.cookie_key.as_ref().and_then(|key| login::known(headers, key)) {
-                // A browser sends the cookie for any site's request; the origin shows which site it was.
+            (Some(_), None) => match self.cookie_key.as_ref().and_then(|key| login::valid_login(headers, key)) {
+                // A browser adds the cookie to every request, whatever site made it. The origin names that site.
                 Some(_) if origin.is_none() && changes_something(request) => {
-                    let detail = "a request with the cookie must have an Origin; programs send the token instead, as \
-                                  Authorization: Bearer";
+                    let detail = "a request with the cookie needs the header Origin; programs send the token instead, \
+                                  as Authorization: Bearer";
                     return Err(Problem::new(StatusCode::FORBIDDEN, "no_origin", detail).field("Origin"));
                 }
                 Some(login) => (Client::Login(login), true),
                 None => (by_address, false),
             },
         };
-        self.rates.request(&client).map_err(|wait| too_often("this client asks too often", wait))?;
-        if is_known || is_open(request.uri().path()) {
+        self.rates.request(&client).map_err(|wait| too_often("this client sends too many requests", wait))?;
+        if is_authenticated || is_public(request.uri().path()) {
             return Ok(client);
         }
-        let detail = "show the token: log in at /login, or send Authorization: Bearer with it";
+        let detail = "the token is missing: log in at /login, or send the token as Authorization: Bearer";
         Err(Problem::new(StatusCode::UNAUTHORIZED, "no_token", detail).field("Authorization"))
     }
 
-    /// There must be exactly one Host, and it must be allowed; the one in the request line counts, too.
+    /// A request must have exactly one Host, and it must be allowed. The host in the request line must be allowed, too.
     fn check_host(&self, request: &Request) -> Result<(), Problem> {
         let mut hosts = request.headers().get_all(header::HOST).iter();
         let host = hosts.next().and_then(|value| value.to_str().ok()).unwrap_or_default();
@@ -142,7 +145,7 @@ impl Access {
         if hosts.next().is_none() && self.origins.has_host(host) && self.origins.has_host(named) {
             return Ok(());
         }
-        let detail = format!("host {named:?} is not one of this laboratory's");
+        let detail = format!("host {named:?} is not an allowed host of this server");
         Err(Problem::new(StatusCode::MISDIRECTED_REQUEST, "foreign_host", detail).field("Host"))
     }
 
@@ -153,13 +156,13 @@ impl Access {
         if origins.next().is_none() && self.origins.has_origin(origin) {
             return Ok(Some(origin));
         }
-        let detail = format!("origin {origin:?} is not this page's");
+        let detail = format!("origin {origin:?} is not an allowed origin of this server");
         Err(Problem::new(StatusCode::FORBIDDEN, "foreign_origin", detail).field("Origin"))
     }
 
     fn wrong_token(&self, client: &Client) -> Problem {
         match self.rates.wrong_token(client) {
-            Ok(()) => Problem::new(StatusCode::UNAUTHORIZED, "wrong_token", "this is not the token").field("token"),
+            Ok(()) => Problem::new(StatusCode::UNAUTHORIZED, "wrong_token", "the token is wrong").field("token"),
             Err(wait) => too_often("too many wrong tokens", wait),
         }
     }
@@ -172,7 +175,7 @@ fn loopback(port: u16) -> [SocketAddr; 2] {
 
 fn too_often(what: &str, TooOften(wait): TooOften) -> Problem {
     let wait_s = wait.as_secs() as u32 + 1;
-    Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_often", format!("{what}; come again in {wait_s} s"))
+    Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_often", format!("{what}; try again in {wait_s} s"))
         .retry_after(wait_s)
 }
 
@@ -181,27 +184,27 @@ fn bearer(headers: &HeaderMap) -> Option<&str> {
     scheme.eq_ignore_ascii_case("bearer").then(|| token.trim())
 }
 
-/// Whether the request can change something; a WebSocket can.
+/// Whether the request can change something, as a WebSocket can.
 fn changes_something(request: &Request) -> bool {
     !matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS)
         || request.headers().contains_key(header::UPGRADE)
 }
 
-/// What is public without the token: health and the login page.
-fn is_open(path: &str) -> bool {
+/// Whether a path is public without the token: health, and the login page with its files.
+fn is_public(path: &str) -> bool {
     matches!(path, "/healthz" | "/login") || path.starts_with("/assets/")
 }
 
-/// Browsers report the source of a request in `Sec-Fetch-Site`, also without Origin. Another site may only link here.
+/// Browsers report the source of a request in `Sec-Fetch-Site`, even without Origin. Another site may only link here.
 fn check_site(headers: &HeaderMap, method: &Method) -> Result<(), Problem> {
-    let says = |name: &HeaderName| headers.get(name).and_then(|value| value.to_str().ok());
-    let is_foreign = matches!(says(&FETCH_SITE), Some("cross-site" | "same-site"));
-    // A frame navigates, too, and would open a session.
-    let is_link = says(&FETCH_MODE) == Some("navigate") && says(&FETCH_DEST) == Some("document");
+    let value_of = |name: &HeaderName| headers.get(name).and_then(|value| value.to_str().ok());
+    let is_foreign = matches!(value_of(&FETCH_SITE), Some("cross-site" | "same-site"));
+    // A frame also navigates, and would open a session.
+    let is_link = value_of(&FETCH_MODE) == Some("navigate") && value_of(&FETCH_DEST) == Some("document");
     if !is_foreign || is_link && *method == Method::GET {
         return Ok(());
     }
-    let detail = "a page of another site asks; it may link here, and no more";
+    let detail = "the request comes from another site's page; another site may only link here";
     Err(Problem::new(StatusCode::FORBIDDEN, "foreign_site", detail).field("Sec-Fetch-Site"))
 }
 
@@ -214,7 +217,7 @@ pub async fn guard(
 ) -> Response {
     let began = Instant::now();
     let (method, path) = (request.method().clone(), request.uri().path().to_owned());
-    let is_read = is_read_by_a_person(&request);
+    let wants_page = wants_page(&request);
     let mut response = match server.access.admit(&request, address.ip()) {
         Ok(client) => {
             request.extensions_mut().insert(client);
@@ -222,7 +225,7 @@ pub async fn guard(
         }
         Err(problem) => {
             server.counters.refuse(problem.code());
-            // Without a login, a request for the page returns the login page.
+            // A request for the page without a login gets the login page.
             if problem.code() == "no_token" && method == Method::GET && is_page(&path) {
                 super::assets::login_page(StatusCode::UNAUTHORIZED)
             } else {
@@ -230,7 +233,7 @@ pub async fn guard(
             }
         }
     };
-    if is_read && let Some(problem) = response.extensions_mut().remove::<Problem>() {
+    if wants_page && let Some(problem) = response.extensions_mut().remove::<Problem>() {
         super::assets::turn_into_page(&mut response, &problem);
     }
     server.counters.answer(response.status());
@@ -245,7 +248,7 @@ pub async fn guard(
 }
 
 /// Whether a browser requests a document to show.
-fn is_read_by_a_person(request: &Request) -> bool {
+fn wants_page(request: &Request) -> bool {
     let accepts = request.headers().get(header::ACCEPT).and_then(|value| value.to_str().ok());
     *request.method() == Method::GET
         && !request.uri().path().starts_with("/api/")

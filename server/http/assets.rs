@@ -11,7 +11,7 @@ use super::Server;
 use super::problem::Problem;
 use super::sessions::MAIN;
 
-/// Policy of the viewer's page: it may compile WebAssembly and be framed by our own page.
+/// Content security policy of the viewer's page: it may compile WebAssembly, and our own page may frame it.
 const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
                           frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
 
@@ -19,13 +19,13 @@ const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-
 #[folder = "$OUT_DIR/web"]
 struct Page;
 
-/// `GET /`: the page with the session `main`, which is restarted if a fault has ended it.
+/// `GET /`: the page with the session `main`. The session is restarted if a fault has ended it.
 pub async fn main_session(State(server): State<Arc<Server>>, headers: HeaderMap) -> Result<Response, Problem> {
     server.sessions.open(MAIN).await?;
     Ok(send("index.html", &headers))
 }
 
-/// `GET /s/{name}`: the page with the session of that name, which is created if it does not exist.
+/// `GET /s/{name}`: the page with the session of that name. The session is created if it does not exist.
 pub async fn named_session(
     State(server): State<Arc<Server>>,
     Path(name): Path<String>,
@@ -35,7 +35,7 @@ pub async fn named_session(
     Ok(send("index.html", &headers))
 }
 
-/// The login page, instead of a page that needs a login.
+/// The login page with a status.
 pub fn login_page(status: StatusCode) -> Response {
     let mut response = send("login/index.html", &HeaderMap::new());
     *response.status_mut() = status;
@@ -43,11 +43,11 @@ pub fn login_page(status: StatusCode) -> Response {
     response
 }
 
-/// A refusal as a page, if a page was requested.
+/// Replaces the body of a refusal by a page that shows the reason.
 pub fn turn_into_page(response: &mut Response, problem: &Problem) {
     let file = Page::get("refused/index.html").expect("the page is built in");
     let page = String::from_utf8_lossy(&file.data);
-    // It contains names chosen by a client.
+    // The reason may contain text from the client, so it is escaped.
     let reason = maud::html! { (problem.detail()) }.into_string();
     *response.body_mut() = Body::from(page.replace("{{reason}}", &reason));
     let headers = response.headers_mut();
@@ -62,8 +62,12 @@ pub async fn page(method: Method, uri: Uri, headers: HeaderMap) -> Response {
         return Problem::not_found("route", path).into_response();
     }
     if method != Method::GET && method != Method::HEAD {
-        return Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", format!("{path} is read only"))
-            .into_response();
+        return Problem::new(
+            StatusCode::METHOD_NOT_ALLOWED,
+            "method_not_allowed",
+            format!("{path} accepts only GET and HEAD"),
+        )
+        .into_response();
     }
     let name = match path {
         "/viewer/" => "viewer/index.html",

@@ -1,4 +1,4 @@
-//! Bodies of requests, refused with problem details, and bodies of file answers.
+//! Bodies of requests and of file downloads. An invalid body is refused with problem details.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::problem::Problem;
 
-/// Time limit for a complete body.
+/// Maximum time until a body is complete.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
 
 /// The whole body, within the route's limit.
@@ -22,7 +22,7 @@ impl<S: Send + Sync> FromRequest<S> for WholeBody {
     async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
         let reading = tokio::time::timeout(BODY_WITHIN, Bytes::from_request(request, state));
         let Ok(read) = reading.await else {
-            let detail = format!("the body did not come within {} s", BODY_WITHIN.as_secs());
+            let detail = format!("the body did not arrive within {} s", BODY_WITHIN.as_secs());
             return Err(Problem::new(StatusCode::REQUEST_TIMEOUT, "too_slow", detail));
         };
         read.map(Self).map_err(|refused| {

@@ -1,4 +1,4 @@
-//! What a session promises when something in it breaks.
+//! Tests of sessions in which something fails.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -18,28 +18,28 @@ fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> Session
     Session::start(name, scenario, Arc::default(), gpu, sink).unwrap()
 }
 
-async fn ended(session: &Session) -> String {
+async fn reason_of_end(session: &Session) -> String {
     let mut views = session.watch();
     let ended = views.wait_for(|view| view.ended.is_some());
-    let view = tokio::time::timeout(Duration::from_secs(20), ended).await.expect("it ends").unwrap();
+    let view = tokio::time::timeout(Duration::from_secs(20), ended).await.expect("the session ends").unwrap();
     view.ended.clone().unwrap()
 }
 
-async fn ticks_on(session: &Session) {
+async fn wait_for_a_second(session: &Session) {
     let mut views = session.watch();
     let from = views.borrow().moment.tick;
     let later = views.wait_for(|view| view.moment.tick >= from + 125);
-    tokio::time::timeout(Duration::from_secs(20), later).await.expect("it goes on").unwrap();
+    tokio::time::timeout(Duration::from_secs(20), later).await.expect("the session continues").unwrap();
 }
 
 async fn run(session: &Session) {
     session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
     session.send(Command::Run).await.unwrap();
-    ticks_on(session).await;
+    wait_for_a_second(session).await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_fault_ends_its_session_with_a_message_and_no_other() {
+async fn a_fault_ends_only_its_session_with_a_message() {
     let other = start("unharmed", ControllerName::Attractor, Box::new(Nowhere::default()));
     run(&other).await;
     for (point, message) in [
@@ -55,24 +55,24 @@ async fn a_fault_ends_its_session_with_a_message_and_no_other() {
         let session = start(&name, ControllerName::Rl, Box::new(recorder));
         run(&session).await;
         faults::arm(&format!("session {name}"), point);
-        let reason = ended(&session).await;
+        let reason = reason_of_end(&session).await;
         assert!(reason.contains(message), "{point}: {reason}");
         let refused = session.send(Command::Run).await;
         assert!(matches!(refused, Err(CommandError::Ended)), "{point}: {refused:?}");
         let tick = session.watch().borrow().moment.tick;
         assert!(session.watch().borrow().moment.bead_m.x.is_finite());
         session.close();
-        // What was recorded up to then is whole.
+        // The recording is complete up to the fault.
         let files = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
         let log = files.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "ferry")).unwrap();
         let log = InputLog::read(&std::fs::read(log).unwrap()).unwrap();
         assert!(log.entries.len() as u64 >= tick.min(125), "{point}: {} entries at tick {tick}", log.entries.len());
-        ticks_on(&other).await;
+        wait_for_a_second(&other).await;
     }
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_fault_in_the_recording_stops_it_visibly_and_the_session_goes_on() {
+async fn a_fault_in_the_recording_is_shown_and_the_session_continues() {
     let folder = tempfile::tempdir().unwrap();
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let recorder = Recorder::in_archive(&archive, "unwritten", Options::LIVE).unwrap();
@@ -82,35 +82,35 @@ async fn a_fault_in_the_recording_stops_it_visibly_and_the_session_goes_on() {
     faults::arm("recording unwritten", "write");
     let mut views = session.watch();
     let stopped = views.wait_for(|view| view.recording.contains("its thread failed"));
-    tokio::time::timeout(Duration::from_secs(20), stopped).await.expect("it is shown").unwrap();
-    ticks_on(&session).await;
+    tokio::time::timeout(Duration::from_secs(20), stopped).await.expect("the view shows the fault").unwrap();
+    wait_for_a_second(&session).await;
     assert_eq!(session.watch().borrow().ended, None);
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_lost_graphics_device_is_replaced_and_the_session_goes_on() {
+async fn a_lost_graphics_device_is_replaced_and_the_session_continues() {
     let gpu = Gpu::open(Default::default()).unwrap();
     let scenario = Scenario::idle("posts", 1);
     let session = Session::start("lost device", scenario, Arc::default(), gpu.clone(), Box::new(Nowhere::default()));
     let session = session.unwrap();
     run(&session).await;
     gpu.destroy();
-    ticks_on(&session).await;
-    ticks_on(&session).await;
+    wait_for_a_second(&session).await;
+    wait_for_a_second(&session).await;
     assert_eq!(session.watch().borrow().ended, None);
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn steps_that_take_long_do_not_keep_a_session_from_ending() {
+async fn a_session_ends_during_a_long_step_command() {
     let session = Arc::new(start("steps", ControllerName::Attractor, Box::new(Nowhere::default())));
     let stepping = session.clone();
-    let asked = tokio::spawn(async move { stepping.send(Command::Step(12_500)).await });
+    let answer = tokio::spawn(async move { stepping.send(Command::Step(12_500)).await });
     tokio::time::sleep(Duration::from_millis(100)).await;
-    assert!(!asked.is_finished(), "a minute and a half was stepped at once");
+    assert!(!answer.is_finished(), "100 simulated seconds took less than 100 ms");
     let began = std::time::Instant::now();
     tokio::task::spawn_blocking(move || session.close()).await.unwrap();
     assert!(began.elapsed() < Duration::from_millis(500), "it took {:?}", began.elapsed());
-    asked.await.unwrap().unwrap();
+    answer.await.unwrap().unwrap();
 }
 
 fn server(data: &std::path::Path) -> Arc<Server> {
@@ -120,9 +120,9 @@ fn server(data: &std::path::Path) -> Arc<Server> {
     Server::new(gpu, Settings::in_folder(data.to_owned()), access, stopping).unwrap()
 }
 
-/// A client that disconnects must not get more workers than one that waits.
+/// Requests whose clients disconnect must not start more computations at the same time than the limit.
 #[tokio::test(flavor = "multi_thread")]
-async fn work_occupies_its_worker_until_it_is_done() {
+async fn work_keeps_its_permit_until_it_ends() {
     let folder = tempfile::tempdir().unwrap();
     let server = server(folder.path());
     for _ in 0..super::WORKERS {
@@ -131,11 +131,11 @@ async fn work_occupies_its_worker_until_it_is_done() {
     }
     let began = std::time::Instant::now();
     server.work(|_| ()).await.unwrap();
-    assert!(began.elapsed() > Duration::from_secs(1), "it waited {:?}", began.elapsed());
+    assert!(began.elapsed() > Duration::from_secs(1), "it waited only {:?}", began.elapsed());
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_session_starts_once_although_its_first_client_disconnected() {
+async fn a_session_starts_once_even_if_the_first_clients_disconnect() {
     let folder = tempfile::tempdir().unwrap();
     let server = server(folder.path());
     for _ in 0..5 {
@@ -150,27 +150,27 @@ async fn a_session_starts_once_although_its_first_client_disconnected() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn of_many_comparisons_the_last_one_is_reported() {
+async fn the_last_of_many_comparisons_completes() {
     let folder = tempfile::tempdir().unwrap();
     let server = server(folder.path());
     let hub = server.sessions.open("anna").await.unwrap();
     hub.session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
-    let mut reports = hub.comparison();
+    let mut comparison = hub.comparison();
     for _ in 0..200 {
         hub.compare(0, vec![ControllerName::Attractor]).await.unwrap();
     }
-    let done = reports.wait_for(|text| text.contains("\"running\":false"));
-    tokio::time::timeout(Duration::from_secs(60), done).await.expect("a report of the last comparison").unwrap();
+    let done = comparison.wait_for(|text| text.contains("\"running\":false"));
+    tokio::time::timeout(Duration::from_secs(60), done).await.expect("the last comparison ends").unwrap();
 }
 
-/// On busy cores a session skips lost time instead of making it up.
+/// When the processors are busy, a session reports its delay, skips the lost time, and still executes commands.
 #[tokio::test(flavor = "multi_thread")]
-async fn a_session_on_busy_cores_reports_its_lateness_and_still_answers() {
+async fn a_session_on_busy_processors_reports_its_delay_and_executes_commands() {
     use std::sync::atomic::{AtomicBool, Ordering};
-    let session = start("crowded", ControllerName::Rl, Box::new(Nowhere::default()));
+    let session = start("busy", ControllerName::Rl, Box::new(Nowhere::default()));
     run(&session).await;
     let done = Arc::new(AtomicBool::new(false));
-    let crowd: Vec<_> = (0..4 * std::thread::available_parallelism().unwrap().get())
+    let load: Vec<_> = (0..4 * std::thread::available_parallelism().unwrap().get())
         .map(|_| {
             let done = done.clone();
             std::thread::spawn(move || {
@@ -183,14 +183,14 @@ async fn a_session_on_busy_cores_reports_its_lateness_and_still_answers() {
     session.send(Command::SetSpeed(SPEED_MAX)).await.unwrap();
     let mut slowest = Duration::ZERO;
     for _ in 0..20 {
-        let asked = std::time::Instant::now();
+        let sent_at = std::time::Instant::now();
         session.send(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).await.unwrap();
-        slowest = slowest.max(asked.elapsed());
+        slowest = slowest.max(sent_at.elapsed());
         tokio::time::sleep(Duration::from_millis(100)).await;
     }
     let view = session.watch().borrow().clone();
     done.store(true, Ordering::Relaxed);
-    crowd.into_iter().for_each(|thread| thread.join().unwrap());
+    load.into_iter().for_each(|thread| thread.join().unwrap());
     assert!(view.missed_deadlines > 0 && view.speed_achieved < SPEED_MAX, "{}", view.missed_deadlines);
     assert!(view.lateness > Duration::ZERO);
     assert!(slowest < Duration::from_secs(2), "a command took {slowest:?}");

@@ -24,7 +24,7 @@ pub struct Counters {
     refusals: Family<Labels, Counter>,
     logins: Family<Labels, Counter>,
     connections: Gauge,
-    turned_away: Counter,
+    refused_connections: Counter,
 }
 
 impl Counters {
@@ -47,8 +47,8 @@ impl Counters {
     }
 
     /// A connection was refused because of the limit.
-    pub fn turn_away(&self) {
-        self.turned_away.inc();
+    pub fn refuse_connection(&self) {
+        self.refused_connections.inc();
     }
 }
 
@@ -66,10 +66,14 @@ fn registry(server: &Server) -> Registry {
     let mut registry = Registry::with_prefix("ferry");
     let counters = &server.counters;
     registry.register("http_answers", "Answers by status", counters.answers.clone());
-    registry.register("http_refusals", "Requests not let in, by the problem's code", counters.refusals.clone());
+    registry.register("http_refusals", "Requests refused, by the problem's code", counters.refusals.clone());
     registry.register("logins", "Logins", counters.logins.clone());
     registry.register("connections", "Open connections", counters.connections.clone());
-    registry.register("connections_turned_away", "Connections there was no room for", counters.turned_away.clone());
+    registry.register(
+        "connections_turned_away",
+        "Connections refused because the limit was reached",
+        counters.refused_connections.clone(),
+    );
 
     let info = Family::<Labels, Gauge>::default();
     let adapter = server.gpu.adapter_name().to_owned();

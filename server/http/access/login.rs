@@ -1,4 +1,4 @@
-//! Login: the token is exchanged once for a cookie that scripts cannot read and other sites cannot use.
+//! Login: the browser exchanges the token once for a cookie that scripts cannot read and other sites cannot use.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -19,10 +19,10 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, TooMany};
 
 const NAME: &str = "ferry";
-/// A login lasts sixty days.
+/// Duration of a login: sixty days.
 const LASTS: Duration = Duration::from_secs(60 * 24 * 3600);
 
-/// The secrets of access.
+/// Body of `POST /login`.
 #[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Login {
@@ -31,14 +31,14 @@ pub struct Login {
 
 /// The login page.
 #[utoipa::path(get, path = "/login", tag = "access",
-    responses((status = 200, description = "The page.", content_type = "text/html", body = String)))]
+    responses((status = 200, description = "The login page.", content_type = "text/html", body = String)))]
 pub async fn form() -> Response {
     login_page(StatusCode::OK)
 }
 
 /// Exchanges the token for a cookie.
 #[utoipa::path(post, path = "/login", tag = "access", request_body = Login,
-    responses((status = 204, description = "The cookie stands in `Set-Cookie`."), Conflict, TooMany))]
+    responses((status = 204, description = "The cookie is in `Set-Cookie`."), Conflict, TooMany))]
 pub async fn login(
     State(server): State<Arc<Server>>,
     ConnectInfo(address): ConnectInfo<SocketAddr>,
@@ -48,12 +48,12 @@ pub async fn login(
     let Login { token: presented } = parse(&body)?;
     let access = &server.access;
     let (Some(token), Some(key)) = (&access.token, &access.cookie_key) else {
-        let detail = "this laboratory has no token: every client that can reach it is let in";
+        let detail = "this server has no token: every client that can reach it has access";
         return Err(Problem::new(StatusCode::CONFLICT, "no_login", detail));
     };
     let origin = headers.get(header::ORIGIN).and_then(|origin| origin.to_str().ok());
     let Some(origin) = origin else {
-        let detail = "a login must say its Origin; programs send the token as Authorization: Bearer";
+        let detail = "a login needs the header Origin; programs send the token as Authorization: Bearer";
         return Err(Problem::new(StatusCode::FORBIDDEN, "no_origin", detail).field("Origin"));
     };
     if !token.matches(&presented) {
@@ -75,11 +75,11 @@ pub async fn login(
 /// Deletes the cookie in this browser.
 #[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "The cookie is deleted.")))]
 pub async fn logout() -> Response {
-    let cookie = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
-    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, cookie.removal().build().to_string())]).into_response()
+    let expired = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
+    (StatusCode::NO_CONTENT, [(header::SET_COOKIE, expired.removal().build().to_string())]).into_response()
 }
 
-/// A random number and the time when the login ends.
+/// Content of the cookie: a random number, and the time when the login ends.
 fn value(ends: SystemTime) -> Result<String, std::io::Error> {
     let mut number = [0; 16];
     getrandom::fill(&mut number)?;
@@ -97,8 +97,8 @@ fn set(cookie: Cookie<'static>, key: &Key) -> Response {
     (StatusCode::NO_CONTENT, [(header::SET_COOKIE, written)]).into_response()
 }
 
-/// The number in a cookie that we signed and that has not expired.
-pub fn known(headers: &HeaderMap, key: &Key) -> Option<String> {
+/// The number in a cookie with a valid signature that has not expired.
+pub fn valid_login(headers: &HeaderMap, key: &Key) -> Option<String> {
     let texts = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
     let signed = texts.flat_map(Cookie::split_parse).flatten().filter(|cookie| cookie.name() == NAME);
     signed.into_iter().find_map(|cookie| {
@@ -134,16 +134,16 @@ mod tests {
     fn a_cookie_is_valid_until_it_expires_and_with_its_key_only() {
         let (now, hour, key) = (SystemTime::now(), Duration::from_secs(3600), self::key());
         let lasting = sent(&cookie(now + hour, &key));
-        let number = known(&lasting, &key).unwrap();
+        let number = valid_login(&lasting, &key).unwrap();
         assert_eq!(number.len(), 32);
-        assert_eq!(known(&lasting, &self::key()), None, "signed by another");
-        assert_eq!(known(&sent(&cookie(now - hour, &key)), &key), None, "ended");
-        assert_eq!(known(&HeaderMap::new(), &key), None);
+        assert_eq!(valid_login(&lasting, &self::key()), None, "signed with another key");
+        assert_eq!(valid_login(&sent(&cookie(now - hour, &key)), &key), None, "expired");
+        assert_eq!(valid_login(&HeaderMap::new(), &key), None);
         let text = lasting[header::COOKIE].to_str().unwrap();
         let later = text.replace(&format!(".{}", seconds(now + hour)), &format!(".{}", seconds(now + 2 * hour)));
         assert_ne!(later, text);
         let mut changed = HeaderMap::new();
         changed.insert(header::COOKIE, later.parse().unwrap());
-        assert_eq!(known(&changed, &key), None, "changed");
+        assert_eq!(valid_login(&changed, &key), None, "changed after signing");
     }
 }

@@ -1,4 +1,4 @@
-//! The allowed names of the laboratory and the allowed origins of pages.
+//! The allowed hosts of the server and the allowed origins of pages.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -33,7 +33,7 @@ impl Origin {
         Self { is_https: false, host, port: address.port() }
     }
 
-    /// Whether it is on loopback.
+    /// Whether the host is a loopback address.
     pub fn is_loopback(&self) -> bool {
         let name = self.host.trim_start_matches('[').trim_end_matches(']');
         name == "localhost" || name.parse::<std::net::IpAddr>().is_ok_and(|ip| ip.is_loopback())
@@ -43,14 +43,14 @@ impl Origin {
         if self.is_https { 443 } else { 80 }
     }
 
-    /// The forms that a browser or a proxy may write after `Host:`.
+    /// The values of `Host` that a browser or a proxy may send.
     fn hosts(&self) -> Vec<String> {
         let full = format!("{}:{}", self.host, self.port);
         if self.port == self.default_port() { vec![self.host.clone(), full] } else { vec![full] }
     }
 }
 
-/// As a browser writes it: without the scheme's own port.
+/// The form that a browser sends: without the scheme's default port.
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scheme = if self.is_https { "https" } else { "http" };
@@ -78,7 +78,7 @@ impl FromStr for Origin {
     }
 }
 
-/// The exact allow-lists, built once at the start.
+/// Lists of allowed hosts and origins, compared exactly.
 #[derive(Debug)]
 pub struct Origins {
     hosts: BTreeSet<String>,

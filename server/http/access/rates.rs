@@ -7,23 +7,24 @@ use std::time::Duration;
 use governor::clock::{Clock, DefaultClock};
 use governor::{DefaultDirectRateLimiter, DefaultKeyedRateLimiter, Quota, RateLimiter};
 
-/// Request rate of one client: far more than the page needs, far fewer than a program can send.
+/// Maximum request rate of one client: far more than the page needs, far less than a program can send.
 const REQUESTS_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
 const REQUESTS_BURST: NonZeroU32 = NonZeroU32::new(2000).unwrap();
-/// Wrong tokens per address, and in total.
+/// Maximum rate of wrong tokens per client, and in total.
 const WRONG_PER_MINUTE: NonZeroU32 = NonZeroU32::new(10).unwrap();
 const WRONG_OF_ALL_PER_MINUTE: NonZeroU32 = NonZeroU32::new(100).unwrap();
 
-/// The client: identified by its login, or by its address without a login.
+/// A client, identified by its login, or by its address if it has no login.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Client {
-    /// The number in its cookie.
+    /// The number in the client's cookie.
     Login(String),
     Address(IpAddr),
 }
 
 impl Client {
-    /// The /64 prefix of an IPv6 address: a client can have 2^64 addresses.
+    /// The client at an address. IPv6 addresses with the same /64 prefix count as one client, because a client can have
+    /// all of them.
     pub fn at(address: IpAddr) -> Self {
         Self::Address(match address {
             IpAddr::V6(v6) if v6.to_ipv4_mapped().is_none() => IpAddr::V6((u128::from(v6) & (u128::MAX << 64)).into()),
@@ -32,7 +33,7 @@ impl Client {
     }
 }
 
-/// Too many requests: when to retry.
+/// Too many requests, with the time until the next one is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooOften(pub Duration);
 
@@ -59,14 +60,14 @@ impl Rates {
         self.requests.check_key(client).map_err(|until| TooOften(until.wait_time_from(DefaultClock::default().now())))
     }
 
-    /// Counts a wrong token. Right tokens are not counted, so guessing cannot lock others out.
+    /// Counts a wrong token. Correct tokens are never refused, so guessing cannot lock others out.
     pub fn wrong_token(&self, client: &Client) -> Result<(), TooOften> {
         let now = DefaultClock::default().now();
         self.wrong.check_key(client).map_err(|until| TooOften(until.wait_time_from(now)))?;
         self.wrong_of_all.check().map_err(|until| TooOften(until.wait_time_from(now)))
     }
 
-    /// Forgets clients without recent requests, so that memory stays bounded.
+    /// Forgets clients without recent requests, which bounds the memory.
     pub fn forget(&self) {
         self.requests.retain_recent();
         self.wrong.retain_recent();
@@ -86,7 +87,7 @@ mod tests {
         assert!(wait > Duration::ZERO && wait <= Duration::from_secs(6), "{wait:?}");
         assert!(rates.wrong_token(&other).is_ok());
         assert!((0..2000).all(|_| rates.request(&one).is_ok()));
-        // Some clients return meanwhile.
+        // Some of the allowance is refilled meanwhile.
         assert!((0..2000).any(|_| rates.request(&one).is_err()));
         assert!(rates.request(&other).is_ok());
     }

@@ -1,4 +1,4 @@
-//! The token that gives other machines access.
+//! The token, which clients need if other machines have access.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,18 +10,18 @@ const BYTES: usize = 32;
 
 /// Why a text is not a token. The message never contains the text, which may be a mistyped token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the token must be {} hexadecimal digits, as `ferry token` prints them; this has {characters} characters", 2 * BYTES)]
+#[error("the token must be {} hexadecimal digits, as `ferry token` prints them; this text has {characters} characters", 2 * BYTES)]
 pub struct TokenError {
-    /// Its length.
+    /// Length of the text.
     pub characters: usize,
 }
 
-/// A shared secret of 256 bits, written as 64 hexadecimal digits. Neither printed nor logged.
+/// A shared secret of 256 bits, written as 64 hexadecimal digits. It is never printed or logged.
 #[derive(Clone)]
 pub struct Token([u8; BYTES]);
 
 impl Token {
-    /// A new token from the system's generator, as text. This is the only place that shows a token.
+    /// A new token from the system's random generator, as text. Only this function returns a token as text.
     ///
     /// # Errors
     /// The system provides no random numbers.
