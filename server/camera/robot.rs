@@ -5,11 +5,11 @@
 
 use crate::robot::ur5::{A2_M, A3_M, D1_M, D4_M, D5_M, D6_M};
 
-/// Along the shoulder's axis, from the joint frames' plane to the middle of the upper arm.
+/// Offset of the upper arm's centre line from the plane of the joint frames, along the shoulder's axis.
 const UPPER_ARM_ASIDE_M: f64 = 0.1358;
-/// The same for the forearm.
+/// The same offset for the forearm.
 const FOREARM_ASIDE_M: f64 = 0.0165;
-/// Of the housings around the joints: the first two, the elbow, the wrists.
+/// Radii of the housings around the joints. The shoulder's value holds for the first two joints.
 const SHOULDER_RADIUS_M: f64 = 0.060;
 const ELBOW_RADIUS_M: f64 = 0.051;
 const WRIST_RADIUS_M: f64 = 0.0405;

@@ -15,11 +15,11 @@ use rand_chacha::ChaCha8Rng;
 /// Start and goal of the paper's Example 3, from the caecum back to its start.
 const ENDS_M: [[f64; 2]; 2] = [[0.19, -0.28], [-0.24, -0.27]];
 const PLANS: u64 = 1000;
-/// Plans before the one that is timed, where a planner is to remember something.
+/// Plans before the timed one, in benchmarks of a planner that has a tree already.
 const BEFORE: u64 = 10;
-/// How far the tool goes on between plans.
+/// Without disturbances: distance that the tool moves between two plans.
 const STEP_M: f64 = 0.03;
-/// Or, between these plans, something moves the bead, and the tool that fetches it, this far at most.
+/// With disturbances: maximum distance that bead and tool are moved between two plans.
 const DISTURBANCE_M: f64 = 0.05;
 
 /// The map as if the camera had been everywhere.

@@ -17,13 +17,14 @@ async function exerciseAll(lab: Lab, input: InputMethod, section: Section) {
       });
     }
   }
+  await section.after?.(input.lab, input);
 }
 
 for (const [name, Method] of Object.entries(INPUT_METHODS)) {
   test.describe(`by ${name}`, () => {
     test.use(name === 'touch' ? TABLET : DESKTOP);
 
-    for (const [title, sections] of SECTIONS_BY_TEST) {
+    for (const [title, sections] of Object.entries(SECTIONS_BY_TEST)) {
       test(`each control of ${title} works by ${name}`, async ({ lab }) => {
         const input = new Method(lab);
         for (const section of sections) await exerciseAll(lab, input, section);

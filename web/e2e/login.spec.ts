@@ -10,7 +10,7 @@ import { until } from './support/wait';
 /** The browser reports this for a page that needs a token. */
 const REFUSED = /status of 401 /i;
 const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
-const WRONG = 'this is not the token';
+const WRONG = 'the token is wrong';
 const LOGIN_ENDED = 'login has ended';
 
 interface Guarded {

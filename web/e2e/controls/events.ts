@@ -86,7 +86,7 @@ const sends = (type: string, ready: (lab: Lab) => Promise<unknown>) => ({
   },
 });
 
-const SHARE: Section = {
+export const SHARE: Section = {
   name: 'the experiment link',
   rowReady: open('Share'),
   rows: {
@@ -100,7 +100,7 @@ const SHARE: Section = {
   },
 };
 
-const EVENTS: Section = {
+export const EVENTS: Section = {
   name: 'events',
   ready: async (lab) => {
     // Each goal is an event. The explained event needs one before and one after it.
@@ -124,7 +124,7 @@ const EVENTS: Section = {
   },
 };
 
-const COMPARE: Section = {
+export const COMPARE: Section = {
   name: 'comparisons',
   ready: async (lab) => {
     await ensurePaused(lab);
@@ -186,7 +186,7 @@ const goToRun = async (lab: Lab) => {
   await lab.button('Next').click();
 };
 
-const LESSONS: Section = {
+export const LESSONS: Section = {
   name: 'lessons',
   ready: tab('Lessons'),
   rows: {
@@ -205,5 +205,3 @@ const LESSONS: Section = {
     'button Start over': { see: (lab) => lab.button('Start over').isDisabled() },
   },
 };
-
-export const EVENTS_AND_LESSONS: readonly Section[] = [SHARE, EVENTS, COMPARE, LESSONS];

@@ -166,7 +166,7 @@ const LAYER_NAMES = [
   'Singularity',
 ];
 
-const LAYERS: Section = {
+export const LAYERS: Section = {
   name: 'layers',
   ready: async (lab) => {
     // The page stores the layers only after a change.
@@ -178,4 +178,4 @@ const LAYERS: Section = {
   rows: Object.fromEntries(LAYER_NAMES.map((name) => [`checkbox ${name}`, toggle(layers)])),
 };
 
-export const LABORATORY: readonly Section[] = [VIEWS, WORKSPACE, PLAYBACK, EXPERIMENTS, LAYERS];
+export const LABORATORY: readonly Section[] = [VIEWS, WORKSPACE, PLAYBACK, EXPERIMENTS];

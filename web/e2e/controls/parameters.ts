@@ -115,13 +115,13 @@ async function restore(lab: Lab, input: InputMethod) {
   });
 }
 
-/**
- * A control of one parameter. A slider changes its value by much, which may narrow the range of
- * other parameters, so the test restores the defaults after it.
- */
-export const bound = (name: Name, role?: Role): Row => ({
+/** Parameters that limit another one. It changes with them, and its name then ends in a dot. */
+const LIMITING: readonly Name[] = ['errt_goal_probability', 'threshold_m'];
+
+/** A control of one parameter. */
+export const bound = (name: Name): Row => ({
   see: (lab) => lab.scene.parameters[name],
-  ...(role === 'slider' ? { after: restore } : {}),
+  ...(LIMITING.includes(name) ? { after: restore } : {}),
 });
 
 export const RESTORE: Row = {
@@ -136,7 +136,7 @@ function rowsOf(fields: Record<string, Field>): Rows {
   const rows: Rows = {};
   for (const [label, { name, roles }] of Object.entries(fields)) {
     for (const role of roles) {
-      rows[`${role} ${role === 'slider' ? `${label} slider` : label}`] = bound(name, role);
+      rows[`${role} ${role === 'slider' ? `${label} slider` : label}`] = bound(name);
     }
   }
   return rows;
@@ -160,4 +160,5 @@ export const PARAMETERS: readonly Section[] = GROUPS.map(({ name, controller, fi
     ),
     ...rowsOf(fields),
   },
+  after: restore,
 }));

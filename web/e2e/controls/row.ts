@@ -33,6 +33,8 @@ export interface Section {
   readonly ready?: Work;
   /** Runs before each row. */
   readonly rowReady?: Work;
+  /** Runs after the last row. */
+  readonly after?: (lab: Lab, input: InputMethod) => Promise<unknown>;
   readonly rows: Rows;
 }
 

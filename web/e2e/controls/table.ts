@@ -4,29 +4,26 @@
 import { type Locator, type Page, expect } from '@playwright/test';
 import type { InputMethod } from '../support/inputMethods';
 import { isChosen, setOf } from '../support/inputMethods';
-import { LABORATORY } from './laboratory';
+import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
+import { LABORATORY, LAYERS } from './laboratory';
 import { PARAMETERS } from './parameters';
-import { EVENTS_AND_LESSONS } from './events';
 import type { Row, Section } from './row';
-import { TOOLS } from './tools';
+import { DISTURB, EVALUATE, MAGNET, PLOTS, RECORDINGS, SCENE_VIEW } from './tools';
 
 const EFFECT_MS = 20_000;
 const INTERVALS = [25];
 
-export const SECTIONS: readonly Section[] = [
-  ...LABORATORY,
-  ...TOOLS,
-  ...EVENTS_AND_LESSONS,
-  ...PARAMETERS,
-];
-
-/** The sections of each test. Opening a page takes longer than a small section, so all parameters share one. */
-export const SECTIONS_BY_TEST: ReadonlyMap<string, readonly Section[]> = new Map([
-  ...[...LABORATORY, ...TOOLS, ...EVENTS_AND_LESSONS].map(
-    (section) => [section.name, [section]] as const,
-  ),
-  ['the parameters', PARAMETERS],
-]);
+/** The sections of each test. Small sections share a test, because opening a page takes longer than they do. */
+export const SECTIONS_BY_TEST: Readonly<Record<string, readonly Section[]>> = {
+  'the laboratory': LABORATORY,
+  'the layers and the link': [LAYERS, SHARE],
+  'plots, magnet and disturbances': [PLOTS, MAGNET, DISTURB],
+  'the 3-D view': [SCENE_VIEW],
+  'recordings and evaluations': [RECORDINGS, EVALUATE],
+  'events and comparisons': [EVENTS, COMPARE],
+  lessons: [LESSONS],
+  'the parameters': PARAMETERS,
+};
 
 type AriaRole = Parameters<Page['getByRole']>[0];
 
@@ -112,9 +109,9 @@ export async function exercise(input: InputMethod, key: string, row: Row) {
   await row.after?.(lab, input);
 }
 
-const ROWS = SECTIONS.flatMap(({ rows }) =>
-  Object.keys(rows).map((key) => ({ key, ...parse(key) })),
-);
+const ROWS = Object.values(SECTIONS_BY_TEST)
+  .flat()
+  .flatMap(({ rows }) => Object.keys(rows).map((key) => ({ key, ...parse(key) })));
 
 /** Whether the table has a row for this control. */
 export function hasRow({ key, role, name }: { key: string; role: string; name: string }) {

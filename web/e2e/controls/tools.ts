@@ -56,7 +56,7 @@ const typed: Row = {
 
 const RANDOM_MOVES = 'Number of random moves';
 
-const DISTURB: Section = {
+export const DISTURB: Section = {
   name: 'disturbances',
   ready: open('Disturb'),
   rows: {
@@ -99,7 +99,7 @@ const viewpoint = (from: string): Row => ({
   },
 });
 
-const SCENE_VIEW: Section = {
+export const SCENE_VIEW: Section = {
   name: 'the 3-D view',
   rows: {
     'radio 3-D': { see: scenes, after: (lab) => lab.radio('Plan').check() },
@@ -135,7 +135,7 @@ const SCENE_VIEW: Section = {
   },
 };
 
-const PLOTS: Section = {
+export const PLOTS: Section = {
   name: 'plots',
   ready: tab('Plots'),
   rows: {
@@ -150,7 +150,7 @@ const PLOTS: Section = {
   },
 };
 
-const MAGNET: Section = {
+export const MAGNET: Section = {
   name: 'the magnet',
   ready: tab('Magnet'),
   rows: {
@@ -159,13 +159,13 @@ const MAGNET: Section = {
     'radio y': { see: magnetFacts },
     'combobox Magnet': bound('block_orientation'),
     'spinbutton Height': bound('tool_height_m'),
-    'slider Height slider': bound('tool_height_m', 'slider'),
+    'slider Height slider': bound('tool_height_m'),
     'spinbutton Friction': bound('friction'),
-    'slider Friction slider': bound('friction', 'slider'),
+    'slider Friction slider': bound('friction'),
   },
 };
 
-const RECORDINGS: Section = {
+export const RECORDINGS: Section = {
   name: 'recordings',
   ready: view('Recordings'),
   rows: {
@@ -205,7 +205,7 @@ const REPORT_ROWS: Section['rows'] = {
   'button /^Show more of /': { elsewhere: 'not tested' },
 };
 
-const EVALUATE: Section = {
+export const EVALUATE: Section = {
   name: 'evaluations',
   ready: async (lab) => {
     const { origin } = new URL(lab.page.url());
@@ -237,5 +237,3 @@ const EVALUATE: Section = {
     ...REPORT_ROWS,
   },
 };
-
-export const TOOLS: readonly Section[] = [PLOTS, SCENE_VIEW, MAGNET, DISTURB, RECORDINGS, EVALUATE];

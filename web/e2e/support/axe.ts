@@ -17,15 +17,19 @@ const source = await readFile(
 );
 const REPORTED_IMPACTS = ['serious', 'critical'];
 
-/** One line per element with a serious or critical violation: the rule, the element, the reason. */
-export async function violations(page: Page) {
+/**
+ * One line per element with a serious or critical violation: the rule, the element, the reason.
+ * Checks all rules, or only those of `rules`.
+ */
+export async function violations(page: Page, rules?: readonly string[]) {
   // The content security policy forbids a script element. The debugger may evaluate the source.
   if (!(await page.evaluate('typeof axe === "object"'))) await page.evaluate(source);
-  const found = await page.evaluate(async () => {
+  const found = await page.evaluate(async (runOnly) => {
     const { violations: all } = await window.axe.run(document, {
       resultTypes: ['violations'],
       iframes: false,
       preload: false,
+      ...(runOnly ? { runOnly: [...runOnly] } : {}),
     });
     return all.map(({ id, impact, nodes }) => ({
       id,
@@ -35,7 +39,7 @@ export async function violations(page: Page) {
         reason: [...any, ...every, ...none][0]?.message ?? '',
       })),
     }));
-  });
+  }, rules);
   return found
     .filter(({ impact }) => REPORTED_IMPACTS.includes(impact ?? ''))
     .flatMap(({ id, nodes }) => nodes.map(({ target, reason }) => `${id}: ${target}: ${reason}`));

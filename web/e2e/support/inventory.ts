@@ -123,26 +123,33 @@ export async function controls(page: Page): Promise<Control[]> {
     while (at && (at.ignored || !GROUPS.has(at.role?.value ?? ''))) at = parentOf(at);
     return at;
   };
-  const found: Control[] = [];
-  for (const node of nodes) {
-    const chromium = node.role?.value ?? '';
-    if (node.ignored || !(ROLES.has(chromium) || chromium in ROLE_NAMES)) continue;
+  const interactive = nodes.filter(({ ignored, role }) => {
+    const chromium = role?.value ?? '';
+    return !ignored && (ROLES.has(chromium) || chromium in ROLE_NAMES);
+  });
+  const measureNode = async (node: AXNode, index: number) => {
     const objectId = (await objectOf(cdp, node.backendDOMNodeId))?.objectId;
-    if (!objectId) continue;
+    if (!objectId) return undefined;
     const { result } = await cdp.send('Runtime.callFunctionOn', {
       objectId,
       functionDeclaration: measure.toString(),
-      arguments: [{ value: found.length }],
+      arguments: [{ value: index }],
       returnByValue: true,
     });
-    const measured = result.value as Measured;
-    if (measured.isDetached) continue;
+    return result.value as Measured;
+  };
+  const sizes = await Promise.all(interactive.map(measureNode));
+  const found: Control[] = [];
+  for (const [index, node] of interactive.entries()) {
+    const measured = sizes[index];
+    if (!measured || measured.isDetached) continue;
+    const chromium = node.role?.value ?? '';
     const role = ROLE_NAMES[chromium] ?? chromium;
     const name = node.name?.value?.trim() ?? '';
     const group = groupOf(node);
     found.push({
       ...measured,
-      index: found.length,
+      index,
       role,
       name,
       key: `${role} ${name}`,

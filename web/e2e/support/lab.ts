@@ -105,16 +105,25 @@ export class Lab extends Messages {
     return must(await this.point('bead'), 'the bead');
   }
 
-  /** The box of an element on the page, once two frames show the same box. */
+  /** Scrolls to an element and returns its box on the page, once two frames show the same box. */
   async boxOf(locator: Locator) {
-    await locator.scrollIntoViewIfNeeded();
-    let before = '';
-    return until('a box that does not move', async () => {
-      await this.drawn();
-      const box = await locator.boundingBox();
-      const isSame = JSON.stringify(box) === before;
-      before = JSON.stringify(box);
-      return isSame && box;
+    await locator.waitFor();
+    return locator.evaluate(async (element) => {
+      const nextFrame = () => new Promise((done) => requestAnimationFrame(done));
+      const box = () => {
+        const { x, y, width, height } = element.getBoundingClientRect();
+        return { x, y, width, height };
+      };
+      element.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+      let before;
+      let now = box();
+      do {
+        before = now;
+        await nextFrame();
+        await nextFrame();
+        now = box();
+      } while (JSON.stringify(now) !== JSON.stringify(before));
+      return now;
     });
   }
 

@@ -19,6 +19,12 @@ export interface Place {
 
 export type Places = (lab: Lab) => AsyncGenerator<Place>;
 
+/** The places of each list, one list after the other. */
+export const inTurn = (lists: readonly Places[]): Places =>
+  async function* (lab) {
+    for (const places of lists) yield* places(lab);
+  };
+
 export const slug = (text: string) => text.toLowerCase().replaceAll(/\W+/g, '-');
 
 /** Opens all `details` elements. */
