@@ -73,7 +73,7 @@ fn npm(arguments: &[&str], out: &Path) {
         Err(error) => stop(&format!("npm could not be started: {error}")),
         Ok(done) if !done.status.success() => {
             eprintln!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
-            stop(&format!("npm {} failed in web/; its output stands above", arguments.join(" ")));
+            stop(&format!("npm {} failed in web/; see its output above", arguments.join(" ")));
         }
         Ok(_) => {}
     }

@@ -54,7 +54,6 @@ pub enum ServeError {
     /// The address is in use or not available.
     #[error("cannot listen on {address}: {error}; choose another with --bind, as in --bind 127.0.0.1:0")]
     Bind {
-        /// The requested address.
         address: SocketAddr,
         /// The system's message.
         error: std::io::Error,

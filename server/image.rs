@@ -9,9 +9,7 @@ pub use pinhole::{CameraMount, Pinhole};
 /// An image of RGBA8 pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Picture {
-    /// Columns.
     pub width_px: u32,
-    /// Rows.
     pub height_px: u32,
     /// Row-major RGBA, four bytes per pixel, top row first.
     pub rgba: Vec<u8>,
@@ -29,9 +27,7 @@ pub struct CameraFrame {
 /// An 8-bit gray image.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GrayImage {
-    /// Columns.
     pub width_px: usize,
-    /// Rows.
     pub height_px: usize,
     /// Row-major, top row first.
     pub pixels: Vec<u8>,

@@ -22,7 +22,6 @@ pub use positioner::{Positioner, PositionerKind, ToolOrientation, manipulability
 
 /// Length of gripper and block, from the flange to the tool point.
 pub const TOOL_LENGTH_M: f64 = 0.180;
-/// Radius of the bead.
 pub const BEAD_RADIUS_M: f64 = dipole::SPHERE_DIAMETER_M / 2.0;
 /// Plant steps per servo period: 1 kHz.
 pub const SUBSTEPS: usize = 8;
@@ -77,7 +76,6 @@ pub struct Hand {
 pub struct PlantState {
     /// What carries the magnet.
     pub positioner: Positioner,
-    /// The bead.
     pub bead: Bead,
     /// The hand, while it holds the bead.
     pub hand: Option<Hand>,

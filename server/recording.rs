@@ -44,11 +44,7 @@ const LOST_TICKS_AN_OFFER: u64 = 64;
 pub enum RecordingError {
     /// A file or folder cannot be created, read or written.
     #[error("recording: {path}: {error}", path = path.display())]
-    Io {
-        path: PathBuf,
-        /// The system's error.
-        error: std::io::Error,
-    },
+    Io { path: PathBuf, error: std::io::Error },
     /// The disk is nearly full.
     #[error("recording: the disk has {left_mb} MB left, the minimum is {min_mb}")]
     Full {
@@ -175,7 +171,7 @@ impl Recorder {
             .spawn(move || {
                 // A panic here stops the recording, visibly, but not the trial.
                 if catch_unwind(AssertUnwindSafe(|| write_all(keeper, &inbox, &seen))).is_err() {
-                    note(Err(trouble("its thread failed; see the log")), &seen);
+                    note(Err(trouble("the recording thread failed; see the server's log")), &seen);
                 }
             })
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;

@@ -44,9 +44,7 @@ const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 pub enum Command {
     /// An input of the trial.
     Input(Input),
-    /// Runs.
     Run,
-    /// Pauses.
     Pause,
     /// Advances this many ticks, then pauses.
     Step(u32),
@@ -55,7 +53,10 @@ pub enum Command {
     /// Back to the start, with a new seed or the same one.
     Reset(Option<u64>),
     /// A new trial of this scenario, except for the kept parts.
-    Load { scenario: Box<Scenario>, kept: Kept },
+    Load {
+        scenario: Box<Scenario>,
+        kept: Kept,
+    },
     /// Back to the last control step at or before this tick; pauses.
     Rewind(u64),
 }
@@ -83,24 +84,19 @@ pub enum CommandError {
     /// Out of range.
     #[error("{field} is {value}, it must be {allowed}")]
     Range {
-        /// The invalid field.
         field: &'static str,
-        /// Its value.
         value: f64,
         /// The allowed range.
         allowed: String,
     },
     /// The start of the trial is no longer kept.
-    #[error("the trial's beginning is kept no more; reset, and keep a case within ten minutes")]
+    #[error("the start of the trial is no longer kept; reset, and save a case within ten minutes")]
     Forgotten,
     /// There is no goal.
-    #[error("tick {tick}: there is no goal at that moment, so there is nothing to compare")]
-    NoGoal {
-        /// The requested tick.
-        tick: u64,
-    },
+    #[error("tick {tick}: no goal was set, so there is nothing to compare")]
+    NoGoal { tick: u64 },
     /// A test case would have nothing to expect.
-    #[error("tick {tick}: nothing was carried up to then, so a case would expect nothing; let time run first")]
+    #[error("tick {tick}: nothing was carried yet, so the case would expect nothing; run the session first")]
     NothingCarried {
         /// The tick of the session.
         tick: u64,
@@ -109,7 +105,7 @@ pub enum CommandError {
     #[error("the session is busy: more than {COMMAND_QUEUE} commands wait")]
     Busy,
     /// The session did not answer.
-    #[error("the session has not answered for {} s; what was asked may still happen", ANSWER_WITHIN.as_secs())]
+    #[error("the session has not answered for {} s; the command may still be carried out", ANSWER_WITHIN.as_secs())]
     Unanswered,
     /// The session has ended.
     #[error("the session has ended")]
@@ -129,9 +125,7 @@ pub struct Scenery {
     pub arena: Arc<Arena>,
     /// The trial's scenario.
     pub scenario: Scenario,
-    /// The positioner.
     pub positioner: PositionerKind,
-    /// Current parameters.
     pub parameters: Parameters,
 }
 
@@ -154,7 +148,6 @@ impl Scenery {
 pub struct View {
     /// The trial.
     pub moment: Moment,
-    /// World hash.
     pub world_hash: u64,
     /// Whether the session is running.
     pub running: bool,
@@ -202,7 +195,7 @@ pub enum Recalled {
 
 /// A request to the thread, with the channel for its answer.
 enum Request {
-    Obey { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
+    Execute { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
     Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<BranchPoint, CommandError>> },
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
 }
@@ -233,25 +226,25 @@ impl Session {
     /// Sends a command and waits for its answer. Needs a tokio runtime with time.
     pub async fn send(&self, command: Command) -> Result<(), CommandError> {
         let (answer, answered) = oneshot::channel();
-        self.ask(Request::Obey { command, answer })?;
+        self.enqueue(Request::Execute { command, answer })?;
         answer_of(answered).await
     }
 
     /// A kept moment. The session does not change.
     pub async fn recall(&self, tick: u64, moment: Recalled) -> Result<BranchPoint, CommandError> {
         let (answer, answered) = oneshot::channel();
-        self.ask(Request::Recall { tick, moment, answer })?;
+        self.enqueue(Request::Recall { tick, moment, answer })?;
         answer_of(answered).await
     }
 
     /// The trial with all its inputs as a test case. The session does not change.
     pub async fn case(&self) -> Result<Case, CommandError> {
         let (answer, answered) = oneshot::channel();
-        self.ask(Request::Case { answer })?;
+        self.enqueue(Request::Case { answer })?;
         answer_of(answered).await
     }
 
-    fn ask(&self, request: Request) -> Result<(), CommandError> {
+    fn enqueue(&self, request: Request) -> Result<(), CommandError> {
         let commands = self.commands.lock().unwrap_or_else(PoisonError::into_inner);
         let commands = commands.as_ref().ok_or(CommandError::Ended)?;
         commands.try_send(request).map_err(|error| match error {

@@ -84,18 +84,10 @@ pub enum TrialError {
     Thread(String),
     /// A simulated value became NaN or infinite; the state is unusable.
     #[error("tick {tick}: {what} is no longer a finite number")]
-    NotFinite {
-        /// The tick.
-        tick: u64,
-        /// What.
-        what: &'static str,
-    },
+    NotFinite { tick: u64, what: &'static str },
     /// A replay needs a decision at this tick, but the log does not contain it.
     #[error("log: no decision at tick {tick}")]
-    MissingDecision {
-        /// The tick.
-        tick: u64,
-    },
+    MissingDecision { tick: u64 },
 }
 
 /// A map prepared for trials; many trials share one.
@@ -283,7 +275,7 @@ impl Trial {
             self.carry_out(&decided);
             decision = Some(decided);
         }
-        self.strike_as_scripted(None);
+        self.apply_scripted(None);
         self.advance_reference();
         #[cfg(test)]
         if crate::faults::strikes("not a number") {

@@ -2,7 +2,7 @@ import js from '@eslint/js';
 import tseslint from 'typescript-eslint';
 
 export default tseslint.config(
-  { ignores: ['dist/', 'src/net/*.gen.ts'] },
+  { ignores: ['dist/', 'src/net/**/*.gen.ts'] },
   js.configs.recommended,
   {
     files: ['src/**/*.{ts,tsx}'],

@@ -59,7 +59,7 @@ pub enum CameraError {
         max_px: u32,
     },
     /// The static geometry cannot be drawn.
-    #[error("the stage cannot be drawn: {what}")]
+    #[error("the scene cannot be drawn: {what}")]
     StaticScene {
         /// The wrong value and its name.
         what: String,

@@ -41,7 +41,6 @@ pub struct RobotSolid {
     pub along: [f64; 3],
     /// The two places, from the origin.
     pub places_m: [f64; 2],
-    /// Radius.
     pub radius_m: f64,
 }
 

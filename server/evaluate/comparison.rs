@@ -8,15 +8,13 @@ use super::{Cell, Episode};
 /// Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Map.
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
-    /// The first.
+    /// Controller that is compared.
     pub controller: String,
-    /// The second.
+    /// Controller that it is compared with.
     pub against: String,
-    /// Trials.
     pub episodes: u32,
     /// Trials delivered by both.
     pub both: u32,
@@ -41,7 +39,6 @@ pub struct Comparison {
 /// A mean difference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PairedMean {
-    /// Mean.
     pub mean: f64,
     /// Its 95 % interval (Student's t).
     pub interval95: [f64; 2],

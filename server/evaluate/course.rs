@@ -18,7 +18,6 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Adds a tick.
     pub(super) fn add(&mut self, moment: &Moment) {
         let carries = moment.switching.mode == Mode::Transport && moment.phase == Phase::Transporting;
         let here = moment.tool_m.xy();

@@ -19,7 +19,7 @@ use crate::trial::Arena;
 pub(super) enum EngineError {
     #[error(transparent)]
     Camera(#[from] CameraError),
-    #[error("no threads to evaluate in: {0}")]
+    #[error("the threads of the evaluation could not start: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
@@ -33,12 +33,12 @@ pub(super) struct Engine {
 const PRIORITY: u8 = 22;
 
 /// Lowers the priority of this thread and of the threads that it starts.
-pub(super) fn give_way() {
+pub(super) fn lower_priority() {
     let lowered = ThreadPriorityValue::try_from(PRIORITY).and_then(|value| {
         set_current_thread_priority(ThreadPriority::Crossplatform(value)).map_err(|error| error.to_string())
     });
     if let Err(error) = lowered {
-        tracing::warn!(%error, "what runs in the background has the priority of everything else");
+        tracing::warn!(%error, "background work runs at normal priority");
     }
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn gentle_pool(name: &'static str) -> Result<ThreadPool, rayon::Threa
     ThreadPoolBuilder::new()
         .num_threads(cores.saturating_sub(1).max(1))
         .thread_name(move |index| format!("{name} {index}"))
-        .start_handler(|_| give_way())
+        .start_handler(|_| lower_priority())
         .build()
 }
 

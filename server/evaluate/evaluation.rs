@@ -63,7 +63,6 @@ pub struct CellProgress {
     pub elapsed_s: f64,
 }
 
-/// Result of a cell.
 #[derive(Clone, Debug)]
 pub struct CellResult {
     pub row: Row,

@@ -50,7 +50,6 @@ pub struct Experiment {
     pub venue: Arc<Venue>,
     /// Name or path of the map, as in scenarios.
     pub map: String,
-    /// Number of trials.
     pub episodes: u32,
     /// Seed of the trials: the same for every controller.
     pub seed: u64,
@@ -114,12 +113,7 @@ pub enum EvaluateError {
     Episodes(u32),
     /// The trial index is out of range.
     #[error("episode is {index}, it must be 0 to {}", episodes - 1)]
-    Episode {
-        /// The requested index.
-        index: u32,
-        /// Number of trials.
-        episodes: u32,
-    },
+    Episode { index: u32, episodes: u32 },
     /// A recording is incomplete.
     #[error("recording: {0}")]
     NotRecorded(String),

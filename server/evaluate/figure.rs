@@ -58,7 +58,6 @@ impl Trace {
         }
     }
 
-    /// Adds a tick.
     pub fn add(&mut self, record: &TickRecord) {
         let moment = &record.moment;
         let time_s = moment.sim_time_s();

@@ -9,13 +9,11 @@ use crate::scenario::ControllerName;
 pub struct PaperRow {
     /// Source in the paper.
     pub section: String,
-    /// Trials.
     pub episodes: u32,
     /// Trials whose tool reached the goal.
     pub successes: u32,
     /// Wilson 95 % interval of `successes / episodes`.
     pub successes_wilson95: [f64; 2],
-    /// As printed.
     pub printed: String,
     /// Mean tracking error in both axes.
     pub tracking_error_mean_m: Option<f64>,

@@ -31,7 +31,6 @@ pub struct EvaluationQuery {
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,
-    /// Map.
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
@@ -42,48 +41,25 @@ pub struct Cell {
 pub enum QueryError {
     /// Nothing to run.
     #[error("{field} is empty, it must name at least one")]
-    Empty {
-        /// The invalid field.
-        field: &'static str,
-    },
-    /// The same twice.
+    Empty { field: &'static str },
     #[error("{field}[{index}] is {value:?}, which is in the list already")]
-    Twice {
-        /// The invalid field.
-        field: &'static str,
-        /// Which item.
-        index: usize,
-        /// Its value.
-        value: String,
-    },
+    Twice { field: &'static str, index: usize, value: String },
     /// No such map.
     #[error("maps[{index}]: {error}")]
     Map {
-        /// Which item.
         index: usize,
         /// What is wrong with it.
         error: MapError,
     },
     /// Out of range.
     #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
-    Range {
-        /// The invalid field.
-        field: String,
-        /// Its value.
-        value: u32,
-        /// What is allowed.
-        allowed: std::ops::RangeInclusive<u32>,
-    },
+    Range { field: String, value: u32, allowed: std::ops::RangeInclusive<u32> },
     /// More than one evaluation may hold.
     #[error("controllers × maps × disturbances are {cells} cells, the limit is {CELL_LIMIT}")]
-    TooManyCells {
-        /// How many.
-        cells: usize,
-    },
+    TooManyCells { cells: usize },
 }
 
 impl QueryError {
-    /// The invalid field.
     pub fn field(&self) -> String {
         match self {
             Self::Empty { field } => (*field).to_owned(),

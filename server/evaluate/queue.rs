@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
-use super::engine::{Engine, give_way};
+use super::engine::{Engine, lower_priority};
 use super::{Evaluation, EvaluationQuery, QueryError, Stage};
 use crate::camera::Gpu;
 use crate::map::Library;
@@ -70,7 +70,7 @@ impl Shared {
     }
 
     fn serve(&self, gpu: &Gpu) {
-        give_way();
+        lower_priority();
         let mut engine = None;
         while let Some(evaluation) = self.next() {
             tracing::info!(id = evaluation.id, "evaluation begins");

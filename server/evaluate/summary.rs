@@ -11,11 +11,9 @@ use crate::geometry::Point2;
 pub struct Row {
     /// Sub-controller 2.
     pub controller: String,
-    /// Map.
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
-    /// Trials.
     pub episodes: u32,
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
@@ -39,13 +37,11 @@ pub struct Row {
     pub path_ratio_mean: Option<f64>,
     /// Mean control steps.
     pub steps_mean: f64,
-    /// Mean switches.
     pub switches_mean: f64,
     /// Disturbances applied in all trials together.
     pub disturbances_struck: u32,
     /// Median duration of a control step in milliseconds, including the camera.
     pub decision_ms_p50: f64,
-    /// 99th percentile.
     pub decision_ms_p99: f64,
 }
 
@@ -94,7 +90,6 @@ fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 pub struct Failure {
     /// Sub-controller 2.
     pub controller: String,
-    /// Map.
     pub map: String,
     /// Scripted disturbances.
     pub disturbances: u32,
@@ -104,7 +99,6 @@ pub struct Failure {
     pub seed: u64,
     /// Bead and tool at the start.
     pub start_m: Option<Point2<f64>>,
-    /// Goal.
     pub goal_m: Option<Point2<f64>>,
     /// Whether the tool came to the goal.
     pub reached: bool,

@@ -37,28 +37,19 @@ pub enum AccessError {
         "--bind {address} allows access from other machines, which requires a token: use --token-file or FERRY_TOKEN \
          (`ferry token` makes a token)"
     )]
-    NoToken {
-        /// The requested address.
-        address: SocketAddr,
-    },
+    NoToken { address: SocketAddr },
     /// A proxy would let other machines connect without a token.
     #[error(
         "--origin {origin} allows access from other machines, which requires a token: use --token-file or FERRY_TOKEN \
          (`ferry token` makes a token)"
     )]
-    NoTokenForOrigin {
-        /// The requested origin.
-        origin: String,
-    },
+    NoTokenForOrigin { origin: String },
     /// The address that browsers use is unknown.
     #[error(
         "--bind {address} does not determine the page's address: give it with --origin, as in --origin \
          http://lab.local:8080"
     )]
-    NoOrigin {
-        /// The requested address.
-        address: SocketAddr,
-    },
+    NoOrigin { address: SocketAddr },
 }
 
 /// Access rules and rate limits. Shared by all connections.

@@ -129,9 +129,9 @@ impl Connection {
 
     async fn serve(mut self, stopping: watch::Receiver<bool>) {
         // The browser may disconnect at any await; the reason does not matter.
-        let looking_after = tokio::spawn(self.hand.clone().look_after());
+        let watching = tokio::spawn(self.hand.clone().watch());
         let _ = self.run(stopping).await;
-        looking_after.abort();
+        watching.abort();
         self.hand.release().await;
     }
 
@@ -146,7 +146,7 @@ impl Connection {
         let mut goes_on = true;
         let hand = self.hand.clone();
         let now = *seats.borrow_and_update();
-        self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
+        self.send_message(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
         let first = encoded.borrow_and_update().clone();
         self.send_newest(&first, &mut sent).await?;
         self.send_history(&mut comparison).await?;
@@ -159,7 +159,7 @@ impl Connection {
                     self.send_newest(&newest, &mut sent).await?;
                 }
                 event = events.recv() => match event {
-                    Ok(event) => self.say(&ServerMessage::Event(EventMessage::from(&event))).await?,
+                    Ok(event) => self.send_message(&ServerMessage::Event(EventMessage::from(&event))).await?,
                     // The browser is too slow for every message; the newest ones follow.
                     Err(RecvError::Lagged(_)) => {}
                     Err(RecvError::Closed) => return self.close("the session has ended").await,
@@ -179,11 +179,11 @@ impl Connection {
                     if now.operator != Some(self.seat.own) {
                         self.hand.release().await;
                     }
-                    self.say(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
+                    self.send_message(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
                 }
                 message = receive(&mut self.socket, self.read_after) => {
                     let Some(Ok(message)) = message else { return Ok(()) };
-                    if !self.take_in(message).await? {
+                    if !self.receive(message).await? {
                         return Ok(());
                     }
                 }
@@ -204,7 +204,7 @@ impl Connection {
     }
 
     /// Returns whether the connection stays open.
-    async fn take_in(&mut self, message: Message) -> Result<bool, axum::Error> {
+    async fn receive(&mut self, message: Message) -> Result<bool, axum::Error> {
         self.received = Instant::now();
         if let Err(until) = self.messages.check() {
             self.read_after = self.received + until.wait_time_from(DefaultClock::default().now());
@@ -266,7 +266,7 @@ impl Connection {
     async fn handle(&mut self, text: &str) -> Result<(), axum::Error> {
         let (message, epoch) = match ClientMessage::parse_with_epoch(text) {
             Ok(parsed) => parsed,
-            Err(error) => return self.say(&ServerMessage::Error(error)).await,
+            Err(error) => return self.send_message(&ServerMessage::Error(error)).await,
         };
         let own = self.seat.own;
         match message {
@@ -282,12 +282,12 @@ impl Connection {
                     return self.refuse("not_operator", text, None).await;
                 }
                 if let Some(meant) = epoch.filter(|&epoch| epoch != seats.epoch) {
-                    let text = format!("epoch is {meant}, and control has passed on since: it is {}", seats.epoch);
+                    let text = format!("epoch is {meant}, but another browser took control; it is now {}", seats.epoch);
                     return self.refuse("stale_epoch", &text, Some("epoch")).await;
                 }
                 match self.obey(message).await {
                     Ok(()) => self.hub.reseat(Seats::command),
-                    Err(error) => return self.say(&ServerMessage::Error(ErrorMessage::from(&error))).await,
+                    Err(error) => return self.send_message(&ServerMessage::Error(ErrorMessage::from(&error))).await,
                 }
             }
         }
@@ -318,10 +318,10 @@ impl Connection {
 
     async fn refuse(&mut self, code: &str, message: &str, field: Option<&str>) -> Result<(), axum::Error> {
         let (code, message, field) = (code.to_owned(), message.to_owned(), field.map(str::to_owned));
-        self.say(&ServerMessage::Error(ErrorMessage { code, message, field })).await
+        self.send_message(&ServerMessage::Error(ErrorMessage { code, message, field })).await
     }
 
-    async fn say(&mut self, message: &ServerMessage) -> Result<(), axum::Error> {
+    async fn send_message(&mut self, message: &ServerMessage) -> Result<(), axum::Error> {
         self.socket.send(Message::Text(json(message))).await
     }
 

@@ -87,7 +87,7 @@ fn registry(server: &Server) -> Registry {
     let floats = [
         ("session_tick", "Ticks since the start of the trial"),
         ("session_speed", "Achieved simulated seconds per second"),
-        ("session_lateness_seconds", "How late the latest tick of the last half second came"),
+        ("session_lateness_seconds", "Delay of the latest tick in the last half second"),
         ("session_missed_deadlines", "How often the session skipped lost time since it began"),
         ("session_viewers", "Browsers"),
         ("session_parked", "Whether it is paused because no browser watches it"),

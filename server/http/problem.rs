@@ -17,13 +17,11 @@ pub struct Problem {
     kind: &'static str,
     /// The status in words.
     title: &'static str,
-    /// The status.
     status: u16,
     /// For people: names the field and the value.
     detail: String,
     /// For programs, such as `out_of_range`.
     code: String,
-    /// The invalid field.
     #[serde(skip_serializing_if = "Option::is_none")]
     field: Option<String>,
     /// Seconds after which a retry makes sense.
@@ -75,7 +73,7 @@ impl Problem {
 
 /// The path exists, but not with this method.
 pub async fn method_not_allowed(method: Method, uri: Uri) -> Problem {
-    let detail = format!("{} cannot be asked with {method}", uri.path());
+    let detail = format!("{} does not accept {method}", uri.path());
     Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", detail)
 }
 

@@ -107,8 +107,8 @@ impl Sessions {
     async fn begin(self: &Arc<Self>, name: &str) -> Result<Arc<Hub>, Problem> {
         if !is_name(name) || name.starts_with(NUMBERED) && self.find(name).is_none() {
             let detail = format!(
-                "{name:?} is no name of a session: it must be 1 to {NAME_LENGTH} of a to z, 0 to 9 and -, and not begin \
-                 with - or {NUMBERED}"
+                "{name:?} is not a valid session name: use 1 to {NAME_LENGTH} of a to z, 0 to 9 and -; it must not begin with \
+                 - or {NUMBERED}"
             );
             return Err(Problem::new(StatusCode::NOT_FOUND, "bad_name", detail).field("name"));
         }

@@ -33,7 +33,6 @@ pub struct Terrain {
 )]
 pub struct TerrainError {
     pub map: String,
-    /// Number of cells.
     pub cells: usize,
     /// Required distance from walls.
     pub clearance_m: f64,
@@ -93,7 +92,6 @@ impl Terrain {
         &self.name
     }
 
-    /// Number of cells.
     pub fn cells(&self) -> usize {
         self.next.len()
     }

@@ -40,11 +40,7 @@ pub enum TrainingError {
     Policy(#[from] PolicyError),
     /// A checkpoint could not be read or written.
     #[error("checkpoint: {path}: {error}")]
-    Io {
-        path: PathBuf,
-        /// The system's error.
-        error: std::io::Error,
-    },
+    Io { path: PathBuf, error: std::io::Error },
     /// A checkpoint is damaged, or has another version, recipe, seed or map.
     #[error("checkpoint: {path}: {reason}")]
     Checkpoint { path: PathBuf, reason: String },
@@ -130,7 +126,6 @@ pub struct State {
     pub episodes: u64,
     /// The curve so far.
     pub curve: Vec<Point>,
-    /// The current point.
     pub point: Point,
 }
 

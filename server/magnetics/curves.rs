@@ -38,7 +38,6 @@ pub enum CurveError {
     /// Too few points or too many.
     #[error("count must be from 2 to {most}, not {value}")]
     Count {
-        /// The offending value.
         value: u32,
         /// Greatest value allowed.
         most: u32,

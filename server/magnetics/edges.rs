@@ -49,7 +49,7 @@ pub(super) struct Slopes {
 pub(super) struct View {
     /// X, Y, Z: by axis, the position relative to the upper (0) and to the lower (1) face.
     offset: [[Lanes; 2]; 3],
-    /// Their squares.
+    /// Squares of `offset`.
     square: [[Lanes; 2]; 3],
     /// Distance of each corner, by its face along x, y and z.
     distance: [[[Lanes; 2]; 2]; 2],
@@ -248,7 +248,7 @@ struct Faces {
 impl Faces {
     const NONE: Self = Self { cosine: Lanes::ONE, sine: Lanes::ZERO, turn: Lanes::ZERO, is_between: Lanes::ZERO };
 
-    /// The entry.
+    /// The entry of T, from the argument of the number, rad.
     #[inline(always)]
     fn angle(&self) -> Lanes {
         let half = self.sine.atan2(self.cosine) + self.turn;

@@ -6,7 +6,6 @@ use crate::geometry::{Isometry3, Point3, Vector3};
 /// A block and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PosedBlock {
-    /// The block.
     pub block: Cuboid,
     /// Its pose: the frame in its centre, axes along its sides, seen from `base`.
     pub base_from_block: Isometry3<f64>,

@@ -59,20 +59,13 @@ pub enum MapError {
     Unknown { name: String },
     /// The file could not be read.
     #[error("map: {path}: {error}")]
-    Io {
-        path: String,
-        /// The system's error.
-        error: std::io::Error,
-    },
+    Io { path: String, error: std::io::Error },
     /// The file is larger than [`MAX_SVG_BYTES`].
     #[error("map: the file has {bytes} bytes, the limit is {MAX_SVG_BYTES}")]
     TooLarge { bytes: usize },
     /// The library is full.
     #[error("map: {max} maps are already added, remove one first")]
-    TooMany {
-        /// The limit.
-        max: usize,
-    },
+    TooMany { max: usize },
     /// Not well-formed, or not SVG.
     #[error("map: not a readable SVG: {0}")]
     Svg(String),

@@ -12,9 +12,7 @@ pub const OBSTACLE_LEVEL: u8 = 125;
 pub struct PixelRect {
     pub column_px: usize,
     pub row_px: usize,
-    /// Columns.
     pub width_px: usize,
-    /// Rows.
     pub height_px: usize,
 }
 

@@ -69,11 +69,7 @@ pub enum PolicyError {
     },
     /// The file could not be read.
     #[error("policy: {path}: {error}")]
-    Io {
-        path: String,
-        /// The system's error.
-        error: std::io::Error,
-    },
+    Io { path: String, error: std::io::Error },
     /// The file is larger than a policy can be.
     #[error("policy: the file has {bytes} bytes, the limit is {MAX_BYTES}")]
     TooLarge { bytes: u64 },

@@ -18,7 +18,10 @@ use crate::trial::Input;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ClientMessage {
     /// Places the goal. Refused outside the workspace, in a wall or out of the arm's reach.
-    SetGoal { x_m: f64, y_m: f64 },
+    SetGoal {
+        x_m: f64,
+        y_m: f64,
+    },
     /// Removes the goal: the arm holds.
     ClearGoal {},
     /// The hand holds the bead and pulls it here. `lift` carries it over walls.
@@ -32,17 +35,23 @@ pub enum ClientMessage {
     /// The hand releases the bead.
     Release {},
     /// Selects sub-controller 2.
-    SelectController { controller: ControllerName },
+    SelectController {
+        controller: ControllerName,
+    },
     /// Replaces all parameters; one invalid value refuses all of them.
-    Configure { parameters: Parameters },
-    /// Runs.
+    Configure {
+        parameters: Parameters,
+    },
     Run {},
-    /// Pauses.
     Pause {},
     /// Advances this many ticks of 8 ms while paused.
-    Step { ticks: u32 },
+    Step {
+        ticks: u32,
+    },
     /// Speed in simulated seconds per second, 0.125 to 64.
-    SetSpeed { factor: f64 },
+    SetSpeed {
+        factor: f64,
+    },
     /// Back to the start, with this seed or the same one.
     Reset {
         #[serde(default)]
@@ -83,7 +92,9 @@ pub enum ClientMessage {
         script: Vec<Scripted>,
     },
     /// Applies a disturbance of the bead or of the tracker now.
-    Disturb { disturbance: Disturbance },
+    Disturb {
+        disturbance: Disturbance,
+    },
     /// Rewinds to an earlier tick that is still kept (see `state.oldest_tick`); pauses.
     Rewind {
         #[ts(type = "number")]
@@ -102,7 +113,6 @@ pub enum ClientMessage {
     },
     /// Requests control.
     TakeControl {},
-    /// Releases control.
     ReleaseControl {},
 }
 

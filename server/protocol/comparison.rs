@@ -117,7 +117,6 @@ pub struct ComparisonMessage {
 /// One controller's run in a comparison.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Branch {
-    /// The controller.
     pub controller: ControllerName,
     /// Tool x, y and bead x, y in metres, from the first sample after the moment.
     #[schema(value_type = Vec<Numbers4>)]

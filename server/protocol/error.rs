@@ -14,7 +14,6 @@ pub struct ErrorMessage {
     pub code: String,
     /// For people: names the field and the value.
     pub message: String,
-    /// The invalid field.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub field: Option<String>,

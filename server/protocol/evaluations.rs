@@ -37,7 +37,7 @@ fn disturbances() -> Array {
         .schema_type(Type::Integer)
         .minimum(Some(*DISTURBANCES.start()))
         .maximum(Some(*DISTURBANCES.end()));
-    let about = "Scripted disturbances a trial, 0 to 10.";
+    let about = "Scripted disturbances per trial, 0 to 10.";
     ArrayBuilder::new().items(count).unique_items(true).min_items(Some(1)).description(Some(about)).build()
 }
 
@@ -46,7 +46,6 @@ fn disturbances() -> Array {
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,
-    /// Map.
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
@@ -57,14 +56,12 @@ pub struct Cell {
 pub struct PaperRow {
     /// Source in the paper.
     pub section: String,
-    /// Trials.
     pub episodes: u32,
     /// Trials whose tool reached the goal.
     pub successes: u32,
     /// Wilson 95 % interval of `successes / episodes`.
     #[schema(value_type = Numbers2)]
     pub successes_wilson95: [f64; 2],
-    /// As printed.
     pub printed: String,
     /// Mean tracking error in both axes.
     pub tracking_error_mean_m: Option<f64>,
@@ -74,17 +71,14 @@ pub struct PaperRow {
     pub tracking_error_max_y_m: Option<f64>,
 }
 
-/// Stage of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EvaluationStage {
     /// Another evaluation is running.
     Waiting,
-    /// It runs.
     Running,
     /// All cells are complete.
     Done,
-    /// It was cancelled.
     Cancelled,
     /// A trial failed with an error.
     Failed,
@@ -109,11 +103,8 @@ pub struct EvaluationCell {
 /// An evaluation without its rows.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationSummary {
-    /// Its name.
     pub id: String,
-    /// The query.
     pub query: EvaluationQuery,
-    /// Its stage.
     pub stage: EvaluationStage,
     /// Why it failed, if it did.
     pub message: Option<String>,
@@ -136,7 +127,6 @@ pub struct EvaluationFailure {
     /// Bead and tool at the start.
     #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<[f64; 2]>,
-    /// Goal.
     #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<[f64; 2]>,
     /// Whether the tool came to the goal.

@@ -125,7 +125,7 @@ pub struct JudgementLayer {
     /// Quantiles of the return for +x, −x, +y and −y, at the fractions (k + ½) / K.
     #[schema(value_type = Lists4)]
     pub quantiles: [Vec<f32>; 4],
-    /// Their means.
+    /// Mean return of each action.
     #[schema(value_type = Numbers4)]
     pub values: [f32; 4],
     /// Index of the action that was taken; the best one, unless the shield chose the next best.
@@ -139,7 +139,6 @@ pub struct JudgementLayer {
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({"goal_m": [0.12, -0.33]}))]
 pub struct ValueQuery {
-    /// The goal.
     #[schema(value_type = Numbers2)]
     pub goal_m: [f64; 2],
 }

@@ -51,7 +51,7 @@ impl PartialSchema for Parameters {
             object.property(parameter.name, property)
         });
         object
-            .description(Some("What an operator can tune; a field that is left out has its default."))
+            .description(Some("Parameters that the operator can change. An omitted field has its default."))
             .additional_properties(Some(AdditionalProperties::<Schema>::FreeForm(false)))
             .into()
     }

@@ -36,7 +36,6 @@ pub enum ServerMessage {
     Scene(Box<SceneMessage>),
     /// The moving part: at most 60 messages per second.
     State(Box<StateMessage>),
-    /// An event.
     Event(EventMessage),
     /// The controller's layers for the last camera frame.
     Overlay(Box<OverlayMessage>),
@@ -84,18 +83,13 @@ pub struct SceneMessage {
     pub positioner: PositionerKind,
     /// Controllers that `select_controller` knows.
     pub controllers: Vec<ControllerName>,
-    /// The workspace.
     pub workspace: Rect,
     /// Walls inside the workspace, 5 mm high.
     pub walls: Vec<Polygon>,
-    /// Current seed.
     #[ts(type = "number")]
     pub seed: u64,
-    /// Current parameters.
     pub parameters: Parameters,
-    /// Their defaults.
     pub defaults: Parameters,
-    /// Radius of the bead.
     pub bead_radius_m: f64,
     /// Corners of the part of the table that the camera sees, relative to the tool.
     #[schema(value_type = Vec<Numbers2>)]
@@ -199,12 +193,9 @@ pub struct StateMessage {
 /// See `ServerMessage::Event`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct EventMessage {
-    /// When.
     #[ts(type = "number")]
     pub tick: u64,
-    /// When, in seconds.
     pub sim_time_s: f64,
-    /// What.
     pub kind: EventKind,
     /// One sentence.
     pub text: String,

@@ -1,7 +1,10 @@
-//! The page's types are these types: `web/src/net/protocol.gen.ts` is generated, and compared here.
+//! The page's types are these types: `web/src/net/protocol.gen.ts` and `web/src/net/protocol/` are generated, and compared
+//! here.
 
 mod arm;
 mod parameters;
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use ts_rs::{Config, TS};
 
@@ -22,106 +25,121 @@ use crate::scenario::{
 use crate::session::SPEED_MAX;
 use crate::trial::{EventKind, GOAL_RADIUS_M};
 
+const HEADER: &str =
+    "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n\n";
+
 fn declaration<T: TS>(config: &Config) -> String {
     let docs = T::docs().unwrap_or_default();
     format!("{docs}export {}\n", T::decl(config))
 }
 
-/// What the page says of the server's limits and periods.
+/// The server's limits and periods that the page shows or uses.
 fn constants() -> String {
     [
-        constant("CONTROL_PERIOD_S", CONTROL_PERIOD_S, "A control step is due at the first tick at or after each."),
-        constant("SPEED_MAX", SPEED_MAX, "Fastest that time runs."),
-        constant("GOAL_RADIUS_M", GOAL_RADIUS_M, "A goal is reached within it."),
-        constant("OBSTACLE_MEAN", OBSTACLE_MEAN, "Darker places are obstacles."),
-        constant("SCRIPT_LIMIT", SCRIPT_LIMIT, "Entries of a script."),
-        constant("MOST_STEPS", MOST_STEPS, "Last control step that a script may wait for."),
+        constant("PROTOCOL_VERSION", PROTOCOL_VERSION, "Version of the messages."),
+        constant("BINARY_CAMERA_JPEG", BINARY_CAMERA_JPEG, "First byte of a binary message with a camera image."),
+        constant("BINARY_OBSERVATION", BINARY_OBSERVATION, "First byte of a binary message with an observation."),
+        constant("CONTROL_PERIOD_S", CONTROL_PERIOD_S, "Simulated time between control steps."),
+        constant("SPEED_MAX", SPEED_MAX, "Maximum speed of playback."),
+        constant("GOAL_RADIUS_M", GOAL_RADIUS_M, "A goal is reached within this distance."),
+        constant("OBSTACLE_MEAN", OBSTACLE_MEAN, "Parts of the image with a lower mean brightness are obstacles."),
+        constant("SCRIPT_LIMIT", SCRIPT_LIMIT, "Maximum number of entries in a script."),
+        constant("MOST_STEPS", MOST_STEPS, "Last control step at which a scripted disturbance may begin."),
         constant("MOST_IMPULSE_N_S", MOST_IMPULSE_N_S, "Strongest kick."),
         constant("MOST_DRIFT_N", MOST_DRIFT_N, "Strongest push."),
-        constant("MOST_SECONDS", MOST_SECONDS, "Longest push, and longest blindness of the tracker."),
-        constant("MOST_EDGES", MOST_EDGES, "Edges of a tree that are sent."),
-        constant("LEAST_FLOW_SPACING_M", FLOW_SPACING_M.start(), "Least spacing of a flow field."),
-        constant("MOST_FLOW_SPACING_M", FLOW_SPACING_M.end(), "Greatest spacing of a flow field."),
-        constant("FARTHEST_CAPTURE_M", FARTHEST_M, "A capture that ends here ends nowhere."),
+        constant("MOST_SECONDS", MOST_SECONDS, "Longest push, and longest dropout of the tracker."),
+        constant("MOST_EDGES", MOST_EDGES, "Maximum number of edges of ERRT's tree that are sent."),
+        constant("LEAST_FLOW_SPACING_M", FLOW_SPACING_M.start(), "Smallest spacing of a flow field."),
+        constant("MOST_FLOW_SPACING_M", FLOW_SPACING_M.end(), "Largest spacing of a flow field."),
+        constant("FARTHEST_CAPTURE_M", FARTHEST_M, "Capture radii are computed up to this distance."),
         constant("WALL_HEIGHT_M", WALL_HEIGHT_M, "Height of the walls."),
-        constant("CAMERA_PX", VIEW_PX, "Columns and rows of the camera image."),
-        constant("OBSERVATION_PX", OBSERVATION_SIZE_PX, "Columns and rows of the observation."),
+        constant("CAMERA_PX", VIEW_PX, "Width and height of the camera image."),
+        constant("OBSERVATION_PX", OBSERVATION_SIZE_PX, "Width and height of the observation."),
         constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
     ]
-    .concat()
+    .join("\n")
 }
 
 fn constant(name: &str, value: impl std::fmt::Display, about: &str) -> String {
-    format!("/** {about} */\nexport const {name} = {value};\n\n")
+    format!("/** {about} */\nexport const {name} = {value};\n")
 }
 
-fn generated() -> String {
-    let c = &Config::new().with_large_int("number");
-    let parts = [
-        "// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.\n"
-            .to_owned(),
-        "import type { Orientation, Parameters, ToolOrientation } from './parameters.gen';\n\
-         export type { Orientation, Parameters, ToolOrientation };\n"
-            .to_owned(),
-        format!("export const PROTOCOL_VERSION = {PROTOCOL_VERSION};"),
-        format!("export const BINARY_CAMERA_JPEG = {BINARY_CAMERA_JPEG};"),
-        format!("export const BINARY_OBSERVATION = {BINARY_OBSERVATION};\n"),
-        constants(),
-        declaration::<Polygon>(c),
-        declaration::<Rect>(c),
-        declaration::<ControllerName>(c),
-        declaration::<PositionerKind>(c),
-        declaration::<Disturbance>(c),
-        declaration::<When>(c),
-        declaration::<Scripted>(c),
-        declaration::<Scenario>(c),
-        declaration::<ClientMessage>(c),
-        declaration::<Role>(c),
-        declaration::<ServerMessage>(c),
-        declaration::<Hello>(c),
-        declaration::<SceneMessage>(c),
-        declaration::<StateMessage>(c),
-        declaration::<EventKind>(c),
-        declaration::<EventMessage>(c),
-        declaration::<SensedObstacle>(c),
-        declaration::<OverlayMessage>(c),
-        declaration::<BlocksLayer>(c),
-        declaration::<PlanLayer>(c),
-        declaration::<SeenMessage>(c),
-        declaration::<Branch>(c),
-        declaration::<ComparisonMessage>(c),
-        declaration::<MomentMessage>(c),
-        declaration::<ErrorMessage>(c),
-        declaration::<PullQuery>(c),
-        declaration::<PullCurve>(c),
-        declaration::<ReachQuery>(c),
-        declaration::<ReachCurve>(c),
-        declaration::<PlaneQuery>(c),
-        declaration::<Plane>(c),
-        declaration::<WorkspaceQuery>(c),
-        declaration::<WorkspaceMap>(c),
-        declaration::<JudgementLayer>(c),
-        declaration::<ValueQuery>(c),
-        declaration::<ValueCell>(c),
-        declaration::<ValueMap>(c),
-        declaration::<FlowQuery>(c),
-        declaration::<FlowField>(c),
-        declaration::<RecordingFile>(c),
-        declaration::<RecordingList>(c),
-        declaration::<EvaluationQuery>(c),
-        declaration::<Cell>(c),
-        declaration::<EvaluationStage>(c),
-        declaration::<PaperRow>(c),
-        declaration::<EvaluationCell>(c),
-        declaration::<EvaluationSummary>(c),
-        declaration::<Row>(c),
-        declaration::<PairedMean>(c),
-        declaration::<Comparison>(c),
-        declaration::<EvaluationFailure>(c),
-        declaration::<EvaluationReport>(c),
-        declaration::<Evaluations>(c),
-    ];
-    parts.join("\n")
+struct Declaration {
+    name: String,
+    text: String,
+}
+
+fn declared<T: TS>() -> Declaration {
+    let config = &Config::new().with_large_int("number");
+    Declaration { name: T::ident(config), text: declaration::<T>(config) }
+}
+
+macro_rules! declared {
+    ($($name:ty),* $(,)?) => { vec![$(declared::<$name>()),*] };
+}
+
+/// The types of each generated file.
+fn modules() -> [(&'static str, Vec<Declaration>); 8] {
+    [
+        ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
+        (
+            "messages",
+            declared![
+                ClientMessage,
+                Role,
+                ServerMessage,
+                Hello,
+                SceneMessage,
+                StateMessage,
+                EventKind,
+                EventMessage,
+                ErrorMessage,
+            ],
+        ),
+        ("layers", declared![SensedObstacle, OverlayMessage, BlocksLayer, PlanLayer, SeenMessage, JudgementLayer]),
+        ("comparison", declared![Branch, ComparisonMessage, MomentMessage]),
+        (
+            "fields",
+            declared![
+                PullQuery,
+                PullCurve,
+                ReachQuery,
+                ReachCurve,
+                PlaneQuery,
+                Plane,
+                WorkspaceQuery,
+                WorkspaceMap,
+                ValueQuery,
+                ValueCell,
+                ValueMap,
+                FlowQuery,
+                FlowField,
+            ],
+        ),
+        (
+            "evaluations",
+            declared![EvaluationQuery, Cell, EvaluationStage, PaperRow, EvaluationCell, EvaluationSummary, Evaluations],
+        ),
+        ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
+        ("recordings", declared![RecordingFile, RecordingList]),
+    ]
+}
+
+/// Type imports of one file. `origins` has the file of each type.
+fn imports(file: &str, text: &str, origins: &BTreeMap<String, String>) -> String {
+    let is_code = |line: &&str| !line.trim_start().starts_with(['*', '/']);
+    let mut used: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for word in text.lines().filter(is_code).flat_map(|line| line.split(|c: char| !c.is_alphanumeric())) {
+        if let Some(origin) = origins.get(word).filter(|origin| *origin != file) {
+            used.entry(origin).or_default().insert(word);
+        }
+    }
+    used.into_iter()
+        .map(|(origin, names)| {
+            let names: Vec<_> = names.into_iter().collect();
+            format!("import type {{ {} }} from '{origin}';\n", names.join(", "))
+        })
+        .collect()
 }
 
 /// Writes a generated file when `FERRY_GENERATE` is set, and compares it otherwise.
@@ -137,5 +155,21 @@ fn keep(path: &str, generated: &str) {
 
 #[test]
 fn the_pages_types_are_generated_from_these() {
-    keep("web/src/net/protocol.gen.ts", &generated());
+    let modules = modules();
+    let mut origins: BTreeMap<_, _> = ["Orientation", "Parameters", "ToolOrientation"]
+        .map(|name| (name.to_owned(), "../parameters.gen".to_owned()))
+        .into();
+    for (module, declarations) in &modules {
+        origins.extend(declarations.iter().map(|one| (one.name.clone(), format!("./{module}.gen"))));
+    }
+    let mut index = format!("{HEADER}export * from './parameters.gen';\n");
+    for (module, declarations) in &modules {
+        let texts: Vec<_> = declarations.iter().map(|one| one.text.as_str()).collect();
+        let text = texts.join("\n");
+        let imports = imports(&format!("./{module}.gen"), &text, &origins);
+        let gap = if imports.is_empty() { "" } else { "\n" };
+        keep(&format!("web/src/net/protocol/{module}.gen.ts"), &[HEADER, &imports, gap, &text].concat());
+        index += &format!("export * from './protocol/{module}.gen';\n");
+    }
+    keep("web/src/net/protocol.gen.ts", &format!("{index}\n{}", constants()));
 }

@@ -12,7 +12,6 @@ use super::RecordingError;
 
 /// Format of a name's beginning: local time, to the millisecond.
 const BEGINNING: &str = "%Y%m%d-%H%M%S-%3f";
-/// Length of the beginning.
 const BEGINNING_LENGTH: usize = "20250130-235959-999".len();
 
 /// File extensions of a recording.

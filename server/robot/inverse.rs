@@ -39,7 +39,6 @@ pub enum InverseError {
     NonFinite {
         /// `flange` or `seed`.
         input: &'static str,
-        /// The offending value.
         value: f64,
     },
     /// The wrist would lie inside the cylinder of radius `d4` about the base axis.

@@ -38,22 +38,16 @@ pub enum WorkspaceError {
     NonFinite {
         /// `area`, `cell`, `height`, `rotation` or `seed`.
         input: &'static str,
-        /// The offending value.
         value: f64,
     },
     /// The rectangle's sides are not positive.
     #[error("the area is {width_m} m by {height_m} m")]
-    EmptyArea {
-        /// Along x.
-        width_m: f64,
-        /// Along y.
-        height_m: f64,
-    },
+    EmptyArea { width_m: f64, height_m: f64 },
     /// The cells have no size.
     #[error("a cell's side is {cell_m} m")]
     EmptyCell { cell_m: f64 },
     /// More than [`MOST_CELLS`].
-    #[error("{cells:.0} cells are more than {MOST_CELLS}")]
+    #[error("the grid has {cells:.0} cells, the limit is {MOST_CELLS}")]
     TooManyCells {
         /// How many were asked for.
         cells: f64,

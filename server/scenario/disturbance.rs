@@ -13,38 +13,17 @@ pub const MOST_DRIFT_N: f64 = 0.01;
 /// Longest drift or dropout.
 pub const MOST_SECONDS: f64 = 60.0;
 
-/// One disturbance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
     /// The bead is lifted and put down here, or at the nearest place where it fits.
-    Displace {
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    Displace { x_m: f64, y_m: f64 },
     /// A kick: an impulse in newton seconds.
-    Impulse {
-        /// Along x.
-        x_n_s: f64,
-        /// Along y.
-        y_n_s: f64,
-    },
+    Impulse { x_n_s: f64, y_n_s: f64 },
     /// A push: a steady force in newtons.
-    Drift {
-        /// Along x.
-        x_n: f64,
-        /// Along y.
-        y_n: f64,
-        /// Duration.
-        for_s: f64,
-    },
+    Drift { x_n: f64, y_n: f64, for_s: f64 },
     /// The tracker reports nothing.
-    Dropout {
-        /// Duration.
-        for_s: f64,
-    },
+    Dropout { for_s: f64 },
 }
 
 /// When a scripted disturbance is applied. Those that wait for the bead are applied in the order of the script.
@@ -60,9 +39,7 @@ pub enum When {
     PassesXM(f64),
     /// When the bead comes within a distance of a place.
     Near {
-        /// x.
         x_m: f64,
-        /// y.
         y_m: f64,
         /// 1 mm to 1 m.
         within_m: f64,
@@ -80,9 +57,7 @@ impl When {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scripted {
-    /// When.
     pub at: When,
-    /// What.
     pub disturbance: Disturbance,
 }
 
@@ -90,11 +65,8 @@ pub struct Scripted {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field} is {value}, it must be {allowed}")]
 pub struct DisturbanceError {
-    /// The invalid field.
     pub field: &'static str,
-    /// Its value.
     pub value: f64,
-    /// What is allowed.
     pub allowed: String,
 }
 

@@ -49,11 +49,8 @@ pub enum RlPolicy {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field} is {value}, it must be {allowed}")]
 pub struct ParameterError {
-    /// The invalid field.
     pub field: &'static str,
-    /// Its value.
     pub value: f64,
-    /// What is allowed.
     pub allowed: String,
 }
 

@@ -23,16 +23,12 @@ pub struct Shipped {
 pub enum ShippedError {
     /// No shipped scenario has this name.
     #[error("scenario: {name:?} does not exist; the shipped ones are {}", Shipped::names().join(", "))]
-    Unknown {
-        /// The requested name.
-        name: String,
-    },
+    Unknown { name: String },
     /// A file could not be read.
     #[error("scenario: {path}: {reason}")]
     Unreadable {
         /// The file.
         path: String,
-        /// Why.
         reason: String,
     },
 }

@@ -42,7 +42,6 @@ impl BranchPoint {
         Self { scenario: trial.scenario().clone(), arena: trial.arena().clone(), state, inputs }
     }
 
-    /// Its tick.
     pub fn tick(&self) -> u64 {
         self.state.world.tick
     }
@@ -62,7 +61,6 @@ impl BranchPoint {
         self.state.controller
     }
 
-    /// The arena.
     pub fn arena(&self) -> &Arc<Arena> {
         &self.arena
     }

@@ -152,7 +152,7 @@ impl<E: ImageSource> Worker<E> {
     /// Runs a request and sends its answer; the answer is dropped when the caller no longer waits.
     fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
         match request {
-            Request::Obey { command, answer } => {
+            Request::Execute { command, answer } => {
                 let result = self.obey(command);
                 if let Some(fault) = self.broken.take() {
                     let _ = answer.send(Err(CommandError::Ended));
@@ -304,7 +304,7 @@ impl<E: ImageSource> Worker<E> {
         let event = Event::new(0, EventKind::Session, text);
         self.sink.note(&event);
         self.journal = Arc::default();
-        self.tell(event);
+        self.report(event);
         Ok(())
     }
 
@@ -347,7 +347,7 @@ impl<E: ImageSource> Worker<E> {
         }
         self.timeline.note(record.tick - 1, &record.inputs);
         for event in record.events.drain(..) {
-            self.tell(event);
+            self.report(event);
         }
         if let Some(sight) = record.sight {
             self.sight = Arc::new((record.tick, sight));
@@ -362,7 +362,7 @@ impl<E: ImageSource> Worker<E> {
         }
         for event in self.trial.take_events() {
             self.sink.note(&event);
-            self.tell(event);
+            self.report(event);
         }
     }
 
@@ -375,7 +375,7 @@ impl<E: ImageSource> Worker<E> {
     }
 
     /// Sends an event to all subscribers and stores it in the journal.
-    fn tell(&mut self, event: Event) {
+    fn report(&mut self, event: Event) {
         // Only once: after a rewind a control step happens again at its tick.
         if !self.journal.contains(&event) {
             let journal = Arc::make_mut(&mut self.journal);

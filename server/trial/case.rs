@@ -104,7 +104,7 @@ impl Case {
         let last = case.inputs.iter().map(|timed| ("inputs: tick", timed.tick)).max_by_key(|&(_, tick)| tick);
         let by = case.expect.map(|expect| ("expect.by_tick", expect.by_tick));
         match last.into_iter().chain(by).find(|&(_, tick)| tick > TICKS_MOST) {
-            Some((field, tick)) => Err(format!("{field} is {tick}, it must be at most {TICKS_MOST}, a day")),
+            Some((field, tick)) => Err(format!("{field} is {tick}, it must be at most {TICKS_MOST} (one day)")),
             None => Ok(case),
         }
     }
@@ -117,7 +117,7 @@ impl Case {
         let deliveries = world.counters.deliveries + u32::from(under_way);
         let time_s = if under_way { TIME_TO_DELIVER_S } else { SLACK_S };
         let scenario = trial.scenario().clone();
-        let about = format!("{} on {}, with what a hand did.", scenario.controller.as_str(), scenario.map);
+        let about = format!("{} on {}, with disturbances by hand.", scenario.controller.as_str(), scenario.map);
         let expect = Expectation { deliveries, by_tick: world.tick + ticks(time_s) };
         let own = &trial.arena().map;
         let is_shipped = Map::shipped(own.name()).is_ok_and(|map| map.svg() == own.svg());

@@ -110,11 +110,11 @@ impl Trial {
         if world.phase == Phase::Transporting {
             world.counters.leg_steps += 1;
             if world.script.at_leg_step == Some(world.counters.leg_steps) {
-                self.strike_at_random();
+                self.apply_random();
             }
         }
         let step = self.state.world.counters.goal_steps;
-        self.strike_as_scripted(Some(step));
+        self.apply_scripted(Some(step));
         let World { counters, phase, refusal, .. } = &self.state.world;
         if *phase == Phase::Transporting && *refusal == Some(Refusal::WalledOff) {
             self.stop(StopReason::WalledOff);

@@ -16,7 +16,7 @@ const LEAST_DISPLACEMENT_M: f64 = 0.15;
 impl Trial {
     /// Applies due disturbances and ends expired ones. `at_step` is the number of the control step that was
     /// just counted.
-    pub(super) fn strike_as_scripted(&mut self, at_step: Option<u32>) {
+    pub(super) fn apply_scripted(&mut self, at_step: Option<u32>) {
         let world = &mut self.state.world;
         let tick = world.tick;
         if world.script.drift_until == tick {
@@ -41,7 +41,7 @@ impl Trial {
         };
         let due: Vec<Scripted> = world.script.pending.extract_if(.., is_due).collect();
         for scripted in due {
-            self.strike(&scripted.disturbance);
+            self.apply_disturbance(&scripted.disturbance);
         }
     }
 
@@ -70,7 +70,7 @@ impl Trial {
 
     /// Applies a disturbance that has been checked. Kicks and pushes do not affect a bead on the magnet; a
     /// displacement takes the bead off the magnet or out of the hand.
-    pub(super) fn strike(&mut self, disturbance: &Disturbance) {
+    pub(super) fn apply_disturbance(&mut self, disturbance: &Disturbance) {
         let ticks = |for_s: f64| (for_s / SERVO_PERIOD_S).ceil() as u64;
         let world = &mut self.state.world;
         let tick = world.tick;
@@ -106,7 +106,7 @@ impl Trial {
     }
 
     /// Applies a random displacement: lifts the bead to a free point far away.
-    pub(super) fn strike_at_random(&mut self) {
+    pub(super) fn apply_random(&mut self) {
         let world = &mut self.state.world;
         let mut rng = world.script.draws(self.scenario.seed, Draw::Place);
         world.script.at_leg_step = None;
@@ -114,7 +114,7 @@ impl Trial {
         world.script.struck += 1;
         let (map, space) = (&self.arena.map, &self.arena.space);
         match far_point(map, space, world.plant.bead.position_m, &mut rng) {
-            Some(to) => self.strike(&Disturbance::Displace { x_m: to.x, y_m: to.y }),
+            Some(to) => self.apply_disturbance(&Disturbance::Displace { x_m: to.x, y_m: to.y }),
             None => {
                 let text = "no disturbance: no free place is far enough from the bead";
                 self.events.push(Event::new(world.tick, EventKind::Session, text));

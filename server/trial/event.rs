@@ -26,12 +26,9 @@ pub enum EventKind {
     Session,
 }
 
-/// An event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// When.
     pub tick: u64,
-    /// What.
     pub kind: EventKind,
     /// One sentence.
     pub text: String,

@@ -18,12 +18,7 @@ const WAITING_MOST: usize = 50_000;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
-    SetGoal {
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    SetGoal { x_m: f64, y_m: f64 },
     /// Removes the goal.
     ClearGoal,
     /// The hand takes the bead or moves it.
@@ -36,12 +31,7 @@ pub enum Input {
         lift: bool,
     },
     /// While paused, the hand places the bead at once.
-    Place {
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    Place { x_m: f64, y_m: f64 },
     /// The hand releases the bead.
     Release,
     /// Selects sub-controller 2.
@@ -57,40 +47,16 @@ pub enum Input {
 pub enum InputError {
     /// Not a number.
     #[error("{field} is {value}, it must be finite")]
-    NotFinite {
-        /// The invalid field.
-        field: &'static str,
-        /// Its value.
-        value: f64,
-    },
+    NotFinite { field: &'static str, value: f64 },
     /// Not on the table.
     #[error("{field} ({x_m:.3}, {y_m:.3}) m is outside the workspace")]
-    OutsideWorkspace {
-        /// The invalid field.
-        field: &'static str,
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    OutsideWorkspace { field: &'static str, x_m: f64, y_m: f64 },
     /// In a wall, or nearer to one than the bead's radius.
     #[error("{field} ({x_m:.3}, {y_m:.3}) m is in a wall or nearer to one than the bead's radius of 2.5 mm")]
-    InWall {
-        /// The invalid field.
-        field: &'static str,
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    InWall { field: &'static str, x_m: f64, y_m: f64 },
     /// The arm cannot go there.
     #[error("{field}: {refusal}")]
-    Reach {
-        /// The invalid field.
-        field: &'static str,
-        /// Why.
-        refusal: Refusal,
-    },
+    Reach { field: &'static str, refusal: Refusal },
     /// A parameter out of range.
     #[error("parameters: {0}")]
     Parameter(#[from] ParameterError),
@@ -116,7 +82,6 @@ impl InputError {
         }
     }
 
-    /// The invalid field.
     pub fn field(&self) -> &'static str {
         match self {
             Self::NotFinite { field, .. }
@@ -187,7 +152,7 @@ impl Trial {
             Input::Configure(parameters) => self.configure(parameters)?,
             Input::Disturb(disturbance) => {
                 Self::check_disturbance(disturbance, &self.arena.map)?;
-                self.strike(disturbance);
+                self.apply_disturbance(disturbance);
             }
         }
         self.inputs.push(input);

@@ -38,7 +38,7 @@ pub enum LogError {
     },
     /// The content does not match its hashes.
     #[error(
-        "log: damaged or edited after {ticks} whole ticks: the frame at byte {byte} is not as it was written ({what})"
+        "log: damaged or edited after {ticks} whole ticks: the frame at byte {byte} has changed since it was written ({what})"
     )]
     Damaged {
         /// Offset of the frame.
@@ -61,7 +61,6 @@ pub enum LogError {
     TooLong {
         /// Where the frame begins.
         byte: usize,
-        /// The limit.
         most: u64,
     },
     /// A value could not be encoded as CBOR.
@@ -207,7 +206,7 @@ fn read_entries(mut rest: &[u8], entries: &mut Vec<Entry>) -> Result<(), String>
     while !rest.is_empty() {
         let entry: Entry = ciborium::from_reader(&mut rest).map_err(|error| error.to_string())?;
         if entries.is_empty() && !matches!(&entry, Entry::Begin(beginning) if beginning.map.is_some()) {
-            return Err("it begins with no trial".to_owned());
+            return Err("it does not begin with a trial".to_owned());
         }
         entries.push(entry);
     }

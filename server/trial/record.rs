@@ -25,7 +25,6 @@ pub struct Sight {
     pub percept: Percept,
     /// Tool point when the frame was taken.
     pub tool_m: Point2<f64>,
-    /// Goal.
     pub goal_m: Option<Point2<f64>>,
     /// The obstacle map accumulated so far.
     pub known: ObstacleMap,
@@ -47,7 +46,6 @@ impl Sight {
     }
 }
 
-/// The record of one tick.
 #[derive(Clone, Debug)]
 pub struct TickRecord {
     /// Ticks since the start, this one included.
@@ -79,11 +77,9 @@ pub struct Moment {
     pub bead_m: Point3<f64>,
     /// Position of the bead from the tracker.
     pub tracked_m: Point2<f64>,
-    /// Goal.
     pub goal_m: Option<Point2<f64>>,
     /// Target of the hand, while it holds the bead.
     pub hand: Option<Hand>,
-    /// Force of the hand.
     pub hand_force_n: f64,
     pub positioner: Positioner,
     /// Active sub-controller, and why.
@@ -98,7 +94,6 @@ pub struct Moment {
     pub refusal: Option<String>,
     /// Magnetic load on the bead.
     pub load: Load,
-    /// Counters.
     pub counters: Counters,
 }
 

@@ -11,7 +11,6 @@ use crate::map::MapError;
 /// Result of a replay without differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Replayed {
-    /// Number of trials.
     pub trials: u32,
     /// How often a trial continued from another state: after a rewind, or at the start of a file.
     pub resumed: u32,
@@ -35,15 +34,14 @@ pub enum ReplayError {
     Trial {
         /// Which trial of the log, from 1.
         trial: u32,
-        /// Its tick.
         tick: u64,
         /// What is wrong.
         error: TrialError,
     },
     /// The decisions cannot be repeated because the policy is missing.
     #[error(
-        "trial {trial}: a policy of its own decided, with hash {policy_hash:016x}, and only shipped ones can decide again; \
-         without a camera the log's decisions are taken"
+        "trial {trial}: its policy (hash {policy_hash:016x}) is not shipped with Ferry, so its decisions cannot be made \
+         again; without a camera the logged decisions are carried out"
     )]
     Policy {
         /// Which trial of the log, from 1.
@@ -56,9 +54,7 @@ pub enum ReplayError {
     Refused {
         /// Which trial of the log, from 1.
         trial: u32,
-        /// Its tick.
         tick: u64,
-        /// Why.
         error: InputError,
     },
     /// The first tick that differs.
@@ -66,7 +62,6 @@ pub enum ReplayError {
     Differs {
         /// Which trial of the log, from 1.
         trial: u32,
-        /// Its tick.
         tick: u64,
         /// Names of the parts that differ.
         fields: Vec<&'static str>,

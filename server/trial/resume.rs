@@ -23,7 +23,6 @@ pub struct StateError {
     /// Path of the invalid field.
     pub field: String,
     pub value: String,
-    /// What is allowed.
     pub allowed: String,
 }
 

@@ -84,7 +84,6 @@ pub struct World {
     pub phase: Phase,
     /// Tick at which the tool first came within 2 cm of this goal.
     pub reached_tick: Option<u64>,
-    /// Counters.
     pub counters: Counters,
     /// Pending and active disturbances.
     pub script: Script,
@@ -104,11 +103,9 @@ pub struct ControllerState {
 /// A whole trial at one tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialState {
-    /// See [`World`].
     pub world: World,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
-    /// See [`ControllerState`].
     #[serde(rename = "mind")]
     pub controller_state: ControllerState,
 }

@@ -2,6 +2,7 @@
 
 import type { Locator, Page } from '@playwright/test';
 import { type Lab, expect, test } from './fixtures';
+import { startEvaluation } from './support/evaluations';
 import { distance } from './support/table';
 import { must, until } from './support/wait';
 import type { EvaluationReport, Evaluations } from './support/wire';
@@ -220,4 +221,39 @@ test('sets up a failed episode again', async ({ lab }) => {
     controller: scenario.controller,
     disturbances: scenario.disturbances,
   });
+});
+
+test('ignores a late answer for an evaluation that is no longer chosen', async ({ lab }) => {
+  const { page } = lab;
+  const { origin } = new URL(page.url());
+  const query = { controllers: ['attractor'], maps: ['open'], disturbances: [0], episodes: 1 };
+  const older = await startEvaluation(page.request, origin, { ...query, seed: 1 });
+  const newer = await startEvaluation(page.request, origin, { ...query, seed: 2 });
+  const choose = (id: string) =>
+    page
+      .getByRole('button', {
+        name: new RegExp(`^${id.replace('evaluation-', '')} .*per cell, seed`),
+      })
+      .click();
+  let answer = (): void => undefined;
+  const mayAnswer = new Promise<void>((done) => (answer = done));
+  await page.route(`**/api/evaluations/${older}`, async (route) => {
+    await mayAnswer;
+    await route.continue();
+  });
+  await lab.view('Evaluate').click();
+  const link = page.getByRole('link', { name: 'HTML' });
+  await choose(newer);
+  await expect(link).toHaveAttribute('href', `/api/evaluations/${newer}/report.html`);
+
+  const requested = page.waitForRequest(`**/api/evaluations/${older}`);
+  await choose(older);
+  const late = (await requested).response();
+  await choose(newer);
+  await expect(link).toBeVisible();
+  const shown = must(await link.elementHandle(), 'the link');
+  answer();
+  await must(await late, 'the late answer').finished();
+  await lab.drawn();
+  expect(await shown.evaluate((one) => one.isConnected), 'the same link').toBe(true);
 });

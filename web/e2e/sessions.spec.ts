@@ -9,7 +9,7 @@ import { until } from './support/wait';
 const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const ENDED = /The session has ended: the camera was lost/i;
 const RESTART = 'Restart';
-const PASSED_ON = /control has passed on/i;
+const PASSED_ON = /another browser took control/i;
 
 test('opens one session per address', async ({ lab, openLab, newSession }) => {
   const second = newSession();

@@ -150,7 +150,7 @@ fn comparisons(comparisons: &[Comparison]) -> Markup {
     html! {
         @if !comparisons.is_empty() {
             h2 { "Paired differences" }
-            p { "First minus second, at the same trials; steps, errors and ways where both delivered." }
+            p { "First minus second, at the same trials; steps, errors and paths where both delivered." }
             div.scroll { table {
                 thead { tr {
                     th scope="col" { "First – second" } th.text scope="col" { "Map" }

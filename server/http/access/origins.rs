@@ -11,7 +11,6 @@ use axum::http::Uri;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("origin {text:?}: it must be a scheme and a host, as in https://lab.example.org or http://10.0.0.7:8080")]
 pub struct OriginError {
-    /// The given text.
     pub text: String,
 }
 

@@ -11,7 +11,7 @@ use crate::session::BranchPoint;
 use crate::trial::TrialError;
 
 /// Interval of progress messages.
-const TELL_EVERY: Duration = Duration::from_millis(250);
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
 
 /// Blocks until all branches have ended or `is_wanted` returns false; then no more messages are sent.
 pub fn compare(
@@ -20,10 +20,10 @@ pub fn compare(
     controllers: &[ControllerName],
     gpu: &Arc<Gpu>,
     is_wanted: &dyn Fn() -> bool,
-    tell: &dyn Fn(ComparisonMessage),
+    send: &dyn Fn(ComparisonMessage),
 ) {
     let mut comparison = ComparisonMessage::begin(trial, point);
-    tell(comparison.clone());
+    send(comparison.clone());
     let run = || -> Result<(), TrialError> {
         let mut camera = point.camera(gpu)?;
         for &controller in controllers {
@@ -36,9 +36,9 @@ pub fn compare(
                 if !is_wanted() {
                     return ControlFlow::Break(());
                 }
-                if told.elapsed() >= TELL_EVERY {
+                if told.elapsed() >= PROGRESS_INTERVAL {
                     told = Instant::now();
-                    tell(comparison.clone());
+                    send(comparison.clone());
                 }
                 ControlFlow::Continue(())
             })?;
@@ -54,9 +54,9 @@ pub fn compare(
     comparison.failed = match outcome {
         Ok(Ok(())) => None,
         Ok(Err(error)) => Some(error.to_string()),
-        Err(_) => Some("a controller failed; the log has more".to_owned()),
+        Err(_) => Some("a controller failed; see the server's log".to_owned()),
     };
     if is_wanted() {
-        tell(comparison);
+        send(comparison);
     }
 }

@@ -65,7 +65,7 @@ impl Hand {
     }
 
     /// Runs as long as the connection.
-    pub async fn look_after(self: Arc<Self>) {
+    pub async fn watch(self: Arc<Self>) {
         loop {
             tokio::time::sleep(BEAT).await;
             self.hub.reseat(|seats, now| seats.take_if_unanswered(self.own, now));

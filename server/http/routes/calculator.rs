@@ -127,7 +127,7 @@ fn flange_of(pose: &Pose) -> Result<Isometry3<f64>, String> {
     let handed = rows.determinant();
     if off > ORTHONORMAL_SLACK || handed < 0.0 {
         return Err(format!(
-            "the rotation {:?} is not orthonormal and right-handed: its rows miss by {off:.1e}, its determinant is {handed:.3}",
+            "the rotation {:?} is not orthonormal and right-handed: its rows deviate by {off:.1e}, its determinant is {handed:.3}",
             pose.rotation
         ));
     }

@@ -68,7 +68,7 @@ impl Maps {
             .and_then(|()| std::fs::write(self.folder.join(format!("{name}.svg")), svg));
         kept.map_err(|error| {
             self.all.remove(&name);
-            Problem::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", format!("the map cannot be kept: {error}"))
+            Problem::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", format!("the map could not be stored: {error}"))
         })?;
         self.changed();
         Ok(name)
@@ -93,10 +93,8 @@ impl From<MapError> for Problem {
     }
 }
 
-/// The maps by name.
 #[derive(Serialize, ToSchema)]
 pub struct MapNames {
-    /// Names.
     maps: Vec<String>,
 }
 

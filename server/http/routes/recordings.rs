@@ -39,7 +39,7 @@ impl From<Listed> for RecordingFile {
 
 /// A recording: Rerun's file or the input log.
 #[utoipa::path(get, path = "/api/recordings/{file}", tag = "recordings", params(RecordingPath),
-    responses((status = 200, description = "What is written up to now.", content(("application/octet-stream"))), NotFound, Unavailable))]
+    responses((status = 200, description = "The file as far as it is written.", content(("application/octet-stream"))), NotFound, Unavailable))]
 pub async fn recording(
     State(server): State<Arc<Server>>,
     Path(RecordingPath { file: name }): Path<RecordingPath>,

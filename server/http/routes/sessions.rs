@@ -23,9 +23,7 @@ use crate::session::View;
 /// A session in short.
 #[derive(Serialize, ToSchema)]
 pub struct SessionSummary {
-    /// Its name.
     id: String,
-    /// Its map.
     map: String,
     /// Sub-controller 2 in use.
     controller: ControllerName,
@@ -59,10 +57,8 @@ impl SessionSummary {
     }
 }
 
-/// The sessions.
 #[derive(Serialize, ToSchema)]
 pub struct Sessions {
-    /// By name.
     sessions: Vec<SessionSummary>,
 }
 
@@ -130,7 +126,7 @@ pub async fn delete_session(
     Path(SessionPath { id }): Path<SessionPath>,
 ) -> Result<StatusCode, Problem> {
     if id == MAIN {
-        return Err(Problem::new(StatusCode::CONFLICT, "main_session", "the session main stays as long as the server"));
+        return Err(Problem::new(StatusCode::CONFLICT, "main_session", "the session main cannot be closed"));
     }
     server.sessions.end(find(&server, &id)?).await;
     Ok(StatusCode::NO_CONTENT)

@@ -67,7 +67,7 @@ impl Atlases {
 enum NoValues {
     #[error(transparent)]
     Atlas(#[from] AtlasError),
-    #[error("no threads to look in: {0}")]
+    #[error("the threads of the value map could not start: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 

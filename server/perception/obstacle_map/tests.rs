@@ -197,7 +197,7 @@ fn distance_m(point: Point2<f64>, rect: &Rect) -> f64 {
     dx.hypot(dy)
 }
 
-/// Distance of a rectangle from a line, a convex function along it, by ternary search.
+/// Distance from a line segment to a rectangle. It is convex along the segment, so a ternary search finds it.
 fn line_distance_m(from: Point2<f64>, to: Point2<f64>, rect: &Rect) -> f64 {
     let at = |share: f64| distance_m(from + (to - from) * share, rect);
     let (mut low, mut high) = (0.0, 1.0);

@@ -21,7 +21,6 @@ describe_schema! {
 pub struct Case {
     /// Description.
     pub about: String,
-    /// The scenario.
     pub scenario: Scenario,
     /// Its map, if the map does not ship with Ferry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -41,7 +40,6 @@ pub struct Case {
 pub struct Timed {
     /// The input is applied after this tick and before the next one.
     pub tick: u64,
-    /// What.
     pub input: trial::Input,
 }
 
@@ -72,12 +70,7 @@ pub struct LoggedMap {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Input {
     /// Places the goal.
-    SetGoal {
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    SetGoal { x_m: f64, y_m: f64 },
     /// Removes the goal.
     ClearGoal,
     /// The hand takes the bead or moves it.
@@ -90,12 +83,7 @@ pub enum Input {
         lift: bool,
     },
     /// While paused, the hand places the bead at once.
-    Place {
-        /// x.
-        x_m: f64,
-        /// y.
-        y_m: f64,
-    },
+    Place { x_m: f64, y_m: f64 },
     /// The hand releases the bead.
     Release,
     /// Selects sub-controller 2.

@@ -25,11 +25,9 @@ describe_schema! {
 pub struct Row {
     /// Sub-controller 2.
     pub controller: String,
-    /// Map.
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
-    /// Trials.
     pub episodes: u32,
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
@@ -55,13 +53,11 @@ pub struct Row {
     pub path_ratio_mean: Option<f64>,
     /// Mean control steps.
     pub steps_mean: f64,
-    /// Mean switches.
     pub switches_mean: f64,
     /// Disturbances applied in all trials together.
     pub disturbances_struck: u32,
     /// Median duration of a control step in milliseconds, including the camera.
     pub decision_ms_p50: f64,
-    /// 99th percentile.
     pub decision_ms_p99: f64,
 }
 
@@ -69,15 +65,13 @@ pub struct Row {
 #[derive(Serialize, TS, ToSchema)]
 #[serde(remote = "crate::evaluate::Comparison")]
 pub struct Comparison {
-    /// Map.
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
-    /// The first.
+    /// Controller that is compared.
     pub controller: String,
-    /// The second.
+    /// Controller that it is compared with.
     pub against: String,
-    /// Trials.
     pub episodes: u32,
     /// Trials delivered by both.
     pub both: u32,
@@ -104,7 +98,6 @@ pub struct Comparison {
 #[derive(Serialize, TS, ToSchema)]
 #[serde(remote = "crate::evaluate::PairedMean")]
 pub struct PairedMean {
-    /// Mean.
     pub mean: f64,
     /// Its 95 % interval (Student's t).
     #[schema(value_type = Numbers2)]
@@ -117,7 +110,6 @@ pub struct PairedMean {
 pub struct Failure {
     /// Sub-controller 2.
     pub controller: String,
-    /// Map.
     pub map: String,
     /// Scripted disturbances.
     pub disturbances: u32,
@@ -128,7 +120,6 @@ pub struct Failure {
     /// Bead and tool at the start.
     #[schema(value_type = Option<Numbers2>)]
     pub start_m: Option<Point2<f64>>,
-    /// Goal.
     #[schema(value_type = Option<Numbers2>)]
     pub goal_m: Option<Point2<f64>>,
     /// Whether the tool came to the goal.

@@ -50,7 +50,6 @@ pub struct Rect {
     pub y_max_m: f64,
 }
 
-/// The kind of positioner.
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::plant::PositionerKind")]
 #[serde(rename_all = "snake_case")]
@@ -74,37 +73,27 @@ pub enum ControllerName {
     Attractor,
 }
 
-/// One disturbance.
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::scenario::Disturbance")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
     /// The bead is lifted and put down here, or where it fits nearest.
     Displace {
-        /// x.
         x_m: f64,
-        /// y.
         y_m: f64,
     },
-    /// A kick.
     Impulse {
-        /// Along x.
         x_n_s: f64,
-        /// Along y.
         y_n_s: f64,
     },
     /// A steady push.
     Drift {
-        /// Along x.
         x_n: f64,
-        /// Along y.
         y_n: f64,
-        /// Duration.
         for_s: f64,
     },
     /// The tracker is blind.
     Dropout {
-        /// Duration.
         for_s: f64,
     },
 }
@@ -123,9 +112,7 @@ pub enum When {
     PassesXM(f64),
     /// When the bead comes within a distance of a place.
     Near {
-        /// x.
         x_m: f64,
-        /// y.
         y_m: f64,
         /// 1 mm to 1 m.
         within_m: f64,
@@ -137,9 +124,7 @@ pub enum When {
 #[serde(remote = "crate::scenario::Scripted")]
 #[serde(deny_unknown_fields)]
 pub struct Scripted {
-    /// When.
     pub at: scenario::When,
-    /// What.
     pub disturbance: scenario::Disturbance,
 }
 

@@ -67,7 +67,7 @@ fn the_pages_arm_is_generated_from_the_servers() {
              alpha_quarter_turns]`.\n */\nexport const DH = [\n{}] as const;\n\n",
             dh()
         ),
-        constant("TOOL_LENGTH_M", TOOL_LENGTH_M, "From the flange to the tool point."),
+        constant("TOOL_LENGTH_M", TOOL_LENGTH_M, "From the flange to the tool point.") + "\n",
         format!(
             "/** The block as it hangs on the tool, and the axis from its south pole to its north pole. */\nexport const \
              BLOCKS = {{\n{blocks}}} as const;\n\n"

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use crate::scenario::ControllerName;
 
-/// One parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// Name on the wire, in links and in `--set`.
@@ -33,7 +32,6 @@ pub enum Kind {
 /// The values of a parameter that is a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
-    /// Its unit.
     pub unit: Unit,
     /// Least and greatest value, in the unit on the wire.
     pub range: [f64; 2],

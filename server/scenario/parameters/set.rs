@@ -18,18 +18,13 @@ pub enum SetError {
     Form(String),
     /// No parameter of that name.
     #[error("there is no parameter {name:?}; {}", suggestion(name))]
-    Unknown {
-        /// The unknown name.
-        name: String,
-    },
+    Unknown { name: String },
     /// Not a value of the parameter's kind.
     #[error("{field} is {text:?}, it must be {allowed}")]
     Value {
         /// The parameter.
         field: &'static str,
-        /// Its value.
         text: String,
-        /// What is allowed.
         allowed: String,
     },
     /// Outside its range.

@@ -1,4 +1,4 @@
-import type { Browser, BrowserContext, ConsoleMessage } from '@playwright/test';
+import type { Browser, BrowserContext, ConsoleMessage, Page } from '@playwright/test';
 
 /** A software driver warns that a screenshot of the 3-D view takes time. */
 const SLOW_DRIVER = /GPU stall due to ReadPixels/;
@@ -57,8 +57,10 @@ export class Watch {
     });
     context.on('weberror', (error) => this.texts.push(error.error().message));
     context.on('request', (request) => this.addresses.push(request.url()));
-    context.on('page', (page) => {
+    const addPage = (page: Page) => {
       page.on('websocket', (socket) => this.addresses.push(socket.url()));
-    });
+    };
+    context.pages().forEach(addPage);
+    context.on('page', addPage);
   }
 }

@@ -108,7 +108,13 @@ export function createReport(
   createEffect(() => {
     const now = summary();
     const had = report();
-    if (!now || (had && version(had) === version(now)) || pending === version(now)) return;
+    if (!now) return;
+    if (had && version(had) === version(now)) {
+      // An answer for an evaluation that was chosen in between is ignored.
+      pending = undefined;
+      return;
+    }
+    if (pending === version(now)) return;
     const requested = version(now);
     pending = requested;
     void ask<EvaluationReport>('GET', `${PATH}/${now.id}`)
