@@ -226,7 +226,12 @@ test('sets up a failed episode again', async ({ lab }) => {
 test('ignores a late answer for an evaluation that is no longer chosen', async ({ lab }) => {
   const { page } = lab;
   const { origin } = new URL(page.url());
-  const query = { controllers: ['attractor'], maps: ['open'], disturbances: [0], episodes: 1 };
+  const query = {
+    controllers: ['attractor' as const],
+    maps: ['open'],
+    disturbances: [0],
+    episodes: 1,
+  };
   const older = await startEvaluation(page.request, origin, { ...query, seed: 1 });
   const newer = await startEvaluation(page.request, origin, { ...query, seed: 2 });
   const choose = (id: string) =>

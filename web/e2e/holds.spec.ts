@@ -7,7 +7,7 @@ import { until } from './support/wait';
 
 /** The server releases a hand after five seconds without a report. */
 const LONGER_MS = 6500;
-const LONGER_TICKS = LONGER_MS / 8;
+const LONGER_TICKS = 5600 / 8;
 /** Longer than the second between two reports. */
 const REPORT_TICKS = 1200 / 8;
 const SILENT = /no message from the page that holds the bead/i;

@@ -70,9 +70,7 @@ it('has few files outside the folders', () => {
 
 it('has no file above the size limit', () => {
   const long = files.filter(
-    (file) =>
-      /\.(tsx?|css)$/.test(file) &&
-      read(file).trimEnd().split('\n').length > MAX_LINES,
+    (file) => /\.(tsx?|css)$/.test(file) && read(file).trimEnd().split('\n').length > MAX_LINES,
   );
   expect(long).toEqual([]);
 });

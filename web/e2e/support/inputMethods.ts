@@ -105,7 +105,7 @@ class Mouse extends Pointer {
     const { mouse } = this.page;
     await mouse.move(...from);
     await mouse.down();
-    await mouse.move(...to, { steps: 4 });
+    await mouse.move(...to, { steps: 2 });
     await whileHeld?.();
     await mouse.up();
   }
@@ -136,7 +136,7 @@ class Touch extends Pointer {
         touchPoints: points.map(([x, y]) => ({ x, y })),
       });
     await send('touchStart', [from]);
-    for (const share of [0.25, 0.5, 0.75, 1]) {
+    for (const share of [0.5, 1]) {
       await send('touchMove', [
         [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])],
       ]);
@@ -144,7 +144,7 @@ class Touch extends Pointer {
     await whileHeld?.();
     // A finger that lifts while it moves makes the page scroll on, and the next tap would only stop
     // that. So the finger rests before it lifts.
-    for (let i = 0; i < 4; i++) {
+    for (let i = 0; i < 2; i++) {
       await this.lab.drawn();
       await send('touchMove', [to]);
     }

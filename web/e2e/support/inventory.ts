@@ -208,7 +208,8 @@ export async function unreached(
   if (opener) await opener.focus();
   const ROUND = 16;
   for (let pressed = 0; pressed < 1.2 * stops + ROUND && missing.size > 0; pressed += ROUND) {
-    for (let i = 0; i < ROUND; i++) await page.keyboard.press('Tab');
+    // Without waiting for each: the browser handles the keys in order.
+    await Promise.all(Array.from({ length: ROUND }, () => page.keyboard.press('Tab')));
     const focused = new Set(await page.evaluate(() => [...window.ferryFocused]));
     for (const one of all) if (focused.has(one.index)) missing.delete(one.set || one.key);
   }

@@ -71,7 +71,7 @@ export const FIELDS: readonly Field[] = GROUPS.flatMap((group) => group.fields);
 /** Least and greatest value in the stored unit. */
 export function storedRange(name: NumberName): readonly [number, number] {
   const field = FIELDS.find((one) => one.name === name);
-  if (field?.kind !== 'number') throw new Error(`${name} is no number`);
+  if (field?.kind !== 'number') throw new Error(`${name} is not a number parameter`);
   return [field.min / field.scale, field.max / field.scale];
 }
 

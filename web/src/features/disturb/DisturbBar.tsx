@@ -218,7 +218,7 @@ export function DisturbBar(props: {
           </Match>
           <Match when={time() === 'near'}>
             <PlaceFields
-              name="the place waited at"
+              name="the place to reach"
               value={near()}
               disabled={disabled()}
               picker={props.picker}

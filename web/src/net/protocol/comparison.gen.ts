@@ -1,5 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { ControllerName } from './experiment.gen';
 import type { OverlayMessage } from './layers.gen';
 
 /**

@@ -1,5 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { Parameters } from '../parameters.gen';
 
 /**
  * A filled polygon with holes, in metres.

@@ -1,5 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { Orientation, ToolOrientation } from '../parameters.gen';
+import type { Rect } from './experiment.gen';
 
 /**
  * Query of `pull`.

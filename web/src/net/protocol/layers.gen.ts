@@ -1,5 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { Rect } from './experiment.gen';
 
 /**
  * An obstacle as sensed for the attractor: a superellipse of exponent 4.

@@ -1,6 +1,8 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
+import type { Parameters } from '../parameters.gen';
 import type { ComparisonMessage } from './comparison.gen';
+import type { ControllerName, Disturbance, Polygon, PositionerKind, Rect, Scenario, Scripted } from './experiment.gen';
 import type { OverlayMessage, SeenMessage } from './layers.gen';
 
 /**
