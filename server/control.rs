@@ -58,7 +58,7 @@ pub enum Refusal {
     NoInverse(String),
     #[error("the step needs {speed_m_s:.3} m/s, the limit is {limit_m_s:.3}")]
     TooFast { speed_m_s: f64, limit_m_s: f64 },
-    /// No policy is loaded, or it cannot judge the image.
+    /// No policy is loaded, or its network failed.
     #[error("no policy: {0}")]
     Policy(String),
     /// The planner is still searching; it continues at the next control step.

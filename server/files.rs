@@ -12,13 +12,13 @@ pub enum ReadError {
     /// Larger than the limit.
     #[error("it has {bytes} bytes, the limit is {max}")]
     TooLarge {
-        /// Size of the file, as far as it is known.
+        /// Size of the file, or the bytes read so far.
         bytes: u64,
         max: u64,
     },
 }
 
-/// The bytes of a file of at max `max` bytes.
+/// The bytes of a file of at most `max` bytes.
 ///
 /// # Errors
 /// [`ReadError`].

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// `exterior` runs counter-clockwise and each hole clockwise; no ring repeats its first point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Polygon {
-    /// Outer ring, `[x_m, y_m]` a vertex.
+    /// Outer ring, `[x_m, y_m]` for each vertex.
     pub exterior: Vec<[f64; 2]>,
     /// Inner rings.
     pub holes: Vec<Vec<[f64; 2]>>,

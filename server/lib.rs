@@ -1,12 +1,12 @@
 //! Ferry: a browser laboratory in which a UR5 carries a magnetic bead through an intestine.
 //!
 //! The modules, lowest floor first. A module imports only from floors below it; the test
-//! `tests/house.rs` walks the imports. `ARCHITECTURE.md` says what each must never know.
+//! `tests/house.rs` walks the imports. `ARCHITECTURE.md` lists what each must never know.
 //!
 //! - floor 1: [`geometry`], [`image`], [`files`]: frames, poses, shapes; camera frames and gray images; bounded files.
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
-//! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: what is set up, seen and measured.
+//! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: set-up of a trial; image; position; percept.
 //! - floor 5: [`policy`]: network, weights, manifest.
 //! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
 //! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
@@ -15,7 +15,7 @@
 //! - floor 10: [`http`]: axum routes and the WebSocket.
 //! - floor 11: [`cli`]: assembling.
 
-/// Panics here when a test has asked for it (see `faults`); nothing in any other build.
+/// Panics here when a test has requested it (see `faults`). Other builds contain nothing.
 macro_rules! fault_point {
     ($name:literal) => {
         #[cfg(test)]

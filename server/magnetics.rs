@@ -8,7 +8,7 @@
 //! - [`plane`]: field and pull over the table, for drawings.
 //!
 //! SI units throughout: tesla, newtons, metres, A·m². Points are given from the source's centre, in
-//! axes parallel to its sides, unless they are given in `base`. This module knows nothing about arms, walls or time.
+//! axes parallel to its sides, unless they are given in `base`. This module has no arms, walls or time.
 
 pub mod cuboid;
 pub mod curves;
@@ -65,7 +65,7 @@ mod tests {
         fn field_matches_the_published_formula(
             point in prop::array::uniform3(-0.1_f64..0.1),
         ) {
-            // In line with an edge it is the printed formula that loses its digits.
+            // In line with an edge the published formula loses its digits.
             let from_face: [f64; 3] = std::array::from_fn(|k| point[k].abs() - HALF_M[k]);
             prop_assume!((0..3).all(|k| from_face[k].hypot(from_face[(k + 1) % 3]) > 1e-3));
             let point = Vector3::from(point);
@@ -83,7 +83,7 @@ mod tests {
             let point = Vector3::from(place).component_mul(&Vector3::from(half_m));
             let magnet = Cuboid::new(half_m.into(), Vector3::z()).unwrap();
             let error = magnet.field_t(&point) - plain_field_t(half_m, 1.0, &point);
-            // In line with an edge it is the printed formula that loses its digits.
+            // In line with an edge the published formula loses its digits.
             prop_assert!(error.norm() < 1e-7, "{}", error.norm());
         }
 

@@ -49,8 +49,8 @@ impl PlantParameters {
         }
     }
 
-    /// Nearest and farthest distance from the tool at which the magnet's pull moves a resting bead, in so many
-    /// directions from +x counter-clockwise; `None` where it never does, and no farthest where it always does.
+    /// Smallest and largest distance from the tool at which the magnet's pull moves a resting bead, in `directions`
+    /// directions from +x counter-clockwise. `None` if it never does; no largest distance if it always does.
     pub fn capture_m(&self, tool_height_m: f64, directions: u32) -> Vec<Option<(f64, Option<f64>)>> {
         let breakaway = self.breakaway();
         let capture_m = |k: u32| {
@@ -65,7 +65,7 @@ impl PlantParameters {
 /// The hand: a critically damped spring from the bead to the operator's pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hand {
-    /// Where the pointer is.
+    /// Position of the pointer.
     pub target_m: Point2<f64>,
     /// Whether the bead is lifted over walls.
     pub lift: bool,

@@ -1,6 +1,6 @@
 //! The arm: a Universal Robots UR5 (CB3), as pure functions of joint angles.
 //!
-//! - [`ur5`]: lengths and limits from the maker's tables.
+//! - [`ur5`]: lengths and limits from the manufacturer's tables.
 //! - [`forward`]: joints → flange pose, and every link frame for drawing.
 //! - [`inverse`]: flange pose → all closed-form joint solutions, or a typed refusal.
 //! - [`jacobian`]: joint speeds → flange twist; distance from a singularity.
@@ -8,7 +8,7 @@
 //! - [`workspace`]: the manipulability over a horizontal plane, as a map.
 //!
 //! Poses are `base_from_flange`: metres, in the UR5's `base` frame (z up, origin on the table under
-//! joint 1). Angles are radians. This module knows nothing about magnets, tools or maps, and keeps no state.
+//! joint 1). Angles are radians. This module has no magnets, tools or maps, and no state.
 
 pub mod forward;
 pub mod inverse;
@@ -34,7 +34,7 @@ pub fn tool_down() -> UnitQuaternion<f64> {
 /// Minimum and maximum horizontal distance `(r_min_m, r_max_m)` from the base axis that the flange
 /// reaches while it points straight down at height `flange_z_m` above the table.
 ///
-/// `None` if it reaches nothing: the height is too high, too low, or NaN.
+/// `None` if the height is too large, too small, or NaN.
 ///
 /// With the tool down, wrist 1 and wrist 2 lie in one horizontal plane, `d5` apart, and the upper arm
 /// and the forearm must bridge the rest in the vertical plane that `d4` offsets from the base axis:
@@ -66,7 +66,7 @@ mod tests {
         Isometry3::from_parts(Vector3::new(x_m, y_m, z_m).into(), tool_down())
     }
 
-    /// How far `joints` miss `flange`: the greater of metres and entries of the rotation matrix.
+    /// Distance between the pose of `joints` and `flange`: the larger of metres and entries of the rotation matrix.
     fn miss(joints: &Joints, flange: &Isometry3<f64>) -> f64 {
         let found = forward::flange(joints);
         let shift = found.translation.vector - flange.translation.vector;

@@ -1,4 +1,4 @@
-//! What is set up before a trial: one serde type behind links, files, forks and lessons.
+//! The set-up of a trial: one serde type for links, files, comparisons and lessons.
 
 mod disturbance;
 mod link;
@@ -35,7 +35,7 @@ pub enum ControllerName {
 }
 
 impl ControllerName {
-    /// All that exist.
+    /// All controllers.
     pub const ALL: [Self; 3] = [Self::Rl, Self::Errt, Self::Attractor];
 
     /// The name in files and commands.
@@ -57,11 +57,11 @@ impl std::str::FromStr for ControllerName {
     }
 }
 
-/// No controller of that name.
+/// No controller has this name.
 #[derive(Debug, thiserror::Error)]
 #[error("controller: there is no controller named {name:?}; there are {}", ControllerName::ALL.map(ControllerName::as_str).join(", "))]
 pub struct UnknownController {
-    /// The name asked for.
+    /// The unknown name.
     pub name: String,
 }
 
@@ -96,7 +96,7 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// The session that exists from the start: a map, nothing asked yet.
+    /// The scenario of a new session: a map without a goal.
     pub fn idle(map: &str, seed: u64) -> Self {
         Self {
             map: map.to_owned(),

@@ -39,7 +39,7 @@ const STEP_MAX: u32 = 12_500;
 /// Longer than the maximum number of steps takes on a slow machine; a session that hangs must not block its callers.
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 
-/// Commands of a session.
+/// A command to a session.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// An input of the trial.

@@ -42,7 +42,7 @@ pub struct Tracker {
 }
 
 impl Tracker {
-    /// A tracker whose last sample is the bead at rest.
+    /// A tracker whose last sample is a bead at rest.
     pub fn at(position_m: Point2<f64>) -> Self {
         let estimate = Estimate { position_m, velocity_m_s: Vector2::zeros(), age_ticks: 0 };
         Self { under_way: VecDeque::new(), estimate }

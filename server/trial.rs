@@ -66,7 +66,7 @@ pub enum TrialError {
     /// A scripted disturbance is impossible.
     #[error("script[{index}]: {error}")]
     Script {
-        /// Its index in the script, from 0.
+        /// Index in the script, from 0.
         index: usize,
         error: InputError,
     },

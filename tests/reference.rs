@@ -219,7 +219,7 @@ fn cuboid(size_m: [f64; 3], polarization_t: [f64; 3]) -> Cuboid {
     Cuboid::new(Vector3::from(size_m) * 0.5, polarization_t.into()).unwrap()
 }
 
-/// Length of the difference over the length of what is expected.
+/// Length of the difference, divided by the length of the expected vector.
 fn relative(found: Vector3<f64>, expected: Vector3<f64>) -> f64 {
     (found - expected).norm() / expected.norm()
 }

@@ -37,7 +37,7 @@ pub enum Trouble {
     Circling,
     /// The tool is inside a sensed obstacle.
     InsideObstacle,
-    /// The wanted step is refused repeatedly.
+    /// The same step is refused repeatedly.
     Refused,
     /// No path was found yet.
     Searching,

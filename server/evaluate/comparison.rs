@@ -45,7 +45,7 @@ pub struct PairedMean {
 }
 
 impl Comparison {
-    /// Of two rows about the same trials.
+    /// Compares two rows with the same trials.
     fn of(first: (&Cell, &[Episode]), second: (&Cell, &[Episode])) -> Self {
         let pairs: Vec<(&Episode, &Episode)> = first.1.iter().zip(second.1).collect();
         let count = |wanted: [bool; 2]| {
@@ -81,7 +81,7 @@ impl Comparison {
         }
     }
 
-    /// Of every two controllers at the same map and disturbances, in the order of the rows.
+    /// Compares every pair of controllers with the same map and disturbances, in the order of the rows.
     pub fn all(rows: &[(&Cell, &[Episode])]) -> Vec<Self> {
         let mut made = Vec::new();
         for (place, &first) in rows.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What the paper reports, beside our rows.
+//! The paper's results, for comparison with ours.
 
 use super::Cell;
 use super::statistics::wilson95;

@@ -1,13 +1,13 @@
-//! What an evaluation is asked to do, checked before anything runs.
+//! The query of an evaluation, checked before anything runs.
 
 use crate::map::{Library, Map, MapError};
 use crate::scenario::ControllerName;
 
-/// Cells of one evaluation.
+/// Maximum number of cells per evaluation.
 pub const CELL_LIMIT: usize = 24;
-/// Trials a cell.
+/// Trials per cell.
 const EPISODES: std::ops::RangeInclusive<u32> = 1..=1000;
-/// Scripted disturbances a trial: with more, few trials end within their 600 steps.
+/// Scripted disturbances per trial. With more, few trials end within their 600 steps.
 pub const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
@@ -20,7 +20,7 @@ pub struct EvaluationQuery {
     pub maps: Vec<String>,
     /// Scripted disturbances per trial, 0 to 10.
     pub disturbances: Vec<u32>,
-    /// Trials a cell, 1 to 1000.
+    /// Trials per cell, 1 to 1000.
     pub episodes: u32,
     /// Seed of the trials.
     pub seed: u64,
@@ -39,7 +39,7 @@ pub struct Cell {
 /// Why a query is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum QueryError {
-    /// Nothing to run.
+    /// A list is empty, so there is nothing to run.
     #[error("{field} is empty, it must name at least one")]
     Empty { field: &'static str },
     #[error("{field}[{index}] is {value:?}, which is in the list already")]
@@ -48,13 +48,13 @@ pub enum QueryError {
     #[error("maps[{index}]: {error}")]
     Map {
         index: usize,
-        /// What is wrong with it.
+        /// Why the map was refused.
         error: MapError,
     },
     /// Out of range.
     #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
     Range { field: String, value: u32, allowed: std::ops::RangeInclusive<u32> },
-    /// More than one evaluation may hold.
+    /// More cells than one evaluation may have.
     #[error("controllers × maps × disturbances are {cells} cells, the limit is {CELL_LIMIT}")]
     TooManyCells { cells: usize },
 }
@@ -72,7 +72,7 @@ impl QueryError {
 }
 
 impl EvaluationQuery {
-    /// What it comes to, the controllers of a map side by side.
+    /// The cells of the query, with the controllers of a map next to each other.
     pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
         distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
         distinct("maps", &self.maps, Clone::clone)?;
@@ -106,7 +106,7 @@ impl EvaluationQuery {
         Ok(made)
     }
 
-    /// Its maps, as they are now: one that is taken out later stays with who asked before.
+    /// Its maps. The evaluation keeps them even if one is removed from the library later.
     ///
     /// # Errors
     /// [`QueryError::Map`].
@@ -118,12 +118,12 @@ impl EvaluationQuery {
     }
 }
 
-/// Refuses a list that is empty or names something twice.
+/// Refuses a list that is empty or has an item twice.
 fn distinct<T: PartialEq>(field: &'static str, list: &[T], text: impl Fn(&T) -> String) -> Result<(), QueryError> {
     if list.is_empty() {
         return Err(QueryError::Empty { field });
     }
-    // No list that is allowed has more, so a long one is not compared item by item.
+    // No valid list is longer, so a long one is not compared item by item.
     let within = &list[..list.len().min(CELL_LIMIT + 1)];
     for (index, item) in within.iter().enumerate() {
         if within[..index].contains(item) {

@@ -1,4 +1,4 @@
-//! What an evaluation came to, for people and programs.
+//! The report of an evaluation, for people and programs.
 
 mod html;
 
@@ -21,27 +21,27 @@ pub struct Report {
     pub comparisons: Vec<Comparison>,
     /// Trials that did not deliver.
     pub failures: Vec<Failure>,
-    /// One a row: the paper's numbers.
+    /// The paper's numbers, one entry per row.
     #[serde(skip)]
     paper: Vec<Option<PaperRow>>,
-    /// One a row: its first trial as a figure.
+    /// The first trial of each row as a figure.
     #[serde(skip)]
     figures: Vec<Option<String>>,
 }
 
-/// A file could not be made.
+/// A file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// The CSV writer's words.
+    /// Error of the CSV writer.
     #[error("report: {0}")]
     Csv(#[from] csv::Error),
-    /// The CSV writer's buffer.
+    /// Error of the CSV writer's buffer.
     #[error("report: {0}")]
     Buffer(String),
 }
 
 impl Report {
-    /// Of cells and their episodes.
+    /// Summarises cells and their episodes.
     pub fn of(adapter: &str, seed: u64, done: &[(&Cell, &[Episode])]) -> Self {
         let figure = |episodes: &[Episode]| episodes.iter().find_map(|e| e.trace.as_ref())?.to_svg().ok();
         let failures =
@@ -74,7 +74,7 @@ impl Report {
     }
 }
 
-/// A row without lists, which CSV has none of.
+/// A row without lists, because CSV has no lists.
 #[derive(Serialize)]
 struct CsvRow<'a> {
     controller: &'a str,

@@ -1,4 +1,4 @@
-//! Episodes added up: the rows of the table.
+//! Summaries of episodes: the rows of the table.
 
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +46,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Adds the episodes of a cell up.
+    /// Summarises the episodes of a cell.
     pub fn of(cell: &Cell, episodes: &[Episode]) -> Self {
         let count = episodes.len() as u32;
         let mean = |value: &dyn Fn(&Episode) -> f64| mean(episodes.iter().map(value)).unwrap_or_default();
@@ -117,7 +117,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Of a trial that failed; `None` of one that delivered.
+    /// Describes a trial that failed; `None` for one that delivered.
     pub fn of(cell: &Cell, episode: &Episode) -> Option<Self> {
         if episode.delivered {
             return None;

@@ -14,7 +14,7 @@ use super::problem::Problem;
 use super::refusals::{ForeignHost, ForeignOrigin, Malformed, TooLarge, TooMany, TooSlow, Unauthorized};
 use crate::protocol::{ClientMessage, ServerMessage};
 
-/// The parts that do not come from the routes.
+/// The parts of the description that routes do not generate.
 #[derive(utoipa::OpenApi)]
 #[openapi(
     info(

@@ -71,7 +71,7 @@ impl Problem {
     }
 }
 
-/// The path exists, but not with this method.
+/// The path does not accept this method.
 pub async fn method_not_allowed(method: Method, uri: Uri) -> Problem {
     let detail = format!("{} does not accept {method}", uri.path());
     Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed", detail)
@@ -101,7 +101,7 @@ impl IntoResponse for Problem {
         if status == StatusCode::UNAUTHORIZED {
             response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
         }
-        // A browser gets it as a page.
+        // Browsers get the problem as a page.
         response.extensions_mut().insert(self);
         response
     }

@@ -1,4 +1,4 @@
-//! All routes, one file a resource.
+//! All routes, one file per resource.
 
 mod calculator;
 pub mod description;
@@ -24,7 +24,7 @@ use super::{Server, access, assets, live, metrics, openapi, problem};
 
 /// Largest request body.
 const BODY_LIMIT: usize = 1 << 20;
-/// The same where ten thousand poses must fit.
+/// Largest request body for ten thousand poses.
 const BATCH_BODY_LIMIT: usize = 8 << 20;
 
 /// Every route with its description: `routes!` takes no handler without one.
@@ -68,7 +68,7 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .merge(calculator)
 }
 
-/// All that is served: the routes, and the pages.
+/// Everything that is served: the routes and the pages.
 pub fn served() -> Router<Arc<Server>> {
     Router::from(described())
         .route("/", get(assets::main_session))

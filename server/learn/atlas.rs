@@ -15,7 +15,7 @@ use crate::trial::Arena;
 
 /// Largest number of places, twice that of the paper's table: an image of each takes milliseconds.
 const MAX_PLACES: usize = 4000;
-/// Places judged at once: each has 32 fractions of 128 features.
+/// Places per call of the network: each has 32 fractions of 128 features.
 const BATCH: usize = 256;
 
 /// The images of one map, for all goals.
@@ -27,7 +27,7 @@ pub struct Atlas {
     policy: Arc<Policy>,
 }
 
-/// What is stored for each place.
+/// The stored data of each place.
 enum Stored {
     /// `[places, 128]`, independent of the goal.
     Features(Tensor),
@@ -40,14 +40,14 @@ pub enum AtlasError {
     /// The images could not be taken.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// The tool can be nowhere.
+    /// No place keeps the policy's distance from walls.
     #[error("map: {map:?} has no place that keeps {clearance_m} m from the walls, as the policy requires")]
     NoRoom {
         map: String,
         /// Distance that the policy keeps.
         clearance_m: f64,
     },
-    /// The policy could not judge the images.
+    /// The policy's network failed.
     #[error(transparent)]
     Policy(#[from] PolicyError),
 }
@@ -89,7 +89,7 @@ impl Atlas {
         self.spacing_m
     }
 
-    /// The places that keep the policy's distance from walls, with the policy's judgement of the tool there for a goal.
+    /// The policy's values for one goal, at all places that keep the policy's distance from walls.
     ///
     /// # Errors
     /// [`AtlasError::Policy`].

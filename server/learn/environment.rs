@@ -90,7 +90,7 @@ pub struct Episode {
     pub goal: Goal,
     /// Steps so far.
     pub steps: u32,
-    /// Sum of rewards so far, undiscounted.
+    /// Sum of the rewards so far, without discount.
     pub total: f32,
 }
 

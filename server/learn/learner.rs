@@ -147,8 +147,7 @@ impl Memory {
 impl<'a> Learner<'a> {
     /// A learner that continues from its state.
     ///
-    /// # Errors
-    /// Of candle, if the weights do not have the shapes of the recipe's network.
+    /// # Errors Those of candle, if the weights do not have the shapes of the recipe's network.
     pub fn new(recipe: &'a Recipe, terrains: &'a [Terrain], memory: Memory) -> Result<Self> {
         let architecture = recipe.architecture;
         let specs = architecture.tensors();
@@ -185,8 +184,7 @@ impl<'a> Learner<'a> {
 
     /// The noisy network's actions `[B]` for cells and places.
     ///
-    /// # Errors
-    /// Of candle.
+    /// # Errors Those of candle.
     pub fn act(&mut self, cells: &[(u8, u16)], places: &[[f32; 4]]) -> Result<Vec<u32>> {
         let batch = cells.len();
         let features = features_of(&self.frozen, &views(self.terrains, cells), places)?;
@@ -198,8 +196,7 @@ impl<'a> Learner<'a> {
 
     /// Learns from one draw of the replay and updates the draw's losses.
     ///
-    /// # Errors
-    /// Of candle.
+    /// # Errors Those of candle.
     pub fn update(&mut self, replay: &mut Replay) -> Result<Report> {
         let recipe = self.recipe;
         let progress = self.memory.updates as f64 / recipe.updates as f64;

@@ -10,8 +10,7 @@ const KAPPA: f64 = 1.0;
 /// ρ = |τ − 1{δ < 0}| · L(δ) / κ for each pair with δ = target − quantile; summed over the quantiles, averaged over the
 /// targets.
 ///
-/// # Errors
-/// Of candle, for other shapes.
+/// # Errors Those of candle, for other shapes.
 pub fn quantile_huber(quantiles: &Tensor, fractions: &Tensor, targets: &Tensor) -> Result<Tensor> {
     let delta = targets.unsqueeze(1)?.broadcast_sub(&quantiles.unsqueeze(2)?)?;
     let below = delta.lt(0.0)?.to_dtype(delta.dtype())?.detach();
@@ -21,8 +20,7 @@ pub fn quantile_huber(quantiles: &Tensor, fractions: &Tensor, targets: &Tensor) 
 
 /// Huber loss of values `[B, N]` against targets of the same shape, averaged over all but the batch.
 ///
-/// # Errors
-/// Of candle, for other shapes.
+/// # Errors Those of candle, for other shapes.
 pub fn huber_mean(values: &Tensor, targets: &Tensor) -> Result<Tensor> {
     huber(&(targets - values)?)?.mean(D::Minus1)
 }

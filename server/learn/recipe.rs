@@ -10,7 +10,7 @@ use crate::policy::{Architecture, Fusion};
 pub struct Recipe {
     /// Parts of the network.
     pub architecture: Architecture,
-    /// Double Q-learning (van Hasselt et al. 2016): the trained network chooses, the target network judges.
+    /// Double Q-learning (van Hasselt et al. 2016): the trained network chooses, the target network evaluates.
     pub double: bool,
     /// Prioritised replay (Schaul et al. 2016); 0 is uniform.
     pub priority_exponent: f64,

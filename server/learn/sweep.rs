@@ -41,7 +41,7 @@ pub struct Sweep {
     pub rows: usize,
     /// Whether the obstacle test is positive; row by row from the lower left, like all fields here.
     pub obstacle: Vec<bool>,
-    /// Steps of 1 cm that [`Limits::step`] admits from the cell, judged by the cell's image: bit `i` for
+    /// Steps of 1 cm that [`Limits::step`] admits from the cell, decided from the cell's image: bit `i` for
     /// `Action::ALL[i]`.
     ///
     /// [`Limits::step`]: crate::control::limits::Limits::step

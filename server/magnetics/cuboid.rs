@@ -137,7 +137,7 @@ impl Cuboid {
 struct Scaled<'a> {
     cuboid: &'a Cuboid,
     half: Vector3<f64>,
-    /// Half-diagonals a metre.
+    /// Half-diagonals per metre.
     unit_per_m: f64,
 }
 

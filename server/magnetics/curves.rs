@@ -1,6 +1,6 @@
 //! The pull on the bead as curves that a page can plot: over the offset from the block, and over its height.
 //!
-//! The block hangs in one of its three ways above a bead on the table. Pulls are in units of the bead's
+//! The block hangs in one of its three orientations above a bead on the table. Pulls are in units of the bead's
 //! weight W.
 
 use super::{
@@ -10,36 +10,36 @@ use super::{
 };
 use std::f64::consts::TAU;
 
-/// Most points of a curve.
+/// Maximum number of points of a curve.
 pub const POINTS_LIMIT: u32 = 2000;
 
-/// Friction coefficients that a curve is drawn for.
+/// Allowed friction coefficients.
 const FRICTION: (f64, f64) = (0.0, 1e3);
-/// Drags that a curve is drawn for, N·s/m.
+/// Allowed viscous drag, N·s/m.
 const DRAG_N_S_M: (f64, f64) = (1e-6, 1e3);
-/// Step of the search for the greatest value over the offset, m: a small part of the block.
+/// Step of the search for the largest value over the offset, m: a small part of the block.
 const SCAN_STEP_M: f64 = 2e-3;
 
-/// Why there is no curve.
+/// Why a query was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CurveError {
-    /// A number is not in its range, or not a number.
+    /// A number is NaN or outside its range.
     #[error("{field} must be from {least} to {most}, not {value}")]
     Range {
         /// Name of the query's field.
         field: &'static str,
         /// The offending value, in the unit of its name.
         value: f64,
-        /// Least value allowed.
+        /// Smallest allowed value.
         least: f64,
-        /// Greatest value allowed.
+        /// Largest allowed value.
         most: f64,
     },
-    /// Too few points or too many.
+    /// The number of points is outside its range.
     #[error("count must be from 2 to {most}, not {value}")]
     Count {
         value: u32,
-        /// Greatest value allowed.
+        /// Largest allowed value.
         most: u32,
     },
 }
@@ -211,14 +211,14 @@ impl View {
         Pull { lift_ratio: up_n / dipole::weight_n(), lateral_ratio: lateral_n / dipole::weight_n() }
     }
 
-    /// The greatest `value` over the offset.
+    /// The largest `value` over the offset.
     fn greatest(&self, value: impl Fn(&Pull) -> f64) -> f64 {
         let value = |offset_m: f64| value(&self.pull(offset_m));
         let steps = (FARTHEST_M / SCAN_STEP_M).round() as u32;
         let scanned = (0..=steps).map(|k| SCAN_STEP_M * f64::from(k)).map(|offset_m| (value(offset_m), offset_m));
         let (found, at_m) =
             scanned.fold((f64::NEG_INFINITY, 0.0), |best, next| if next.0 > best.0 { next } else { best });
-        // Between its neighbours there is one maximum: each time the third that cannot hold it is left out.
+        // Between its neighbours there is one maximum. Each step removes the third that cannot contain it.
         let (mut low_m, mut high_m) = ((at_m - SCAN_STEP_M).max(0.0), at_m + SCAN_STEP_M);
         for _ in 0..40 {
             let third_m = (high_m - low_m) / 3.0;

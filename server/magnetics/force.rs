@@ -1,7 +1,7 @@
 //! The pull of the block on the bead, and how far it reaches.
 //!
 //! The bead is free to turn and so stays aligned with the field: its energy is −m|B|, and the force
-//! on it is F = m∇|B|. The block is turned in one of three ways; in all of them the axis of its
+//! on it is F = m∇|B|. The block has one of three orientations; in all of them the axis of its
 //! magnetisation and the offsets below lie in the block's x or z.
 
 use super::{
@@ -11,8 +11,8 @@ use super::{
 use crate::geometry::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Offset at which the search for the capture interval begins, m: no pull of this block beats a friction of
-/// 0.001 so far away. An interval that ends here ends nowhere.
+/// Offset at which the search for the capture interval begins, m: so far away, no pull of this block exceeds a friction
+/// of 0.001. An interval that ends here has no outer end.
 pub const FARTHEST_M: f64 = 0.5;
 /// Step of that search, m.
 const SCAN_STEP_M: f64 = 1e-3;

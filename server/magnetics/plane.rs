@@ -5,7 +5,7 @@ use super::dipole::{self, BLOCK_REMANENCE_T, SPHERE_DIAMETER_M};
 use super::force::{self, FARTHEST_M, Orientation};
 use crate::geometry::Vector3;
 
-/// Most places of a row.
+/// Maximum number of points per row.
 pub const ROW_LIMIT: u32 = 101;
 
 /// Query of [`plane`].
@@ -70,7 +70,8 @@ mod tests {
         assert_eq!((field_t.len(), pull_n.len()), (441, 441));
         let middle = 10 * 21 + 10;
         assert!(field_t.iter().all(|&value_t| value_t <= field_t[middle]), "strongest right below");
-        // Far off, a block is a dipole of its moment; so near, a flat one falls some percent short: |B| = μ0 m / (2π d³) on its axis.
+        // Far off, a block is a dipole of its moment; so near, a flat one falls some percent short: |B| = μ0 m / (2π
+        // d³) on its axis.
         let moment_a_m2 = 1.0 / super::super::VACUUM_PERMEABILITY_T_M_A * BLOCK_REMANENCE_T * 0.05 * 0.025 * 0.01;
         let distance_m: f64 = 0.1 + 0.005 - 0.0025;
         let dipole_t =
@@ -78,7 +79,7 @@ mod tests {
         assert!((field_t[middle] / dipole_t - 1.0).abs() < 0.15, "{} T, dipole {dipole_t} T", field_t[middle]);
         assert!(pull_n[middle].iter().all(|part| part.abs() < 1e-12));
         assert!(pull_n[middle + 4][0] < 0.0 && pull_n[middle - 4][0] > 0.0 && pull_n[middle + 4 * 21][1] < 0.0);
-        // As the curves have it: 4 cm along x.
+        // The same values as the curves: 4 cm along x.
         let (lateral_n, _) = force::pull_n(&force::block(Orientation::A, BLOCK_REMANENCE_T), [0.04, 0.0], 0.105);
         assert!((pull_n[middle + 4][0] + lateral_n).abs() < 1e-9);
         assert_ne!(plane_of(Orientation::C).field_t, field_t);

@@ -7,7 +7,7 @@ use crate::geometry::{Isometry3, Point3, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PosedBlock {
     pub block: Cuboid,
-    /// Its pose: the frame in its centre, axes along its sides, seen from `base`.
+    /// The pose in `base` of the frame at its centre, with axes along its sides.
     pub base_from_block: Isometry3<f64>,
 }
 

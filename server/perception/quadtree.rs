@@ -27,7 +27,7 @@ impl QuadtreeParameters {
 /// The blocks of an image. A block without dark pixels is free, one without free pixels is dark. Any other is split; if
 /// it cannot be split, it counts as dark.
 ///
-/// **How it splits.** The size of an image is seldom a power of two. Each axis is first cut into as many nearly equal
+/// **How it splits.** The size of an image is rarely a power of two. Each axis is first cut into as many nearly equal
 /// cells as fit with `smallest_px` each: 80 of 6 px in 480, or 9 of 53 and 54 px for 50. Blocks consist of whole cells
 /// and split at the middle cell line of each axis with at least two cells; for an odd count the first half is smaller.
 /// So no block is smaller than `smallest_px`, and the finest grid is regular.

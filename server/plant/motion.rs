@@ -7,8 +7,7 @@ use crate::geometry::{Isometry3, Point2, Vector2};
 use crate::magnetics::dipole;
 use crate::map::Map;
 
-/// Stiffness of the hand's spring: 1 mN a millimetre, so that a fifth of the bead's weight shows as
-/// one millimetre.
+/// Stiffness of the hand's spring: 1 mN per millimetre, so that a fifth of the bead's weight is one millimetre.
 pub const HAND_STIFFNESS_N_M: f64 = 1.0;
 /// The hand moves the bead no faster than this (specification §2).
 pub const HAND_SPEED_LIMIT_M_S: f64 = 1.0;
@@ -77,7 +76,7 @@ impl Plant {
     fn rub(&self, bead: &mut Bead, load_m_s: f64) {
         let friction_m_s = self.parameters.friction * load_m_s;
         let resistance = self.parameters.rolling_resistance;
-        // A resistance beyond the friction never lets it begin to roll.
+        // With more rolling resistance than friction it never begins to roll.
         if self.parameters.bead_motion == BeadMotion::Sliding || resistance >= self.parameters.friction {
             bead.roll_m_s = Vector2::zeros();
             bead.velocity_m_s = shrunk(bead.velocity_m_s, friction_m_s);
@@ -89,7 +88,7 @@ impl Plant {
             (bead.velocity_m_s, bead.roll_m_s) = (rolling, rolling);
             return;
         }
-        // It would take more than Coulomb's friction: the bead slips.
+        // Coulomb's friction is not large enough, so the bead slips.
         let slip = bead.velocity_m_s - bead.roll_m_s;
         let change = slip.try_normalize(0.0).unwrap_or_default() * friction_m_s;
         bead.velocity_m_s -= change;

@@ -22,7 +22,7 @@ const HOME_RAD: Joints = [-FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, FRAC_P
 /// The paper's rotation vector of the flange, 3.2° off the vertical.
 const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
 
-/// Which of the two.
+/// The kind of positioner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PositionerKind {
@@ -89,7 +89,7 @@ fn flange_from_tool() -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::new(0.0, 0.0, TOOL_LENGTH_M), robot::tool_down().inverse())
 }
 
-/// An actual or wanted position of the positioner.
+/// An actual position or a reference of the positioner.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Positioner {
     /// The arm, by its joint angles.

@@ -57,7 +57,7 @@ impl Manifest {
     }
 }
 
-/// Why a policy was refused, or could not judge.
+/// Why a policy was refused, or why its network failed.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
     /// No policy has this name.

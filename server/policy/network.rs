@@ -205,8 +205,7 @@ pub struct Noise(Vec<LayerNoise>);
 impl Noise {
     /// Draws noise for an architecture; `None` without noisy layers.
     ///
-    /// # Errors
-    /// Of candle, which cannot occur with these shapes.
+    /// # Errors Those of candle, which cannot occur with these shapes.
     pub fn draw(architecture: &Architecture, rng: &mut impl Rng) -> Result<Option<Self>> {
         if !architecture.noisy {
             return Ok(None);
@@ -288,8 +287,7 @@ impl Network {
 
     /// The trunk and the first layer after it: images `[B, 84, 84, channels]` → features `[B, 128]`.
     ///
-    /// # Errors
-    /// Of candle, for another shape.
+    /// # Errors Those of candle, for another shape.
     pub fn features(&self, images: &Tensor) -> Result<Tensor> {
         let conv = |layer: &Linear, x: &Tensor, kernel, stride, rectify_input| {
             let padding = usize::from(kernel == 3);
@@ -311,8 +309,7 @@ impl Network {
     /// fractions `[B, N]` → `[B, G, N, 4]`. With early fusion the features include the places, and `G` is 1. Without
     /// quantiles `N` is 1 for any fractions.
     ///
-    /// # Errors
-    /// Of candle, for other shapes.
+    /// # Errors Those of candle, for other shapes.
     pub fn quantiles(
         &self,
         features: &Tensor,

@@ -141,7 +141,7 @@ pub struct Branch {
 }
 
 impl ComparisonMessage {
-    /// Before its first branch.
+    /// A comparison without branches.
     pub fn begin(trial: u64, point: &BranchPoint) -> Self {
         Self {
             trial,
@@ -158,7 +158,7 @@ impl ComparisonMessage {
 }
 
 impl Branch {
-    /// Before its first tick.
+    /// A branch without ticks.
     pub fn begin(controller: ControllerName) -> Self {
         Self {
             controller,
@@ -174,7 +174,7 @@ impl Branch {
         }
     }
 
-    /// Takes a tick in.
+    /// Adds a tick.
     pub fn follow(&mut self, point: &BranchPoint, progress: &Progress<'_>) {
         let moment = &progress.record.moment;
         if (moment.tick - point.tick()).is_multiple_of(TICKS_A_SAMPLE) {

@@ -23,7 +23,7 @@ pub struct EvaluationQuery {
     /// Scripted disturbances per trial, 0 to 10.
     #[schema(schema_with = disturbances)]
     pub disturbances: Vec<u32>,
-    /// Trials a cell, 1 to 1000.
+    /// Trials per cell, 1 to 1000.
     #[schema(minimum = 1, maximum = 1000)]
     pub episodes: u32,
     /// Seed of the trials.
@@ -87,7 +87,7 @@ pub enum EvaluationStage {
 /// A cell of an evaluation with its progress.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationCell {
-    /// What it is about.
+    /// Controller, map and disturbances.
     #[serde(flatten)]
     pub cell: Cell,
     /// Number of trials that ended.

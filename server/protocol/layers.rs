@@ -114,8 +114,8 @@ pub struct SeenMessage {
     pub columns: u32,
     /// Cells along y.
     pub rows: u32,
-    /// Runs of equal cells with their length, row by row from the minimum x and y; a run may continue in the next row: 0 for
-    /// unknown, 1 for free, 2 for an obstacle.
+    /// Runs of equal cells with their length, row by row from the minimum x and y; a run may continue in the next row:
+    /// 0 for unknown, 1 for free, 2 for an obstacle.
     pub runs: Vec<(u8, u32)>,
 }
 
@@ -158,7 +158,7 @@ pub struct ValueMap {
 /// One cell of a [`ValueMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct ValueCell {
-    /// Its middle.
+    /// Centre of the cell.
     #[schema(value_type = Numbers2)]
     pub center_m: [f64; 2],
     /// Value of the best action.
@@ -210,7 +210,7 @@ impl From<&View> for OverlayMessage {
 }
 
 impl OverlayMessage {
-    /// Converts what the controllers saw and decided at `tick`; `motion` is what the arm did then.
+    /// Converts percept and decision of `tick`; `motion` is the motion of the arm that followed.
     pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: RlPolicy) -> Self {
         let sensed = match &sight.carrier {
             Carrier::Attractor(attractor) => attractor.sensed(),
@@ -273,7 +273,7 @@ impl From<Flow> for FlowField {
 }
 
 impl JudgementLayer {
-    /// Of a policy in a session; `None` before the first image that it judged.
+    /// Layer of a policy; `None` before its first decision.
     pub fn of(rl: &Rl, arena: &Arena, policy: RlPolicy) -> Option<Self> {
         let (judgement, taken) = rl.judged()?;
         let policy = arena.policy(policy).ok()?;
@@ -287,7 +287,7 @@ impl JudgementLayer {
 }
 
 impl ValueMap {
-    /// Of an atlas and what its policy made of each place.
+    /// Converts an atlas and the policy's values for each place.
     pub fn of(atlas: &Atlas, judged: Vec<(Point2<f64>, Judgement)>) -> Self {
         let cell = |(center_m, judgement): (Point2<f64>, Judgement)| {
             let best = judgement.ranking()[0].index();

@@ -1,4 +1,4 @@
-//! From text to a message, naming the field at fault.
+//! Parses messages. Errors name the invalid field.
 
 use serde_json::{Map, Value};
 
@@ -10,7 +10,7 @@ impl ClientMessage {
         Self::parse_with_epoch(text).map(|(message, _)| message)
     }
 
-    /// The same, with the lease under which it was meant, if it says so (see [`super::Hello::epoch`]).
+    /// The message, and the epoch of the lease that it was sent under, if it has one (see [`super::Hello::epoch`]).
     pub fn parse_with_epoch(text: &str) -> Result<(Self, Option<u64>), ErrorMessage> {
         let malformed =
             |message: String, field: Option<String>| ErrorMessage { code: "malformed".into(), message, field };
@@ -27,7 +27,7 @@ impl ClientMessage {
         };
         let epoch = fields.remove("epoch").map(serde_json::from_value::<u64>).transpose();
         let epoch = epoch.map_err(|error| malformed(format!("epoch: {error}"), Some("epoch".into())))?;
-        // With the tag outside, serde keeps track of the path to the field at fault.
+        // With the tag outside, serde reports the path to the invalid field.
         let tagged = Value::Object(Map::from_iter([(kind.clone(), Value::Object(fields))]));
         let message = serde_path_to_error::deserialize(tagged).map_err(|error| {
             let path = error.path().to_string();

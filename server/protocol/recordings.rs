@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 /// Answer of `GET /api/recordings`.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct RecordingList {
-    /// The newest first.
+    /// Newest first.
     pub recordings: Vec<RecordingFile>,
 }
 
@@ -17,16 +17,16 @@ pub struct RecordingList {
 pub struct RecordingFile {
     /// Name of the files without their endings.
     pub id: String,
-    /// The session that it is of; none where the file was not named by Ferry.
+    /// Name of the session; `null` for files with other names.
     pub session: Option<String>,
-    /// When it began, RFC 3339; none where the file was not named by Ferry.
+    /// Time of the beginning, RFC 3339; `null` for files with other names.
     pub started: Option<String>,
-    /// Size of Rerun's file up to now.
+    /// Size of Rerun's file so far.
     #[ts(type = "number")]
     pub bytes: u64,
     /// Size of its input log, if it has one.
     #[ts(type = "number | null")]
     pub log_bytes: Option<u64>,
-    /// Whether it is being written: it grows, and has no footer yet.
+    /// Whether it is still being written. Then it grows, and has no footer yet.
     pub live: bool,
 }

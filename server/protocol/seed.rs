@@ -1,4 +1,4 @@
-//! Seeds: whole numbers below 2⁶⁴, more than a number of JavaScript holds.
+//! Seeds: whole numbers below 2⁶⁴. JavaScript numbers cannot represent all of them.
 
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -30,7 +30,7 @@ impl Visitor<'_> for SeedVisitor {
     }
 }
 
-/// For fields that may be left out.
+/// For optional fields.
 pub(super) fn number_or_text<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u64>, D::Error> {
     Ok(Option::<Seed>::deserialize(from)?.map(|Seed(seed)| seed))
 }

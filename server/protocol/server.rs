@@ -22,7 +22,7 @@ const CAPTURE_DIRECTIONS: u32 = 72;
 pub enum Role {
     /// May send commands.
     Operator,
-    /// Watches.
+    /// Receives all messages and may not send commands.
     Viewer,
 }
 
@@ -58,8 +58,8 @@ pub struct Hello {
     pub version: String,
     /// This browser's role.
     pub role: Role,
-    /// Number of the operator's lease; it increases when control passes on. A command may carry it as `epoch`, and is
-    /// refused if it is not the current one.
+    /// Number of the operator's lease; it increases when another browser becomes the operator. A command may carry it
+    /// as `epoch`, and is refused if it is not the current one.
     #[ts(type = "number")]
     pub epoch: u64,
     /// Whether the session has an operator.
@@ -75,13 +75,13 @@ pub struct Hello {
 pub struct SceneMessage {
     /// Name of the map.
     pub map: String,
-    /// Maps that `load_scenario` knows.
+    /// Maps that `load_scenario` accepts.
     pub maps: Vec<String>,
     /// The trial's scenario; controller, goal and parameters may have changed since.
     pub scenario: Scenario,
     /// The positioner of this trial.
     pub positioner: PositionerKind,
-    /// Controllers that `select_controller` knows.
+    /// Controllers that `select_controller` accepts.
     pub controllers: Vec<ControllerName>,
     pub workspace: Rect,
     /// Walls inside the workspace, 5 mm high.
@@ -236,7 +236,7 @@ impl From<&Scenery> for SceneMessage {
     }
 }
 
-/// Corners of the table seen, from the tool.
+/// Corners of the visible part of the table, relative to the tool.
 fn camera_sees_m(p: &Parameters) -> Vec<[f64; 2]> {
     let corners = p.camera_mount().over(Point2::origin()).table_corners_m();
     corners.into_iter().flatten().map(|corner| corner.coords.into()).collect()

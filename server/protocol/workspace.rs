@@ -1,4 +1,4 @@
-//! Where the arm works well, as it is asked and answered.
+//! The query for the arm's manipulability over the workspace, and its answer.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -17,7 +17,7 @@ use crate::robot::workspace;
     "cell_m": 0.05, "tool_height_m": 0.1, "tool_orientation": "vertical",
 }))]
 pub struct WorkspaceQuery {
-    /// Where the tool point goes.
+    /// Area for the tool point.
     pub area: Rect,
     /// Side of a cell.
     #[schema(exclusive_minimum = 0)]

@@ -33,7 +33,7 @@ const FLUSH_EVERY: Duration = Duration::from_millis(250);
 /// Time limit for Rerun's check of its file.
 const CHECK_TIMEOUT: Duration = Duration::from_secs(1);
 
-/// Where a recording is on its timelines; it goes on from part to part.
+/// Position of a recording on its timelines. The next part continues from it.
 #[derive(Debug, Default)]
 pub(super) struct TimelinePosition {
     /// Tick of the recording minus tick of the current trial.

@@ -7,7 +7,7 @@ use super::{
 
 /// The joints (rad) one servo period of 8 ms after `joints`.
 ///
-/// `reference` is the wanted position now, `next_reference` the one at the end of the period (rad, both).
+/// `reference` is the reference now, `next_reference` the one at the end of the period (both in rad).
 /// `gain_per_s` is the gain K2 of the paper's joint loop, 1/s. The speed is
 /// q̇ = (next_reference − reference)/dt + K2·(reference − q): the speed of the reference plus a term that
 /// makes the error decay as exp(−K2·t). The loop is stable for 0 < K2 < 2/dt = 250 /s.

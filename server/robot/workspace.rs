@@ -49,7 +49,7 @@ pub enum WorkspaceError {
     /// More than [`MOST_CELLS`].
     #[error("the grid has {cells:.0} cells, the limit is {MOST_CELLS}")]
     TooManyCells {
-        /// How many were asked for.
+        /// Requested number of cells.
         cells: f64,
     },
 }

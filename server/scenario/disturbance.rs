@@ -1,4 +1,4 @@
-//! Scripted disturbances: what moves the bead or blinds the tracker, and when.
+//! Scripted disturbances: they move the bead or blind the tracker at a given time.
 
 use serde::{Deserialize, Serialize};
 
@@ -61,7 +61,7 @@ pub struct Scripted {
     pub disturbance: Disturbance,
 }
 
-/// A disturbance that cannot be.
+/// A disturbance with an invalid number.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field} is {value}, it must be {allowed}")]
 pub struct DisturbanceError {
@@ -96,10 +96,10 @@ impl Scripted {
 }
 
 impl Disturbance {
-    /// Checks every number but the place, which is the map's business.
+    /// Checks every number except the place, which depends on the map.
     pub fn check(&self) -> Result<(), DisturbanceError> {
         let within = |field: [&'static str; 2], value: [f64; 2], most: f64| {
-            // The larger part is named; NaN fails both.
+            // The error names the larger component. NaN fails both comparisons.
             let larger = usize::from(!value[0].is_nan() && (value[1].is_nan() || value[1].abs() > value[0].abs()));
             let allowed = || format!("finite, and both together at most {most}");
             let good = value[0].hypot(value[1]) <= most;
@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(field(Disturbance::Impulse { x_n_s: 0.0, y_n_s: 1.0 }), "y_n_s");
         assert_eq!(field(Disturbance::Drift { x_n: f64::NAN, y_n: 0.0, for_s: 1.0 }), "x_n");
         assert_eq!(field(Disturbance::Dropout { for_s: 0.0 }), "for_s");
-        // A kick is bounded as a whole, not along each axis.
+        // The limit applies to the whole kick, not to each axis.
         assert_eq!(field(Disturbance::Impulse { x_n_s: 1.8e-3, y_n_s: 1.9e-3 }), "y_n_s");
         Disturbance::Dropout { for_s: 1.0 }.check().unwrap();
         let never = Scripted { at: When::Step(0), disturbance: Disturbance::Dropout { for_s: 1.0 } };

@@ -1,4 +1,4 @@
-//! Everything an operator can tune, with the range of each.
+//! All parameters that the operator can change, with their ranges.
 
 mod descriptor;
 mod set;
@@ -19,7 +19,7 @@ pub use table::Parameters;
 pub enum SwitchingLaw {
     /// Sub-controller 1 keeps control until the bead is within `fetch_radius_m`.
     Hysteresis,
-    /// The paper's equation to the letter: one threshold both ways.
+    /// The paper's equation unchanged: one threshold in both directions.
     Literal,
 }
 
@@ -27,7 +27,7 @@ pub enum SwitchingLaw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AttractorLaw {
-    /// The paper's law to the letter; it can stick behind a flat face.
+    /// The paper's law unchanged. It can get stuck behind a flat face.
     Literal,
     /// With contouring, a star-shaped basis and clearance.
     Improved,
@@ -37,9 +37,9 @@ pub enum AttractorLaw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RlPolicy {
-    /// The one trained on the map, else the general one.
+    /// The policy trained on the map, otherwise the general one.
     Auto,
-    /// Trained on the colon alone.
+    /// Trained on the map `colon` only.
     Colon,
     /// Trained on several maps.
     General,
@@ -55,7 +55,7 @@ pub struct ParameterError {
 }
 
 impl Parameter {
-    /// Refuses a value outside the range, whose upper end another parameter may have lowered to `most`.
+    /// Refuses a value outside the range. Another parameter may lower the upper end to `most`.
     fn check_range(&self, value: f64, most: f64) -> Result<(), ParameterError> {
         let Kind::Number(Number { unit, range: [least, own_most], bound, .. }) = self.kind else { return Ok(()) };
         if (least..=most.min(own_most)).contains(&value) {
@@ -70,7 +70,7 @@ impl Parameter {
 }
 
 impl Parameters {
-    /// Checks every range; the first field at fault is named.
+    /// Checks every range. The error names the first invalid field.
     pub fn check(&self) -> Result<(), ParameterError> {
         let values = self.numbers();
         let of = |name| Self::ALL.iter().zip(&values).find(|(one, _)| one.name == name).and_then(|(_, value)| *value);
@@ -82,7 +82,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// How the camera sits on the tool.
+    /// The camera's mount on the tool.
     pub fn camera_mount(&self) -> CameraMount {
         CameraMount {
             height_m: self.camera_height_m,
@@ -142,7 +142,7 @@ mod tests {
                 }
                 Kind::Flag => assert!(defaults[*name].is_boolean(), "{name}"),
                 Kind::Choice(options) => {
-                    // The refusal names every value that is read, in backquotes.
+                    // The error names every allowed value, in backquotes.
                     let other = serde_json::json!({ *name: "?" });
                     let refusal = serde_json::from_value::<Parameters>(other).unwrap_err().to_string();
                     let read: BTreeSet<_> = refusal.split('`').skip(3).step_by(2).collect();

@@ -11,7 +11,7 @@ use crate::map::WALL_HEIGHT_M;
 use crate::perception::{DarkPixels, Percept, wall_spread};
 
 impl Trial {
-    /// Decides from a frame. Changes the mind only; the world waits for [`Self::carry_out`].
+    /// Decides from a frame. Changes only the controller state; [`Self::carry_out`] changes the world.
     pub(super) fn decide(&mut self, percept: &Percept) -> Decision {
         let world = &self.state.world;
         let controller_state = &mut self.state.controller_state;

@@ -83,7 +83,7 @@ pub struct LoggedTick {
     /// The lowest 16 bits of the hash of each of [`super::World::FIELDS`], little-endian.
     #[serde(with = "serde_bytes")]
     pub fields: Vec<u8>,
-    /// Mind hash after the tick.
+    /// Controller hash after the tick.
     #[serde(rename = "mind_hash")]
     pub controller_hash: u64,
 }

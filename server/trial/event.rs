@@ -1,4 +1,4 @@
-//! What is reported once.
+//! Events: what a session reports once, with its tick.
 
 use serde::{Deserialize, Serialize};
 

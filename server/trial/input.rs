@@ -1,4 +1,4 @@
-//! What an operator may do to a trial, checked before it touches anything.
+//! Inputs of the operator, checked before they change anything.
 
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ pub enum Input {
     Disturb(Disturbance),
 }
 
-/// Why an input was refused; the trial is as it was.
+/// Why an input was refused. The trial did not change.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InputError {
     /// Not a number.
@@ -60,7 +60,7 @@ pub enum InputError {
     /// A parameter out of range.
     #[error("parameters: {0}")]
     Parameter(#[from] ParameterError),
-    /// A disturbance that cannot be.
+    /// A disturbance is invalid.
     #[error("disturbance: {0}")]
     Disturbance(#[from] DisturbanceError),
     /// Too many inputs are waiting for the next tick of a paused session.
@@ -120,8 +120,8 @@ fn check_finite(field: &'static str, point: Point2<f64>) -> Result<(), InputErro
 }
 
 impl Trial {
-    /// An operator's input, as [`Self::apply`]. While paused the spring cannot pull the bead, so a release puts it where
-    /// the pointer is; the log then holds [`Input::Place`].
+    /// An operator's input, as [`Self::apply`]. While paused the spring cannot pull the bead, so a release puts it
+    /// where the pointer is; the log then holds [`Input::Place`].
     pub fn operate(&mut self, input: Input, is_paused: bool) -> Result<(), InputError> {
         match (&input, self.state.world.plant.hand) {
             (Input::Release, Some(hand)) if is_paused => {

@@ -1,10 +1,9 @@
 //! The input log (`.ferry`): inputs, decisions and hashes of trials, enough to run them again.
 //!
-//! A file is `ferrylog`, the format's version (32 bits, little-endian), and frames. A frame is its payload's length
-//! (32 bits), a check of that length (32 bits), the payload, and the payload's hash (64 bits). A payload is
-//! deflated (RFC 1951) and contains CBOR items (RFC 8949), each an [`Entry`] with its fields' names. Hashes are
-//! XXH3, each seeded with the previous one. So a truncated file is distinguished from an edited one, and a
-//! missing frame is detected.
+//! A file is `ferrylog`, the format's version (32 bits, little-endian), and frames. A frame is its payload's length (32
+//! bits), a check of that length (32 bits), the payload, and the payload's hash (64 bits). A payload is deflated (RFC
+//! 1951) and contains CBOR items (RFC 8949), each an [`Entry`] with its fields' names. Hashes are XXH3, each seeded
+//! with the previous one. This distinguishes a truncated file from an edited one, and detects a missing frame.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -45,7 +44,7 @@ pub enum LogError {
         byte: usize,
         /// Intact ticks before it.
         ticks: usize,
-        /// What is wrong with it.
+        /// How the frame differs.
         what: String,
     },
     /// It contains no complete frame.
@@ -53,7 +52,7 @@ pub enum LogError {
     Empty,
     #[error("log: {0}")]
     Io(#[from] std::io::Error),
-    /// More than a log holds.
+    /// The file is larger than a log can be.
     #[error("log: {0}")]
     Unread(#[from] ReadError),
     /// The unpacked content is too large.

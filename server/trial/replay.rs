@@ -24,18 +24,16 @@ pub enum ReplayError {
     /// The map in the log cannot be read.
     #[error("trial {trial}: {error}")]
     Map {
-        /// Which trial of the log, from 1.
+        /// Number of the trial in the log, from 1.
         trial: u32,
-        /// What is wrong.
         error: MapError,
     },
     /// A trial could not be created or continued.
     #[error("trial {trial}, tick {tick}: {error}")]
     Trial {
-        /// Which trial of the log, from 1.
+        /// Number of the trial in the log, from 1.
         trial: u32,
         tick: u64,
-        /// What is wrong.
         error: TrialError,
     },
     /// The decisions cannot be repeated because the policy is missing.
@@ -44,7 +42,7 @@ pub enum ReplayError {
          again; without a camera the logged decisions are carried out"
     )]
     Policy {
-        /// Which trial of the log, from 1.
+        /// Number of the trial in the log, from 1.
         trial: u32,
         /// Hash of the policy file.
         policy_hash: u64,
@@ -52,7 +50,7 @@ pub enum ReplayError {
     /// An input of the log is rejected now.
     #[error("trial {trial}, tick {tick}: an input of the log is refused: {error}")]
     Refused {
-        /// Which trial of the log, from 1.
+        /// Number of the trial in the log, from 1.
         trial: u32,
         tick: u64,
         error: InputError,
@@ -60,7 +58,7 @@ pub enum ReplayError {
     /// The first tick that differs.
     #[error("trial {trial}: the first difference is at tick {tick}, in {}", fields.join(", "))]
     Differs {
-        /// Which trial of the log, from 1.
+        /// Number of the trial in the log, from 1.
         trial: u32,
         tick: u64,
         /// Names of the parts that differ.
@@ -71,8 +69,8 @@ pub enum ReplayError {
 /// Creates cameras for the arenas of a log.
 pub type MakeCamera<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn ImageSource>, CameraError>;
 
-/// Runs a log again from its decisions. With `make_camera`, every decision is made again from the camera images, and the
-/// controller's state is compared too. `watch` is called after each tick.
+/// Runs a log again from its decisions. With `make_camera`, every decision is made again from the camera images, and
+/// the controller's state is compared too. `watch` is called after each tick.
 pub fn replay(
     log: &InputLog,
     mut make_camera: Option<MakeCamera<'_>>,

@@ -132,7 +132,7 @@ mod tests {
         assert!(error.starts_with("state: world.tick is 18446744073709551615"), "{error}");
         let error = refusal(|state| state.world.parameters.tracker_noise_m = f64::INFINITY);
         assert!(error.starts_with("parameters: tracker_noise_m is inf"), "{error}");
-        // Fuzzed: it would grow by one at the next look.
+        // Found by fuzzing: the counter would grow by one at the next image and overflow.
         let error =
             refusal(|state| state.controller_state.known = with_version(&state.controller_state.known, u64::MAX));
         assert!(error.starts_with("state: mind.known.version is 18446744073709551615"), "{error}");

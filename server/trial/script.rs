@@ -22,11 +22,11 @@ pub struct Script {
     pub bead_before_m: Option<Point2<f64>>,
     /// Tick at which a push ends.
     pub drift_until: u64,
-    /// Tick at which the tracker sees again.
+    /// Tick at which the tracker reports again.
     pub dropout_until: u64,
 }
 
-/// What is drawn for a random displacement.
+/// Random numbers of one displacement.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Draw {
     Step,

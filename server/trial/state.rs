@@ -1,5 +1,5 @@
 //! The complete state of a trial, in two parts. The *world* is reproduced by a replay from logged decisions. The
-//! *controller state* ([`Mind`]) is reproduced only if the decisions are made again from camera frames.
+//! *controller state* ([`ControllerState`]) is reproduced only if the decisions are made again from camera frames.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -70,7 +70,7 @@ pub struct World {
     pub tracker: Tracker,
     /// Generator of all random numbers of the trial.
     pub rng: ChaCha8Rng,
-    /// Wanted tool point.
+    /// Target of the tool point.
     pub reference_m: Point3<f64>,
     /// The positioner at that point.
     pub reference: Positioner,
@@ -230,7 +230,7 @@ impl TrialState {
         self.world.hashes().total()
     }
 
-    /// Hash of the mind: equal in a re-run from frames.
+    /// Hash of the controller state: equal if the decisions are made again from frames.
     pub fn controller_hash(&self) -> u64 {
         hash(&(&self.controller_state, self.controller))
     }

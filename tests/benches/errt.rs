@@ -56,7 +56,7 @@ fn plan(planner: &mut Planner, parameters: &PlannerParameters, obstacles: &Obsta
 }
 
 /// Prints quantiles over many plans, and lets criterion time the same. A plan is the same whenever it is made: the
-/// least of three times is what it takes where nothing else runs.
+/// smallest of three times is the time on an idle machine.
 fn time(c: &mut Criterion, name: &str, plan: impl Fn(u64) -> Duration) {
     let least = |seed| (0..3).map(|_| plan(seed)).min();
     let mut times: Vec<Duration> = (0..PLANS).filter_map(least).collect();
@@ -69,8 +69,8 @@ fn time(c: &mut Criterion, name: &str, plan: impl Fn(u64) -> Duration) {
     });
 }
 
-/// Times a plan from scratch, after disturbances and on the way, with everything and without parts of it; and what a map that
-/// changed costs.
+/// Times a plan from scratch, after disturbances and on the way, with everything and without parts of it; and what a
+/// map that changed costs.
 pub fn benches(c: &mut Criterion) {
     let map = Map::shipped("colon").unwrap();
     let seen = all_seen(&map);

@@ -37,7 +37,7 @@ struct Ferry {
 impl Ferry {
     fn start() -> Self {
         let data = tempfile::tempdir().unwrap();
-        // Where a folder is wanted there is a file.
+        // A file with the name of the folder makes it fail.
         std::fs::write(data.path().join("recordings"), "").unwrap();
         let mut child = Command::new(env!("CARGO_BIN_EXE_ferry"))
             .args(["serve", "--bind", "127.0.0.1:0", "--data"])

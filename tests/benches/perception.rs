@@ -1,4 +1,4 @@
-//! From a camera frame to what is seen in it.
+//! From a camera frame to its percept.
 
 use std::hint::black_box;
 

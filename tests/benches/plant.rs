@@ -67,7 +67,7 @@ pub fn benches(c: &mut Criterion) {
             black_box(&state);
         });
     });
-    // None when another benchmark was asked for.
+    // None when only another benchmark is run.
     assert!(10 * touched >= ticks, "the bead must lean on walls: {touched} of {ticks} ticks");
 
     // The same with the arm: inverse kinematics, servo and forward kinematics at 125 Hz besides.

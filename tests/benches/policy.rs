@@ -50,7 +50,7 @@ fn acting(c: &mut Criterion, arena: &Arena, gpu: &std::sync::Arc<Gpu>) {
     let parameters = Parameters::default();
     let frames = frames(arena, gpu);
     let decide = |(tool_m, frame): &(Point2<f64>, CameraFrame)| {
-        // Over a cell's middle, so that the network is asked.
+        // Over the middle of a cell, where the network decides.
         let [x, y] = [tool_m.x, tool_m.y].map(|value: f64| ((value * 100.0 - 0.5).round() + 0.5) / 100.0);
         let start = Instant::now();
         let percept = Percept::of(frame, Point2::new(x, y));

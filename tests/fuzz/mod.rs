@@ -1,5 +1,5 @@
 //! Loaders against files that were damaged, or made to do damage: the answer is a value or an error, within a second.
-//! `make fuzz` goes on for longer, and lets what was reached guide it.
+//! `make fuzz` runs for longer and is guided by coverage.
 
 mod mutate;
 mod seeds;

@@ -13,7 +13,7 @@ use ferry::trial::{Arena, Beginning, Case, Entry, Input, LogWriter, LoggedBeginn
 
 use super::targets::{Spots, Target, written};
 
-/// Small, so that a state is short; in the arm's reach.
+/// A small map in the arm's reach, so that states are short.
 const SMALL_MAP: &str = r#"<svg viewBox="-60 300 120 100"><rect x="-10" y="340" width="20" height="60"/></svg>"#;
 
 impl Target {
@@ -133,7 +133,7 @@ fn trial(controller: ControllerName) -> Vec<Entry> {
     let mut trial = Trial::new(scenario, arena).unwrap();
     let mut entries = vec![Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::SetUp)))];
     let mut inputs = inputs().into_iter();
-    // The first control steps are at ticks 0 and 31; what lies between is left out, so that states outweigh ticks.
+    // The first control steps are at ticks 0 and 31. The ticks between are left out, so that most entries are states.
     for tick in 0..33 {
         if tick == 30 {
             entries.push(Entry::Begin(Box::new(LoggedBeginning::of(&trial, Beginning::Resumed))));
@@ -164,7 +164,7 @@ fn payload(entries: &[Entry]) -> Vec<u8> {
     bytes
 }
 
-/// The shipped policies' headers, and four bytes for their weights.
+/// Headers of the shipped policies, with four bytes in place of the weights.
 fn headers() -> Vec<Vec<u8>> {
     let header = |name: &str| {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/policies/{name}.safetensors"));

@@ -25,7 +25,7 @@ pub enum Target {
     Case,
     /// Input logs as they lie on disk.
     Log,
-    /// What stands in a log's frames, as if its hashes were right.
+    /// The content of a log's frames, with correct hashes.
     Entries,
     /// Policies.
     Policy,
@@ -110,7 +110,7 @@ fn run(log: &InputLog) -> bool {
                     arena = map.arena().ok();
                 }
                 running = arena.as_ref().and_then(|arena| begin(beginning, arena));
-                // Decide from what is seen, too.
+                // Also decide from the camera's images.
                 if let Some(mut trial) = running.clone() {
                     let _ = (0..TICKS).try_for_each(|_| trial.tick(Source::Camera(&mut Spots)).map(|_| ()));
                 }
@@ -164,7 +164,7 @@ fn policy(bytes: &[u8]) -> bool {
     true
 }
 
-/// A file as long as its header says, if that is no longer than a policy is.
+/// A file of the length in its header, at most the length of a policy.
 fn weights(bytes: &[u8]) -> Vec<u8> {
     const LONGEST: usize = 2 << 20;
     let (Some(length), Some(&last)) = (bytes.first_chunk(), bytes.last_chunk::<4>()) else { return bytes.to_vec() };

@@ -43,11 +43,11 @@ use crate::geometry::Point2;
 use crate::perception::{CellState, ObstacleMap};
 use crate::scenario::Parameters;
 
-/// Edges of a tree that are shown at most; more could not be told apart.
+/// Maximum number of edges of a tree that are shown. More could not be distinguished.
 pub const MOST_EDGES: usize = 4000;
-/// A tool farther from its way than this is not on it any more: the bead was fetched somewhere else.
+/// A tool farther from its path than this has left it: the bead was fetched somewhere else.
 const OFF_PATH_M: f64 = 0.01;
-/// A way may lose so much of its clearance before another is planned: a cell of the map, as more of a wall is seen.
+/// A path may lose this much clearance before another is planned: one cell of the map, when more of a wall is observed.
 const TOLERANCE_M: f64 = 0.002;
 /// Spacing at which a path is checked for unobserved places.
 const SAMPLE_M: f64 = 0.005;
@@ -74,7 +74,7 @@ impl PartialEq for Made {
 struct Task {
     from: Point2<f64>,
     goal: Point2<f64>,
-    /// Ways found so far, and the best with its expected length.
+    /// Number of paths found so far, and the best one with its expected length.
     #[serde(rename = "ways")]
     paths: u32,
     best: Option<(Path, f64)>,
@@ -112,12 +112,12 @@ impl Errt {
         &self.planner
     }
 
-    /// Edges of the tree, no more than can be shown.
+    /// Edges of the tree, at most [`MOST_EDGES`].
     pub fn shown_edges(&self) -> impl Iterator<Item = [Point2<f64>; 2]> {
         self.planner.tree().into_iter().flat_map(Tree::edges).take(MOST_EDGES)
     }
 
-    /// The way that is followed.
+    /// The path that is followed.
     pub fn path(&self) -> Option<&Path> {
         self.followed.as_ref().map(|followed| &followed.path)
     }
@@ -172,8 +172,8 @@ impl Errt {
             let before = self.planner.attempts();
             match self.planner.advance(obstacles, left) {
                 Progress::WalledOff => return Err(Refusal::WalledOff),
-                // What is left is narrower than the smallest clearance; otherwise the flood fill would have found room
-                // for a search that takes less long.
+                // The remaining gaps are narrower than the smallest clearance. Otherwise the flood fill would have
+                // found room for a shorter search.
                 Progress::Exhausted if task.paths == 0 => return Err(Refusal::WalledOff),
                 Progress::Found(path) => {
                     task.paths += 1;
@@ -214,7 +214,7 @@ impl Errt {
 }
 
 /// Length of a path, with the parts through unobserved places multiplied by `unseen_weight`: there the real path is
-/// seldom straight.
+/// rarely straight.
 fn expected_m(path: &Path, known: &ObstacleMap, unseen_weight: f64) -> f64 {
     let length_m = path.length_m();
     let count = (length_m / SAMPLE_M).ceil().max(1.0);

@@ -1,8 +1,8 @@
 //! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis per image, greedy.
 //!
 //! In training the tool was only at the centres of the sweep's cells. So the tool first goes to a nearby cell that
-//! keeps training's distance from walls, and then from cell to cell. Between two cells no image is judged: a slow tool
-//! needs several control steps for one action.
+//! keeps training's distance from walls, and then from cell to cell. Between two cells the network does not run: a slow
+//! tool needs several control steps for one action.
 
 use serde::{Deserialize, Serialize};
 
@@ -49,13 +49,13 @@ impl Lattice {
 pub struct Rl {
     /// The cell that the tool is over or moves to.
     cell: Option<Cell>,
-    /// The network's result for the last judged image, and the action taken.
+    /// The network's result for the last image that it evaluated, and the action taken.
     judged: Option<(Judgement, Action)>,
     progress: Progress,
 }
 
 impl Rl {
-    /// The network's result for the last judged image, and the action taken.
+    /// The network's result for the last image that it evaluated, and the action taken.
     pub fn judged(&self) -> Option<&(Judgement, Action)> {
         self.judged.as_ref()
     }
@@ -153,7 +153,7 @@ impl Transport for Rl {
         self.judged = Some((judgement, action));
         let cell = beside(here, action);
         let step = Self::toward(&lattice, input, cell);
-        // A step that will be refused by the limits is not taken: the next image is judged from here.
+        // A step that the limits refuse is not taken. The next image is evaluated from here.
         if lattice.workspace.contains(lattice.center_m(cell)) && !is_blocked(input, step.target_m) {
             self.cell = Some(cell);
         }

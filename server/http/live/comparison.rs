@@ -13,7 +13,7 @@ use crate::trial::TrialError;
 /// Interval of progress messages.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
 
-/// Blocks until all branches have ended or `is_wanted` returns false; then no more messages are sent.
+/// Blocks until all branches have ended, or until `is_wanted` returns false. Then it sends no more messages.
 pub fn compare(
     point: &BranchPoint,
     trial: u64,

@@ -211,7 +211,7 @@ impl Drop for Hub {
     }
 }
 
-/// Each value of `maps` stands for another list of maps.
+/// The value of `maps` changes with the list of maps.
 async fn encode_all(
     mut views: watch::Receiver<Arc<View>>,
     mut maps: watch::Receiver<u64>,

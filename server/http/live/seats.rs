@@ -73,7 +73,8 @@ impl Seats {
             Some(operator) if operator == connection => {}
             Some(_) if self.asking == Some(connection) => {}
             Some(_) => {
-                // A new request takes over the waiting time of the old one, or two requests by turns would wait for ever.
+                // A new request keeps the start of the wait. Otherwise two browsers that request by turns would wait
+                // forever.
                 if self.asking.replace(connection).is_none() {
                     self.asked = now;
                 }

@@ -1,4 +1,4 @@
-//! The browser's messages as they stand on the wire: `{"type": "step", "ticks": 1}`. The derive follows serde, which
+//! The browser's messages as they are on the wire: `{"type": "step", "ticks": 1}`. The derive follows serde, which
 //! sees `{"step": {"ticks": 1}}` (`protocol::parse` moves the type).
 
 use utoipa::openapi::RefOr;

@@ -20,7 +20,7 @@ use crate::protocol::StateMessage;
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::View;
 
-/// A session in short.
+/// Summary of a session.
 #[derive(Serialize, ToSchema)]
 pub struct SessionSummary {
     id: String,
@@ -106,7 +106,7 @@ pub async fn create_session(
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(summary)).into_response())
 }
 
-/// A session in short.
+/// Summary of a session.
 #[utoipa::path(get, path = "/api/sessions/{id}", tag = "sessions", params(SessionPath),
     responses((status = 200, body = SessionSummary), NotFound))]
 pub async fn session(

@@ -28,7 +28,7 @@ describe! {
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::geometry::Polygon")]
 pub struct Polygon {
-    /// Outer ring, `[x_m, y_m]` a vertex.
+    /// Outer ring, `[x_m, y_m]` for each vertex.
     #[schema(value_type = Vec<Numbers2>)]
     pub exterior: Vec<[f64; 2]>,
     /// Inner rings.
@@ -40,13 +40,13 @@ pub struct Polygon {
 #[derive(Serialize, Deserialize, TS, ToSchema)]
 #[serde(remote = "crate::geometry::Rect")]
 pub struct Rect {
-    /// Least x.
+    /// Smallest x.
     pub x_min_m: f64,
-    /// Greatest x.
+    /// Largest x.
     pub x_max_m: f64,
-    /// Least y.
+    /// Smallest y.
     pub y_min_m: f64,
-    /// Greatest y.
+    /// Largest y.
     pub y_max_m: f64,
 }
 
@@ -77,7 +77,7 @@ pub enum ControllerName {
 #[serde(remote = "crate::scenario::Disturbance")]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Disturbance {
-    /// The bead is lifted and put down here, or where it fits nearest.
+    /// The bead is lifted and put down here, or at the nearest place where it fits.
     Displace {
         x_m: f64,
         y_m: f64,

@@ -12,13 +12,13 @@ pub struct Parameter {
     pub label: &'static str,
     /// What it does, in one or two short sentences.
     pub help: &'static str,
-    /// Where the page shows it.
+    /// Group of the page's form.
     pub group: Group,
-    /// What values it takes.
+    /// Allowed values.
     pub kind: Kind,
 }
 
-/// What values a parameter takes.
+/// Allowed values of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// A number in a range.
@@ -33,20 +33,20 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
     pub unit: Unit,
-    /// Least and greatest value, in the unit on the wire.
+    /// Smallest and largest value, in the unit on the wire.
     pub range: [f64; 2],
     /// Step of the page's slider, in the shown unit.
     pub step: f64,
-    /// Whether it counts something.
+    /// Whether only whole numbers are allowed.
     pub whole: bool,
     /// How another parameter limits it further.
     pub bound: Option<Bound>,
 }
 
-/// How another parameter, named here, limits one from above.
+/// A limit from above by another parameter, which is named here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
-    /// At most the other one.
+    /// At most the value of the other one.
     AtMost(&'static str),
     /// Both together at most 1.
     Remainder(&'static str),
@@ -138,7 +138,7 @@ impl Number {
     }
 }
 
-/// To 12 digits, which removes what binary fractions add.
+/// Rounded to 12 digits, which removes errors of binary fractions.
 fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
@@ -180,7 +180,7 @@ pub enum Group {
 }
 
 impl Group {
-    /// In the form's order.
+    /// All groups, in the order of the form.
     pub const ALL: [Self; 8] = [
         Self::Rl,
         Self::Errt,
@@ -216,7 +216,7 @@ impl Group {
         }
     }
 
-    /// Whether the page shows it open at first.
+    /// Whether the page shows the group open at first.
     pub fn is_open(self) -> bool {
         matches!(self, Self::Rl | Self::Switching)
     }

@@ -7,16 +7,16 @@ use super::{ParameterError, Parameters};
 
 /// Names at least this similar to an unknown one are suggested, from 0 to 1.
 const SIMILAR: f64 = 0.85;
-/// Most suggestions.
+/// Maximum number of suggestions.
 const SUGGESTIONS: usize = 3;
 
 /// A `NAME=VALUE` that cannot be set.
 #[derive(Debug, thiserror::Error)]
 pub enum SetError {
-    /// No `=`.
+    /// The text has no `=`.
     #[error("{0:?} must be NAME=VALUE")]
     Form(String),
-    /// No parameter of that name.
+    /// No parameter has this name.
     #[error("there is no parameter {name:?}; {}", suggestion(name))]
     Unknown { name: String },
     /// Not a value of the parameter's kind.
@@ -30,13 +30,13 @@ pub enum SetError {
     /// Outside its range.
     #[error(transparent)]
     Range(#[from] ParameterError),
-    /// Not written or read by serde.
+    /// Serde could not write or read the parameters.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
 }
 
 impl Parameters {
-    /// These with some others, each as `NAME=VALUE`; a later one replaces an earlier one.
+    /// These parameters with changes, each as `NAME=VALUE`. A later change replaces an earlier one.
     pub fn with(&self, changes: &[String]) -> Result<Self, SetError> {
         let mut values = serde_json::to_value(self)?;
         for change in changes {
@@ -64,7 +64,7 @@ fn parsed(name: &str, text: &str) -> Result<(&'static str, Value), SetError> {
     let value = match parameter.kind {
         Kind::Number(number) => {
             let value: f64 = text.parse().map_err(|_| refused())?;
-            // Before the type of the field could refuse it without naming the range.
+            // Checked here, because the type of the field would refuse it without naming the range.
             parameter.check_range(value, number.range[1])?;
             match number.whole {
                 true if value.fract() != 0.0 => return Err(refused()),
@@ -112,7 +112,7 @@ mod tests {
             ..Parameters::default()
         };
         assert_eq!(found, expected);
-        // Both bounds count together, whatever the order.
+        // Both limits apply together, in any order.
         let together = ["fetch_radius_m=0.15", "threshold_m=0.2"].map(str::to_owned);
         assert_eq!(Parameters::default().with(&together).unwrap().fetch_radius_m, 0.15);
     }

@@ -50,7 +50,7 @@ macro_rules! parameters {
     ($($group:ident {$(
         $(#[$attribute:meta])* $name:ident: $type:ty = $default:expr, $kind:expr, $label:literal, $help:literal;
     )*})*) => {
-        /// Everything an operator can tune, in the units of the names.
+        /// All parameters that the operator can change, in the units of their names.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields, default)]
         pub struct Parameters {
@@ -64,7 +64,7 @@ macro_rules! parameters {
         }
 
         impl Parameters {
-            /// All of them, in the order of the fields.
+            /// All parameters, in the order of the fields.
             pub const ALL: &'static [Parameter] = &[$($(
                 Parameter {
                     name: stringify!($name),

@@ -178,7 +178,7 @@ export const RECORDINGS: Section = {
               .filter(({ name }) => name.endsWith('/api/recordings')).length,
         ),
     },
-    // Rerun's viewer needs the WebGL arguments of viewer.spec.ts.
+    // Rerun's viewer needs the WebGL arguments of rerun.spec.ts.
     'button /^Open /': { elsewhere: 'opens a recording in Rerun’s viewer' },
     'link /^Download /': { see: downloads },
   },

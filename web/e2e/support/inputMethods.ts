@@ -141,12 +141,14 @@ class Touch extends Pointer {
         [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])],
       ]);
     }
-    await whileHeld?.();
-    // A finger that lifts while it moves makes the page scroll on, and the next tap would only stop
-    // that. So the finger rests before it lifts.
-    for (let i = 0; i < 2; i++) {
-      await this.lab.drawn();
-      await send('touchMove', [to]);
+    if (whileHeld) {
+      await whileHeld();
+      // A finger that lifts while it moves makes the page scroll on, and the next tap would only
+      // stop that. So the finger rests before it lifts. A slider does not scroll.
+      for (let i = 0; i < 2; i++) {
+        await this.lab.drawn();
+        await send('touchMove', [to]);
+      }
     }
     await send('touchEnd', []);
     await cdp.detach();

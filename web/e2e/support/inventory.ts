@@ -183,7 +183,7 @@ export function faultsOf(all: readonly Control[], minSidePx: number) {
 }
 
 /**
- * Presses Tab from `opener` on, and names the controls of `wanted` that get no focus. `all` is the
+ * Presses Tab from `opener` on, and returns the controls of `wanted` that get no focus. `all` is the
  * latest result of `controls`; it contains `wanted`. Disabled controls are skipped.
  */
 export async function unreached(

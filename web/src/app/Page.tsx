@@ -1,6 +1,6 @@
 // Assembles the page: the laboratory with its panels, and the other views.
 
-// Before the style of what lies on the page.
+// Imported first, so that the panels' styles override it.
 import './Page.css';
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { createLab } from '../lab/lab';

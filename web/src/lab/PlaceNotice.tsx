@@ -9,7 +9,7 @@ export function PlaceNotice(props: { lab: Notices; place: Place }): JSX.Element 
   return (
     <NoticeBar
       notice={props.lab.notices()[props.place]}
-      // Browser tests know it by this name.
+      // Browser tests find it by this name.
       place={props.place === 'playback' ? 'transport' : props.place}
       onDismiss={(id) => {
         props.lab.dismiss(props.place, id);

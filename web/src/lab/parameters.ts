@@ -82,7 +82,7 @@ function boundOf({ bound }: NumberField, parameters: Parameters): number {
   return bound.kind === 'atMost' ? other : 1 - other;
 }
 
-/** Digits after the point that `step` asks for. */
+/** Digits after the point that `step` needs. */
 export function digits(step: number): number {
   return Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
 }

@@ -11,11 +11,11 @@ use crate::scenario::Parameters;
 pub struct Flow {
     pub columns: usize,
     pub rows: usize,
-    /// The place of least x and y.
+    /// The place with the smallest x and y.
     pub origin_m: Point2<f64>,
     /// Distance between two places.
     pub spacing_m: f64,
-    /// Row by row from the least y; `None` over a known obstacle. Empty without a goal.
+    /// Row by row from the smallest y; `None` over a known obstacle. Empty without a goal.
     pub velocity_m_s: Vec<Option<Vector2<f64>>>,
 }
 
@@ -25,7 +25,7 @@ impl Flow {
         let area = known.workspace();
         let size = area.size_m();
         let [columns, rows] = [size.x, size.y].map(|side_m| (side_m / spacing_m).floor() as usize + 1);
-        // In the middle of what is left over.
+        // The remaining space is divided equally between both sides.
         let margin = (size - Vector2::new((columns - 1) as f64, (rows - 1) as f64) * spacing_m) * 0.5;
         let origin_m = Point2::new(area.x_min_m, area.y_min_m) + margin;
         let velocity = |index: usize| {

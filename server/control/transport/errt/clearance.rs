@@ -19,7 +19,7 @@ const GRACE_M: f64 = 0.006;
 pub(super) const GROWTH: f64 = 0.25;
 /// Near such an end, edges are checked in pieces of this length; each must keep what its nearer end requires.
 pub(super) const PIECE_M: f64 = 0.0005;
-/// More than distances and positions can be off by.
+/// Larger than the rounding errors of distances and positions.
 pub(super) const ROUNDING_M: f64 = 1e-9;
 
 /// The distance that a path keeps from walls.
@@ -41,7 +41,7 @@ pub struct End {
 }
 
 impl End {
-    /// What is asked for so far away from it, on its account.
+    /// Clearance that this end requires at a distance of `away_m` from it.
     fn required_m(&self, away_m: f64) -> f64 {
         self.distance_m + GROWTH * (away_m - GRACE_M).max(0.0)
     }

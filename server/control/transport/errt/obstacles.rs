@@ -9,7 +9,7 @@ use super::segment::{Segment, maxs, mins, rect_distance_m};
 use crate::geometry::{Point2, Rect};
 use crate::perception::ObstacleMap;
 
-/// All obstacles that are known, arranged for fast questions about straight lines. What was never seen is free.
+/// All known obstacles, indexed for fast queries about straight lines. Unobserved places are free.
 #[derive(Clone, Debug)]
 pub struct Obstacles {
     version: u64,
@@ -22,7 +22,7 @@ pub struct Obstacles {
 }
 
 impl Obstacles {
-    /// The obstacles of a map, to be asked for clearances up to `most_clearance_m`.
+    /// The obstacles of a map, for clearances up to `most_clearance_m`.
     pub fn of(map: &ObstacleMap, most_clearance_m: f64) -> Self {
         let cells = map.partition().rectangles;
         let rectangles: Vec<Rect> = cells.iter().map(|cells| map.rect(cells)).collect();
@@ -37,12 +37,12 @@ impl Obstacles {
         }
     }
 
-    /// Version of the map they were taken from.
+    /// Version of the map that they come from.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// Most clearance that may be asked for.
+    /// Largest clearance that a query may have.
     pub fn most_clearance_m(&self) -> f64 {
         self.most_clearance_m
     }
@@ -96,13 +96,13 @@ impl Obstacles {
         (point.x - x_min_m).min(x_max_m - point.x).min(point.y - y_min_m).min(y_max_m - point.y)
     }
 
-    /// The place itself; `None` if it is in a wall, or nowhere.
+    /// An end at the point itself; `None` if the point is in a wall or outside the workspace.
     pub(super) fn end_at(&self, point: Point2<f64>) -> Option<End> {
         let distance_m = self.distance_m(point) - ROUNDING_M;
         (distance_m > 0.0).then_some(End { point, distance_m })
     }
 
-    /// Where a way from a place begins: there, or where a tool over a wall gets off it.
+    /// The end from which a path begins: the point itself, or the place where a tool over a wall leaves the wall.
     pub(super) fn end_near(&self, point: Point2<f64>, least_clearance_m: f64) -> Option<End> {
         let is_place = point.coords.iter().all(|m| m.is_finite());
         let way_out = || self.grid.nearest(point, least_clearance_m).filter(|_| is_place);

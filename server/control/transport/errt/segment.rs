@@ -5,11 +5,11 @@ use parry2d_f64::partitioning::BvhNode;
 
 use crate::geometry::{Point2, Rect, Vector2};
 
-/// A straight line, ready to be compared with many boxes.
+/// A straight line, prepared for comparisons with many boxes.
 pub(super) struct Segment {
     from: Point2<f64>,
     along: Vector2<f64>,
-    /// Unit vector across it; none for a point.
+    /// Unit vector perpendicular to the line; zero if the line is a point.
     normal: Option<Vector2<f64>>,
 }
 
@@ -25,7 +25,8 @@ impl Segment {
         (point - self.from - self.along * share.clamp(0.0, 1.0)).norm()
     }
 
-    /// Whether a rectangle meets the line or is nearer than `distance_m`; of several rectangles, whether one may be.
+    /// Whether a rectangle meets the line or is nearer than `distance_m`. For a box around several rectangles: whether
+    /// one of them may be.
     pub(super) fn is_nearer(&self, node: &BvhNode, distance_m: f64) -> bool {
         let (from, to) = (self.from, self.from + self.along);
         let (mins, maxs) = (node.mins(), node.maxs());
@@ -43,11 +44,11 @@ impl Segment {
         if across_m >= distance_m {
             return false;
         }
-        // No axis parts them: they meet. A node of the index that holds several rectangles is looked at no closer.
+        // No axis separates them, so they meet. A box around several rectangles is not examined further.
         if !node.is_leaf() || apart_m.max(across_m) <= 0.0 {
             return true;
         }
-        // Two convex shapes apart are nearest at a corner of one of them.
+        // Two separate convex shapes are nearest at a corner of one of them.
         let corners = [(mins.x, mins.y), (maxs.x, mins.y), (mins.x, maxs.y), (maxs.x, maxs.y)];
         rect_distance_m(from, mins, maxs) < distance_m
             || rect_distance_m(to, mins, maxs) < distance_m

@@ -1,4 +1,4 @@
-// Lessons about the three transports: what each one knows about the walls.
+// Lessons about the three transports, and how each one treats walls.
 
 import { centimetres } from '../../ui/format';
 import { DELIVERED, deliveryWords, type Lesson, RUNNING } from './lesson';
