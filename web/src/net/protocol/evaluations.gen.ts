@@ -20,7 +20,7 @@ maps: Array<string>,
  */
 disturbances: Array<number>, 
 /**
- * Trials a cell, 1 to 1000.
+ * Trials per cell, 1 to 1000.
  */
 episodes: number, 
 /**

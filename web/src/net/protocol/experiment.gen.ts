@@ -9,7 +9,7 @@ import type { Parameters } from '../parameters.gen';
  */
 export type Polygon = { 
 /**
- * Outer ring, `[x_m, y_m]` a vertex.
+ * Outer ring, `[x_m, y_m]` for each vertex.
  */
 exterior: Array<[number, number]>, 
 /**
@@ -22,19 +22,19 @@ holes: Array<Array<[number, number]>>, };
  */
 export type Rect = { 
 /**
- * Least x.
+ * Smallest x.
  */
 x_min_m: number, 
 /**
- * Greatest x.
+ * Largest x.
  */
 x_max_m: number, 
 /**
- * Least y.
+ * Smallest y.
  */
 y_min_m: number, 
 /**
- * Greatest y.
+ * Largest y.
  */
 y_max_m: number, };
 

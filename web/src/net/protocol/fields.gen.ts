@@ -169,7 +169,7 @@ pull_n: Array<[number, number]>, };
  */
 export type WorkspaceQuery = { 
 /**
- * Where the tool point goes.
+ * Area for the tool point.
  */
 area: Rect, 
 /**
@@ -225,7 +225,7 @@ export type ValueQuery = { goal_m: [number, number], };
  */
 export type ValueCell = { 
 /**
- * Its middle.
+ * Centre of the cell.
  */
 center_m: [number, number], 
 /**

@@ -143,8 +143,8 @@ columns: number,
  */
 rows: number, 
 /**
- * Runs of equal cells with their length, row by row from the minimum x and y; a run may continue in the next row: 0 for
- * unknown, 1 for free, 2 for an obstacle.
+ * Runs of equal cells with their length, row by row from the minimum x and y; a run may continue in the next row:
+ * 0 for unknown, 1 for free, 2 for an obstacle.
  */
 runs: Array<[number, number]>, };
 

@@ -41,8 +41,8 @@ version: string,
  */
 role: Role, 
 /**
- * Number of the operator's lease; it increases when control passes on. A command may carry it as `epoch`, and is
- * refused if it is not the current one.
+ * Number of the operator's lease; it increases when another browser becomes the operator. A command may carry it
+ * as `epoch`, and is refused if it is not the current one.
  */
 epoch: number, 
 /**
@@ -67,7 +67,7 @@ export type SceneMessage = {
  */
 map: string, 
 /**
- * Maps that `load_scenario` knows.
+ * Maps that `load_scenario` accepts.
  */
 maps: Array<string>, 
 /**
@@ -79,7 +79,7 @@ scenario: Scenario,
  */
 positioner: PositionerKind, 
 /**
- * Controllers that `select_controller` knows.
+ * Controllers that `select_controller` accepts.
  */
 controllers: Array<ControllerName>, workspace: Rect, 
 /**

@@ -10,15 +10,15 @@ export type RecordingFile = {
  */
 id: string, 
 /**
- * The session that it is of; none where the file was not named by Ferry.
+ * Name of the session; `null` for files with other names.
  */
 session: string | null, 
 /**
- * When it began, RFC 3339; none where the file was not named by Ferry.
+ * Time of the beginning, RFC 3339; `null` for files with other names.
  */
 started: string | null, 
 /**
- * Size of Rerun's file up to now.
+ * Size of Rerun's file so far.
  */
 bytes: number, 
 /**
@@ -26,7 +26,7 @@ bytes: number,
  */
 log_bytes: number | null, 
 /**
- * Whether it is being written: it grows, and has no footer yet.
+ * Whether it is still being written. Then it grows, and has no footer yet.
  */
 live: boolean, };
 
@@ -35,6 +35,6 @@ live: boolean, };
  */
 export type RecordingList = { 
 /**
- * The newest first.
+ * Newest first.
  */
 recordings: Array<RecordingFile>, };
