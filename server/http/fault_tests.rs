@@ -81,7 +81,7 @@ async fn a_fault_in_the_recording_is_shown_and_the_session_continues() {
     assert_eq!(session.watch().borrow().recording, "recording");
     faults::arm("recording unwritten", "write");
     let mut views = session.watch();
-    let stopped = views.wait_for(|view| view.recording.contains("its thread failed"));
+    let stopped = views.wait_for(|view| view.recording.contains("recording thread failed"));
     tokio::time::timeout(Duration::from_secs(20), stopped).await.expect("the view shows the fault").unwrap();
     wait_for_a_second(&session).await;
     assert_eq!(session.watch().borrow().ended, None);

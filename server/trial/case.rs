@@ -186,7 +186,7 @@ mod tests {
         assert!(case("").is_ok(), "without an expectation `run` ends it");
         assert!(case(r#","inputs":[{"tick":10800000,"input":"release"}]"#).is_ok());
         let error = case(r#","inputs":[{"tick":10800001,"input":"release"}]"#).unwrap_err();
-        assert_eq!(error, "inputs: tick is 10800001, it must be at most 10800000, a day");
+        assert_eq!(error, "inputs: tick is 10800001, it must be at most 10800000 (one day)");
         let error = case(r#","expect":{"deliveries":1,"by_tick":18446744073709551615}"#).unwrap_err();
         assert!(error.starts_with("expect.by_tick is 18446744073709551615, it must be at most"), "{error}");
         let error = case(r#","inputs":[{"tick":1,"input":"fly"}]"#).unwrap_err();
