@@ -93,7 +93,7 @@ system-run:
 
 system-test: system-run
 	@packages=; \
-	command -v chromium >/dev/null || packages+=" chromium"; \
+	command -v chromium-headless-shell >/dev/null || packages+=" chromium-headless-shell"; \
 	python3 -c 'import ensurepip, venv' 2>/dev/null || packages+=" python3-venv"; \
 	/sbin/ldconfig -p | grep -q libEGL.so.1 || packages+=" libegl1 libgl1-mesa-dri"; \
 	$(call install,$$packages)

@@ -1,5 +1,5 @@
 import { defineConfig } from '@playwright/test';
-import { CHROMIUM_ARGUMENTS } from './e2e/support/browser';
+import { BROWSER, CHROMIUM_ARGUMENTS } from './e2e/support/browser';
 
 /** `FERRY_BIN` is the server that is tested, `target/release/ferry` if not set. */
 export default defineConfig({
@@ -20,7 +20,7 @@ export default defineConfig({
     actionTimeout: 20_000,
     navigationTimeout: 30_000,
     launchOptions: {
-      executablePath: '/usr/bin/chromium',
+      executablePath: BROWSER,
       args: [...CHROMIUM_ARGUMENTS, '--disable-gpu'],
     },
     screenshot: 'only-on-failure',

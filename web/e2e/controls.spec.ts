@@ -1,6 +1,6 @@
-// Every control of the page by mouse, keyboard and touch. e2e/controls lists what each changes.
+// The controls of the page by mouse, keyboard and touch. e2e/controls lists what each changes.
 
-import { SECTIONS_BY_TEST, exercise } from './controls/table';
+import { exercise, sectionsFor } from './controls/table';
 import type { Section } from './controls/row';
 import { type Lab, test } from './fixtures';
 import { DESKTOP, TABLET } from './support/browser';
@@ -24,7 +24,7 @@ for (const [name, Method] of Object.entries(INPUT_METHODS)) {
   test.describe(`by ${name}`, () => {
     test.use(name === 'touch' ? TABLET : DESKTOP);
 
-    for (const [title, sections] of Object.entries(SECTIONS_BY_TEST)) {
+    for (const [title, sections] of Object.entries(sectionsFor(name))) {
       test(`each control of ${title} works by ${name}`, async ({ lab }) => {
         const input = new Method(lab);
         for (const section of sections) await exerciseAll(lab, input, section);

@@ -1,7 +1,8 @@
 // Fixtures: one server per worker, and one session with an operator's page per test.
 // A test fails if the browser reports an error or sends a request to another host.
 
-import { type BrowserContextOptions, test as base, expect } from '@playwright/test';
+import { type BrowserContextOptions, type Page, test as base, expect } from '@playwright/test';
+import { useSlowDisplay } from './support/display';
 import { Lab } from './support/lab';
 import { Server } from './support/server';
 import { Watch } from './support/watch';
@@ -32,6 +33,11 @@ interface TestFixtures {
   lab: Lab;
   /** Opens a further page in its own browser context. */
   openLab: (options?: OpenOptions) => Promise<Lab>;
+}
+
+async function open(page: Page, url: string) {
+  await useSlowDisplay(page);
+  return Lab.attach(page, url);
 }
 
 const NAME_LENGTH = 32;
@@ -85,7 +91,7 @@ export const test = base.extend<TestFixtures, WorkerFixtures>({
   },
 
   lab: async ({ session, page }, use) => {
-    await use(await Lab.attach(page, session.url));
+    await use(await open(page, session.url));
   },
 
   openLab: async ({ session, browser }, use) => {
@@ -93,7 +99,7 @@ export const test = base.extend<TestFixtures, WorkerFixtures>({
     await use(async ({ url = session.url, ...options } = {}) => {
       const context = await browser.newContext(options);
       contexts.push(context);
-      return Lab.attach(await context.newPage(), url);
+      return open(await context.newPage(), url);
     });
     await Promise.all(contexts.map((context) => context.close()));
   },

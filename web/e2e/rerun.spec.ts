@@ -1,6 +1,6 @@
 // Rerun's viewer in its frame: a recording, colours and focus. Needs the arguments for WebGL.
 
-import { CHROMIUM_ARGUMENTS, SOFTWARE_WEBGL } from './support/browser';
+import { BROWSER, CHROMIUM_ARGUMENTS, SOFTWARE_WEBGL } from './support/browser';
 import { type Lab, expect, test } from './fixtures';
 import { must, until } from './support/wait';
 
@@ -10,7 +10,7 @@ const MISSING = /there is no recording "none/i;
 
 test.use({
   launchOptions: {
-    executablePath: '/usr/bin/chromium',
+    executablePath: BROWSER,
     args: [...CHROMIUM_ARGUMENTS, ...SOFTWARE_WEBGL],
   },
 });

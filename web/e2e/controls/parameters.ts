@@ -145,7 +145,10 @@ function rowsOf(fields: Record<string, Field>): Rows {
 const summaryOf = (lab: Lab, name: string) =>
   lab.page.locator('summary').filter({ hasText: new RegExp(`^${name}( ?\\d+ changed)?$`) });
 
-export const PARAMETERS: readonly Section[] = GROUPS.map(({ name, controller, fields }) => ({
+/** Groups that have a field of every kind. */
+const GROUPS_OF_EVERY_KIND = ['RL', 'Switching'];
+
+const sectionOf = ({ name, controller, fields }: Group): Section => ({
   name: `parameters: ${name}`,
   ready: async (lab) => {
     if (controller) await lab.controller(controller);
@@ -161,4 +164,11 @@ export const PARAMETERS: readonly Section[] = GROUPS.map(({ name, controller, fi
     ...rowsOf(fields),
   },
   after: restore,
-}));
+});
+
+export const PARAMETERS = GROUPS.map(sectionOf);
+
+/** All fields of a kind are one component, so an input method need not use each of them. */
+export const SOME_PARAMETERS = GROUPS.filter(({ name }) => GROUPS_OF_EVERY_KIND.includes(name)).map(
+  sectionOf,
+);

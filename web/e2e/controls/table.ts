@@ -6,15 +6,17 @@ import type { InputMethod } from '../support/inputMethods';
 import { isChosen, setOf } from '../support/inputMethods';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { LABORATORY, LAYERS } from './laboratory';
-import { PARAMETERS } from './parameters';
+import { PARAMETERS, SOME_PARAMETERS } from './parameters';
 import type { Row, Section } from './row';
 import { DISTURB, EVALUATE, MAGNET, PLOTS, RECORDINGS, SCENE_VIEW } from './tools';
 
 const EFFECT_MS = 20_000;
 const INTERVALS = [25];
 
+type SectionsByTest = Readonly<Record<string, readonly Section[]>>;
+
 /** The sections of each test. Small sections share a test, because opening a page takes longer than they do. */
-export const SECTIONS_BY_TEST: Readonly<Record<string, readonly Section[]>> = {
+const SECTIONS_BY_TEST: SectionsByTest = {
   'the laboratory': LABORATORY,
   'the layers and the link': [LAYERS, SHARE],
   'plots, magnet and disturbances': [PLOTS, MAGNET, DISTURB],
@@ -24,6 +26,12 @@ export const SECTIONS_BY_TEST: Readonly<Record<string, readonly Section[]>> = {
   lessons: [LESSONS],
   'the parameters': PARAMETERS,
 };
+
+/** The mouse uses every parameter, the keyboard and touch one field of each kind. */
+export const sectionsFor = (inputMethod: string): SectionsByTest =>
+  inputMethod === 'mouse'
+    ? SECTIONS_BY_TEST
+    : { ...SECTIONS_BY_TEST, 'the parameters': SOME_PARAMETERS };
 
 type AriaRole = Parameters<Page['getByRole']>[0];
 

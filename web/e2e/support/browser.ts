@@ -1,4 +1,7 @@
-// Arguments and window sizes of the browser.
+// The browser, its arguments and window sizes.
+
+/** Chromium without its own window: the same engine, with a fifth less work than `chromium --headless`. */
+export const BROWSER = process.env.FERRY_BROWSER ?? '/usr/bin/chromium-headless-shell';
 
 /** Arguments of every test. */
 export const CHROMIUM_ARGUMENTS = [

@@ -1,0 +1,41 @@
+// A slower display, which the page of a test draws for.
+
+import type { Page } from '@playwright/test';
+
+const FRAME_MS = 40;
+
+/** Runs in the page before its scripts. */
+function slowDown(frame_ms: number) {
+  const request = window.requestAnimationFrame.bind(window);
+  const cancel = window.cancelAnimationFrame.bind(window);
+  const cancels = new Map<number, () => void>();
+  let last_ms = 0;
+  let requests = 0;
+
+  window.requestAnimationFrame = (work) => {
+    requests += 1;
+    const id = requests;
+    const wait_ms = Math.max(0, last_ms + frame_ms - performance.now());
+    const timer = setTimeout(() => {
+      const frame = request((now) => {
+        cancels.delete(id);
+        last_ms = now;
+        work(now);
+      });
+      cancels.set(id, () => {
+        cancel(frame);
+      });
+    }, wait_ms);
+    cancels.set(id, () => {
+      clearTimeout(timer);
+    });
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => {
+    cancels.get(id)?.();
+    cancels.delete(id);
+  };
+}
+
+/** Makes a page draw at most 25 frames per second: without a graphics card, drawing is most of the work. */
+export const useSlowDisplay = (page: Page) => page.addInitScript(slowDown, FRAME_MS);
