@@ -57,6 +57,7 @@ test('asks for the token, and sends it in the request body only', async ({ conte
   const page = await context.newPage();
   await page.goto(`${url}/s/anna`);
   await expect(page).toHaveTitle(/Log in/);
+  await expect(page.locator('main p').first()).toHaveText(/^Enter the token of this server/);
   for (const colorScheme of ['dark', 'light'] as const) {
     await page.emulateMedia({ colorScheme });
     expect(await violations(page)).toEqual([]);
