@@ -15,9 +15,11 @@ import { createEdits } from './edits';
 import { createGoal } from './goal';
 import { History } from './history';
 import { enqueue, frameScheduler } from './inbox';
+import { createKeeper } from './keepControl';
 import { createLayerChoice, type KnownLayer } from './layers';
 import { EMPTY, type Input, type Model, reduce } from './model';
 import type { Lab } from './slices';
+import { tabStorage } from '../ui/storage';
 
 export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
   const [model, setModel] = createSignal<Model>(EMPTY);
@@ -64,6 +66,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   };
 
   const name = sessionOf(page);
+  const keeper = createKeeper(name, tabStorage(), () => socket.send({ type: 'take_control' }));
   const socket = connect(
     {
       address: liveAddress(page, name),
@@ -73,6 +76,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     },
     {
       opened: () => {
+        keeper.opened();
         take({ type: 'connection', connection: { kind: 'live' } });
       },
       lost: (attempt) => {
@@ -82,6 +86,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
         take({ type: 'notice', place: 'session', text: why });
       },
       message: (message) => {
+        if (message.type === 'hello') keeper.hello(message);
         take({ type: 'message', message });
       },
       picture: (picture) => {

@@ -15,3 +15,12 @@ export function remember(key: string, value: string): void {
     // See above.
   }
 }
+
+/** What this tab remembers over a reload, or nothing if storage is forbidden. */
+export function tabStorage(): Pick<Storage, 'getItem' | 'setItem' | 'removeItem'> {
+  try {
+    return window.sessionStorage;
+  } catch {
+    return { getItem: () => null, setItem: () => undefined, removeItem: () => undefined };
+  }
+}

@@ -1,0 +1,58 @@
+import { expect, it, vi } from 'vitest';
+import { createKeeper } from './keepControl';
+
+function storage() {
+  const items = new Map<string, string>();
+  return {
+    getItem: (key: string) => items.get(key) ?? null,
+    setItem: (key: string, value: string) => void items.set(key, value),
+    removeItem: (key: string) => void items.delete(key),
+  };
+}
+
+const OPERATOR = { role: 'operator', operator_present: true } as const;
+const WATCHING = { role: 'viewer', operator_present: true } as const;
+const FREE = { role: 'viewer', operator_present: false } as const;
+
+it('takes control again when the old connection closes last', () => {
+  const tab = storage();
+  createKeeper('main', tab, vi.fn()).hello(OPERATOR);
+  const take = vi.fn();
+  const keeper = createKeeper('main', tab, take);
+  keeper.opened();
+  keeper.hello(WATCHING);
+  expect(take).not.toHaveBeenCalled();
+  keeper.hello(FREE);
+  keeper.hello(FREE);
+  expect(take).toHaveBeenCalledOnce();
+});
+
+it('does not take control that was released, or of another session', () => {
+  const tab = storage();
+  const first = createKeeper('main', tab, vi.fn());
+  first.hello(OPERATOR);
+  const other = vi.fn();
+  const keeper = createKeeper('anna', tab, other);
+  keeper.opened();
+  keeper.hello(FREE);
+  expect(other).not.toHaveBeenCalled();
+  first.hello(FREE);
+  const take = vi.fn();
+  const again = createKeeper('main', tab, take);
+  again.opened();
+  again.hello(FREE);
+  expect(take).not.toHaveBeenCalled();
+});
+
+it('takes no control that becomes free later', () => {
+  const tab = storage();
+  createKeeper('main', tab, vi.fn()).hello(OPERATOR);
+  const take = vi.fn();
+  let now_ms = 0;
+  const keeper = createKeeper('main', tab, take, () => now_ms);
+  keeper.opened();
+  keeper.hello(WATCHING);
+  now_ms = 10_001;
+  keeper.hello(FREE);
+  expect(take).not.toHaveBeenCalled();
+});

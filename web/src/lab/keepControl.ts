@@ -1,0 +1,44 @@
+// After a reload or a lost connection the server may close the old connection after the new one has come. Then nobody
+// else has control, and the page that had it takes it again.
+
+import type { Hello } from '../net/protocol.gen';
+
+const KEY = 'ferry.operates';
+/** The old connection is closed within this time. */
+const RETAKE_MS = 10_000;
+
+export interface Keeper {
+  opened(): void;
+  hello(message: Pick<Hello, 'role' | 'operator_present'>): void;
+}
+
+/** `tab` is the storage of the browser's tab. */
+export function createKeeper(
+  session: string,
+  tab: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
+  take: () => void,
+  now_ms: () => number = Date.now,
+): Keeper {
+  let isOperator = false;
+  let until_ms = 0;
+  return {
+    opened: () => {
+      isOperator = false;
+      until_ms = tab.getItem(KEY) === session ? now_ms() + RETAKE_MS : 0;
+    },
+    hello: ({ role, operator_present }) => {
+      if (role === 'operator') {
+        isOperator = true;
+        until_ms = 0;
+        tab.setItem(KEY, session);
+      } else if (isOperator) {
+        // Released, or passed to another browser.
+        isOperator = false;
+        tab.removeItem(KEY);
+      } else if (!operator_present && now_ms() < until_ms) {
+        until_ms = 0;
+        take();
+      }
+    },
+  };
+}
