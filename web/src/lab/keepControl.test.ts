@@ -25,6 +25,13 @@ it('takes control again when the old connection closes last', () => {
   keeper.hello(FREE);
   keeper.hello(FREE);
   expect(take).toHaveBeenCalledOnce();
+  keeper.hello(OPERATOR);
+  expect(keeper.isReturning()).toBe(true);
+  // Released.
+  keeper.hello(FREE);
+  keeper.hello(FREE);
+  expect(keeper.isReturning()).toBe(false);
+  expect(take).toHaveBeenCalledOnce();
 });
 
 it('does not take control that was released, or of another session', () => {
@@ -42,6 +49,7 @@ it('does not take control that was released, or of another session', () => {
   again.opened();
   again.hello(FREE);
   expect(take).not.toHaveBeenCalled();
+  expect(again.isReturning()).toBe(false);
 });
 
 it('takes no control that becomes free later', () => {

@@ -1,5 +1,5 @@
-// After a reload or a lost connection the server may close the old connection after the new one has come. Then nobody
-// else has control, and the page that had it takes it again.
+// After a reload or a lost connection the server may close the old connection after the new one has come. Then control is
+// free, and the page that had it takes it again.
 
 import type { Hello } from '../net/protocol.gen';
 
@@ -8,6 +8,8 @@ const KEY = 'ferry.operates';
 const RETAKE_MS = 10_000;
 
 export interface Keeper {
+  /** Whether the connection is new and control that this page had before may come back, or just has. */
+  isReturning(): boolean;
   opened(): void;
   hello(message: Pick<Hello, 'role' | 'operator_present'>): void;
 }
@@ -20,23 +22,27 @@ export function createKeeper(
   now_ms: () => number = Date.now,
 ): Keeper {
   let isOperator = false;
+  let hasAsked = false;
   let until_ms = 0;
+  const isReturning = (): boolean => now_ms() < until_ms;
   return {
+    isReturning,
     opened: () => {
       isOperator = false;
+      hasAsked = false;
       until_ms = tab.getItem(KEY) === session ? now_ms() + RETAKE_MS : 0;
     },
     hello: ({ role, operator_present }) => {
       if (role === 'operator') {
         isOperator = true;
-        until_ms = 0;
         tab.setItem(KEY, session);
       } else if (isOperator) {
         // Released, or passed to another browser.
         isOperator = false;
-        tab.removeItem(KEY);
-      } else if (!operator_present && now_ms() < until_ms) {
         until_ms = 0;
+        tab.removeItem(KEY);
+      } else if (!operator_present && !hasAsked && isReturning()) {
+        hasAsked = true;
         take();
       }
     },

@@ -119,6 +119,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     hello,
     ended,
     canOperate,
+    isReturning: () => keeper.isReturning(),
     refusals,
     send,
     scene,

@@ -73,7 +73,8 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     const experiment = requested();
     if (!lab.scene() || lab.connection().kind !== 'live' || !lab.hello()) return;
     const may = lab.canOperate();
-    if (experiment && may && (isFirst || wanted())) {
+    // A reloaded page may be a viewer for a moment.
+    if (experiment && may && (isFirst || lab.isReturning() || wanted())) {
       send(experiment);
       forget();
     }

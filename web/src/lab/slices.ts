@@ -21,6 +21,8 @@ export interface Session {
   readonly ended: Accessor<string | undefined>;
   /** Connected as the operator of a session that has not ended. */
   readonly canOperate: Accessor<boolean>;
+  /** Whether the connection is new and the control that this page had before comes back. */
+  isReturning(): boolean;
   /** Grows with each refusal and each new connection, so that forms show the server's values again. */
   readonly refusals: Accessor<number>;
   send(message: ClientMessage): void;
