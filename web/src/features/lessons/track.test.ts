@@ -93,6 +93,11 @@ describe('a track', () => {
       state: { ...frame.state, phase: 'delivered' },
     }));
     expect(trackOf(holding).lingered_s).toBe(0);
+    const stopped = frames.map((frame) => ({
+      ...frame,
+      state: { ...frame.state, phase: 'stopped: 150 steps without reaching the goal' },
+    }));
+    expect(trackOf(stopped).lingered_s).toBeCloseTo(7, 6);
   });
 
   it('keeps the height at which the bead jumped', () => {

@@ -43,7 +43,7 @@ export interface Track {
   readonly disturbances: number;
   readonly deliveries: readonly Delivery[];
   readonly stopped: boolean;
-  /** Longest time that the tool stayed in one place during a transport. */
+  /** Longest time that the tool stayed in one place during a transport, or after it stopped without a delivery. */
   readonly lingered_s: number;
   readonly plans: number;
   readonly greatestLift: number;
@@ -87,8 +87,9 @@ const isLoss = ({ kind, text }: EventMessage): boolean =>
 
 function lingering(track: Track, state: StateMessage, at: readonly [number, number]) {
   const { anchor, lingered_s } = track;
-  const isOnItsWay = state.phase === 'transporting' && !state.hand_m;
-  if (!isOnItsWay || distance_m(anchor.at, at) > STILL_M) {
+  // At high speed few frames may arrive before the transport stops.
+  const isOnItsWay = state.phase === 'transporting' || state.phase.startsWith('stopped');
+  if (!isOnItsWay || state.hand_m || distance_m(anchor.at, at) > STILL_M) {
     return { anchor: { at, time_s: state.sim_time_s }, lingered_s };
   }
   return { anchor, lingered_s: Math.max(lingered_s, state.sim_time_s - anchor.time_s) };
