@@ -1,9 +1,11 @@
 //! Recordings: a session or an evaluated episode as two files per part, written by a separate thread. Rerun's file
-//! (`.rrd`) is for viewing, the input log (`.ferry`) for replay.
+//! (`.rrd`) is for viewing, the input log (`.ferry`) for replay. Beside the parts of sessions, a small file says what a
+//! part contains (`.about.json`).
 //!
 //! A long session is split into parts, because Rerun keeps the index of an open file in memory, and so that old parts
 //! can be deleted. Each part can be opened and replayed separately.
 
+mod about;
 mod archive;
 mod blueprint;
 mod drawing;
@@ -25,6 +27,7 @@ use crate::trial::{
     Arena, Beginning, Event, LogError, LoggedBeginning, LoggedTick, Moment, Sight, Sink, TickRecord, Trial,
 };
 
+pub use about::Content;
 pub use archive::{Archive, Listed, Retention};
 use part::{Keeper, Naming};
 
@@ -59,6 +62,16 @@ pub enum RecordingError {
     /// Error of Rerun.
     #[error("recording: {0}")]
     Rerun(String),
+    /// The folder has no such recording.
+    #[error("there is no recording {id:?}")]
+    Unknown { id: String },
+    /// Only a finished recording can be deleted.
+    #[error("the recording {id:?} is still being written")]
+    Live { id: String },
+    #[error("the title has {chars} characters, the limit is {max}")]
+    LongTitle { chars: usize, max: usize },
+    #[error("the title contains the control character {found:?}")]
+    ControlInTitle { found: char },
 }
 
 impl From<re_sdk::RecordingStreamError> for RecordingError {

@@ -1,4 +1,4 @@
-//! The folder of the sessions' recordings: names, list and deletion of old ones.
+//! The folder of the sessions' recordings: names, list, titles and deletion.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -9,13 +9,19 @@ use jiff::tz::TimeZone;
 use jiff::{Timestamp, Zoned};
 
 use super::RecordingError;
+use super::about::{About, Content, title};
 
 /// Format of a name's beginning: local time, to the millisecond.
 const BEGINNING: &str = "%Y%m%d-%H%M%S-%3f";
 const BEGINNING_LENGTH: usize = "20250130-235959-999".len();
 
-/// File extensions of a recording.
+/// File extensions of a recording that can be downloaded.
 const ENDINGS: [&str; 2] = ["rrd", "ferry"];
+/// What it contains, and its title.
+const ABOUT: &str = "about.json";
+/// All files of a recording. The one that makes it appear in the list is the last to be deleted; the first exists only
+/// while [`ABOUT`] is written.
+const ALL_ENDINGS: [&str; 4] = ["about.part", ABOUT, ENDINGS[1], ENDINGS[0]];
 
 /// Name of a part of a session's recording. Names sort by time.
 fn name(started: &Zoned, session: &str) -> String {
@@ -23,7 +29,7 @@ fn name(started: &Zoned, session: &str) -> String {
 }
 
 /// A finished or running recording on disk.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listed {
     /// File name without extension.
     pub id: String,
@@ -37,16 +43,21 @@ pub struct Listed {
     pub log_bytes: Option<u64>,
     /// Whether it is being written.
     pub live: bool,
+    /// Given by a user.
+    pub title: Option<String>,
+    /// Unknown in recordings of older versions and of others.
+    pub content: Option<Content>,
+    about_bytes: u64,
 }
 
 impl Listed {
-    fn new(id: &str, bytes: u64, log_bytes: Option<u64>, live: bool, zone: &TimeZone) -> Self {
+    fn new(id: &str, bytes: u64, zone: &TimeZone) -> Self {
         let (started, session) = started_and_session(id, zone).unzip();
-        Self { id: id.to_owned(), session, started, bytes, log_bytes, live }
+        Self { id: id.to_owned(), session, started, bytes, ..Self::default() }
     }
 
     fn all_bytes(&self) -> u64 {
-        self.bytes + self.log_bytes.unwrap_or_default()
+        self.bytes + self.log_bytes.unwrap_or_default() + self.about_bytes
     }
 }
 
@@ -79,12 +90,14 @@ pub struct Archive {
     retention: Retention,
     /// Names of recordings in progress.
     live: Mutex<BTreeSet<String>>,
+    /// Held while a title or content is written and while files are deleted.
+    changing: Mutex<()>,
 }
 
 impl Archive {
     /// The folder is created at the first write.
     pub fn new(folder: PathBuf, retention: Retention) -> Arc<Self> {
-        Arc::new(Self { folder, retention, live: Mutex::default() })
+        Arc::new(Self { folder, retention, live: Mutex::default(), changing: Mutex::default() })
     }
 
     pub fn folder(&self) -> &Path {
@@ -98,7 +111,17 @@ impl Archive {
         };
         let listed = self.list()?.into_iter().find(|listed| listed.id == id);
         let known = listed.filter(|listed| ending == ENDINGS[0] || listed.log_bytes.is_some());
-        Ok(known.map(|listed| self.folder.join(format!("{}.{ending}", listed.id))))
+        Ok(known.map(|listed| self.path(&listed.id, ending)))
+    }
+
+    fn path(&self, id: &str, ending: &str) -> PathBuf {
+        self.folder.join(format!("{id}.{ending}"))
+    }
+
+    /// A listed recording; other names never become a path.
+    fn find(&self, id: &str) -> Result<Listed, RecordingError> {
+        let found = self.list()?.into_iter().find(|listed| listed.id == id);
+        found.ok_or_else(|| RecordingError::Unknown { id: id.to_owned() })
     }
 
     /// The recordings, newest name first. A missing folder has none.
@@ -110,21 +133,77 @@ impl Archive {
             Err(error) => return Err(failed(error)),
         };
         let zone = TimeZone::system();
-        let live = self.lock().clone();
+        let live = lock(&self.live).clone();
         let mut found = Vec::new();
         for entry in entries {
             let name = entry.map_err(failed)?.file_name();
             let Some(id) = name.to_str().and_then(|name| name.strip_suffix(".rrd")) else { continue };
             // The recording may have been deleted meanwhile.
             let Some(bytes) = self.size(id, ENDINGS[0]) else { continue };
-            found.push(Listed::new(id, bytes, self.size(id, ENDINGS[1]), live.contains(id), &zone));
+            let About { title, content } = About::read(&self.path(id, ABOUT));
+            found.push(Listed {
+                log_bytes: self.size(id, ENDINGS[1]),
+                live: live.contains(id),
+                title,
+                content,
+                about_bytes: self.size(id, ABOUT).unwrap_or_default(),
+                ..Listed::new(id, bytes, &zone)
+            });
         }
         found.sort_by(|a, b| b.id.cmp(&a.id));
         Ok(found)
     }
 
     fn size(&self, id: &str, ending: &str) -> Option<u64> {
-        std::fs::metadata(self.folder.join(format!("{id}.{ending}"))).ok().map(|data| data.len())
+        std::fs::metadata(self.path(id, ending)).ok().map(|data| data.len())
+    }
+
+    /// Gives a recording a title, or removes it.
+    ///
+    /// # Errors
+    /// The title is not allowed, or the recording is unknown.
+    pub fn rename(&self, id: &str, wished: Option<&str>) -> Result<Listed, RecordingError> {
+        let title = title(wished.unwrap_or_default())?;
+        let _changing = lock(&self.changing);
+        let listed = self.find(id)?;
+        self.update(id, |about| about.title.clone_from(&title))?;
+        Ok(Listed { title, ..listed })
+    }
+
+    /// Deletes the files of a finished recording.
+    ///
+    /// # Errors
+    /// The recording is unknown or being written.
+    pub fn delete(&self, id: &str) -> Result<(), RecordingError> {
+        let _changing = lock(&self.changing);
+        match self.find(id)? {
+            Listed { live: true, id, .. } => Err(RecordingError::Live { id }),
+            listed => self.remove(&listed.id),
+        }
+    }
+
+    fn remove(&self, id: &str) -> Result<(), RecordingError> {
+        ALL_ENDINGS.iter().try_for_each(|ending| {
+            let path = self.path(id, ending);
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(RecordingError::Io { path, error }),
+                _ => Ok(()),
+            }
+        })
+    }
+
+    /// Sets the content of a recording in progress.
+    pub(super) fn describe(&self, id: &str, content: &Content) -> Result<(), RecordingError> {
+        let _changing = lock(&self.changing);
+        self.update(id, |about| about.content = Some(content.clone()))
+    }
+
+    /// The caller holds `changing`.
+    fn update(&self, id: &str, change: impl FnOnce(&mut About)) -> Result<(), RecordingError> {
+        let path = self.path(id, ABOUT);
+        let mut about = About::read(&path);
+        change(&mut about);
+        about.write(&path).map_err(|error| RecordingError::Io { path, error })
     }
 
     /// Returns the name of a new part of a session's recording, and deletes old recordings to make room.
@@ -132,19 +211,20 @@ impl Archive {
         std::fs::create_dir_all(&self.folder)
             .map_err(|error| RecordingError::Io { path: self.folder.clone(), error })?;
         let id = name(&Zoned::now(), session);
-        self.lock().insert(id.clone());
+        lock(&self.live).insert(id.clone());
         self.prune()?;
         Ok(id)
     }
 
     /// Marks a recording as finished.
     pub(super) fn release(&self, id: &str) {
-        self.lock().remove(id);
+        lock(&self.live).remove(id);
     }
 
     /// Deletes the oldest recordings until the limits hold, including the new one. Files with other names and
     /// recordings in progress stay.
     fn prune(&self) -> Result<(), RecordingError> {
+        let _changing = lock(&self.changing);
         let listed = self.list()?;
         let ours = |listed: &&Listed| listed.session.is_some();
         let mut count = 1 + listed.iter().filter(ours).count();
@@ -153,25 +233,17 @@ impl Archive {
             if count <= self.retention.max_parts && bytes <= self.retention.max_bytes {
                 break;
             }
-            for ending in ENDINGS {
-                let path = self.folder.join(format!("{}.{ending}", old.id));
-                match std::fs::remove_file(&path) {
-                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                        return Err(RecordingError::Io { path, error });
-                    }
-                    _ => {}
-                }
-            }
+            self.remove(&old.id)?;
             tracing::info!(id = old.id, "old recording deleted");
             count -= 1;
             bytes -= old.all_bytes();
         }
         Ok(())
     }
+}
 
-    fn lock(&self) -> MutexGuard<'_, BTreeSet<String>> {
-        self.live.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
@@ -184,7 +256,7 @@ mod tests {
         let started: Timestamp = "2026-03-01T21:04:09.045Z".parse().unwrap();
         let id = name(&started.to_zoned(zone.clone()), "session-2");
         assert_eq!(id, "20260301-230409-045-session-2");
-        let listed = Listed::new(&id, 5, None, false, &zone);
+        let listed = Listed::new(&id, 5, &zone);
         assert_eq!((listed.started, listed.session.as_deref()), (Some(started), Some("session-2")));
         for other in [
             "",
@@ -194,7 +266,7 @@ mod tests {
             "20261301-230409-045-main",
             "ä".repeat(12).as_str(),
         ] {
-            let listed = Listed::new(other, 5, None, false, &zone);
+            let listed = Listed::new(other, 5, &zone);
             assert_eq!((listed.started, listed.session), (None, None), "{other}");
         }
     }
@@ -229,5 +301,63 @@ mod tests {
 
         archive(100, 4000).claim("main").unwrap();
         assert_eq!(ids(&by_count), ["mine", &new, olds[2]], "5000 bytes are too many, 3000 are not");
+
+        std::fs::write(by_count.path(olds[2], ABOUT), vec![b' '; 2000]).unwrap();
+        archive(100, 4000).claim("main").unwrap();
+        assert_eq!(ids(&by_count), ["mine", &new], "5000 bytes again");
+        assert!(!by_count.path(olds[2], ABOUT).exists());
+    }
+
+    fn archive_in(folder: &Path) -> Arc<Archive> {
+        Archive::new(folder.to_owned(), Retention::default())
+    }
+
+    #[test]
+    fn a_title_and_the_content_are_kept_beside_each_other() {
+        let folder = tempfile::tempdir().unwrap();
+        let archive = archive_in(folder.path());
+        let id = archive.claim("main").unwrap();
+        put(folder.path(), &id, 10);
+        let content = Content { maps: vec!["posts".to_owned()], delivered: 2, ..Content::default() };
+        assert_eq!(
+            archive.rename(&id, Some(" first ")).unwrap().title.as_deref(),
+            Some("first"),
+            "while it is written"
+        );
+        archive.describe(&id, &content).unwrap();
+        let listed = archive.list().unwrap().remove(0);
+        assert_eq!((listed.title.as_deref(), &listed.content), (Some("first"), &Some(content.clone())));
+        for nothing in [None, Some(""), Some("  ")] {
+            archive.rename(&id, Some("second")).unwrap();
+            assert_eq!(archive.rename(&id, nothing).unwrap().title, None);
+            let listed = archive.list().unwrap().remove(0);
+            assert_eq!((&listed.title, &listed.content), (&None, &Some(content.clone())), "{nothing:?}");
+        }
+        assert!(matches!(archive.rename(&id, Some("a\nb")), Err(RecordingError::ControlInTitle { found: '\n' })));
+        assert!(matches!(archive.rename("missing", Some("a")), Err(RecordingError::Unknown { .. })));
+    }
+
+    #[test]
+    fn deletes_all_files_of_a_finished_recording_and_no_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let archive = archive_in(folder.path());
+        let id = archive.claim("main").unwrap();
+        for id in [id.as_str(), "mine", "mine.too"] {
+            put(folder.path(), id, 10);
+            archive.rename(id, Some("title")).unwrap();
+        }
+        std::fs::write(archive.path("mine", "about.part"), "{").unwrap();
+        std::fs::write(archive.path("mine", "txt"), "other").unwrap();
+        assert!(matches!(archive.delete(&id), Err(RecordingError::Live { .. })));
+        archive.release(&id);
+        archive.delete(&id).unwrap();
+        archive.delete("mine").unwrap();
+        for missing in ["mine", id.as_str(), "../mine", "mine.rrd", ""] {
+            assert!(matches!(archive.delete(missing), Err(RecordingError::Unknown { .. })), "{missing}");
+        }
+        let mut left: Vec<_> =
+            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        left.sort();
+        assert_eq!(left, ["mine.too.about.json", "mine.too.ferry", "mine.too.rrd", "mine.txt"]);
     }
 }

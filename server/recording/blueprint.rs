@@ -1,6 +1,6 @@
 //! Layout of a recording in Rerun's viewer.
 
-use re_sdk::blueprint::components::PanelState;
+use re_sdk::blueprint::components::{PanelState, PlayState};
 use re_sdk::blueprint::{
     BarChartView, Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial2DView, Spatial3DView,
     StateTimelineView, Tabs, TextLogView, TimePanel, TimeSeriesView, Vertical,
@@ -16,7 +16,7 @@ pub(super) fn blueprint() -> Blueprint {
     let camera = Spatial2DView::new("Camera").with_origin("camera");
     let observation = Spatial2DView::new("Observation").with_origin("observation");
     let errors = TimeSeriesView::new("Tracking error, mm").with_origin("tracking_error_mm");
-    let mode = StateTimelineView::new("Mode and phase").with_contents(["+ /mode", "+ /phase"]);
+    let mode = StateTimelineView::new("Trial, mode and phase").with_contents(["+ /trial", "+ /mode", "+ /phase"]);
     let quantiles = BarChartView::new("Quantiles: +x, -x, +y, -y").with_origin("quantiles");
     let values = TimeSeriesView::new("Values of the actions").with_origin("action_values");
     let forces = TimeSeriesView::new("Lift ratio, force of the hand").with_origin("forces");
@@ -35,10 +35,15 @@ pub(super) fn blueprint() -> Blueprint {
     ])
     .with_column_shares([4.0, 3.0, 3.0]);
     let root = Vertical::new([above.into(), below.into()]).with_row_shares([3.0, 2.0]);
+    // Paused, it opens at the beginning.
+    let time = TimePanel::new()
+        .with_state(PanelState::Collapsed)
+        .with_timeline("recording_time")
+        .with_play_state(PlayState::Paused);
     Blueprint::new(ContainerLike::from(root))
         .with_auto_views(false)
         .with_auto_layout(false)
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
-        .with_time_panel(TimePanel::new().with_state(PanelState::Collapsed).with_timeline("sim_time"))
+        .with_time_panel(time)
 }

@@ -1,4 +1,5 @@
-//! The entities logged for Rerun. Timelines: `tick` continues across resets, `sim_time` is the trial's own time.
+//! The entities logged for Rerun. Timelines: `recording_time` and `tick` continue across resets, so that trials do not
+//! overlap; `sim_time` is the trial's own time.
 //!
 //! The plan view is in the map's units, millimetres with y down, because Rerun draws 2-D views that way.
 
@@ -15,7 +16,7 @@ use re_sdk_types::archetypes::{
 
 use super::blueprint::blueprint;
 use super::drawing::{GOAL, TREE, WALL, color, plan_mm};
-use super::samples::Samples;
+use super::samples::{Samples, recording_time_s};
 use super::{Opening, RecordingError, Sample, trouble};
 use crate::control::switching::Mode;
 use crate::control::transport::Carrier;
@@ -39,7 +40,29 @@ pub(super) struct TimelinePosition {
     /// Tick of the recording minus tick of the current trial.
     offset: i64,
     last: i64,
+    /// Number of trials so far.
+    trials: u32,
 }
+
+impl TimelinePosition {
+    /// Counts a tick that is not necessarily sampled.
+    pub(super) fn advance(&mut self) {
+        self.last += 1;
+    }
+
+    /// Begins a trial, or continues at one of its ticks. Other than the state that follows the last tick, it begins one
+    /// tick later, so that two states never have the same time.
+    fn begin(&mut self, tick: u64, is_new: bool) {
+        let is_first = self.trials == 0;
+        let follows = !is_new && self.offset + tick as i64 == self.last;
+        self.offset = self.last + i64::from(!is_first && !follows) - tick as i64;
+        self.trials += u32::from(is_new || is_first);
+    }
+}
+
+/// What a trial has not observed or computed yet when it begins, and curves, which end with their trial.
+const EMPTY_AT_FIRST: [&str; 7] =
+    ["camera", "observation", "quantiles", "action_values", "tracking_error_mm", "forces", "joints_rad"];
 
 /// Writes to one file.
 pub(super) struct Writer {
@@ -104,10 +127,14 @@ impl Writer {
 
     pub(super) fn begin(&mut self, opening: &Opening, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {
         self.flush()?;
-        // A trial that begins at a later tick, after going back, continues without a gap.
-        timeline.offset = timeline.last - opening.tick as i64;
+        let is_new = opening.logged.state.is_none();
+        timeline.begin(opening.tick, is_new);
         self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, timeline);
         (self.mode, self.phase, self.plans) = (None, None, None);
+        if is_new && timeline.trials > 1 {
+            EMPTY_AT_FIRST.iter().try_for_each(|entity| self.log(entity, &Clear::flat()))?;
+            self.log("workspace/planner", &Clear::recursive())?;
+        }
         let map = &opening.arena.map;
         let rings = || map.walls().iter().chain(map.free()).flat_map(Polygon::rings);
         let closed = |ring: &[[f64; 2]]| ring.iter().chain(ring.first()).copied().collect::<Vec<_>>();
@@ -123,9 +150,14 @@ impl Writer {
         self.log("workspace/walls", &LineStrips2D::new(plan).with_colors([color(WALL)]))?;
         self.goal(opening.goal_m)?;
         let scenario = &opening.scenario;
-        let text =
-            format!("trial: map {}, controller {}, seed {}", map.name(), scenario.controller.as_str(), scenario.seed);
-        self.log("log", &TextLog::new(text).with_level("INFO"))
+        let number = timeline.trials;
+        let controller = scenario.controller.as_str();
+        self.log("trial", &StateChange::new().with_state([format!("{number}: {}, {controller}", map.name())]))?;
+        let how = if is_new { "begins" } else { "continues" };
+        let text = format!("trial {number} {how}: map {}, controller {controller}, seed {}", map.name(), scenario.seed);
+        self.log("log", &TextLog::new(text).with_level("INFO"))?;
+        // Samples take a shorter path to the file. The viewer opens at the first time that it reads.
+        self.stream.flush_async().map_err(trouble)
     }
 
     pub(super) fn event(&self, event: &Event) -> Result<(), RecordingError> {
@@ -148,6 +180,7 @@ impl Writer {
         let here = timeline.offset + tick as i64;
         timeline.last = timeline.last.max(here);
         self.stream.set_time_sequence("tick", here);
+        self.stream.set_duration_secs("recording_time", recording_time_s(here));
         self.stream.set_duration_secs("sim_time", sim_time_s);
     }
 
@@ -253,5 +286,32 @@ fn level(kind: EventKind) -> &'static str {
         EventKind::LiftOff | EventKind::Stopped => "ERROR",
         EventKind::Disturbance | EventKind::Refused => "WARN",
         _ => "INFO",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trials_follow_each_other_on_the_time_line() {
+        let mut timeline = TimelinePosition::default();
+        let mut begin = |tick: u64, is_new: bool, ticks: u32| {
+            timeline.begin(tick, is_new);
+            let first = timeline.offset + tick as i64;
+            timeline.last = first;
+            (0..ticks).for_each(|_| timeline.advance());
+            (timeline.trials, first, timeline.last)
+        };
+        assert_eq!(begin(0, true, 0), (1, 0, 0));
+        assert_eq!(begin(0, true, 7), (2, 1, 8), "a reset before the first tick");
+        assert_eq!(begin(7, false, 3), (2, 8, 11), "the next part");
+        assert_eq!(begin(0, true, 5), (3, 12, 17), "a reset");
+        assert_eq!(begin(2, false, 5), (3, 18, 23), "back to an earlier tick");
+        assert_eq!(begin(40, false, 1), (3, 24, 25), "after lost ticks");
+        let mut later = TimelinePosition::default();
+        later.begin(40, false);
+        assert_eq!((later.trials, later.offset), (1, -40), "a recording of a running trial");
+        assert!((recording_time_s(125) - 1.0).abs() < 1e-12);
     }
 }

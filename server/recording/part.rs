@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::about::Notes;
 use super::entities::{TimelinePosition, Writer};
 use super::{Archive, Message, Opening, Options, RecordingError};
 use crate::trial::{Entry, LogWriter};
@@ -68,10 +69,13 @@ impl Drop for Claim {
     }
 }
 
-/// Two open files.
+/// Two open files, and what they contain.
 struct Part {
     writer: Writer,
     log: LogWriter<File>,
+    notes: Notes,
+    /// Whether a failure to write `notes` was reported.
+    reported_failure: bool,
     since: Instant,
     /// Whether the end of the part was already reported.
     reported_over: bool,
@@ -88,7 +92,32 @@ impl Part {
         let file = File::create(&path).map_err(|error| RecordingError::Io { path, error })?;
         let path = folder.join(format!("{id}.rrd"));
         let writer = Writer::create(&path, recording.unwrap_or(id), id, options.image_every)?;
-        Ok(Self { writer, log: LogWriter::new(file)?, since: Instant::now(), reported_over: false, claim })
+        Ok(Self {
+            writer,
+            log: LogWriter::new(file)?,
+            notes: Notes::default(),
+            reported_failure: false,
+            since: Instant::now(),
+            reported_over: false,
+            claim,
+        })
+    }
+
+    /// Writes what the part contains, if that has changed. A failure does not stop the recording, which is complete
+    /// without it.
+    fn describe(&mut self) {
+        let Some(content) = self.notes.take() else { return };
+        let Some(archive) = &self.claim.archive else { return };
+        if let Err(error) = archive.describe(&self.claim.id, content)
+            && !std::mem::replace(&mut self.reported_failure, true)
+        {
+            tracing::warn!(%error, "the list of recordings is not up to date");
+        }
+    }
+
+    fn close(mut self) -> Result<(), RecordingError> {
+        self.describe();
+        self.writer.close()
     }
 }
 
@@ -124,10 +153,11 @@ impl Keeper {
 
     /// Time until the next flush, if no message arrives.
     pub(super) fn wait(&self) -> Duration {
-        if self.waiting.is_empty() {
-            return Duration::from_secs(3600);
-        }
-        FLUSH_EVERY.saturating_sub(self.waiting_since.elapsed())
+        let entries = match self.waiting.is_empty() {
+            true => Duration::from_secs(3600),
+            false => FLUSH_EVERY.saturating_sub(self.waiting_since.elapsed()),
+        };
+        entries.min(self.part.notes.wait())
     }
 
     fn is_over(&self) -> bool {
@@ -143,6 +173,8 @@ impl Keeper {
         match message {
             Message::Begin(opening) => self.begin(*opening)?,
             Message::Tick(tick) => {
+                self.timeline.advance();
+                self.part.notes.tick(tick.sample.as_ref());
                 if let Some(sample) = &tick.sample {
                     self.part.writer.sample(sample, &mut self.timeline)?;
                 }
@@ -161,8 +193,9 @@ impl Keeper {
             self.flush()?;
             let next = Part::create(&self.naming, Some(&self.recording), &self.options)?;
             let over = std::mem::replace(&mut self.part, next);
-            over.writer.close()?;
+            over.close()?;
         }
+        self.part.notes.begin(&opening);
         self.part.writer.begin(&opening, &mut self.timeline)?;
         self.push(Entry::Begin(Box::new(opening.logged)));
         Ok(())
@@ -175,7 +208,8 @@ impl Keeper {
         self.waiting.push(entry);
     }
 
-    /// Writes waiting entries; Rerun writes its data by itself. Checks the free space of the disk.
+    /// Writes waiting entries and what the part contains; Rerun writes its data by itself. Checks the free space of the
+    /// disk.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
         if self.checked.elapsed() >= CHECK_EVERY {
             self.checked = Instant::now();
@@ -186,12 +220,15 @@ impl Keeper {
         if !self.waiting.is_empty() {
             self.part.log.append(std::mem::take(&mut self.waiting))?;
         }
+        if self.part.notes.wait().is_zero() {
+            self.part.describe();
+        }
         Ok(())
     }
 
     pub(super) fn close(mut self) -> Result<(), RecordingError> {
         let flushed = self.flush();
-        flushed.and(self.part.writer.close())
+        flushed.and(self.part.close())
     }
 }
 

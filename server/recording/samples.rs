@@ -7,10 +7,16 @@ use re_sdk_types::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
 use super::drawing::{ARM, BEAD, TOOL, color, plan_mm};
 use super::{RecordingError, trouble};
 use crate::plant::BEAD_RADIUS_M;
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::trial::Moment;
 
 /// Number of the arm's joints, logged in two groups of three.
 const JOINTS: usize = 6;
+
+/// Time since the recording began.
+pub(super) fn recording_time_s(tick: i64) -> f64 {
+    tick as f64 * SERVO_PERIOD_S
+}
 
 /// Samples that wait to be written. Either all of them have an arm, or none has.
 #[derive(Default)]
@@ -68,6 +74,7 @@ impl Samples {
         }
         let times = [
             TimeColumn::new_sequence("tick", ticks.iter().copied()),
+            TimeColumn::new_duration_secs("recording_time", ticks.iter().copied().map(recording_time_s)),
             TimeColumn::new_duration_secs("sim_time", times_s),
         ];
         let send = |entity: &str, columns: Vec<SerializedComponentColumn>| {

@@ -27,9 +27,13 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   // The viewer warns that there is no graphics card. It must report no errors.
   watch.allow(/^\s*WARN /);
   const { page } = lab;
-  await lab.run();
-  await lab.later(100);
-  await lab.pause();
+  // Two trials.
+  for (const ticks of [100, 200]) {
+    await lab.reset();
+    await lab.run();
+    await lab.later(ticks);
+    await lab.pause();
+  }
   // By keyboard only.
   await lab.view('Recordings').press('Enter');
   const opener = page.getByRole('button', { name: `Open ${session.name}` });
@@ -37,6 +41,9 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   const body = page.frameLocator('iframe[title="Rerun viewer"]').locator('body');
   await expect(body).toHaveAttribute('data-state', /open|failed/, { timeout: VIEWER_MS });
   await expect(body, await body.innerText()).toHaveAttribute('data-state', 'open');
+  // At the beginning, on the time line on which the trials follow each other. It stays there.
+  await expect(body).toHaveAttribute('data-timeline', 'recording_time', { timeout: VIEWER_MS });
+  await expect(body).toHaveAttribute('data-time', '0', { timeout: VIEWER_MS });
   // The file opens before the viewer is completely drawn. When it is, its bar keeps one colour.
   const light = lab.button('Use light colours');
   const dark = lab.button('Use dark colours');
@@ -50,6 +57,7 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   await dark.click();
   await until('a dark viewer again', async () => (await barPixel(lab)) === dim, VIEWER_MS);
 
+  await expect(body).toHaveAttribute('data-time', '0');
   await page.locator('iframe').focus();
   await page.keyboard.press('Tab');
   await page.keyboard.press('F6');

@@ -2,81 +2,49 @@
 
 import { For, Show, createSignal, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
-import { createRecordings, type Ending, fileAddress, size, startedAt, title } from './recordings';
+import { nameOf } from './names';
+import { createRecordings } from './recordings';
+import { Row } from './Row';
 import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 import './recordings.css';
 
-interface RowProps {
-  readonly file: RecordingFile;
-  readonly isOpen: boolean;
-  readonly onOpen: () => void;
-}
-
-function Download(props: { file: RecordingFile; ending: Ending; words: string }): JSX.Element {
-  const what = (): string => (props.ending === 'ferry' ? 'the input log of ' : '');
-  return (
-    <a
-      class="button small"
-      href={fileAddress(props.file.id, props.ending)}
-      download={`${props.file.id}.${props.ending}`}
-      title={props.ending === 'ferry' ? 'Input log: “ferry replay” runs it again' : undefined}
-      aria-label={`Download ${what()}${title(props.file)}`}
-    >
-      {props.words}
-    </a>
-  );
-}
-
-function Row(props: RowProps): JSX.Element {
-  return (
-    <tr data-recording={props.file.id} aria-current={props.isOpen ? 'true' : undefined}>
-      <th scope="row">
-        {props.file.session ?? props.file.id}
-        <Show when={props.file.live}>
-          <span class="being-recorded">recording now</span>
-        </Show>
-      </th>
-      <td class="number started">
-        <Show when={props.file.started} fallback="–">
-          {(started) => (
-            <>
-              <span>{startedAt(started()).day},</span> <span>{startedAt(started()).time}</span>
-            </>
-          )}
-        </Show>
-      </td>
-      <td class="number size">{size(props.file.bytes)}</td>
-      <td class="deeds">
-        <button
-          type="button"
-          class="small"
-          aria-label={`Open ${title(props.file)}`}
-          onClick={() => {
-            props.onOpen();
-          }}
-        >
-          Open
-        </button>
-        <Download file={props.file} ending="rrd" words="Download" />
-        <Show when={props.file.log_bytes !== null}>
-          <Download file={props.file} ending="ferry" words="Log" />
-        </Show>
-      </td>
-    </tr>
-  );
-}
-
 export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
-  const { list, error, refresh } = createRecordings();
+  const { list, error, refresh, rename, discard } = createRecordings();
   const [open, setOpen] = createSignal<RecordingFile>();
+  /** Why the last change was refused. */
+  const [refusal, setRefusal] = createSignal<string>();
   let rows: HTMLTableSectionElement | undefined;
+  let refresher!: HTMLButtonElement;
+  const allRows = (): HTMLTableRowElement[] => (rows?.isConnected ? [...rows.rows] : []);
   const close = (): void => {
     const id = open()?.id;
     setOpen(undefined);
     // The Close button is removed with its focus: give the focus back.
-    const row = [...(rows?.rows ?? [])].find((row) => row.dataset.recording === id);
+    const row = allRows().find((row) => row.dataset.recording === id);
     row?.querySelector('button')?.focus();
+  };
+  /** True if it was done. */
+  const attempt = async (change: Promise<void>): Promise<boolean> => {
+    setRefusal(undefined);
+    try {
+      await change;
+      return true;
+    } catch (reason) {
+      setRefusal(reason instanceof Error ? reason.message : String(reason));
+      return false;
+    }
+  };
+  const discardAt = async (id: string): Promise<boolean> => {
+    const index = list()?.findIndex((file) => file.id === id) ?? 0;
+    const isDone = await attempt(discard(id));
+    if (isDone && open()?.id === id) setOpen(undefined);
+    // The row is removed with the focus: the next row gets it.
+    if (isDone && document.activeElement === document.body) {
+      const row = allRows().at(index) ?? allRows().at(-1);
+      (row?.querySelector('button') ?? refresher).focus();
+    }
+    return isDone;
   };
   const newest = (id: string): RecordingFile | undefined => list()?.find((file) => file.id === id);
   return (
@@ -84,11 +52,11 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
       <section class="panel recordings-list" aria-labelledby="recordings-title">
         <div class="panel-head">
           <h2 id="recordings-title">Recordings</h2>
-          <button type="button" class="small" onClick={refresh}>
+          <button ref={refresher} type="button" class="small" onClick={refresh}>
             Refresh
           </button>
         </div>
-        <Show when={error()}>
+        <Show when={refusal() ?? error()}>
           {(text) => (
             <p class="recordings-error" role="alert">
               {text()}
@@ -107,13 +75,15 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
             <table>
               <thead>
                 <tr>
-                  <th scope="col">Session</th>
-                  <th scope="col">Started</th>
+                  <th scope="col">Recording</th>
+                  <th scope="col" class="duration" title="Simulated time, without pauses">
+                    Duration
+                  </th>
                   <th scope="col" class="size">
                     Size
                   </th>
                   <th scope="col">
-                    <span class="visually-hidden">Open and download</span>
+                    <span class="visually-hidden">Open, download, rename and delete</span>
                   </th>
                 </tr>
               </thead>
@@ -127,6 +97,8 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
                           file={file()}
                           isOpen={open()?.id === id}
                           onOpen={() => setOpen(file())}
+                          onRename={(title) => attempt(rename(id, title))}
+                          onDelete={() => discardAt(id)}
                         />
                       )}
                     </Show>
@@ -141,6 +113,7 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
         {(file) => (
           <ViewerFrame
             file={file}
+            name={nameOf(newest(file.id) ?? file)}
             theme={props.theme}
             onAgain={() => setOpen({ ...file, ...newest(file.id) })}
             onClose={close}

@@ -2,7 +2,7 @@
 
 import { Show, createEffect, on, type Accessor, type JSX } from 'solid-js';
 import type { RecordingFile } from '../../net/protocol.gen';
-import { title } from './recordings';
+import { label } from './recordings';
 import type { Theme } from '../../ui/theme';
 import { type ThemeMessage, viewerAddress } from './viewerMessages';
 
@@ -10,6 +10,7 @@ const LEAVE_KEY = 'F6';
 
 interface ViewerFrameProps {
   readonly file: RecordingFile;
+  readonly name: string;
   readonly theme: Accessor<Theme>;
   readonly onAgain: () => void;
   readonly onClose: () => void;
@@ -42,7 +43,9 @@ export function ViewerFrame(props: ViewerFrameProps): JSX.Element {
   return (
     <section class="panel viewer" aria-labelledby="viewer-title">
       <div class="panel-head">
-        <h2 id="viewer-title">{title(props.file)}</h2>
+        <h2 id="viewer-title">
+          {props.name} <span class="viewer-note">{label(props.file)}</span>
+        </h2>
         <Show when={props.file.live}>
           <span class="viewer-note">
             still recording; this shows the data at the time of opening

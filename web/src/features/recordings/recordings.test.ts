@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { fileAddress, size, startedAt, title } from './recordings';
+import { fileAddress, label, size, startedAt } from './recordings';
 
 test.each([
   [0, '0.0 kB'],
@@ -23,7 +23,16 @@ test('a time is shown in the local time zone', () => {
 });
 
 test('a foreign file is shown with its name', () => {
-  const stray = { id: 'a b', session: null, started: null, bytes: 1, log_bytes: null, live: false };
-  expect(title(stray)).toBe('a b');
+  const stray = {
+    id: 'a b',
+    session: null,
+    started: null,
+    bytes: 1,
+    log_bytes: null,
+    live: false,
+    title: null,
+    content: null,
+  };
+  expect(label(stray)).toBe('a b');
   expect(fileAddress(stray.id, 'rrd')).toBe('/api/recordings/a%20b.rrd');
 });

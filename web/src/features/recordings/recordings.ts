@@ -1,8 +1,8 @@
-// The list of recordings, polled while it is visible, and the text of its entries.
+// The list of recordings, polled while it is visible, changes to it, and the text of its entries.
 
 import { createSignal, onCleanup, onMount, type Accessor } from 'solid-js';
-import { get } from '../../net/requests';
-import type { RecordingFile, RecordingList } from '../../net/protocol.gen';
+import { get, patch, remove } from '../../net/requests';
+import type { RecordingFile, RecordingList, RecordingTitle } from '../../net/protocol.gen';
 
 const REFRESH_MS = 3000;
 
@@ -34,8 +34,8 @@ export function startedAt(started: string, locale?: string, timeZone?: string): 
   };
 }
 
-/** Name of a recording on the page. */
-export function title({ id, session, started }: RecordingFile): string {
+/** Session and beginning, which identify a recording. */
+export function label({ id, session, started }: RecordingFile): string {
   if (session === null || started === null) return id;
   const { day, time } = startedAt(started);
   return `${session}, ${day}, ${time}`;
@@ -44,8 +44,12 @@ export function title({ id, session, started }: RecordingFile): string {
 /** Rerun's file for the viewer, and the input log for `ferry replay`. */
 export type Ending = 'rrd' | 'ferry';
 
+function address(id: string): string {
+  return `/api/recordings/${encodeURIComponent(id)}`;
+}
+
 export function fileAddress(id: string, ending: Ending): string {
-  return `/api/recordings/${encodeURIComponent(id)}.${ending}`;
+  return `${address(id)}.${ending}`;
 }
 
 export interface Recordings {
@@ -54,6 +58,10 @@ export interface Recordings {
   /** Why the last request failed. */
   readonly error: Accessor<string | undefined>;
   readonly refresh: () => void;
+  /** Gives a recording a title; an empty one removes it. Throws an error with the message to show. */
+  readonly rename: (id: string, title: string) => Promise<void>;
+  /** Deletes a recording. Throws an error with the message to show. */
+  readonly discard: (id: string) => Promise<void>;
 }
 
 /** The list, polled while the page is visible. */
@@ -62,12 +70,15 @@ export function createRecordings(): Recordings {
   const [error, setError] = createSignal<string>();
   let asking = false;
   let closed = false;
+  let changes = 0;
   const ask = async (): Promise<void> => {
     if (asking) return;
     asking = true;
+    const before = changes;
     try {
       const { recordings } = await get<RecordingList>('/api/recordings');
-      if (closed) return;
+      // The list may be older than a change.
+      if (closed || before !== changes) return;
       setList(recordings);
       setError(undefined);
     } catch (reason) {
@@ -77,6 +88,19 @@ export function createRecordings(): Recordings {
     }
   };
   const refresh = (): void => void ask();
+  const change = (to: (list: readonly RecordingFile[]) => readonly RecordingFile[]): void => {
+    changes += 1;
+    if (!closed) setList((list) => list && to(list));
+  };
+  const rename = async (id: string, title: string): Promise<void> => {
+    const body: RecordingTitle = { title };
+    const renamed = await patch<RecordingFile>(address(id), JSON.stringify(body));
+    change((list) => list.map((file) => (file.id === id ? renamed : file)));
+  };
+  const discard = async (id: string): Promise<void> => {
+    await remove(address(id));
+    change((list) => list.filter((file) => file.id !== id));
+  };
   const whileVisible = (): void => {
     if (document.visibilityState === 'visible') refresh();
   };
@@ -90,5 +114,5 @@ export function createRecordings(): Recordings {
       document.removeEventListener('visibilitychange', whileVisible);
     });
   });
-  return { list, error, refresh };
+  return { list, error, refresh, rename, discard };
 }

@@ -34,6 +34,20 @@ async function check(address: string): Promise<void> {
   }
 }
 
+/** The used fields of the viewer's events. */
+interface ViewerEvent {
+  readonly type?: string;
+  readonly timeline?: string;
+  readonly time?: number;
+}
+
+/** Shows the viewer when the recording is open, and keeps its place on the time line for the tests. */
+function follow({ type, timeline, time }: ViewerEvent): void {
+  if (type === 'recording_open') show('open', '');
+  if (timeline !== undefined) document.body.dataset.timeline = timeline;
+  if (time !== undefined) document.body.dataset.time = String(time);
+}
+
 function watchForPanic(handle: WebHandle): void {
   if (handle.has_panicked()) {
     show('failed', `Rerun's viewer has crashed: ${handle.panic_message() ?? 'no reason given'}`);
@@ -57,7 +71,7 @@ async function open(recording: string): Promise<void> {
     enable_history: false,
     persist: false,
     on_viewer_event: (event) => {
-      if ((JSON.parse(event) as { type?: string }).type === 'recording_open') show('open', '');
+      follow(JSON.parse(event) as ViewerEvent);
     },
   });
   await handle.start(canvas);

@@ -1,0 +1,49 @@
+// Names of recordings: what a recording shows, in a few words.
+
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type { RecordingContent, RecordingFile } from '../../net/protocol.gen';
+
+/** A list with more names ends in a number. */
+const MAX_NAMES = 3;
+
+/** `a`, `a and b`, `a, b and c`, `a, b and 2 more`. */
+export function joined(names: readonly string[]): string {
+  if (names.length <= 1) return names[0] ?? '';
+  const shown = names.length > MAX_NAMES ? MAX_NAMES - 1 : names.length - 1;
+  const rest = names.length > MAX_NAMES ? `${names.length - shown} more` : names.at(-1);
+  return `${names.slice(0, shown).join(', ')} and ${rest ?? ''}`;
+}
+
+function outcome({ delivered, not_delivered }: RecordingContent): string {
+  const counts = [
+    ...(delivered > 0 ? [`${delivered} delivered`] : []),
+    ...(not_delivered > 0 ? [`${not_delivered} not delivered`] : []),
+  ];
+  return counts.length > 0 ? counts.join(', ') : 'nothing delivered';
+}
+
+/** What a recording shows: `Colon, RL: 2 delivered, 1 not delivered`. */
+export function shown(content: RecordingContent, live: boolean): string {
+  const maps = joined(content.maps);
+  if (maps === '') return live ? 'Not run yet' : 'Not run';
+  const where = maps.slice(0, 1).toUpperCase() + maps.slice(1);
+  if (content.controllers.length === 0) return `${where}, no goal`;
+  const controllers = joined(content.controllers.map((name) => CONTROLLER_LABELS[name]));
+  return `${where}, ${controllers}: ${outcome(content)}`;
+}
+
+/** The name without the title of a user. */
+export function ownName({ content, live, session, id }: RecordingFile): string {
+  return content ? shown(content, live) : (session ?? id);
+}
+
+/** The name that the list shows. */
+export function nameOf(file: RecordingFile): string {
+  return file.title ?? ownName(file);
+}
+
+/** `1:02`: minutes and seconds. */
+export function duration(seconds: number): string {
+  const whole = Math.round(seconds);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
+}
