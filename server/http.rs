@@ -13,6 +13,7 @@ mod path;
 mod problem;
 mod refusals;
 mod routes;
+mod saved_sessions;
 mod sessions;
 
 use std::net::SocketAddr;
@@ -29,6 +30,7 @@ use tokio_util::task::TaskTracker;
 use crate::camera::Gpu;
 use crate::evaluate::Queue;
 use crate::recording::{Archive, Retention};
+use crate::scenario::Scenario;
 use crate::trial::TrialError;
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
@@ -36,7 +38,8 @@ use metrics::Counters;
 use problem::Problem;
 use routes::maps::Maps;
 use routes::values::Atlases;
-use sessions::Sessions;
+use saved_sessions::SavedSessions;
+use sessions::{SessionSettings, Sessions};
 
 /// Number of long computations that run at the same time; others wait.
 const WORKERS: usize = 4;
@@ -68,7 +71,7 @@ pub enum ServeError {
 
 /// Settings of a server.
 pub struct Settings {
-    /// Folder of recordings, uploaded maps and sweeps.
+    /// Folder of recordings, saved sessions, uploaded maps and sweeps.
     pub data: PathBuf,
     /// Limits beyond which old recordings are deleted.
     pub retention: Retention,
@@ -76,12 +79,23 @@ pub struct Settings {
     pub sessions: usize,
     /// Time after which a session without browsers is parked.
     pub park_after: Duration,
+    /// Scenario of new sessions.
+    pub opening: Scenario,
+    /// Whether saved sessions begin with that scenario, too.
+    pub start_over: bool,
 }
 
 impl Settings {
     /// Default settings with this data folder.
     pub fn in_folder(data: PathBuf) -> Self {
-        Self { data, retention: Retention::default(), sessions: 8, park_after: Duration::from_secs(600) }
+        Self {
+            data,
+            retention: Retention::default(),
+            sessions: 8,
+            park_after: Duration::from_secs(600),
+            opening: Scenario::idle("posts", 1),
+            start_over: false,
+        }
     }
 }
 
@@ -116,11 +130,13 @@ impl Server {
         access: Access,
         stopping: watch::Receiver<bool>,
     ) -> Result<Arc<Self>, ServeError> {
-        let Settings { data, retention, sessions, park_after } = settings;
+        let Settings { data, retention, sessions, park_after, opening, start_over } = settings;
         let recordings = Archive::new(data.join("recordings"), retention);
         let maps = Maps::in_folder(data.join("maps"));
+        let settings = SessionSettings { most: sessions, park_after, opening };
+        let saved = SavedSessions::in_folder(data.join("sessions"), start_over);
         let sessions =
-            Sessions::new(gpu.clone(), recordings.clone(), maps.all.clone(), maps.changes(), sessions, park_after)?;
+            Sessions::new(gpu.clone(), recordings.clone(), maps.all.clone(), maps.changes(), settings, saved)?;
         Ok(Arc::new(Self {
             evaluations: Queue::start(gpu.clone())?,
             gpu,
@@ -193,12 +209,15 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     accept::raise_file_limit();
     let sweeper = server.clone();
     let sweeping = tokio::spawn(async move { sweeper.sweep().await });
+    let saver = server.sessions.clone();
+    let saving = tokio::spawn(async move { saver.keep_saving().await });
     let connections = accept::serve(listener, router(server.clone()), server.counters.clone(), server.stopping.clone());
     let stopped = server.clone();
     let pausing = async move {
         // An error means that the sender was dropped, which also stops the server.
         drop(stopped.stopping.clone().wait_for(|&stop| stop).await);
         stopped.evaluations.stop();
+        saving.abort();
         let hubs = stopped.sessions.hold().await;
         stopped.sockets.close();
         if tokio::time::timeout(DISCONNECT_WITHIN, stopped.sockets.wait()).await.is_err() {

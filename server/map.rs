@@ -6,6 +6,7 @@ mod library;
 mod outline;
 mod report;
 mod space;
+mod summary;
 mod svg;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,8 @@ use outline::Outline;
 pub use library::{ADDED_MAPS, Library, is_added};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
+pub use summary::{Narrow, Summary};
+pub use svg::fit;
 
 /// Height of every wall above the table.
 pub const WALL_HEIGHT_M: f64 = 0.005;

@@ -12,6 +12,7 @@ mod error;
 mod evaluations;
 mod layers;
 mod magnetics;
+mod maps;
 mod numbers;
 mod parameters;
 mod parse;
@@ -34,13 +35,16 @@ pub use layers::{
     SeenMessage, SensedObstacle, ValueCell, ValueMap, ValueQuery,
 };
 pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
+pub use maps::{MapReport, NarrowPlace};
 pub use numbers::{Numbers3, Numbers6, Rows3};
-pub use recordings::{RecordingFile, RecordingList};
-pub use server::{EventMessage, Hello, Role, SceneMessage, ServerMessage, StateMessage};
+pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
+pub use server::{CaseSummary, EventMessage, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use workspace::{ManipulabilityMap, WorkspaceMap, WorkspaceQuery};
 
 /// Protocol version. Increase it when an old page could misread the server.
 pub const PROTOCOL_VERSION: u32 = 6;
+/// Largest message from a browser. A test case of a few minutes of dragging fits.
+pub const MAX_MESSAGE_BYTES: usize = 2 << 20;
 /// Binary frame: the camera image, a JPEG file of 480×480.
 pub const BINARY_CAMERA_JPEG: u8 = 1;
 /// Binary frame: the observation, 2×84×84 bytes, row-major, channel 0 first.

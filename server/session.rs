@@ -6,9 +6,13 @@
 mod branch_point;
 #[cfg(test)]
 mod command_tests;
+mod kept_runs;
+mod opened_case;
 mod pacing;
 mod recall;
+mod saved;
 mod timeline;
+mod trials;
 mod worker;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,10 +27,15 @@ use crate::camera::Gpu;
 use crate::map::{Library, MapError};
 use crate::plant::PositionerKind;
 use crate::scenario::{Parameters, Scenario};
-use crate::trial::{Arena, Case, Event, Input, InputError, Moment, Sight, Sink, Trial, TrialError};
+use crate::trial::{
+    Arena, Case, CaseError, Event, Input, InputError, LogError, Moment, Sight, Sink, Trial, TrialError,
+};
 
 pub use branch_point::{BranchPoint, Progress};
+pub use kept_runs::KeptRunSummary;
+pub use opened_case::OpenedCase;
 pub use pacing::{SPEED_MAX, SPEED_MIN};
+pub use saved::Saved;
 
 /// Maximum number of waiting commands.
 const COMMAND_QUEUE: usize = 256;
@@ -57,8 +66,13 @@ pub enum Command {
         scenario: Box<Scenario>,
         kept: Kept,
     },
-    /// Back to the last control step at or before this tick; pauses.
+    /// A new trial of this case; its inputs are applied at their ticks.
+    Open(Box<Case>),
+    /// Back to the last control step at or before this tick; pauses. What lies after it is kept as a run when the trial
+    /// goes on.
     Rewind(u64),
+    /// Back to the end of the kept run of this number; pauses. The present is kept.
+    Return(u32),
 }
 
 /// What a session keeps when another scenario is loaded.
@@ -78,6 +92,14 @@ pub enum CommandError {
     /// The map is invalid or unknown.
     #[error(transparent)]
     Map(#[from] MapError),
+    /// The text is not a test case.
+    #[error("test case: {0}")]
+    Case(#[from] CaseError),
+    /// The drawing in a test case is not that of the map.
+    #[error(
+        "map.name is {name:?}: this server has another drawing of that name; give the map in the file another name"
+    )]
+    OtherDrawing { name: String },
     /// The trial could not be created.
     #[error(transparent)]
     Trial(#[from] TrialError),
@@ -92,6 +114,9 @@ pub enum CommandError {
     /// The start of the trial is no longer kept.
     #[error("the start of the trial is no longer kept; reset, and save a case within ten minutes")]
     Forgotten,
+    /// No kept run has this number.
+    #[error("run is {number}, there is no kept run of this number")]
+    NoRun { number: u32 },
     /// There is no goal.
     #[error("tick {tick}: no goal was set, so there is nothing to compare")]
     NoGoal { tick: u64 },
@@ -119,6 +144,12 @@ pub struct Scenery {
     pub version: u64,
     /// Incremented for each new trial.
     pub trial: u64,
+    /// Incremented when the session returns to a kept run, whose events are then sent again.
+    pub past_version: u64,
+    /// Kept runs, oldest first.
+    pub kept_runs: Vec<KeptRunSummary>,
+    /// The test case that was opened for this trial.
+    pub case: Option<Arc<OpenedCase>>,
     /// Maps that can be loaded.
     pub known_maps: Arc<Library>,
     /// Map and free space.
@@ -134,6 +165,9 @@ impl Scenery {
         Self {
             version,
             trial: number,
+            past_version: 0,
+            kept_runs: Vec::new(),
+            case: None,
             known_maps,
             arena: trial.arena().clone(),
             scenario: trial.scenario().clone(),
@@ -180,6 +214,7 @@ pub struct Session {
     view: watch::Receiver<Arc<View>>,
     events: broadcast::Sender<Event>,
     thread: Mutex<Option<JoinHandle<()>>>,
+    resumed_tick: Option<u64>,
     /// Shared with the thread, which checks it before each tick of a `Step`.
     interrupted: Arc<AtomicBool>,
 }
@@ -198,6 +233,19 @@ enum Request {
     Execute { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
     Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<BranchPoint, CommandError>> },
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
+    Save { answer: oneshot::Sender<Saved> },
+}
+
+/// What a session begins with, besides its scenario.
+#[derive(Debug)]
+pub enum Opening {
+    Fresh,
+    /// It goes on from here, paused.
+    Saved(Saved),
+    /// It begins with its scenario; what was saved is kept as runs.
+    Beside(Saved),
+    /// It starts over and says why.
+    Unreadable(LogError),
 }
 
 impl Session {
@@ -205,6 +253,7 @@ impl Session {
     pub fn start(
         name: &str,
         scenario: Scenario,
+        opening: Opening,
         library: Arc<Library>,
         gpu: Arc<Gpu>,
         sink: Box<dyn Sink>,
@@ -213,14 +262,16 @@ impl Session {
         let make_camera = Box::new(move |arena: &Arena| arena.camera(&gpu));
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
-        let worker = worker::Worker::new(scenario, arena, library, make_camera, sink, events.clone())?;
+        let mut worker = worker::Worker::new(scenario, arena, library, make_camera, sink, events.clone())?;
+        worker.begin(opening);
         let (publish, view) = watch::channel(Arc::new(worker.view()));
-        let interrupted = worker.interrupted.clone();
+        let (interrupted, resumed_tick) = (worker.interrupted.clone(), worker.resumed_tick);
         let thread = std::thread::Builder::new()
             .name(format!("session {name}"))
             .spawn(move || worker.run(&inbox, &publish))
             .map_err(|error| TrialError::Thread(error.to_string()))?;
-        Ok(Self { commands: Mutex::new(Some(commands)), view, events, thread: Mutex::new(Some(thread)), interrupted })
+        let (commands, thread) = (Mutex::new(Some(commands)), Mutex::new(Some(thread)));
+        Ok(Self { commands, view, events, thread, resumed_tick, interrupted })
     }
 
     /// Sends a command and waits for its answer. Needs a tokio runtime with time.
@@ -242,6 +293,19 @@ impl Session {
         let (answer, answered) = oneshot::channel();
         self.enqueue(Request::Case { answer })?;
         answer_of(answered).await
+    }
+
+    /// What a later server needs to go on. The session does not change.
+    pub async fn saved(&self) -> Result<Saved, CommandError> {
+        let (answer, answered) = oneshot::channel();
+        self.enqueue(Request::Save { answer })?;
+        let answer = tokio::time::timeout(ANSWER_WITHIN, answered).await.map_err(|_| CommandError::Unanswered)?;
+        answer.map_err(|_| CommandError::Ended)
+    }
+
+    /// Tick from which it went on after a restart of the server.
+    pub fn resumed_tick(&self) -> Option<u64> {
+        self.resumed_tick
     }
 
     fn enqueue(&self, request: Request) -> Result<(), CommandError> {

@@ -28,13 +28,14 @@ use crate::control::{approach, limits::Limits, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::perception::Percept;
-use crate::plant::{Plant, Positioner, PositionerKind};
+use crate::plant::{Plant, Positioner, PositionerKind, TOOL_LENGTH_M};
 use crate::policy::{Policy, PolicyError};
+use crate::robot;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, RlPolicy, Scenario, start_point};
 use crate::tracking::TrackerParameters;
 
-pub use case::{Case, CaseOutcome, Expectation, Timed};
+pub use case::{Case, CaseError, CaseOutcome, Expectation, Timed};
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
 pub use input::{Input, InputError};
@@ -129,6 +130,19 @@ impl Arena {
             RlPolicy::Auto | RlPolicy::General => "general",
         };
         Policy::shipped(name)
+    }
+
+    /// Share of the area where trials are set up that the tool reaches.
+    pub fn reached_share(&self) -> f64 {
+        let flange_m = Parameters::default().tool_height_m + TOOL_LENGTH_M;
+        let (PositionerKind::Arm, Some((min_m, max_m))) = (PositionerKind::of(&self.map), robot::reach(flange_m))
+        else {
+            return 1.0;
+        };
+        let space = FreeSpace::new(&self.map, CLEARANCE_M);
+        let cells: Vec<_> = space.cells().flatten().collect();
+        let reached = cells.iter().filter(|cell| (min_m..=max_m).contains(&cell.coords.norm())).count();
+        if cells.is_empty() { 1.0 } else { reached as f64 / cells.len() as f64 }
     }
 
     /// The final limiter for every step on this map.

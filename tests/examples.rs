@@ -25,7 +25,7 @@ fn run(scenario: Scenario, arena: &Arc<Arena>) -> (Episode, String) {
 
 #[test]
 fn the_papers_examples_end_at_their_goals() {
-    for name in Shipped::names() {
+    for name in Shipped::names().into_iter().filter(|name| name.starts_with("example")) {
         let scenario = Shipped::open(&name).unwrap().scenario;
         let expected = scenario.script.len() as u32;
         let arena = Arena::open(&scenario.map).unwrap();

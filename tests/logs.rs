@@ -7,7 +7,7 @@ use std::time::Duration;
 use ferry::plant::{BeadMotion, PositionerKind};
 use ferry::recording::{Archive, Options, Recorder, Retention};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
-use ferry::session::{Command, Kept, Session};
+use ferry::session::{Command, Kept, Opening, Session};
 use ferry::trial::{Input, InputLog, LogError, Replayed, replay};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -68,7 +68,7 @@ fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     let name = format!("random-{seed}");
     let recorder = Recorder::in_archive(archive, &name, options).unwrap();
     let scenario = Scenario { controller: ControllerName::ALL[seed as usize % 3], ..Scenario::idle("posts", seed) };
-    let session = Session::start(&name, scenario, Arc::default(), gpu(), Box::new(recorder)).unwrap();
+    let session = Session::start(&name, scenario, Opening::Fresh, Arc::default(), gpu(), Box::new(recorder)).unwrap();
     let runtime = clocked();
     let obey = |command| runtime.block_on(session.send(command));
     obey(Command::SetSpeed(8.0)).unwrap();
@@ -141,7 +141,8 @@ fn parts_have_no_gap_and_each_replays_alone() {
     let options = Options { part: Duration::from_millis(250), ..Options::LIVE };
     let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
     let session =
-        Session::start("main", Scenario::idle("posts", 1), Arc::default(), gpu(), Box::new(recorder)).unwrap();
+        Session::start("main", Scenario::idle("posts", 1), Opening::Fresh, Arc::default(), gpu(), Box::new(recorder))
+            .unwrap();
     let runtime = clocked();
     let obey = |command| runtime.block_on(session.send(command)).unwrap();
     obey(Command::Input(Input::SetGoal { x_m: 0.12, y_m: -0.33 }));

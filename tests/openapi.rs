@@ -30,6 +30,8 @@ async fn the_description_is_served_and_holds_what_was_promised() {
         ("get", "/api/sessions/{id}/live", None),
         ("post", "/api/sessions/{id}/flow", Some("FlowQuery")),
         ("get", "/api/recordings/{file}", None),
+        ("patch", "/api/recordings/{file}", Some("RecordingTitle")),
+        ("delete", "/api/recordings/{file}", None),
         ("post", "/api/evaluations", Some("EvaluationQuery")),
     ] {
         let operation = &document["paths"][path][method];

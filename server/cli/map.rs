@@ -2,10 +2,10 @@
 
 use std::process::ExitCode;
 
-use crate::geometry::Point2;
-use crate::map::{FreeSpace, Map};
+use crate::map::{FreeSpace, Map, Summary};
 use crate::plant::BEAD_RADIUS_M;
 use crate::scenario::CLEARANCE_M;
+use crate::trial::Arena;
 
 /// Limit of printed repairs: one mistake is often repeated everywhere in a drawing.
 const SHOWN_REPAIRS: usize = 20;
@@ -31,7 +31,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         w.y_max_m
     );
     println!("moved by   {}", if map.is_for_stage() { "a planar stage, no arm" } else { "the arm" });
-    println!("walls      {} polygons, {} free regions", map.walls().len(), map.free().len());
+    let summary = Summary::of(&map, CLEARANCE_M);
+    println!("walls      {} polygons, {} free regions", summary.walls, map.free().len());
     for (what, clearance_m) in [("bead", BEAD_RADIUS_M), ("trials", CLEARANCE_M)] {
         let space = FreeSpace::new(&map, clearance_m);
         println!(
@@ -41,9 +42,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             space.components()
         );
     }
-    let reach_m = |p: Point2<f64>| (map.nearest_wall_point(p) - p).norm();
-    let widest_m = 2.0 * FreeSpace::new(&map, BEAD_RADIUS_M).points().map(reach_m).fold(0.0, f64::max);
-    println!("widest     {:.0} mm across", widest_m * 1e3);
+    println!("reached    {:.0} % of the free area by the tool", 100.0 * Arena::of(map.clone()).reached_share());
+    println!("widest     {:.0} mm across", summary.widest_m * 1e3);
+    if let Some(narrow) = summary.narrowest {
+        let (width_mm, at) = (narrow.width_m * 1e3, narrow.at);
+        println!("narrowest  {width_mm:.0} mm between two rooms, at x {:.3} y {:.3} m", at.x, at.y);
+    }
     for repair in map.repairs().iter().take(SHOWN_REPAIRS) {
         println!("repaired   {repair}");
     }

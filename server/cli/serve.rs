@@ -10,6 +10,8 @@ use tokio::sync::watch;
 
 use crate::http;
 use crate::recording::Retention;
+use crate::scenario::Scenario;
+use crate::trial::Case;
 
 #[derive(clap::Args, Clone)]
 pub struct Arguments {
@@ -33,7 +35,11 @@ pub struct Arguments {
     /// Pause a session without viewers after this time; it may then be closed if another needs its place
     #[arg(long, value_name = "MINUTES", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     park_after: u32,
-    /// Folder for recordings and uploaded maps
+    /// Scenario that sessions begin with: the name of a shipped one, or the path of a JSON file. Without it, new
+    /// sessions begin with `opening`, and others go on where the last server stopped
+    #[arg(long, value_name = "NAME|FILE")]
+    scenario: Option<String>,
+    /// Folder for recordings, saved sessions and uploaded maps
     #[arg(long, default_value = "data")]
     data: PathBuf,
     /// Largest number of kept recordings; a session writes one every ten minutes
@@ -77,6 +83,14 @@ fn check_folder(data: &Path) -> anyhow::Result<()> {
         .with_context(|| format!("--data {}: the folder cannot be written to", data.display()))
 }
 
+/// The scenario of new sessions. A session has no inputs before its operator, and only maps of the library.
+fn opening(name_or_path: &str) -> anyhow::Result<Scenario> {
+    let case = Case::open(name_or_path).context("--scenario")?;
+    anyhow::ensure!(case.map.is_none(), "--scenario {name_or_path}: map is a drawing, it must be the name of a map");
+    anyhow::ensure!(case.inputs.is_empty(), "--scenario {name_or_path}: inputs has items, it must be empty");
+    Ok(case.scenario)
+}
+
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(serve(arguments));
@@ -88,6 +102,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 
 async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
     let token = token(arguments)?;
+    let opening = opening(arguments.scenario.as_deref().unwrap_or("opening"))?;
     let listener = http::listen(arguments.bind).await?;
     let address = listener.local_addr()?;
     let access = http::Access::new(address, token, &arguments.origin)?;
@@ -102,6 +117,8 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
         retention,
         sessions: arguments.sessions.into(),
         park_after: Duration::from_secs(60 * u64::from(arguments.park_after)),
+        opening,
+        start_over: arguments.scenario.is_some(),
     };
     let server = http::Server::new(gpu, settings, access, stopping)?;
     println!("listening on http://{address}");

@@ -48,10 +48,10 @@ pub enum Trouble {
 impl std::fmt::Display for Trouble {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Saddle => "trapped where the flow vanishes",
-            Self::Circling => "moving without getting nearer",
-            Self::InsideObstacle => "inside an obstacle",
-            Self::Refused => "blocked: the wanted step is refused",
+            Self::Saddle => "stuck where the flow ends before the goal",
+            Self::Circling => "going to and fro without getting nearer",
+            Self::InsideObstacle => "too near a wall to go on",
+            Self::Refused => "blocked: each step is refused",
             Self::Searching => "no path found yet",
             Self::WalledOff => "walled off",
         })

@@ -247,7 +247,7 @@ fn wants_page(request: &Request) -> bool {
 }
 
 fn is_page(path: &str) -> bool {
-    path == "/" || path.starts_with("/s/") || path == "/viewer/"
+    path == "/" || path == "/demo" || path.starts_with("/s/") || path == "/viewer/"
 }
 
 #[cfg(test)]

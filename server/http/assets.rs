@@ -9,7 +9,7 @@ use axum::response::{IntoResponse, Response};
 
 use super::Server;
 use super::problem::Problem;
-use super::sessions::MAIN;
+use super::sessions::{DEMO, MAIN};
 
 /// Content security policy of the viewer's page: it may compile WebAssembly, and our own page may frame it.
 const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
@@ -32,6 +32,12 @@ pub async fn named_session(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     server.sessions.open(&name).await?;
+    Ok(send("index.html", &headers))
+}
+
+/// `GET /demo`: the demonstration, with the session `demo`.
+pub async fn demo(State(server): State<Arc<Server>>, headers: HeaderMap) -> Result<Response, Problem> {
+    server.sessions.open(DEMO).await?;
     Ok(send("index.html", &headers))
 }
 

@@ -9,13 +9,13 @@ use crate::camera::Gpu;
 use crate::faults;
 use crate::recording::{Archive, Options, Recorder, Retention};
 use crate::scenario::{ControllerName, Scenario};
-use crate::session::{Command, CommandError, SPEED_MAX, Session};
+use crate::session::{Command, CommandError, Opening, SPEED_MAX, Session};
 use crate::trial::{Input, InputLog, Nowhere, Sink};
 
 fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> Session {
     let gpu = Gpu::open(Default::default()).unwrap();
     let scenario = Scenario { controller, ..Scenario::idle("posts", 1) };
-    Session::start(name, scenario, Arc::default(), gpu, sink).unwrap()
+    Session::start(name, scenario, Opening::Fresh, Arc::default(), gpu, sink).unwrap()
 }
 
 async fn reason_of_end(session: &Session) -> String {
@@ -91,7 +91,14 @@ async fn a_fault_in_the_recording_is_shown_and_the_session_continues() {
 async fn a_lost_graphics_device_is_replaced_and_the_session_continues() {
     let gpu = Gpu::open(Default::default()).unwrap();
     let scenario = Scenario::idle("posts", 1);
-    let session = Session::start("lost device", scenario, Arc::default(), gpu.clone(), Box::new(Nowhere::default()));
+    let session = Session::start(
+        "lost device",
+        scenario,
+        Opening::Fresh,
+        Arc::default(),
+        gpu.clone(),
+        Box::new(Nowhere::default()),
+    );
     let session = session.unwrap();
     run(&session).await;
     gpu.destroy();

@@ -29,12 +29,11 @@ use super::Server;
 use super::path::{Path, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
-use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, ServerMessage};
+use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, MAX_MESSAGE_BYTES, ServerMessage};
 use crate::scenario::ControllerName;
-use crate::session::CommandError;
+use crate::session::{Command, CommandError};
+use crate::trial::Case;
 
-/// Largest message from a browser.
-const MESSAGE_LIMIT: usize = 64 * 1024;
 /// Maximum size of pending messages for a browser; a set of the newest messages is smaller.
 const WRITE_LIMIT: usize = 4 << 20;
 /// Message rate of one browser; further messages are read later, so that nothing is lost.
@@ -62,7 +61,7 @@ pub async fn live(
 ) -> Response {
     let Some(hub) = server.sessions.find(&id) else { return Problem::not_found("session", &id).into_response() };
     let upgrade = match upgrade {
-        Ok(upgrade) => upgrade.max_message_size(MESSAGE_LIMIT).max_frame_size(MESSAGE_LIMIT),
+        Ok(upgrade) => upgrade.max_message_size(MAX_MESSAGE_BYTES).max_frame_size(MAX_MESSAGE_BYTES),
         Err(rejection) => {
             return Problem::new(rejection.status(), "websocket", rejection.body_text()).into_response();
         }
@@ -115,6 +114,7 @@ struct Connection {
 #[derive(Default)]
 struct Sent {
     scene_version: u64,
+    past_version: u64,
     sight_version: u64,
     seen_version: u64,
 }
@@ -148,6 +148,7 @@ impl Connection {
         let now = *seats.borrow_and_update();
         self.send_message(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
         let first = encoded.borrow_and_update().clone();
+        sent.past_version = first.past_version;
         self.send_newest(&first, &mut sent).await?;
         self.send_history(&mut comparison).await?;
         loop {
@@ -232,6 +233,10 @@ impl Connection {
         if sent.scene_version != newest.scene_version {
             sent.scene_version = newest.scene_version;
             self.socket.feed(Message::Text(newest.scene.clone())).await?;
+            if sent.past_version != newest.past_version {
+                sent.past_version = newest.past_version;
+                self.send_events(true).await?;
+            }
         }
         self.socket.feed(Message::Text(newest.state.clone())).await?;
         if sent.sight_version != newest.sight_version {
@@ -247,15 +252,22 @@ impl Connection {
         self.socket.flush().await
     }
 
-    /// Events before this browser connected.
+    /// The events of the trial.
+    async fn send_events(&mut self, again: bool) -> Result<(), axum::Error> {
+        let journal = self.hub.session.watch().borrow().journal.clone();
+        for event in journal.iter() {
+            let message = EventMessage { again, ..EventMessage::from(event) };
+            self.socket.feed(Message::Text(json(&ServerMessage::Event(message)))).await?;
+        }
+        Ok(())
+    }
+
+    /// What happened before this browser connected.
     async fn send_history(
         &mut self,
         comparison: &mut watch::Receiver<axum::extract::ws::Utf8Bytes>,
     ) -> Result<(), axum::Error> {
-        let journal = self.hub.session.watch().borrow().journal.clone();
-        for event in journal.iter() {
-            self.socket.feed(Message::Text(json(&ServerMessage::Event(EventMessage::from(event))))).await?;
-        }
+        self.send_events(false).await?;
         let compared = comparison.borrow_and_update().clone();
         if !compared.is_empty() {
             self.socket.feed(Message::Text(compared)).await?;
@@ -305,6 +317,10 @@ impl Connection {
                 let mut asked = ControllerName::ALL.to_vec();
                 asked.retain(|name| controllers.is_empty() || controllers.contains(name));
                 self.hub.compare(tick, asked).await?;
+            }
+            ClientMessage::OpenCase { case } => {
+                let case = Box::new(Case::from_json(case.as_bytes()).map_err(CommandError::from)?);
+                self.hub.session.send(Command::Open(case)).await?;
             }
             message => {
                 if let Some(command) = message.command() {

@@ -1,6 +1,6 @@
-//! Path parameters, refused with problem details.
+//! Parameters in the path and in the query, refused with problem details.
 
-use axum::extract::{FromRequestParts, Path as AxumPath};
+use axum::extract::{FromRequestParts, Path as AxumPath, Query as AxumQuery};
 use axum::http::request::Parts;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -16,6 +16,20 @@ impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Path<T>
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
         let AxumPath(parameters) = AxumPath::from_request_parts(parts, state)
+            .await
+            .map_err(|refused| Problem::new(refused.status(), "malformed", refused.body_text()))?;
+        Ok(Self(parameters))
+    }
+}
+
+/// The parameters after `?`.
+pub struct Query<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let AxumQuery(parameters) = AxumQuery::from_request_parts(parts, state)
             .await
             .map_err(|refused| Problem::new(refused.status(), "malformed", refused.body_text()))?;
         Ok(Self(parameters))
@@ -71,7 +85,7 @@ pub struct ReportPath {
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 pub struct RecordingPath {
-    /// Id of a recording with `.rrd` or `.ferry` after it.
+    /// Id of a recording; to download, with `.rrd` or `.ferry` after it.
     pub file: String,
 }
 

@@ -62,7 +62,7 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(evaluations::report, evaluations::cancel))
         .routes(routes!(evaluations::file))
         .routes(routes!(recordings::recordings))
-        .routes(routes!(recordings::recording))
+        .routes(routes!(recordings::recording, recordings::rename, recordings::delete))
         .routes(routes!(viewer::file))
         .layer(DefaultBodyLimit::max(BODY_LIMIT))
         .merge(calculator)
@@ -73,6 +73,7 @@ pub fn served() -> Router<Arc<Server>> {
     Router::from(described())
         .route("/", get(assets::main_session))
         .route("/s/{name}", get(assets::named_session))
+        .route("/demo", get(assets::demo))
         .method_not_allowed_fallback(problem::method_not_allowed)
         .fallback(assets::page)
 }

@@ -10,15 +10,18 @@ use tokio::sync::watch;
 
 use super::live::Hub;
 use super::problem::Problem;
+use super::saved_sessions::{SAVE_EVERY, SavedSessions};
 use crate::camera::Gpu;
 use crate::map::Library;
 use crate::recording::{Archive, Options, Recorder};
 use crate::scenario::Scenario;
-use crate::session::{Command, CommandError, Session};
+use crate::session::{Command, CommandError, Opening, Session};
 use crate::trial::{Nowhere, Sink, TrialError};
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";
+/// The session of the demonstration.
+pub const DEMO: &str = "demo";
 /// Longest name of a session.
 const NAME_LENGTH: usize = 32;
 /// Prefix of names given by the server.
@@ -28,6 +31,15 @@ const BEGIN_WITHIN: Duration = Duration::from_secs(30);
 /// Maximum time to wait for a session to end.
 const END_WITHIN: Duration = Duration::from_secs(5);
 
+pub struct SessionSettings {
+    /// Maximum number of sessions; each has a thread, a camera and a recording.
+    pub most: usize,
+    /// A session without viewers is parked after this time.
+    pub park_after: Duration,
+    /// Scenario of new sessions.
+    pub opening: Scenario,
+}
+
 /// All sessions, by id.
 pub struct Sessions {
     gpu: Arc<Gpu>,
@@ -35,10 +47,8 @@ pub struct Sessions {
     known_maps: Arc<Library>,
     /// Changes whenever the list of maps changes.
     maps: watch::Receiver<u64>,
-    /// Maximum number of sessions; each has a thread, a camera and a recording.
-    most: usize,
-    /// A session without viewers is parked after this time.
-    park_after: Duration,
+    settings: SessionSettings,
+    saved: SavedSessions,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// Held while a session opens, so that two requests for one name get the same session.
     opening: tokio::sync::Mutex<()>,
@@ -58,27 +68,27 @@ impl Sessions {
         archive: Arc<Archive>,
         known_maps: Arc<Library>,
         maps: watch::Receiver<u64>,
-        most: usize,
-        park_after: Duration,
+        settings: SessionSettings,
+        saved: SavedSessions,
     ) -> Result<Self, TrialError> {
         let sessions = Self {
             gpu,
             archive,
             known_maps,
             maps,
-            most,
-            park_after,
+            settings,
+            saved,
             hubs: RwLock::default(),
             opening: tokio::sync::Mutex::default(),
             made: AtomicU64::new(0),
         };
-        let main = sessions.start(MAIN, idle())?;
+        let main = sessions.start(MAIN, sessions.settings.opening.clone(), false)?;
         sessions.insert(&main);
         Ok(sessions)
     }
 
     pub fn park_after(&self) -> Duration {
-        self.park_after
+        self.settings.park_after
     }
 
     pub fn all(&self) -> Vec<Arc<Hub>> {
@@ -119,10 +129,11 @@ impl Sessions {
                 Ok(hub)
             }
             found => {
+                let after_fault = found.is_some();
                 if let Some(ended) = found {
                     self.end(ended).await;
                 }
-                self.make(name.to_owned(), idle()).await
+                self.make(name.to_owned(), self.settings.opening.clone(), after_fault).await
             }
         }
     }
@@ -133,16 +144,16 @@ impl Sessions {
         to_its_end(async move {
             let _one_at_a_time = sessions.opening.lock().await;
             let number = sessions.made.fetch_add(1, Ordering::Relaxed) + 1;
-            sessions.make(format!("{NUMBERED}{number}"), scenario).await
+            sessions.make(format!("{NUMBERED}{number}"), scenario, false).await
         })
         .await
     }
 
-    async fn make(self: &Arc<Self>, name: String, scenario: Scenario) -> Result<Arc<Hub>, Problem> {
+    async fn make(self: &Arc<Self>, name: String, scenario: Scenario, after_fault: bool) -> Result<Arc<Hub>, Problem> {
         self.make_room().await?;
         let (sessions, id) = (self.clone(), name.clone());
         // This creates a file, a camera and a thread.
-        let starting = tokio::task::spawn_blocking(move || sessions.start(&id, scenario));
+        let starting = tokio::task::spawn_blocking(move || sessions.start(&id, scenario, after_fault));
         let Ok(started) = tokio::time::timeout(BEGIN_WITHIN, starting).await else {
             tracing::error!(session = name, "session does not begin: it is left behind");
             let detail = format!("session {name:?} did not begin within {} s", BEGIN_WITHIN.as_secs());
@@ -160,25 +171,28 @@ impl Sessions {
     /// If all places are taken, closes the session that has been parked longest; its recordings stay.
     async fn make_room(&self) -> Result<(), Problem> {
         let all = self.all();
-        if all.len() < self.most {
+        if all.len() < self.settings.most {
             return Ok(());
         }
         let parked = all.into_iter().filter(|hub| hub.id != MAIN && hub.is_parked());
         match parked.max_by_key(|hub| hub.unwatched_for()) {
             Some(longest) => {
                 tracing::info!(session = longest.id, "parked session makes way for another");
+                self.saved.save([longest.clone()]).await;
                 self.end(longest).await;
                 Ok(())
             }
             None => {
-                let detail =
-                    format!("there are {} sessions already, and all are in use: one has to end first", self.most);
+                let detail = format!(
+                    "there are {} sessions already, and all are in use: one has to end first",
+                    self.settings.most
+                );
                 Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail))
             }
         }
     }
 
-    fn start(&self, id: &str, scenario: Scenario) -> Result<Arc<Hub>, TrialError> {
+    fn start(&self, id: &str, scenario: Scenario, after_fault: bool) -> Result<Arc<Hub>, TrialError> {
         // If the recording cannot start, the page shows that and the session runs without it.
         let sink: Box<dyn Sink> = match Recorder::in_archive(&self.archive, id, Options::LIVE) {
             Ok(recorder) => Box::new(recorder),
@@ -187,7 +201,12 @@ impl Sessions {
                 Box::new(Nowhere { reason: error.to_string() })
             }
         };
-        let session = Session::start(id, scenario, self.known_maps.clone(), self.gpu.clone(), sink)?;
+        let is_saved = id != DEMO && !id.starts_with(NUMBERED);
+        let opening = if is_saved { self.saved.opening(id, after_fault) } else { Opening::Fresh };
+        let session = Session::start(id, scenario, opening, self.known_maps.clone(), self.gpu.clone(), sink)?;
+        if is_saved {
+            self.saved.opened(id, &session.watch().borrow());
+        }
         tracing::info!(session = id, "session opened");
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))
     }
@@ -208,7 +227,7 @@ impl Sessions {
     /// Parks the sessions without viewers: they pause.
     pub async fn park(&self) {
         for hub in self.all() {
-            if hub.unwatched_for() >= self.park_after && !hub.is_parked() {
+            if hub.unwatched_for() >= self.settings.park_after && !hub.is_parked() {
                 hub.set_parked();
                 // An ended session needs no parking; a hanging one must not block the others.
                 let _ = tokio::time::timeout(END_WITHIN, hub.session.send(Command::Pause)).await;
@@ -217,7 +236,15 @@ impl Sessions {
         }
     }
 
-    /// Pauses and removes all sessions.
+    /// Saves all sessions, again and again.
+    pub async fn keep_saving(&self) {
+        loop {
+            tokio::time::sleep(SAVE_EVERY).await;
+            self.saved.save(self.all()).await;
+        }
+    }
+
+    /// Pauses, saves and removes all sessions.
     pub async fn hold(&self) -> Vec<Arc<Hub>> {
         let hubs = std::mem::take(&mut *self.hubs.write().unwrap_or_else(PoisonError::into_inner));
         let hubs: Vec<_> = hubs.into_values().collect();
@@ -225,6 +252,7 @@ impl Sessions {
         let holding = futures_util::future::join_all(hubs.iter().map(|hub| hub.session.send(Command::Pause)));
         // A hanging session must not keep the others from closing.
         let _ = tokio::time::timeout(Duration::from_millis(300), holding).await;
+        self.saved.save(hubs.iter().cloned()).await;
         hubs
     }
 }
@@ -244,23 +272,29 @@ fn not_opened(error: TrialError) -> Problem {
     }
 }
 
-fn idle() -> Scenario {
-    Scenario::idle("posts", 1)
-}
-
 #[cfg(test)]
 mod tests {
     use std::time::Instant;
 
     use super::*;
+    use crate::trial::Input;
+
+    fn sessions(folder: &tempfile::TempDir, settings: SessionSettings) -> Arc<Sessions> {
+        let archive = Archive::new(folder.path().join("recordings"), crate::recording::Retention::default());
+        let saved = SavedSessions::in_folder(folder.path().join("sessions"), false);
+        let gpu = Gpu::open(Default::default()).unwrap();
+        let maps = watch::channel(0).1;
+        Arc::new(Sessions::new(gpu, archive, Arc::default(), maps, settings, saved).unwrap())
+    }
+
+    fn settings(most: usize, park_after: Duration) -> SessionSettings {
+        SessionSettings { most, park_after, opening: Scenario::idle("posts", 1) }
+    }
 
     #[tokio::test(flavor = "multi_thread")]
     async fn reopening_a_session_that_ended_by_a_fault_restarts_it() {
         let folder = tempfile::tempdir().unwrap();
-        let archive = Archive::new(folder.path().to_owned(), crate::recording::Retention::default());
-        let gpu = Gpu::open(Default::default()).unwrap();
-        let hour = Duration::from_secs(3600);
-        let sessions = Arc::new(Sessions::new(gpu, archive, Arc::default(), watch::channel(0).1, 3, hour).unwrap());
+        let sessions = sessions(&folder, settings(3, Duration::from_secs(3600)));
         let opened = sessions.open("anna").await.unwrap();
         assert!(Arc::ptr_eq(&opened, &sessions.open("anna").await.unwrap()));
         crate::faults::arm("session anna", "step");
@@ -277,10 +311,7 @@ mod tests {
     #[tokio::test(flavor = "multi_thread")]
     async fn a_hanging_session_does_not_block_the_others() {
         let folder = tempfile::tempdir().unwrap();
-        let archive = Archive::new(folder.path().to_owned(), crate::recording::Retention::default());
-        let gpu = Gpu::open(Default::default()).unwrap();
-        let sessions =
-            Arc::new(Sessions::new(gpu, archive, Arc::default(), watch::channel(0).1, 4, Duration::ZERO).unwrap());
+        let sessions = sessions(&folder, settings(4, Duration::ZERO));
         let hung = sessions.open("carl").await.unwrap();
         crate::faults::arm("session carl", "hang");
         hung.session.send(Command::Run).await.unwrap();
@@ -300,6 +331,49 @@ mod tests {
         let tick = other.session.watch().borrow().moment.tick;
         assert!(other.session.watch().borrow().running && tick > 125, "the other is at tick {tick}");
         assert!(!Arc::ptr_eq(&again, &hung) && *hung.closing().borrow());
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn a_session_goes_on_from_the_disk() {
+        let folder = tempfile::tempdir().unwrap();
+        let settings = || settings(4, Duration::from_secs(3600));
+        let first = sessions(&folder, settings());
+        let anna = first.open("anna").await.unwrap();
+        first.saved.save(first.all()).await;
+        assert!(!folder.path().join("sessions").exists(), "nothing has happened yet");
+        let goal = Input::SetGoal { x_m: 0.1, y_m: -0.3 };
+        anna.session.send(Command::Input(goal)).await.unwrap();
+        anna.session.send(Command::Step(100)).await.unwrap();
+        anna.session.send(Command::Reset(Some(9))).await.unwrap();
+        anna.session.send(Command::Step(50)).await.unwrap();
+        let view = anna.session.watch().borrow().clone();
+        first.hold().await;
+
+        let second = sessions(&folder, settings());
+        let again = second.open("anna").await.unwrap();
+        let after = again.session.watch().borrow().clone();
+        assert_eq!((after.world_hash, after.moment.tick, after.running), (view.world_hash, 50, false));
+        assert_eq!(after.scenery.scenario.seed, 9);
+        assert_eq!(again.session.resumed_tick(), Some(50));
+        let kept: Vec<_> = after.scenery.kept_runs.iter().map(|run| (run.seed, run.tick)).collect();
+        assert_eq!(kept, [(1, 100)]);
+        again.session.send(Command::Return(after.scenery.kept_runs[0].number)).await.unwrap();
+        let returned = again.session.watch().borrow().clone();
+        assert_eq!((returned.moment.tick, returned.moment.goal_m.is_some()), (100, true));
+        assert_eq!(second.find(MAIN).unwrap().session.resumed_tick(), None, "nothing happened in main");
+        second.hold().await;
+
+        // A damaged file is no reason to fail, and the page says so.
+        let file = folder.path().join("sessions/anna.ferry");
+        let mut bytes = std::fs::read(&file).unwrap();
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 1;
+        std::fs::write(&file, bytes).unwrap();
+        let third = sessions(&folder, settings());
+        let fresh = third.open("anna").await.unwrap();
+        let view = fresh.session.watch().borrow().clone();
+        assert_eq!((view.moment.tick, fresh.session.resumed_tick()), (0, None));
+        assert!(view.journal[0].text.starts_with("the session started over: log: damaged"), "{:?}", view.journal);
     }
 
     #[test]

@@ -1,14 +1,16 @@
 //! The maps available by name: shipped maps and added maps.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::sync::{PoisonError, RwLock};
 
 use super::{Map, MapError};
 
 /// Largest number of added maps.
 pub const ADDED_MAPS: usize = 32;
-/// Prefix of the names of added maps, followed by a number.
-const ADDED: &str = "map-";
+/// Name of an added map that has no other name, followed by a number.
+const NUMBERED: &str = "map-";
+/// Longest name of an added map.
+const NAME_LENGTH: usize = 40;
 
 /// Maps by name, shared by all sessions. A session keeps the map that it has loaded.
 #[derive(Debug, Default)]
@@ -18,9 +20,24 @@ pub struct Library {
 
 #[derive(Debug, Default)]
 struct Added {
-    maps: BTreeMap<u32, Map>,
-    /// The largest number used so far: names are never reused.
-    last: u32,
+    /// Oldest first.
+    maps: Vec<Map>,
+    /// All names so far, those of removed maps included: an experiment link must never open another drawing.
+    used: BTreeSet<String>,
+}
+
+impl Added {
+    /// The name after the largest number so far.
+    fn numbered(&self) -> String {
+        let number = |name: &String| name.strip_prefix(NUMBERED)?.parse::<u32>().ok();
+        let last = self.used.iter().filter_map(number).max().unwrap_or(0);
+        format!("{NUMBERED}{}", last.saturating_add(1))
+    }
+
+    fn insert(&mut self, map: Map) {
+        self.used.insert(map.name().to_owned());
+        self.maps.push(map);
+    }
 }
 
 impl Library {
@@ -30,7 +47,7 @@ impl Library {
     /// If there is no such map.
     pub fn find(&self, name: &str) -> Result<Map, MapError> {
         let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
-        match number(name).and_then(|number| added.maps.get(&number)) {
+        match added.maps.iter().find(|map| map.name() == name) {
             Some(map) => Ok(map.clone()),
             None => Map::shipped(name),
         }
@@ -39,22 +56,23 @@ impl Library {
     /// All names: the shipped ones, sorted, then the added ones, oldest first.
     pub fn names(&self) -> Vec<String> {
         let added = self.added.read().unwrap_or_else(PoisonError::into_inner);
-        Map::shipped_names().into_iter().chain(added.maps.values().map(|map| map.name().to_owned())).collect()
+        Map::shipped_names().into_iter().chain(added.maps.iter().map(|map| map.name().to_owned())).collect()
     }
 
-    /// Adds a drawing under a new name.
+    /// Adds a drawing. It gets the wished name if that is valid ([`is_added`]) and was never used, otherwise a number.
     ///
     /// # Errors
     /// If it is not a valid map (see [`Map::from_svg`]), or if there are already [`ADDED_MAPS`].
-    pub fn add(&self, svg: &str) -> Result<Map, MapError> {
+    pub fn add(&self, wished: Option<&str>, svg: &str) -> Result<Map, MapError> {
         // Parsed before the lock is taken; the name is set last.
         let mut map = Map::from_svg("", svg)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
-        let number = added.last.checked_add(1).filter(|_| added.maps.len() < ADDED_MAPS);
-        let number = number.ok_or(MapError::TooMany { max: ADDED_MAPS })?;
-        map.name = format!("{ADDED}{number}");
-        added.maps.insert(number, map.clone());
-        added.last = number;
+        if added.maps.len() >= ADDED_MAPS {
+            return Err(MapError::TooMany { max: ADDED_MAPS });
+        }
+        let free = wished.filter(|name| is_added(name) && !added.used.contains(*name));
+        map.name = free.map_or_else(|| added.numbered(), str::to_owned);
+        added.insert(map.clone());
         Ok(map)
     }
 
@@ -63,48 +81,57 @@ impl Library {
     /// # Errors
     /// Those of [`Self::add`], and if the name is not that of an added map.
     pub fn restore(&self, name: &str, svg: &str) -> Result<(), MapError> {
-        let number = number(name).ok_or_else(|| MapError::Unknown { name: name.to_owned() })?;
+        if !is_added(name) {
+            return Err(MapError::Unknown { name: name.to_owned() });
+        }
         let map = Map::from_svg(name, svg)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         if added.maps.len() >= ADDED_MAPS {
             return Err(MapError::TooMany { max: ADDED_MAPS });
         }
-        added.maps.insert(number, map);
-        added.last = added.last.max(number);
+        added.insert(map);
         Ok(())
+    }
+
+    /// Marks a name as used, because a map of this name was removed.
+    pub fn retire(&self, name: &str) {
+        self.added.write().unwrap_or_else(PoisonError::into_inner).used.insert(name.to_owned());
     }
 
     /// Removes an added map, if it exists. Sessions that have loaded it keep it.
     pub fn remove(&self, name: &str) -> Option<Map> {
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
-        number(name).and_then(|number| added.maps.remove(&number))
+        let index = added.maps.iter().position(|map| map.name() == name)?;
+        Some(added.maps.remove(index))
     }
 }
 
-/// Whether the name has the form of an added map's name.
+/// Whether an added map may have this name: up to 40 of a to z, 0 to 9, - and _, not the name of a shipped map.
 pub fn is_added(name: &str) -> bool {
-    number(name).is_some()
-}
-
-/// The number in an added map's name; `None` if it is not in canonical form.
-fn number(name: &str) -> Option<u32> {
-    let number = name.strip_prefix(ADDED)?.parse().ok()?;
-    (format!("{ADDED}{number}") == name).then_some(number)
+    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    (1..=NAME_LENGTH).contains(&name.len())
+        && name.chars().all(fits)
+        && !name.starts_with(['-', '_'])
+        && !Map::shipped_names().iter().any(|shipped| shipped == name)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn drawing() -> String {
+        Map::shipped("posts").unwrap().svg().to_owned()
+    }
+
     #[test]
     fn adds_finds_and_removes_maps_under_generated_names() {
         let library = Library::default();
-        let drawing = Map::shipped("posts").unwrap().svg().to_owned();
-        let first = library.add(&drawing).unwrap();
+        let drawing = drawing();
+        let first = library.add(None, &drawing).unwrap();
         assert_eq!((first.name(), library.find("map-1").unwrap().name()), ("map-1", "map-1"));
         assert_eq!(first.walls(), Map::shipped("posts").unwrap().walls());
         library.restore("map-7", &drawing).unwrap();
-        assert_eq!(library.add(&drawing).unwrap().name(), "map-8");
+        assert_eq!(library.add(None, &drawing).unwrap().name(), "map-8");
         assert!(library.names().ends_with(&["map-1".into(), "map-7".into(), "map-8".into()]));
         assert!(library.remove("map-7").is_some() && library.remove("map-7").is_none());
         assert!(library.remove("posts").is_none() && library.find("posts").is_ok());
@@ -113,7 +140,23 @@ mod tests {
         }
         assert!(library.restore("../x", &drawing).is_err());
         assert!(library.remove("map-8").is_some());
-        assert_eq!(library.add(&drawing).unwrap().name(), "map-9", "a link to map-8 must not open another map");
+        assert_eq!(library.add(None, &drawing).unwrap().name(), "map-9", "a link to map-8 must not open another map");
+    }
+
+    #[test]
+    fn a_map_gets_the_wished_name_if_it_is_valid_and_new() {
+        let library = Library::default();
+        let drawing = drawing();
+        assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "two-rooms");
+        assert_eq!(library.find("two-rooms").unwrap().name(), "two-rooms");
+        for wished in ["two-rooms", "colon", "Two rooms", "", "-a", "../x", "a.svg", &"x".repeat(41)] {
+            let name = library.add(Some(wished), &drawing).unwrap().name().to_owned();
+            assert!(name.starts_with("map-"), "{wished:?} became {name}");
+        }
+        library.remove("two-rooms").unwrap();
+        assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "map-9", "a deleted name is not reused");
+        library.retire("old");
+        assert_eq!(library.add(Some("old"), &drawing).unwrap().name(), "map-10");
     }
 
     #[test]
@@ -121,9 +164,9 @@ mod tests {
         let library = Library::default();
         let drawing = Map::shipped("open").unwrap().svg().to_owned();
         for _ in 0..ADDED_MAPS {
-            library.add(&drawing).unwrap();
+            library.add(None, &drawing).unwrap();
         }
-        assert!(matches!(library.add(&drawing), Err(MapError::TooMany { max: ADDED_MAPS })));
-        assert!(matches!(library.add("<svg/>"), Err(error) if !matches!(error, MapError::TooMany { .. })));
+        assert!(matches!(library.add(None, &drawing), Err(MapError::TooMany { max: ADDED_MAPS })));
+        assert!(matches!(library.add(None, "<svg/>"), Err(error) if !matches!(error, MapError::TooMany { .. })));
     }
 }

@@ -66,8 +66,11 @@ pub enum MapError {
     /// The library is full.
     #[error("map: {max} maps are already added, remove one first")]
     TooMany { max: usize },
+    /// A file of another kind.
+    #[error("map: this is not an SVG")]
+    NotSvg,
     /// Not well-formed, or not SVG.
-    #[error("map: not a readable SVG: {0}")]
+    #[error("map: this is not a readable SVG: {0}")]
     Svg(String),
     /// The root has no usable `viewBox`, which defines the workspace.
     #[error("map: viewBox {value:?}: {reason}")]

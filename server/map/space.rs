@@ -71,7 +71,12 @@ impl FreeSpace {
         free
     }
 
-    fn center(&self, cell: usize) -> Point2<f64> {
+    /// The centre of each cell; `None` where it is not free.
+    pub fn cells(&self) -> impl Iterator<Item = Option<Point2<f64>>> + '_ {
+        (0..self.component.len()).map(|cell| self.component[cell].map(|_| self.center(cell)))
+    }
+
+    pub(super) fn center(&self, cell: usize) -> Point2<f64> {
         let (column, row) = (cell % self.columns, cell / self.columns);
         Point2::new(self.origin_m[0] + (column as f64 + 0.5) * CELL_M, self.origin_m[1] + (row as f64 + 0.5) * CELL_M)
     }
@@ -85,7 +90,7 @@ impl FreeSpace {
     }
 
     /// The eight neighbours inside the grid, with their distances in micrometres.
-    fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> + use<> {
+    pub(super) fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> + use<> {
         let (columns, rows) = (self.columns as isize, (self.component.len() / self.columns) as isize);
         let (column, row) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
         let steps = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];

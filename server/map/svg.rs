@@ -6,6 +6,7 @@
 
 mod attributes;
 mod contacts;
+mod fit;
 #[cfg(test)]
 mod fuzz_tests;
 mod screen;
@@ -20,6 +21,7 @@ use usvg::tiny_skia_path::Transform;
 
 use super::{MAX_SVG_BYTES, MapError, Repair};
 use crate::geometry::{Polygon, Rect};
+pub use fit::fit;
 
 type Ring = Vec<[f64; 2]>;
 
@@ -68,6 +70,9 @@ pub(super) fn read(text: &str) -> Result<Drawing, MapError> {
 fn parse(text: &str) -> Result<roxmltree::Document<'_>, MapError> {
     if text.len() > MAX_SVG_BYTES {
         return Err(MapError::TooLarge { bytes: text.len() });
+    }
+    if !text.contains("svg") {
+        return Err(MapError::NotSvg);
     }
     let refused = |reason: String| Err(MapError::Svg(reason));
     if text.contains("<!ENTITY") {

@@ -91,6 +91,11 @@ pub enum ClientMessage {
         #[ts(optional, as = "Option<Vec<Scripted>>")]
         script: Vec<Scripted>,
     },
+    /// Opens a test case: a new trial of its scenario, in which its inputs are applied at their ticks. `case` is the
+    /// file as text, because a JavaScript number cannot represent every seed.
+    OpenCase {
+        case: String,
+    },
     /// Applies a disturbance of the bead or of the tracker now.
     Disturb {
         disturbance: Disturbance,
@@ -99,6 +104,10 @@ pub enum ClientMessage {
     Rewind {
         #[ts(type = "number")]
         tick: u64,
+    },
+    /// Returns to the end of a kept run (see `scene.kept_runs`); pauses. The present is kept.
+    ReturnTo {
+        run: u32,
     },
     /// Compares controllers: continues from the control step at or before a kept tick under each of these controllers (all
     /// if omitted), beside the session. The answer is a `comparison`; a new one replaces an older one.
@@ -117,7 +126,8 @@ pub enum ClientMessage {
 }
 
 impl ClientMessage {
-    /// The command for the session; `None` for messages about the connection or the comparison.
+    /// The command for the session; `None` for messages about the connection or the comparison, and for a test case,
+    /// which must be read first.
     pub fn command(self) -> Option<Command> {
         let point = |[x, y]: [f64; 2]| Point2::new(x, y);
         Some(match self {
@@ -160,7 +170,10 @@ impl ClientMessage {
             }
             Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
-            Self::Compare { .. } | Self::TakeControl {} | Self::ReleaseControl {} => return None,
+            Self::ReturnTo { run } => Command::Return(run),
+            Self::OpenCase { .. } | Self::Compare { .. } | Self::TakeControl {} | Self::ReleaseControl {} => {
+                return None;
+            }
         })
     }
 }

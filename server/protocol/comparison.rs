@@ -53,6 +53,8 @@ pub struct MomentMessage {
     pub target_m: Option<[f64; 2]>,
     /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
+    /// What keeps the controller from the goal, if anything.
+    pub trouble: Option<String>,
     /// The controller's observation and layers.
     pub overlay: Box<OverlayMessage>,
 }
@@ -82,6 +84,7 @@ impl MomentMessage {
                 Motion::Hold | Motion::Track => None,
             },
             refusal: decision.refusal.as_ref().map(ToString::to_string),
+            trouble: record.moment.trouble.map(|trouble| trouble.to_string()),
             overlay: Box::new(overlay),
         })
     }

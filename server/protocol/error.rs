@@ -26,12 +26,15 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::Map(_) | CommandError::Trial(TrialError::Map(_) | TrialError::Random(_)) => {
                 ("map_refused", Some("map"))
             }
+            CommandError::Case(error) => ("bad_case", Some(error.field()).filter(|field| !field.is_empty())),
+            CommandError::OtherDrawing { .. } => ("other_drawing", Some("map.name")),
             CommandError::Trial(TrialError::Parameter(error)) => ("parameter_out_of_range", Some(error.field)),
             CommandError::Trial(TrialError::Script { .. } | TrialError::LongScript { .. }) => {
                 ("bad_script", Some("script"))
             }
             CommandError::Trial(_) => ("trial_failed", None),
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
+            CommandError::NoRun { .. } => ("no_run", Some("run")),
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),
             CommandError::Forgotten => ("forgotten", None),

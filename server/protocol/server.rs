@@ -10,11 +10,14 @@ use crate::geometry::{Point2, Polygon, Rect};
 use crate::plant::{BEAD_RADIUS_M, PositionerKind};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters, Scenario};
-use crate::session::{Scenery, View};
+use crate::session::{KeptRunSummary, OpenedCase, Scenery, View};
 use crate::trial::{Event, EventKind};
 
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;
+
+/// Longest description of a test case that is sent, in characters.
+const ABOUT_CHARACTERS: usize = 200;
 
 /// Role of a browser.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
@@ -68,6 +71,10 @@ pub struct Hello {
     pub asked: bool,
     /// Graphics adapter that renders the camera.
     pub adapter: String,
+    /// When this server opened the session. It changes when the server was restarted or the session opened again.
+    pub opened: String,
+    /// Time of the trial at which the session went on from what was saved; `null` if it began with its scenario.
+    pub resumed_s: Option<f64>,
 }
 
 /// See `ServerMessage::Scene`.
@@ -94,6 +101,12 @@ pub struct SceneMessage {
     /// Corners of the part of the table that the camera sees, relative to the tool.
     #[schema(value_type = Vec<Numbers2>)]
     pub camera_sees_m: Vec<[f64; 2]>,
+    /// Kept runs, oldest first: what rewinds, resets and other scenarios have left behind.
+    #[serde(default)]
+    pub kept_runs: Vec<KeptRun>,
+    /// The test case that was opened for this trial.
+    #[serde(default)]
+    pub case: Option<CaseSummary>,
     /// Number of the trial; each new trial has another one.
     #[ts(type = "number")]
     pub trial: u64,
@@ -103,6 +116,65 @@ pub struct SceneMessage {
     pub capture_m: Vec<Option<(f64, Option<f64>)>>,
     /// Seconds per tick.
     pub tick_s: f64,
+}
+
+/// A run that `return_to` accepts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct KeptRun {
+    pub number: u32,
+    /// Name of its map.
+    pub map: String,
+    #[ts(type = "number")]
+    pub seed: u64,
+    /// Sub-controller 2 at its end.
+    pub controller: ControllerName,
+    /// Time at its end.
+    pub sim_time_s: f64,
+    pub deliveries: u32,
+}
+
+impl From<&KeptRunSummary> for KeptRun {
+    fn from(summary: &KeptRunSummary) -> Self {
+        Self {
+            number: summary.number,
+            map: summary.map.clone(),
+            seed: summary.seed,
+            controller: summary.controller,
+            sim_time_s: summary.tick as f64 * SERVO_PERIOD_S,
+            deliveries: summary.deliveries,
+        }
+    }
+}
+
+/// An opened test case: its inputs come at their ticks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct CaseSummary {
+    /// Description, possibly shortened.
+    pub about: String,
+    /// Number of inputs.
+    pub inputs: usize,
+    /// Tick of the last input; 0 without inputs.
+    #[ts(type = "number")]
+    pub last_tick: u64,
+    /// Expected deliveries since the start, up to `by_tick`; omitted if the case expects nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub deliveries: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional, type = "number")]
+    pub by_tick: Option<u64>,
+}
+
+impl From<&OpenedCase> for CaseSummary {
+    fn from(case: &OpenedCase) -> Self {
+        Self {
+            about: case.about.chars().take(ABOUT_CHARACTERS).collect(),
+            inputs: case.inputs().len(),
+            last_tick: case.inputs().last().map_or(0, |timed| timed.tick),
+            deliveries: case.expect.map(|expect| expect.deliveries),
+            by_tick: case.expect.map(|expect| expect.by_tick),
+        }
+    }
 }
 
 /// See `ServerMessage::State`.
@@ -156,6 +228,9 @@ pub struct StateMessage {
     pub reason: String,
     /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
+    /// Why sub-controller 2 makes no progress, if it makes none.
+    #[serde(default)]
+    pub trouble: Option<String>,
     /// Sub-controller 2 in use.
     pub controller: ControllerName,
     /// Phase: `holding`, `approaching`, `transporting`, `settling`, `delivered`, `lifted off`, `stopped`.
@@ -199,6 +274,10 @@ pub struct EventMessage {
     pub kind: EventKind,
     /// One sentence.
     pub text: String,
+    /// Part of the past of a run that the session has returned to; omitted otherwise.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(optional, as = "Option<bool>")]
+    pub again: bool,
 }
 
 impl From<&Event> for EventMessage {
@@ -208,6 +287,7 @@ impl From<&Event> for EventMessage {
             sim_time_s: event.tick as f64 * SERVO_PERIOD_S,
             kind: event.kind,
             text: event.text.clone(),
+            again: false,
         }
     }
 }
@@ -229,6 +309,8 @@ impl From<&Scenery> for SceneMessage {
             defaults: Parameters::default(),
             bead_radius_m: BEAD_RADIUS_M,
             camera_sees_m: camera_sees_m(p),
+            kept_runs: scenery.kept_runs.iter().map(KeptRun::from).collect(),
+            case: scenery.case.as_deref().map(CaseSummary::from),
             trial: scenery.trial,
             capture_m: p.plant().capture_m(p.tool_height_m, CAPTURE_DIRECTIONS),
             tick_s: SERVO_PERIOD_S,
@@ -266,6 +348,7 @@ impl From<&View> for StateMessage {
             mode: m.switching.mode.index(),
             reason: m.reason(),
             refusal: m.refusal.clone(),
+            trouble: m.trouble.map(|trouble| trouble.to_string()),
             controller: m.controller,
             phase: m.phase.to_string(),
             tracking_error_x_m: error.x,

@@ -37,6 +37,7 @@ fn declaration<T: TS>(config: &Config) -> String {
 fn constants() -> String {
     [
         constant("PROTOCOL_VERSION", PROTOCOL_VERSION, "Version of the messages."),
+        constant("MAX_MESSAGE_BYTES", MAX_MESSAGE_BYTES, "Largest message to the server."),
         constant("BINARY_CAMERA_JPEG", BINARY_CAMERA_JPEG, "First byte of a binary message with a camera image."),
         constant("BINARY_OBSERVATION", BINARY_OBSERVATION, "First byte of a binary message with an observation."),
         constant("CONTROL_PERIOD_S", CONTROL_PERIOD_S, "Simulated time between control steps."),
@@ -79,23 +80,11 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 8] {
+fn modules() -> [(&'static str, Vec<Declaration>); 10] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
-        (
-            "messages",
-            declared![
-                ClientMessage,
-                Role,
-                ServerMessage,
-                Hello,
-                SceneMessage,
-                StateMessage,
-                EventKind,
-                EventMessage,
-                ErrorMessage,
-            ],
-        ),
+        ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
+        ("session", declared![SceneMessage, KeptRun, CaseSummary, StateMessage]),
         ("layers", declared![SensedObstacle, OverlayMessage, BlocksLayer, PlanLayer, SeenMessage, JudgementLayer]),
         ("comparison", declared![Branch, ComparisonMessage, MomentMessage]),
         (
@@ -121,7 +110,8 @@ fn modules() -> [(&'static str, Vec<Declaration>); 8] {
             declared![EvaluationQuery, Cell, EvaluationStage, PaperRow, EvaluationCell, EvaluationSummary, Evaluations],
         ),
         ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
-        ("recordings", declared![RecordingFile, RecordingList]),
+        ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),
+        ("maps", declared![NarrowPlace, MapReport]),
     ]
 }
 

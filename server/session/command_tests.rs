@@ -16,7 +16,7 @@ use crate::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
 use crate::robot::ur5::{JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
 use crate::robot::{Joints, jacobian};
 use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use crate::trial::{Arena, Input, Nowhere};
+use crate::trial::{Arena, Case, Input, Nowhere, Timed};
 
 const SIDE_PX: u32 = 480;
 /// Tolerance for rounding.
@@ -146,7 +146,23 @@ fn load(rng: &mut impl Rng, present: &Parameters) -> Command {
             .collect(),
         ..idle
     };
-    Command::Load { scenario: Box::new(scenario), kept }
+    if rng.random_bool(0.7) {
+        return Command::Load { scenario: Box::new(scenario), kept };
+    }
+    let inputs = (0..rng.random_range(0..40)).map(|_| timed(rng)).collect();
+    Command::Open(Box::new(Case { about: String::new(), scenario, map: None, inputs, expect: None }))
+}
+
+/// An input of a test case. Parameters stay, because [`Watch`] knows only those before and after a command.
+fn timed(rng: &mut impl Rng) -> Timed {
+    let (x_m, y_m) = place(rng);
+    let input = match rng.random_range(0..4) {
+        0 => Input::SetGoal { x_m, y_m },
+        1 => Input::Place { x_m, y_m },
+        2 => Input::Release,
+        _ => Input::Drag { x_m, y_m, lift: rng.random_bool(0.3) },
+    };
+    Timed { tick: rng.random_range(0..200), input }
 }
 
 fn controller(rng: &mut impl Rng) -> ControllerName {
@@ -176,7 +192,9 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
         930..932 => return Command::Pause,
         932..950 => return Command::Step([0, 1, 2, 40, u32::MAX][rng.random_range(0..5)]),
         950..990 => return Command::SetSpeed(number(rng, 0.1, 70.0)),
-        990..997 => return Command::Rewind(rng.random_range(0..newest + 10)),
+        990..996 => return Command::Rewind(rng.random_range(0..newest + 10)),
+        996 if rng.random_bool(0.1) => return Command::Return(rng.random_range(0..40)),
+        996 => return Command::Rewind(newest),
         997..999 => return Command::Reset(rng.random_bool(0.5).then(|| rng.random_range(0..100))),
         // Loading a map takes as long as thousands of commands.
         _ if rng.random_bool(0.1) => return load(rng, present),

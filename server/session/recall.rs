@@ -25,7 +25,8 @@ impl<E: ImageSource> Worker<E> {
             Recalled::Step if is_present && step_is_due(tick) => self.trial.snapshot(),
             _ => self.moment(tick)?.clone(),
         };
-        let inputs = self.timeline.inputs_after(state.world.tick);
+        let mut inputs = self.timeline.inputs_after(state.world.tick);
+        inputs.extend(self.case_inputs_after(state.world.tick));
         Ok(BranchPoint::new(&self.trial, state, inputs))
     }
 

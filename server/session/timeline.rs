@@ -1,6 +1,7 @@
 //! Moments for rewinding: a snapshot before each control step of the last ten minutes, and the inputs since then.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use crate::trial::{Input, TrialState};
 
@@ -9,10 +10,10 @@ const MOST: usize = 2400;
 /// More than a hand sends in ten minutes at sixty inputs per second; a few hundred bytes each.
 const MOST_INPUTS: usize = 50_000;
 
-/// Snapshots in order of tick.
-#[derive(Debug, Default)]
+/// Snapshots in order of tick. Copies share them.
+#[derive(Clone, Debug, Default)]
 pub struct Timeline {
-    moments: VecDeque<TrialState>,
+    moments: VecDeque<Arc<TrialState>>,
     /// Inputs with the tick before which they were applied.
     inputs: VecDeque<(u64, Input)>,
 }
@@ -24,7 +25,7 @@ impl Timeline {
         if self.moments.back().is_some_and(|last| last.world.tick == state.world.tick) {
             self.moments.pop_back();
         }
-        self.moments.push_back(state);
+        self.moments.push_back(Arc::new(state));
         if self.moments.len() > MOST {
             self.drop_oldest();
         }
@@ -78,7 +79,12 @@ impl Timeline {
     /// The last state at or before a tick.
     pub fn at(&self, tick: u64) -> Option<&TrialState> {
         let after = self.moments.partition_point(|state| state.world.tick <= tick);
-        after.checked_sub(1).map(|index| &self.moments[index])
+        after.checked_sub(1).map(|index| &*self.moments[index])
+    }
+
+    /// Number of moments.
+    pub fn len(&self) -> usize {
+        self.moments.len()
     }
 
     /// First and last tick kept.

@@ -8,15 +8,16 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{broadcast, watch};
 
+use super::kept_runs::{KeptRun, KeptRuns};
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, JOURNAL, Kept, Request, STEP_MAX, Scenery, View};
+use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
 use crate::map::Library;
 use crate::scenario::Scenario;
-use crate::trial::{Arena, Beginning, Event, EventKind, Input, InputError, Sight, Sink, Source, Trial, TrialError};
+use crate::trial::{Arena, Beginning, Event, Input, InputError, Sight, Sink, Source, Trial, TrialError, TrialState};
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -28,18 +29,23 @@ pub(super) type MakeCamera<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + S
 
 pub(super) struct Worker<E> {
     pub(super) trial: Trial,
-    make_camera: MakeCamera<E>,
-    camera: E,
-    sink: Box<dyn Sink>,
+    pub(super) make_camera: MakeCamera<E>,
+    pub(super) camera: E,
+    pub(super) sink: Box<dyn Sink>,
     events: broadcast::Sender<Event>,
     pub(super) timeline: Timeline,
+    /// The state before the first of several rewinds, until the trial goes on.
+    pub(super) end: Option<TrialState>,
+    pub(super) kept_runs: KeptRuns,
+    /// Tick at which the trial went on after a restart of the server.
+    pub(super) resumed_tick: Option<u64>,
     pub(super) scenery: Arc<Scenery>,
-    sight: Arc<(u64, Sight)>,
+    pub(super) sight: Arc<(u64, Sight)>,
     pub(super) running: bool,
     /// Whether the trial's hand comes from a rewind and no longer belongs to a pointer.
-    hand_is_stale: bool,
+    pub(super) hand_is_stale: bool,
     pace: Pace,
-    journal: Arc<Vec<Event>>,
+    pub(super) journal: Arc<Vec<Event>>,
     /// The session ends while a command is carried out.
     pub(super) broken: Option<TrialError>,
     /// The session ends; no further work is started.
@@ -70,6 +76,9 @@ impl<E: ImageSource> Worker<E> {
             sink,
             events,
             timeline,
+            end: None,
+            kept_runs: KeptRuns::default(),
+            resumed_tick: None,
             scenery,
             sight,
             running: false,
@@ -168,6 +177,9 @@ impl<E: ImageSource> Worker<E> {
             Request::Case { answer } => {
                 let _ = answer.send(self.case());
             }
+            Request::Save { answer } => {
+                let _ = answer.send(self.saved());
+            }
         }
         Ok(())
     }
@@ -214,18 +226,21 @@ impl<E: ImageSource> Worker<E> {
                     parameters: self.trial.state().world.parameters.clone(),
                     ..old.clone()
                 };
-                self.set_up(scenario, self.trial.arena().clone())?;
+                self.set_up(scenario, self.trial.arena().clone(), self.scenery.case.clone())?;
             }
             Command::Load { scenario, kept } => self.load(*scenario, kept)?,
+            Command::Open(case) => self.open(*case)?,
             Command::Rewind(tick) => {
                 let state = self.moment(tick)?.clone();
+                self.end.get_or_insert_with(|| self.trial.snapshot());
                 self.running = false;
-                self.hand_is_stale = state.world.plant.hand.is_some();
                 self.trial.restore(state);
+                self.hand_is_stale = self.trial.state().world.plant.hand.is_some() && !self.case_holds();
                 self.scenery = Arc::new(self.next_scenery(0));
                 self.sink.begin(&self.trial, Beginning::Resumed);
                 self.observe();
             }
+            Command::Return(number) => self.return_to(number)?,
         }
         Ok(())
     }
@@ -266,55 +281,8 @@ impl<E: ImageSource> Worker<E> {
         Ok(configures)
     }
 
-    fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
-        // Only a name: no path from a client touches the file system.
-        let arena = Arena::of(self.scenery.known_maps.find(&scenario.map)?);
-        let present = self.trial.state();
-        if kept.controller {
-            scenario.controller = present.controller;
-        }
-        if kept.seed {
-            scenario.seed = self.trial.scenario().seed;
-        }
-        if kept.parameters {
-            scenario.parameters = present.world.parameters.clone();
-        }
-        let camera = (self.make_camera)(&arena).map_err(TrialError::from)?;
-        let before = std::mem::replace(&mut self.camera, camera);
-        let done = self.set_up(scenario, arena);
-        if done.is_err() {
-            self.camera = before;
-        }
-        done
-    }
-
-    fn set_up(&mut self, scenario: Scenario, arena: Arc<Arena>) -> Result<(), CommandError> {
-        let trial = Trial::new(scenario, arena)?;
-        let sight = trial.observe(&mut self.camera).map_err(TrialError::from)?;
-        self.trial = trial;
-        self.running = false;
-        self.hand_is_stale = false;
-        self.scenery = Arc::new(self.next_scenery(1));
-        self.sink.begin(&self.trial, Beginning::SetUp);
-        self.sight = Arc::new((0, sight));
-        self.timeline = Timeline::default();
-        self.timeline.keep(self.trial.snapshot());
-        let scenario = self.trial.scenario();
-        let text = format!("set up: map {}, seed {}", scenario.map, scenario.seed);
-        let event = Event::new(0, EventKind::Session, text);
-        self.sink.note(&event);
-        self.journal = Arc::default();
-        self.report(event);
-        Ok(())
-    }
-
-    fn next_scenery(&self, new_trials: u64) -> Scenery {
-        let (version, trial) = (self.scenery.version + 1, self.scenery.trial + new_trials);
-        Scenery::of(&self.trial, self.scenery.known_maps.clone(), version, trial)
-    }
-
     /// Publishes the current camera image, without a control step.
-    fn observe(&mut self) {
+    pub(super) fn observe(&mut self) {
         match self.trial.observe(&mut self.camera) {
             Ok(sight) => self.sight = Arc::new((self.trial.state().world.tick, sight)),
             Err(error) => self.broken = Some(error.into()),
@@ -352,6 +320,7 @@ impl<E: ImageSource> Worker<E> {
         if let Some(sight) = record.sight {
             self.sight = Arc::new((record.tick, sight));
         }
+        self.apply_case();
         Ok(())
     }
 
@@ -366,8 +335,21 @@ impl<E: ImageSource> Worker<E> {
         }
     }
 
-    /// Drops everything after a tick.
+    /// Drops everything after a tick. What a rewind has left behind becomes a run.
     fn forget_after(&mut self, tick: u64) {
+        if let Some(state) = self.end.take()
+            && self.timeline.reaches_past(tick)
+        {
+            self.kept_runs.keep(KeptRun {
+                scenario: self.trial.scenario().clone(),
+                arena: self.trial.arena().clone(),
+                state,
+                timeline: self.timeline.clone(),
+                journal: self.journal.clone(),
+                case: self.scenery.case.clone(),
+            });
+            self.scenery = Arc::new(self.next_scenery(0));
+        }
         self.timeline.forget_after(tick);
         if self.journal.iter().any(|told| told.tick > tick) {
             Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
@@ -375,7 +357,7 @@ impl<E: ImageSource> Worker<E> {
     }
 
     /// Sends an event to all subscribers and stores it in the journal.
-    fn report(&mut self, event: Event) {
+    pub(super) fn report(&mut self, event: Event) {
         // Only once: after a rewind a control step happens again at its tick.
         if !self.journal.contains(&event) {
             let journal = Arc::make_mut(&mut self.journal);

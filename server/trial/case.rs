@@ -61,6 +61,41 @@ pub struct Expectation {
     pub by_tick: u64,
 }
 
+/// Why a text is not a case.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CaseError {
+    /// Not JSON, or a field is missing, unknown or invalid.
+    #[error("{reason}")]
+    Malformed {
+        /// Empty if the text is not JSON.
+        field: String,
+        reason: String,
+    },
+    /// A trial does not last that long.
+    #[error("{field} is {tick}, it must be at most {TICKS_MOST} (one day)")]
+    TooLate { field: &'static str, tick: u64 },
+}
+
+impl CaseError {
+    fn of(error: &serde_path_to_error::Error<serde_json::Error>) -> Self {
+        let (path, reason) = (error.path().to_string(), error.to_string());
+        // `?` is an unreadable name, `.` the whole file. There only serde's message names the field, in backquotes.
+        let field = match path.trim_end_matches(['.', '?']) {
+            "" => reason.split('`').nth(1).unwrap_or_default(),
+            field => field,
+        };
+        Self::Malformed { field: field.to_owned(), reason }
+    }
+
+    /// The field at fault, such as `scenario.seed`; empty if it is not known.
+    pub fn field(&self) -> &str {
+        match self {
+            Self::Malformed { field, .. } => field,
+            Self::TooLate { field, .. } => field,
+        }
+    }
+}
+
 /// Result of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseOutcome {
@@ -90,21 +125,19 @@ impl Case {
         }
         let unreadable = |reason: String| ShippedError::Unreadable { path: name_or_path.to_owned(), reason };
         let bytes = read_at_most(Path::new(name_or_path), BYTES_MOST).map_err(|error| unreadable(error.to_string()))?;
-        Self::from_json(&bytes).map_err(unreadable)
+        Self::from_json(&bytes).map_err(|error| unreadable(error.to_string()))
     }
 
     /// Reads a case.
-    ///
-    /// # Errors
-    /// A description that names the field.
-    pub fn from_json(bytes: &[u8]) -> Result<Self, String> {
+    pub fn from_json(bytes: &[u8]) -> Result<Self, CaseError> {
         let mut reader = serde_json::Deserializer::from_slice(bytes);
-        let case: Self = serde_path_to_error::deserialize(&mut reader).map_err(|error| error.to_string())?;
-        reader.end().map_err(|error| error.to_string())?;
+        let case: Self = serde_path_to_error::deserialize(&mut reader).map_err(|error| CaseError::of(&error))?;
+        let after = |error: serde_json::Error| CaseError::Malformed { field: String::new(), reason: error.to_string() };
+        reader.end().map_err(after)?;
         let last = case.inputs.iter().map(|timed| ("inputs: tick", timed.tick)).max_by_key(|&(_, tick)| tick);
         let by = case.expect.map(|expect| ("expect.by_tick", expect.by_tick));
         match last.into_iter().chain(by).find(|&(_, tick)| tick > TICKS_MOST) {
-            Some((field, tick)) => Err(format!("{field} is {tick}, it must be at most {TICKS_MOST} (one day)")),
+            Some((field, tick)) => Err(CaseError::TooLate { field, tick }),
             None => Ok(case),
         }
     }
@@ -186,10 +219,22 @@ mod tests {
         assert!(case("").is_ok(), "without an expectation `run` ends it");
         assert!(case(r#","inputs":[{"tick":10800000,"input":"release"}]"#).is_ok());
         let error = case(r#","inputs":[{"tick":10800001,"input":"release"}]"#).unwrap_err();
-        assert_eq!(error, "inputs: tick is 10800001, it must be at most 10800000 (one day)");
-        let error = case(r#","expect":{"deliveries":1,"by_tick":18446744073709551615}"#).unwrap_err();
+        assert_eq!(error.to_string(), "inputs: tick is 10800001, it must be at most 10800000 (one day)");
+        let error = case(r#","expect":{"deliveries":1,"by_tick":18446744073709551615}"#).unwrap_err().to_string();
         assert!(error.starts_with("expect.by_tick is 18446744073709551615, it must be at most"), "{error}");
         let error = case(r#","inputs":[{"tick":1,"input":"fly"}]"#).unwrap_err();
-        assert!(error.starts_with("inputs[0].input: unknown variant `fly`"), "{error}");
+        assert!(error.to_string().starts_with("inputs[0].input: unknown variant `fly`"), "{error}");
+    }
+
+    #[test]
+    fn an_error_names_the_field() {
+        let scenario = serde_json::to_string(&Scenario::idle("open", 1)).unwrap();
+        let field = |text: &str| Case::from_json(text.as_bytes()).unwrap_err().field().to_owned();
+        assert_eq!(field("{"), "");
+        assert_eq!(field(&format!(r#"{{"about":"","scenario":{scenario}}} more"#)), "");
+        assert_eq!(field(r#"{"about":""}"#), "scenario");
+        assert_eq!(field(&format!(r#"{{"about":"","scenario":{scenario},"when":1}}"#)), "when");
+        let wrong = scenario.replace(r#""seed":1"#, r#""seed":-1"#);
+        assert_eq!(field(&format!(r#"{{"about":"","scenario":{wrong}}}"#)), "scenario.seed");
     }
 }

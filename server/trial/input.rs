@@ -201,7 +201,7 @@ impl Trial {
         world.plant.hand = Some(Hand { target_m, lift });
         if taken {
             world.counters.disturbances += 1;
-            self.events.push(Event::new(world.tick, EventKind::Disturbance, "disturbed: a hand took the bead"));
+            self.events.push(Event::new(world.tick, EventKind::Disturbance, "disturbed: bead taken by hand"));
         }
         if taken || put_down {
             self.set_down();
@@ -222,7 +222,7 @@ impl Trial {
         if world.plant.hand.take().is_none() {
             world.counters.disturbances += 1;
         }
-        let text = format!("disturbed: a hand put the bead {:.0} cm away", (fit - from).norm() * 100.0);
+        let text = format!("disturbed: bead moved {:.0} cm by hand", (fit - from).norm() * 100.0);
         self.events.push(Event::new(world.tick, EventKind::Disturbance, text));
         Ok(())
     }

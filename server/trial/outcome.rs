@@ -40,7 +40,7 @@ impl Trial {
                 world.counters.deliveries += 1;
                 world.counters.goal_steps = 0;
                 world.counters.leg_steps = 0;
-                let text = format!("delivered: the bead is {:.0} mm from the goal", left_m * 1e3);
+                let text = format!("delivered: bead within {:.0} mm of the goal", left_m * 1e3);
                 self.events.push(Event::new(tick, EventKind::Delivered, text));
             }
             Phase::Settling { since_tick } if tick.saturating_sub(since_tick) as f64 * SERVO_PERIOD_S > SETTLE_S => {

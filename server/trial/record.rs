@@ -6,7 +6,7 @@ use super::state::{Counters, TrialState, WorldHashes};
 use super::{Decision, Event, Input, Motion, Phase, Trial};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::switching;
-use crate::control::transport::Carrier;
+use crate::control::transport::{Carrier, Trouble};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters};
@@ -92,6 +92,8 @@ pub struct Moment {
     pub phase: Phase,
     /// Why the arm holds, if a step was refused.
     pub refusal: Option<String>,
+    /// Why the transport makes no progress, if it makes none.
+    pub trouble: Option<Trouble>,
     /// Magnetic load on the bead.
     pub load: Load,
     pub counters: Counters,
@@ -143,6 +145,7 @@ impl Trial {
             motion: world.motion,
             phase: world.phase,
             refusal: world.refusal.as_ref().map(ToString::to_string),
+            trouble: self.state.controller_state.carrier.trouble(),
             load: self.load(),
             counters: world.counters,
         }

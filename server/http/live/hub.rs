@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
+use jiff::Timestamp;
 use serde::Serialize;
 use tokio::sync::{Semaphore, watch};
 use tokio::time::Instant;
@@ -17,6 +18,7 @@ use crate::protocol::{
     BINARY_CAMERA_JPEG, BINARY_OBSERVATION, Hello, OverlayMessage, PROTOCOL_VERSION, Role, SceneMessage, SeenMessage,
     ServerMessage, StateMessage,
 };
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 use crate::session::{CommandError, Recalled, Session, View};
 
@@ -31,6 +33,8 @@ pub struct Encoded {
     pub scene: Utf8Bytes,
     /// Incremented when `scene` changes.
     pub scene_version: u64,
+    /// Incremented when the events of the trial have to be sent again.
+    pub past_version: u64,
     pub overlay: Utf8Bytes,
     pub seen: Utf8Bytes,
     /// Incremented when `seen` changes.
@@ -45,6 +49,7 @@ pub struct Encoded {
 pub struct Hub {
     pub id: String,
     pub session: Session,
+    opened: Timestamp,
     gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
@@ -76,6 +81,7 @@ impl Hub {
         Arc::new(Self {
             id: id.to_owned(),
             session,
+            opened: Timestamp::now(),
             gpu,
             comparison: watch::Sender::new(Utf8Bytes::default()),
             comparisons: AtomicU64::new(0),
@@ -199,6 +205,8 @@ impl Hub {
             operator_present: seats.operator.is_some(),
             asked: operates && seats.asking.is_some(),
             adapter: self.gpu.adapter_name().to_owned(),
+            opened: self.opened.to_string(),
+            resumed_s: self.session.resumed_tick().map(|tick| tick as f64 * SERVO_PERIOD_S),
         }
     }
 }
@@ -254,6 +262,7 @@ impl Encoder {
             state: Utf8Bytes::default(),
             scene: Utf8Bytes::default(),
             scene_version: 0,
+            past_version: 0,
             overlay: Utf8Bytes::default(),
             seen: Utf8Bytes::default(),
             seen_version: 0,
@@ -267,6 +276,7 @@ impl Encoder {
             self.scene_version = scene_version;
             next.scene = json(&ServerMessage::Scene(Box::new(SceneMessage::from(&*view.scenery))));
             next.scene_version += 1;
+            next.past_version = view.scenery.past_version;
         }
         let seen = self.sight.as_ref().is_some_and(|sight| Arc::ptr_eq(sight, &view.sight));
         self.owes_sight = !seen && !camera_due;

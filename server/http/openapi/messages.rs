@@ -57,7 +57,7 @@ mod tests {
             let example = |field: &str| match field {
                 "type" => variant["properties"]["type"]["enum"][0].clone(),
                 "controller" => json!("errt"),
-                "map" => json!("posts"),
+                "map" | "case" => json!("posts"),
                 "parameters" => json!({}),
                 "disturbance" => json!({"dropout": {"for_s": 1.0}}),
                 _ => json!(1),

@@ -1,5 +1,6 @@
 //! `/api/maps`: shipped maps and uploaded ones, which are kept in the data folder.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -7,16 +8,19 @@ use axum::Json;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tokio::sync::watch;
-use utoipa::ToSchema;
+use utoipa::{IntoParams, ToSchema};
 
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment};
-use crate::http::path::{MapPath, Path};
+use crate::http::path::{MapPath, Path, Query};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, TooMany, Unavailable};
-use crate::map::{Library, MAX_SVG_BYTES, MapError};
+use crate::map::{Library, MAX_SVG_BYTES, MapError, Summary};
+use crate::protocol::MapReport;
+use crate::scenario::CLEARANCE_M;
+use crate::trial::Arena;
 
 /// A drawing of a map.
 fn example() -> serde_json::Value {
@@ -24,6 +28,9 @@ fn example() -> serde_json::Value {
                        <rect x=\"-20\" y=\"300\" width=\"40\" height=\"30\"/></svg>";
     drawing.into()
 }
+
+/// File with the names of removed maps, one per line.
+const REMOVED: &str = "removed-names";
 
 /// The folder of uploaded maps.
 pub struct Maps {
@@ -38,9 +45,13 @@ impl Maps {
         let library = Arc::new(Library::default());
         // Without the folder there are no uploaded maps.
         let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten();
-        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        let mut paths: Vec<_> =
+            entries.map(|entry| (entry.metadata().and_then(|data| data.modified()).ok(), entry.path())).collect();
+        // The oldest first.
         paths.sort();
-        for path in paths {
+        let removed = std::fs::read_to_string(folder.join(REMOVED)).unwrap_or_default();
+        removed.lines().for_each(|name| library.retire(name));
+        for (_, path) in paths {
             let small = std::fs::metadata(&path).is_ok_and(|data| data.is_file() && data.len() <= MAX_SVG_BYTES as u64);
             let Some(name) = path.file_name().and_then(|name| name.to_str()?.strip_suffix(".svg")) else { continue };
             let text = small.then(|| std::fs::read_to_string(&path).ok()).flatten();
@@ -61,22 +72,31 @@ impl Maps {
         self.version.send_modify(|version| *version += 1);
     }
 
-    fn add(&self, svg: &str) -> Result<String, Problem> {
-        let map = self.all.add(svg)?;
+    fn add(&self, Wish { name: wished, fit }: Wish, svg: String) -> Result<MapReport, Problem> {
+        let svg = if fit { crate::map::fit(&svg)? } else { svg };
+        let map = self.all.add(wished.as_deref(), &svg)?;
         let name = map.name().to_owned();
         let kept = std::fs::create_dir_all(&self.folder)
-            .and_then(|()| std::fs::write(self.folder.join(format!("{name}.svg")), svg));
+            .and_then(|()| std::fs::write(self.folder.join(format!("{name}.svg")), &svg));
         kept.map_err(|error| {
             self.all.remove(&name);
             Problem::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", format!("the map could not be stored: {error}"))
         })?;
         self.changed();
-        Ok(name)
+        let summary = Summary::of(&map, CLEARANCE_M);
+        Ok(MapReport::new(name, summary, Arena::of(map).reached_share()))
     }
 
     fn remove(&self, name: &str) -> Result<(), Problem> {
         let map = self.all.remove(name).ok_or_else(|| Problem::not_found("uploaded map", name))?;
         self.changed();
+        // The name is kept, so that it is not given to another drawing after a restart.
+        let noted = std::fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(self.folder.join(REMOVED))
+            .and_then(|mut file| writeln!(file, "{}", map.name()));
+        noted.map_err(Problem::internal)?;
         std::fs::remove_file(self.folder.join(format!("{}.svg", map.name()))).map_err(Problem::internal)
     }
 }
@@ -104,25 +124,33 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<MapNames> {
     Json(MapNames { maps: server.maps.all.names() })
 }
 
-/// Answer of `POST /api/maps`.
-#[derive(Serialize, ToSchema)]
-pub struct NewMap {
-    /// Name of the new map.
-    name: String,
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub struct Wish {
+    /// Wished name. The map gets it if it is valid and new, otherwise `map-` and a number.
+    #[param(example = "two-rooms")]
+    name: Option<String>,
+    /// Moves the drawing into the arm's reach and shrinks it if it is larger.
+    #[serde(default)]
+    fit: bool,
 }
 
 /// Adds the drawing in the body.
-#[utoipa::path(post, path = "/api/maps", tag = "maps", operation_id = "add_map",
+#[utoipa::path(post, path = "/api/maps", tag = "maps", operation_id = "add_map", params(Wish),
     request_body(content = String, content_type = "image/svg+xml", description = "SVG in millimetres.", example = example),
-    responses((status = 201, body = NewMap), OutOfRange, TooMany, Unavailable))]
-pub async fn add(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
+    responses((status = 201, body = MapReport), OutOfRange, TooMany, Unavailable))]
+pub async fn add(
+    State(server): State<Arc<Server>>,
+    Query(wish): Query<Wish>,
+    WholeBody(body): WholeBody,
+) -> Result<Response, Problem> {
     let svg = String::from_utf8(body.into()).map_err(|error| {
         Problem::new(StatusCode::BAD_REQUEST, "malformed", format!("the drawing is not UTF-8: {error}")).field("map")
     })?;
-    let adding = server.work(move |server| server.maps.add(&svg)).await?;
-    let name = adding?;
-    let location = format!("/api/maps/{name}");
-    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(NewMap { name })).into_response())
+    let adding = server.work(move |server| server.maps.add(wish, svg)).await?;
+    let report = adding?;
+    let location = format!("/api/maps/{}", report.name);
+    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(report)).into_response())
 }
 
 /// A map's drawing as a file.

@@ -160,7 +160,9 @@ fn refuses_elements_that_cannot_be_walls_and_names_them() {
     ]);
     for (text, part) in [
         ("<svg", "not a readable SVG"),
-        (r#"<html viewBox="0 0 50 50"/>"#, "<html>"),
+        ("no drawing at all", "this is not an SVG"),
+        (r#"<html viewBox="0 0 50 50"/>"#, "this is not an SVG"),
+        (r#"<html class="svg" viewBox="0 0 50 50"/>"#, "<html>"),
         (r#"<svg xmlns="http://www.w3.org/2000/svg"/>"#, "viewBox"),
         (r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 nan 5"/>"#, "finite"),
         (r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 5 5"/>"#, "20 to 4000"),

@@ -3,15 +3,20 @@
 export * from './parameters.gen';
 export * from './protocol/experiment.gen';
 export * from './protocol/messages.gen';
+export * from './protocol/session.gen';
 export * from './protocol/layers.gen';
 export * from './protocol/comparison.gen';
 export * from './protocol/fields.gen';
 export * from './protocol/evaluations.gen';
 export * from './protocol/report.gen';
 export * from './protocol/recordings.gen';
+export * from './protocol/maps.gen';
 
 /** Version of the messages. */
 export const PROTOCOL_VERSION = 6;
+
+/** Largest message to the server. */
+export const MAX_MESSAGE_BYTES = 2097152;
 
 /** First byte of a binary message with a camera image. */
 export const BINARY_CAMERA_JPEG = 1;

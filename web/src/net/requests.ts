@@ -61,7 +61,7 @@ export class Asker<A> {
   }
 }
 
-async function request<A>(path: string, init: RequestInit): Promise<A> {
+async function answered(path: string, init: RequestInit): Promise<Response> {
   const response = await askServer(path, init).catch(() => {
     throw new Error('The server did not answer.');
   });
@@ -69,7 +69,11 @@ async function request<A>(path: string, init: RequestInit): Promise<A> {
     const problem: unknown = await response.json().catch(() => undefined);
     throw new Error(problemText(problem) ?? `The server answered with status ${response.status}.`);
   }
-  return (await response.json()) as A;
+  return response;
+}
+
+async function request<A>(path: string, init: RequestInit): Promise<A> {
+  return (await (await answered(path, init)).json()) as A;
 }
 
 /** Gets JSON from `path`; throws an error with the message to show. */
@@ -80,6 +84,20 @@ export function get<A>(path: string): Promise<A> {
 /** Posts JSON to `path` and returns the answer; throws an error with the message to show. */
 export function post<A>(path: string, body: string | Blob, type = 'application/json'): Promise<A> {
   return request(path, { method: 'POST', headers: { 'content-type': type }, body });
+}
+
+/** Changes the resource at `path` and returns it; throws an error with the message to show. */
+export function patch<A>(path: string, body: string): Promise<A> {
+  return request(path, {
+    method: 'PATCH',
+    headers: { 'content-type': 'application/json' },
+    body,
+  });
+}
+
+/** Deletes the resource at `path`; throws an error with the message to show. */
+export async function remove(path: string): Promise<void> {
+  await answered(path, { method: 'DELETE' });
 }
 
 export interface Asking {

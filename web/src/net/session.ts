@@ -3,9 +3,17 @@
 /** The session that always exists. */
 export const MAIN = 'main';
 
-/** `/s/anna` is the page of the session `anna`; every other address belongs to `main`. */
-export function sessionOf({ pathname }: Pick<Location, 'pathname'>): string {
-  return /^\/s\/([a-z0-9-]{1,32})$/.exec(pathname)?.[1] ?? MAIN;
+const DEMO = 'demo';
+
+/** Whether the address is that of the demonstration. */
+export function isDemo({ pathname }: Pick<Location, 'pathname'>): boolean {
+  return pathname === '/demo';
+}
+
+/** `/s/anna` is the page of the session `anna`, `/demo` of `demo`; every other address belongs to `main`. */
+export function sessionOf(page: Pick<Location, 'pathname'>): string {
+  if (isDemo(page)) return DEMO;
+  return /^\/s\/([a-z0-9-]{1,32})$/.exec(page.pathname)?.[1] ?? MAIN;
 }
 
 /** Path of a session's resource on the server. */

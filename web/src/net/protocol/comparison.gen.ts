@@ -150,6 +150,10 @@ target_m: [number, number] | null,
  */
 refusal: string | null, 
 /**
+ * What keeps the controller from the goal, if anything.
+ */
+trouble: string | null, 
+/**
  * The controller's observation and layers.
  */
 overlay: OverlayMessage, };

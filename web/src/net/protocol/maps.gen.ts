@@ -1,0 +1,43 @@
+// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
+
+/**
+ * A passage between two rooms of a map.
+ */
+export type NarrowPlace = { 
+/**
+ * Distance between the walls.
+ */
+width_m: number, x_m: number, y_m: number, };
+
+/**
+ * What an uploaded drawing holds.
+ */
+export type MapReport = { 
+/**
+ * Name of the new map.
+ */
+name: string, width_m: number, height_m: number, walls: number, 
+/**
+ * Number of connected parts that a trial can use; the bead cannot pass between them.
+ */
+regions: number, 
+/**
+ * Area of these parts, m².
+ */
+free_m2: number, 
+/**
+ * Diameter of the largest circle between the walls.
+ */
+widest_m: number, 
+/**
+ * The narrowest passage; `null` if there is one room only.
+ */
+narrowest: NarrowPlace | null, 
+/**
+ * Share of the free area that the tool reaches, from 0 to 1.
+ */
+reached_share: number, 
+/**
+ * Elements that had to be changed or left out, one sentence each.
+ */
+repairs: Array<string>, };
