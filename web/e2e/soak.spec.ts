@@ -1,27 +1,18 @@
 // A long run: the page keeps its budgets, and the memory of the page and the server does not grow.
 // `[SOAK_MINUTES=30] npm run soak`
 
-import { mkdir, readFile, writeFile } from 'node:fs/promises';
-import { fileURLToPath } from 'node:url';
 import { Lab, expect, test } from './fixtures';
+import { type Memory, growth, memoryOf, memoryWords, writeReport } from './support/growth';
 import { Meter, type Count, figuresOf, overruns, stepThrough, summaryOf } from './support/meter';
-import { must } from './support/wait';
 
-const OUTPUT = fileURLToPath(new URL('../../test-output/', import.meta.url));
 const MINUTES = Number(process.env.SOAK_MINUTES ?? 30);
 const MINUTE_MS = 60_000;
 /** The history and the event log have limits. Both are filled before the measurement. */
 const HISTORY_S = 620;
 const LOG_LINES = 300;
 const MAX_FILLING_MS = 5 * MINUTE_MS;
-const SETTLED_MINUTES = Math.max(1, Math.min(5, Math.floor(MINUTES / 2)));
-const COMPARED_MINUTES = 5;
-const MAX_GROWTH = 0.1;
 const STEPS = 100;
 const SEED = 7;
-const MEMORY = ['heap_bytes', 'dom_nodes', 'listeners', 'server_rss_bytes'] as const;
-
-type Sample = { minute: number } & Record<(typeof MEMORY)[number], number>;
 
 /** Numbers from 0 to 1, which follow from the seed (mulberry32). */
 function mulberry32(seed: number) {
@@ -32,11 +23,6 @@ function mulberry32(seed: number) {
     mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
     return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
   };
-}
-
-async function rssBytes(pid: number | undefined) {
-  const status = await readFile(`/proc/${must(pid, 'a process')}/status`, 'utf8');
-  return 1024 * Number(/VmRSS:\s+(\d+)/.exec(status)?.[1]);
 }
 
 /** Acts as an operator: sets another goal or, one time in four, drags the bead away. */
@@ -70,24 +56,6 @@ async function fill(lab: Lab, random: () => number) {
   console.log(`filled: ${lab.state.sim_time_s.toFixed(0)} s, ${await lines.count()} lines`);
 }
 
-function median(samples: readonly Sample[], name: keyof Sample) {
-  const sorted = samples.map((sample) => sample[name]).sort((a, b) => a - b);
-  return sorted[Math.floor(sorted.length / 2)] ?? NaN;
-}
-
-/**
- * The figures that grew by more than MAX_GROWTH. Compares the medians of some minutes near the
- * start and at the end, because one minute alone may be an exception.
- */
-function growth(samples: readonly Sample[]) {
-  const from = samples.findIndex(({ minute }) => minute === SETTLED_MINUTES);
-  const settled = samples.slice(from, from + COMPARED_MINUTES);
-  const last = samples.slice(-COMPARED_MINUTES);
-  return MEMORY.filter((name) => median(last, name) > median(settled, name) * (1 + MAX_GROWTH)).map(
-    (name) => `${name} grew from ${median(settled, name)} to ${median(last, name)}`,
-  );
-}
-
 test('keeps its budgets and does not grow', async ({ page, session, server }) => {
   const meter = await Meter.attach(page);
   const lab = await Lab.attach(page, session.url);
@@ -97,7 +65,7 @@ test('keeps its budgets and does not grow', async ({ page, session, server }) =>
   const random = mulberry32(SEED);
   await fill(lab, random);
   const counts: Count[] = [];
-  const samples: Sample[] = [];
+  const samples: Memory[] = [];
   for (let minute = 1; minute <= MINUTES; minute++) {
     const end = Date.now() + MINUTE_MS;
     await meter.start();
@@ -105,18 +73,11 @@ test('keeps its budgets and does not grow', async ({ page, session, server }) =>
     const count = await meter.stop();
     counts.push(count);
     const sample = {
-      minute,
-      ...(await meter.memory()),
-      server_rss_bytes: await rssBytes(server.pid),
+      ...(await memoryOf(minute, meter, server)),
       ...figuresOf([count]),
     };
     samples.push(sample);
-    const mb = (bytes: number) => (bytes / 1e6).toFixed(1);
-    console.log(
-      `${String(minute).padStart(3)} min: heap ${mb(sample.heap_bytes)} MB, ` +
-        `${sample.dom_nodes} nodes, ${sample.listeners} listeners, ` +
-        `server ${mb(sample.server_rss_bytes)} MB; ${summaryOf(sample)}`,
-    );
+    console.log(`${memoryWords(sample)}; ${summaryOf(sample)}`);
   }
   await lab.pause();
   await meter.start();
@@ -124,11 +85,7 @@ test('keeps its budgets and does not grow', async ({ page, session, server }) =>
   const { step_to_frame_p95_ms } = figuresOf([await meter.stop()]);
   const figures = { ...figuresOf(counts), step_to_frame_p95_ms };
   const faults = [...overruns(figures), ...growth(samples)];
-  await mkdir(OUTPUT, { recursive: true });
-  await writeFile(
-    `${OUTPUT}soak.json`,
-    `${JSON.stringify({ minutes: MINUTES, seed: SEED, figures, faults, samples }, null, 2)}\n`,
-  );
+  await writeReport('soak', { minutes: MINUTES, seed: SEED, figures, faults, samples });
   console.log(
     `in all: ${summaryOf(figures)}, ` +
       `step to frame p95 ${step_to_frame_p95_ms?.toFixed(1) ?? '–'} ms`,

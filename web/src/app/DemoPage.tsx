@@ -1,0 +1,34 @@
+// The page `/demo`: the scene of the session `demo` on the whole screen.
+
+import { Show, createSignal, type JSX } from 'solid-js';
+import { Demo } from '../features/demo/Demo';
+import { createLab } from '../lab/lab';
+import { createInteraction } from '../plan/interaction';
+import { createLayers } from '../plan/layer';
+import { PlanView } from '../plan/PlanView';
+import { ScenePanel } from '../scene/ScenePanel';
+import { createPalette } from '../ui/palette';
+import { createTheme } from '../ui/theme';
+import { MAP_LAYERS } from './layers';
+
+const HELP_ID = 'demo-help';
+
+export function DemoPage(): JSX.Element {
+  const { theme } = createTheme();
+  const lab = createLab(window.location, MAP_LAYERS);
+  const palette = createPalette(theme);
+  const interaction = createInteraction(lab);
+  const layers = createLayers(MAP_LAYERS, lab, palette);
+  const [isFlat, setFlat] = createSignal(false);
+  const surface = { lab, interaction, layers, palette, helpId: HELP_ID };
+  return (
+    <Demo lab={lab}>
+      <p id={HELP_ID} class="visually-hidden">
+        Drag the bead to disturb it. Click a free place to set a goal.
+      </p>
+      <Show when={isFlat()} fallback={<ScenePanel {...surface} onPlan={() => setFlat(true)} />}>
+        <PlanView {...surface} />
+      </Show>
+    </Demo>
+  );
+}
