@@ -7,8 +7,10 @@ import './ui/text.css';
 import './ui/panel.css';
 import { render } from 'solid-js/web';
 import { keepFocus } from './app/focus';
+import { DemoPage } from './app/DemoPage';
 import { Page } from './app/Page';
 import { carriesToken, takeToken } from './net/loginToken';
+import { isDemo } from './net/session';
 
 // A login link in a browser that is already logged in: remove the token from the address.
 takeToken(window);
@@ -22,4 +24,4 @@ window.addEventListener('hashchange', (event) => {
 const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');
 keepFocus(document);
-render(() => <Page />, root);
+render(() => (isDemo(window.location) ? <DemoPage /> : <Page />), root);

@@ -8,7 +8,13 @@ import { KeyboardHelp } from './KeyboardHelp';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Lab, Notices, Session } from '../lab/slices';
 import { takeControl } from '../lab/takeControl';
+import { TERMS } from '../lab/terms';
 import './Header.css';
+
+/** The phase can be longer than its place. */
+function phaseHelp(phase: string | undefined): string | undefined {
+  return phase === 'holding' ? TERMS.holding : phase && `${phase}. ${TERMS.phase}`;
+}
 
 function Counter(props: { label: string; testid: string; value: number | undefined }): JSX.Element {
   return (
@@ -98,7 +104,7 @@ export function Header(props: HeaderProps): JSX.Element {
         </Show>
         <PlaceNotice lab={lab} place="session" />
       </div>
-      <div class="mode" data-mode={lab.state()?.mode ?? 0}>
+      <div class="mode" data-mode={lab.state()?.mode ?? 0} title={TERMS.mode}>
         <span class="mode-label">mode</span>
         <span class="mode-badge number" data-testid="mode">
           {lab.state()?.mode ?? '–'}
@@ -107,7 +113,7 @@ export function Header(props: HeaderProps): JSX.Element {
           class="phase"
           data-testid="phase"
           data-phase={lab.state()?.phase}
-          title={lab.state()?.phase}
+          title={phaseHelp(lab.state()?.phase)}
         >
           {lab.state()?.phase ?? '–'}
         </span>
@@ -128,7 +134,7 @@ export function Header(props: HeaderProps): JSX.Element {
             props.onTheme();
           }}
         >
-          {props.theme() === 'dark' ? 'Light' : 'Dark'}
+          ◐
         </button>
       </div>
     </header>

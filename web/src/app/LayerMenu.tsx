@@ -6,6 +6,13 @@ import { LAYER_GROUPS, type MapLayer } from '../plan/layer';
 import type { Lab } from '../lab/slices';
 import './LayerMenu.css';
 
+/** Stripes of equal width. */
+function stripes(names: MapLayer['swatch']): string {
+  const end = (index: number): string => `${((100 * index) / names.length).toFixed(1)}%`;
+  const stops = names.map((name, index) => `var(--${name}) ${end(index)} ${end(index + 1)}`);
+  return `linear-gradient(to right, ${stops.join(', ')})`;
+}
+
 export function LayerMenu(props: {
   lab: Lab;
   /** In menu order within each group. */
@@ -39,7 +46,7 @@ export function LayerMenu(props: {
               <fieldset>
                 <legend>{group}</legend>
                 <For each={props.layers.filter((layer) => layer.group === group)}>
-                  {({ id, label, unavailable }) => {
+                  {({ id, label, swatch, unavailable }) => {
                     const reason = (): string | undefined => unavailable?.(props.lab);
                     return (
                       <label title={reason()}>
@@ -50,6 +57,11 @@ export function LayerMenu(props: {
                           onChange={(event) => {
                             props.lab.showLayer(id, event.currentTarget.checked);
                           }}
+                        />
+                        <span
+                          class="swatch"
+                          aria-hidden="true"
+                          style={{ background: stripes(swatch) }}
                         />
                         {label}
                       </label>

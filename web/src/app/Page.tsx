@@ -7,6 +7,9 @@ import { createLab } from '../lab/lab';
 import { createPageExperiment } from '../lab/pageExperiment';
 import { AsidePanel } from './AsidePanel';
 import { CameraPanel } from '../features/camera/CameraPanel';
+import { createCapture } from '../features/export/capture';
+import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
+import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
 import { EvaluateView } from '../features/evaluate/EvaluateView';
 import { Header } from './Header';
@@ -16,12 +19,16 @@ import { LowerPanel } from './LowerPanel';
 import { RecordingsView } from '../features/recordings/RecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
+import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { PresetSelect } from '../features/share/PresetSelect';
 import { ShareButton } from '../features/share/ShareButton';
 import { WhyCard } from '../features/why/WhyCard';
 import { ControllerFacts } from './ControllerFacts';
+import { onFileDrop } from '../ui/fileDrop';
+import { createPalette } from '../ui/palette';
 import { createTheme } from '../ui/theme';
+import type { ViewPicture } from '../plan/viewPicture';
 import type { View } from './views';
 import { WorkspacePanel } from './WorkspacePanel';
 
@@ -30,21 +37,16 @@ export function Page(): JSX.Element {
   const lab = createLab(window.location, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
   const [view, setView] = createSignal<View>('laboratory');
+  const [picture, setPicture] = createSignal<ViewPicture>();
+  const capture = createCapture(lab, picture, createPalette(theme));
+  onFileDrop(/\.json$/i, (file) => void openCase(lab, file));
   return (
     <>
       <Header lab={lab} theme={theme} onTheme={toggle} view={view()} onView={setView} />
       <LiveRegion lab={lab} />
       <Switch>
         <Match when={view() === 'laboratory'}>
-          <main>
-            <WorkspacePanel lab={lab} theme={theme} />
-            <CameraPanel lab={lab} />
-            <ControllerPanel lab={lab}>
-              <ControllerFacts lab={lab} />
-            </ControllerPanel>
-            <LowerPanel lab={lab} theme={theme} />
-            <AsidePanel lab={lab} theme={theme} />
-          </main>
+          {/* Before the panels, so that Run is among the first stops of the Tab key. */}
           <PlaybackBar
             lab={lab}
             above={<ExperimentNotice lab={lab} links={links} />}
@@ -54,9 +56,25 @@ export function Page(): JSX.Element {
                 <PresetSelect lab={lab} links={links} />
               </>
             }
-            share={<ShareButton links={links} />}
+            share={
+              <ShareButton links={links}>
+                <CaptureTools capture={capture} />
+              </ShareButton>
+            }
+            runs={<KeptRuns lab={lab} />}
             below={<WhyCard lab={lab} />}
           />
+          <main>
+            <WorkspacePanel lab={lab} theme={theme} onPicture={setPicture}>
+              <RecordingClock capture={capture} />
+            </WorkspacePanel>
+            <CameraPanel lab={lab} />
+            <ControllerPanel lab={lab}>
+              <ControllerFacts lab={lab} />
+            </ControllerPanel>
+            <LowerPanel lab={lab} theme={theme} />
+            <AsidePanel lab={lab} theme={theme} />
+          </main>
         </Match>
         <Match when={view() === 'recordings'}>
           <RecordingsView theme={theme} />

@@ -52,6 +52,13 @@ export function WorkspaceHead(props: {
         </Show>
       </h2>
       <div class="buttons">
+        <a
+          class="button small"
+          href="/demo"
+          title="A demonstration on the whole screen that runs by itself; Esc returns"
+        >
+          Present
+        </a>
         <ViewSwitch mode={props.mode} onMode={props.onMode} />
         <LayerMenu lab={lab} layers={props.layers} />
         <button

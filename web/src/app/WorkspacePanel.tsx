@@ -4,12 +4,17 @@ import { For, Show, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
 import { createPalette } from '../ui/palette';
+import { IS_TOUCH } from '../ui/touch';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
 import { DisturbBar } from '../features/disturb/DisturbBar';
+import { MarksLegend } from '../features/marks/MarksLegend';
+import { FailureCard } from '../features/failure/FailureCard';
+import { TipBar } from '../features/tips/TipBar';
 import { PlanView } from '../plan/PlanView';
 import { ScenePanel } from '../scene/ScenePanel';
 import { createLayers } from '../plan/layer';
+import type { ViewPicture } from '../plan/viewPicture';
 import { MAP_LAYERS } from './layers';
 import { createInteraction } from '../plan/interaction';
 import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
@@ -20,7 +25,13 @@ import './WorkspacePanel.css';
 
 const HELP_ID = 'workspace-help';
 
-export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Element {
+export function WorkspacePanel(props: {
+  lab: Lab;
+  theme: () => Theme;
+  onPicture: (picture: ViewPicture | undefined) => void;
+  /** Over the view. */
+  children: JSX.Element;
+}): JSX.Element {
   const { lab } = props;
   const [mode, setMode] = createSignal(storedViewMode());
   const [disturbing, setDisturbing] = createSignal(false);
@@ -54,7 +65,10 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
       ? undefined
       : 'No connection. This is the last received state.';
   };
-  const surfaceProps = { lab, interaction, layers, palette, helpId: HELP_ID };
+  const onPicture = (picture: ViewPicture | undefined): void => {
+    props.onPicture(picture);
+  };
+  const surfaceProps = { lab, interaction, layers, palette, helpId: HELP_ID, onPicture };
 
   return (
     <section class="panel workspace">
@@ -80,11 +94,16 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
           />
         </Show>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
+        <Show when={!interaction.picker.isPicking()}>
+          <TipBar lab={lab} scene={mode() === 'scene'} />
+        </Show>
         <Show when={interaction.picker.isPicking()}>
           <p class="picking" role="status">
             Pick a place: click it, or use the arrow keys and Enter. Esc cancels.
           </p>
         </Show>
+        {props.children}
+        <FailureCard lab={lab} />
         <PlaceNotice lab={lab} place="workspace" />
       </div>
       <For each={menu}>{(layer) => <Show when={layer.isShown()}>{layer.legend?.()}</Show>}</For>
@@ -92,10 +111,15 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
         <p id={HELP_ID} class="hint">
           <Show
             when={mode() === 'scene'}
-            fallback="Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Keys: arrows, Enter, D."
+            fallback={
+              IS_TOUCH
+                ? 'Tap to set a goal. Drag the bead to disturb it.'
+                : 'Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Keys: arrows, Enter, D.'
+            }
           >
-            Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Drag
-            elsewhere to turn the view, use the wheel to zoom. Keys: arrows, Enter, D.
+            {IS_TOUCH
+              ? 'Tap to set a goal. Drag the bead to disturb it. Drag elsewhere to turn the view, pinch to zoom.'
+              : 'Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Drag elsewhere to turn the view, use the wheel to zoom. Keys: arrows, Enter, D.'}
             <span class="visually-hidden">
               {' '}
               Brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home
@@ -103,6 +127,9 @@ export function WorkspacePanel(props: { lab: Lab; theme: () => Theme }): JSX.Ele
             </span>
           </Show>
         </p>
+        <Show when={mode() === 'plan'}>
+          <MarksLegend />
+        </Show>
         <output class="readout" aria-live="off">
           <Show when={readout()} fallback="x –   y –">
             {(here) => (

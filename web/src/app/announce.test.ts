@@ -35,6 +35,8 @@ describe('announcements', () => {
       operator_present: true,
       asked: false,
       adapter: '',
+      opened: 'noon',
+      resumed_s: null,
     });
     expect(roleWords(undefined, as('operator'))).toBeUndefined();
     expect(roleWords(as('operator'), as('operator'))).toBeUndefined();

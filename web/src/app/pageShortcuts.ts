@@ -4,6 +4,7 @@ import { CONTROLLER_SHORTCUTS } from '../features/controller/shortcuts';
 import { TIME_SHORTCUTS } from '../features/playback/shortcuts';
 import type { FeatureShortcuts } from '../lab/shortcuts';
 import { WORKSPACE_SHORTCUTS } from '../plan/keyboard';
+import { ZOOM_SHORTCUTS } from '../plan/zooming';
 import type { Shortcut } from '../ui/shortcuts';
 import type { Lab } from '../lab/slices';
 
@@ -28,5 +29,6 @@ export function pageShortcuts(
     },
     { group: 'Page', keys: ['?'], does: 'open this help', run: help },
     ...WORKSPACE_SHORTCUTS,
+    ...ZOOM_SHORTCUTS,
   ];
 }

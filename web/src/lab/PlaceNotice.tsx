@@ -2,7 +2,7 @@
 
 import type { JSX } from 'solid-js';
 import { NoticeBar } from '../ui/NoticeBar';
-import type { Place } from './model';
+import type { Place } from './places';
 import type { Notices } from './slices';
 
 export function PlaceNotice(props: { lab: Notices; place: Place }): JSX.Element {

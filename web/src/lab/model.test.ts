@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { EMPTY, type Input, LOG_LINES, type Model, placeOfError, reduce } from './model';
+import { EMPTY, type Input, LOG_LINES, type Model, reduce } from './model';
+import { placeOfError } from './places';
 import { type EventMessage, PROTOCOL_VERSION, type ServerMessage } from '../net/protocol.gen';
 import { comparisonOf, sceneOf, stateAt } from './testing';
 
@@ -28,6 +29,8 @@ describe('messages', () => {
       operator_present: true,
       asked: false,
       adapter: '',
+      opened: 'noon',
+      resumed_s: null,
     } as const;
     expect(play(message({ type: 'hello', ...hello })).connection.kind).toBe('outdated');
     expect(

@@ -3,7 +3,6 @@
 import {
   type ClientMessage,
   type ComparisonMessage,
-  type ErrorMessage,
   type EventKind,
   type EventMessage,
   type Hello,
@@ -15,6 +14,8 @@ import {
   type StateMessage,
 } from '../net/protocol.gen';
 import type { Notice } from '../ui/NoticeBar';
+import { HAND_SILENT, type Place, PLACE_OF_COMMAND, placeOfError } from './places';
+import { restartText } from './restart';
 
 /** Largest number of log lines. */
 export const LOG_LINES = 300;
@@ -27,9 +28,6 @@ export type ConnectionState =
   | { readonly kind: 'lost'; readonly attempt: number }
   /** This page and the server speak different versions. */
   | { readonly kind: 'outdated' };
-
-/** Panels at which a message can appear. */
-export type Place = 'workspace' | 'controller' | 'playback' | 'session' | 'compare';
 
 export interface LogLine {
   readonly id: number;
@@ -60,6 +58,8 @@ export interface Model {
   /** Grows when the server has released a bead because it received nothing from the hand. */
   readonly silences: number;
   readonly lastCommand: ClientMessage['type'] | undefined;
+  /** When the server opened the session of the last state. */
+  readonly opened: string | undefined;
   readonly nextId: number;
 }
 
@@ -84,64 +84,9 @@ export const EMPTY: Model = {
   refusals: 0,
   silences: 0,
   lastCommand: undefined,
+  opened: undefined,
   nextId: 1,
 };
-
-const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
-  set_goal: 'workspace',
-  clear_goal: 'workspace',
-  drag: 'workspace',
-  release: 'workspace',
-  disturb: 'workspace',
-  select_controller: 'controller',
-  configure: 'controller',
-  run: 'playback',
-  pause: 'playback',
-  step: 'playback',
-  set_speed: 'playback',
-  reset: 'playback',
-  load_scenario: 'playback',
-  rewind: 'playback',
-  fork: 'compare',
-  take_control: 'session',
-  release_control: 'session',
-};
-
-const PLACE_OF_FIELD: Partial<Record<string, Place>> = {
-  goal: 'workspace',
-  goal_m: 'workspace',
-  drag: 'workspace',
-  x_m: 'workspace',
-  y_m: 'workspace',
-  controller: 'controller',
-  map: 'playback',
-  seed: 'playback',
-  factor: 'playback',
-  tick: 'playback',
-  ticks: 'playback',
-};
-
-/** Error code: the server released the bead because it received nothing from the hand. */
-const HAND_SILENT = 'hand_silent';
-
-const PLACE_OF_CODE: Partial<Record<string, Place>> = {
-  stale_epoch: 'session',
-  [HAND_SILENT]: 'workspace',
-};
-
-/** The place of a refusal on the page: from its code or field, otherwise from the last command. */
-export function placeOfError(error: ErrorMessage, model: Model): Place {
-  const place = PLACE_OF_CODE[error.code];
-  if (place) return place;
-  if (model.lastCommand === 'fork') return PLACE_OF_COMMAND.fork;
-  const field = error.field?.split('.').at(-1);
-  if (field !== undefined) {
-    if (model.scene && Object.hasOwn(model.scene.parameters, field)) return 'controller';
-    const place = PLACE_OF_FIELD[field];
-    if (place) return place;
-  }
-  return model.lastCommand ? PLACE_OF_COMMAND[model.lastCommand] : 'session';
-}
 
 function withLine(
   model: Model,
@@ -199,7 +144,9 @@ function withState(model: Model, state: StateMessage): Model {
   // Events after the rewind may arrive before this state.
   const kept = Math.max(state.newest_tick, state.tick);
   const marks = isRewound ? model.marks.filter((mark) => mark.tick <= kept) : model.marks;
-  return { ...model, state, marks };
+  const next = { ...model, state, marks, opened: model.hello?.opened ?? model.opened };
+  const restarted = model.hello && restartText(model.hello, model.opened, state.sim_time_s);
+  return restarted === undefined ? next : withNotice(next, 'playback', 'hint', restarted);
 }
 
 function withMessage(model: Model, message: ServerMessage): Model {
@@ -238,7 +185,13 @@ function withMessage(model: Model, message: ServerMessage): Model {
     case 'event': {
       // A session event at tick 0 means a new setup: earlier marks are dropped.
       const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;
+      // The log has the past of a run already.
+      const isKnown = before.some(
+        ({ tick, text }) => tick === message.tick && text === message.text,
+      );
+      if (message.again && isKnown) return model;
       const marked = { ...model, marks: [...before, message].slice(-MARKS) };
+      if (message.again) return marked;
       return withLine(marked, message.kind, message.text, message.sim_time_s, message);
     }
     case 'comparison':

@@ -8,7 +8,8 @@ import type { Edits } from './edits';
 import type { Vec2 } from './geometry';
 import type { History } from './history';
 import type { Layers } from './layers';
-import type { Model, Place } from './model';
+import type { Model } from './model';
+import type { Place } from './places';
 
 export type { Layers };
 

@@ -1,13 +1,27 @@
 // The workspace from above.
 
-import { createEffect, createMemo, createSignal, type Accessor, type JSX } from 'solid-js';
+import {
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  on,
+  onCleanup,
+  untrack,
+  type Accessor,
+  type JSX,
+} from 'solid-js';
 import type { Palette } from '../ui/palette';
 import { fitView, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
 import type { LiveLayer } from './layer';
-import { paint } from './paint';
+import { paint, type Picture } from './paint';
 import type { Interaction } from './interaction';
 import { type Size, ViewCanvas } from './ViewCanvas';
+import type { ViewPicture } from './viewPicture';
+import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
+import { attachZoom } from './zooming';
+import './plan.css';
 import type { Layers, Trial } from '../lab/slices';
 
 /** Space for the numbers of the axes, in pixels. */
@@ -19,6 +33,8 @@ export interface SurfaceProps {
   readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
   readonly helpId: string;
+  /** Called with the view when it can be drawn, and with nothing when it closes. */
+  readonly onPicture?: (picture: ViewPicture | undefined) => void;
 }
 
 export function PlanView(props: SurfaceProps): JSX.Element {
@@ -27,11 +43,25 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
 
-  const view = createMemo<View | undefined>(() => {
-    const scene = lab.scene();
+  const [zoom, setZoom] = createSignal<Zoom>(WHOLE);
+
+  const frame = createMemo<Frame | undefined>(() => {
+    const workspace = lab.scene()?.workspace;
     const { width, height } = size();
-    return scene && width > 0 ? fitView(scene.workspace, width, height, INSETS) : undefined;
+    if (!workspace || width === 0) return undefined;
+    return { width, height, workspace, fit: fitView(workspace, width, height, INSETS) };
   });
+  const view = createMemo<View | undefined>(() => {
+    const now = frame();
+    return now && zoomedView(now, zoom());
+  });
+  createEffect(
+    on(
+      () => lab.scene()?.map,
+      () => setZoom(WHOLE),
+      { defer: true },
+    ),
+  );
   createEffect(() => {
     const now = view();
     interaction.setView(now && tableViewOf(now));
@@ -44,20 +74,36 @@ export function PlanView(props: SurfaceProps): JSX.Element {
       return draw ? [draw] : [];
     }),
   );
-  createEffect(() => {
+  const picture = createMemo<Picture | undefined>(() => {
     const mapNow = baseMap();
-    const onto = canvas();
-    if (!mapNow || !onto) return;
-    paint(onto, size(), {
-      map: mapNow,
-      moving: moving(),
-      state: lab.state(),
-      history: lab.history,
-      drag: hand.drag(),
-      grabRadiusPx: reachPx(),
-      cursor: focused() ? cursor() : undefined,
-    });
+    return (
+      mapNow && {
+        map: mapNow,
+        moving: moving(),
+        state: lab.state(),
+        history: lab.history,
+        drag: hand.drag(),
+        grabRadiusPx: reachPx(),
+        cursor: focused() ? cursor() : undefined,
+      }
+    );
   });
+  createEffect(() => {
+    const [now, onto] = [picture(), canvas()];
+    if (now && onto) paint(onto, size(), now);
+  });
+  const draw = (ratio: number): HTMLCanvasElement | undefined => {
+    const [now, own] = untrack(() => [picture(), canvas()]);
+    if (!now) return undefined;
+    if (ratio === window.devicePixelRatio) return own;
+    const onto = document.createElement('canvas');
+    paint(onto, untrack(size), now, ratio);
+    return onto;
+  };
+  createEffect(() => {
+    if (canvas() && size().width > 0) props.onPicture?.({ size: size(), draw });
+  });
+  onCleanup(() => props.onPicture?.(undefined));
 
   // The geometry on the screen, for tests and other tools that read the page.
   createEffect(() => {
@@ -70,14 +116,32 @@ export function PlanView(props: SurfaceProps): JSX.Element {
   });
 
   return (
-    <ViewCanvas
-      lab={lab}
-      interaction={interaction}
-      label="Workspace"
-      class="plan-canvas"
-      helpId={props.helpId}
-      onCanvas={setCanvas}
-      onSize={setSize}
-    />
+    <>
+      <ViewCanvas
+        lab={lab}
+        interaction={interaction}
+        label="Workspace"
+        class="plan-canvas"
+        helpId={props.helpId}
+        onCanvas={(onto) => {
+          setCanvas(onto);
+          attachZoom(onto, hand, { frame, zoom, setZoom });
+        }}
+        onSize={setSize}
+      />
+      <Show when={zoom() !== WHOLE}>
+        <button
+          type="button"
+          class="small plan-fit"
+          title="Shows the whole workspace (Home)"
+          onClick={() => {
+            setZoom(WHOLE);
+            canvas()?.focus();
+          }}
+        >
+          Fit
+        </button>
+      </Show>
+    </>
   );
 }

@@ -1,7 +1,7 @@
 import { pxFromWorld, type View } from './transform';
 
 /** On a canvas a thousand pixels wide, more points would not be visible. */
-const POINTS = 800;
+const POINTS = 4000;
 
 /** Coordinates are oldest first. */
 export function drawTrail(
@@ -11,11 +11,14 @@ export function drawTrail(
   xs_m: Float64Array,
   ys_m: Float64Array,
 ): void {
+  const last = xs_m.length - 1;
   const stride = Math.max(1, Math.floor(xs_m.length / POINTS));
   ctx.beginPath();
-  for (let i = xs_m.length - 1; i >= 0; i -= stride) {
+  // Always the same points, so that the line does not flicker, and the newest one.
+  for (let i = 0; i < last; i += stride) {
     ctx.lineTo(...pxFromWorld(view, [xs_m[i] ?? 0, ys_m[i] ?? 0]));
   }
+  if (last >= 0) ctx.lineTo(...pxFromWorld(view, [xs_m[last] ?? 0, ys_m[last] ?? 0]));
   ctx.strokeStyle = color;
   ctx.lineWidth = 1.5;
   ctx.lineJoin = 'round';

@@ -57,6 +57,8 @@ export interface MapLayer {
   /** Stored by the browser and used by tests. */
   readonly id: string;
   readonly label: string;
+  /** The colours of its marks, for the menu. */
+  readonly swatch: readonly [keyof Palette, ...(keyof Palette)[]];
   readonly group: (typeof LAYER_GROUPS)[number];
   readonly shownAtFirst?: true;
   /** `aboveWalls` may draw outside the workspace. */

@@ -68,8 +68,8 @@ export function paint(
   canvas: HTMLCanvasElement,
   size: { readonly width: number; readonly height: number },
   picture: Picture,
+  ratio = window.devicePixelRatio,
 ): void {
-  const ratio = window.devicePixelRatio;
   const width = Math.round(size.width * ratio);
   const height = Math.round(size.height * ratio);
   if (canvas.width !== width || canvas.height !== height) {

@@ -41,6 +41,7 @@ export function ScenePanel(
 ): JSX.Element {
   const { lab, interaction, layers, palette } = props;
   const { hand, reachPx, focused, cursor } = interaction;
+  const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
   const [drawing, setDrawing] = createSignal<SceneView>();
   const [problem, setProblem] = createSignal<string>();
   const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
@@ -93,6 +94,17 @@ export function ScenePanel(
     const { width, height } = size();
     drawing()?.resize(width, height);
   });
+  createEffect(() => {
+    const [view, onto] = [drawing(), canvas()];
+    if (!view || !onto || size().width === 0) return;
+    // Its pixels do not stay: they are valid only until the browser shows the frame.
+    const draw = (ratio: number): HTMLCanvasElement => {
+      view.draw(ratio);
+      return onto;
+    };
+    props.onPicture?.({ size: size(), draw });
+  });
+  onCleanup(() => props.onPicture?.(undefined));
   createEffect(() => {
     drawing()?.recolor(palette());
   });
@@ -174,7 +186,10 @@ export function ScenePanel(
         label="Scene"
         class="scene-canvas"
         helpId={props.helpId}
-        onCanvas={start}
+        onCanvas={(onto) => {
+          setCanvas(onto);
+          start(onto);
+        }}
         onSize={setSize}
         turned={(arrow) => drawing()?.turned(arrow) ?? arrow}
       />

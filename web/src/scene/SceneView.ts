@@ -114,7 +114,6 @@ export class SceneView {
   resize(width_px: number, height_px: number): void {
     if (width_px === 0 || height_px === 0) return;
     this.height_px = height_px;
-    this.renderer.setPixelRatio(Math.min(MAX_PIXEL_RATIO, window.devicePixelRatio));
     this.renderer.setSize(width_px, height_px, false);
     this.orbit.resize(width_px, height_px);
     this.updateView();
@@ -277,12 +276,14 @@ export class SceneView {
     });
   };
 
-  private draw(): void {
-    const { setting, now, orbit } = this;
+  draw(wishedRatio = window.devicePixelRatio): void {
+    const { setting, now, orbit, renderer } = this;
     if (!setting || !now) return;
+    const ratio = Math.min(MAX_PIXEL_RATIO, wishedRatio);
+    if (renderer.getPixelRatio() !== ratio) renderer.setPixelRatio(ratio);
     this.paints.fade(HIDING, orbit.hiding());
     setting.bead.fit(orbit.camera, this.height_px);
-    this.renderer.render(this.world, orbit.camera);
+    renderer.render(this.world, orbit.camera);
     this.showState(now.state);
   }
 

@@ -1,6 +1,8 @@
 // Panels under tabs, with arrow keys to move between the tabs.
 
-import { For, createEffect, createMemo, createSignal, untrack, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, createSignal, untrack, type JSX } from 'solid-js';
+import { createFold } from './fold';
+import { FoldButton } from './FoldButton';
 import { recall, remember } from './storage';
 import './Tabs.css';
 
@@ -34,15 +36,17 @@ export function Tabs<T extends TabHead>(props: {
   createEffect(() => {
     remember(key, tab().id);
   });
+  const fold = createFold(props.area);
   const panel = createMemo(() => {
     const now = tab();
-    return untrack(() => props.children(now, tools));
+    return fold.isOpen() ? untrack(() => props.children(now, tools)) : undefined;
   });
   const buttons: HTMLButtonElement[] = [];
   createEffect(() => {
     const found = props.tabs.findIndex(({ id }) => id === props.opened);
     if (found < 0) return;
     setIndex(found);
+    fold.set(true);
     props.onOpened();
   });
   const onKey = (event: KeyboardEvent): void => {
@@ -54,8 +58,9 @@ export function Tabs<T extends TabHead>(props: {
     buttons[next]?.focus();
   };
   return (
-    <section class={`panel ${props.area}`}>
+    <section class={`panel ${props.area}`} data-closed={fold.isOpen() ? undefined : ''}>
       <div class="tab-strip">
+        <FoldButton fold={fold} controls={`${props.area}-panel`} label={props.label} />
         <div class="tabs" role="tablist" aria-label={props.label} onKeyDown={onKey}>
           <For each={props.tabs}>
             {({ id, title }, at) => (
@@ -69,6 +74,7 @@ export function Tabs<T extends TabHead>(props: {
                 tabindex={index() === at() ? 0 : -1}
                 onClick={() => {
                   setIndex(at());
+                  fold.set(true);
                 }}
               >
                 {title}
@@ -76,14 +82,17 @@ export function Tabs<T extends TabHead>(props: {
             )}
           </For>
         </div>
-        {tools}
-        {props.aside}
+        <Show when={fold.isOpen()}>
+          {tools}
+          {props.aside}
+        </Show>
       </div>
       <div
         id={`${props.area}-panel`}
         class="tab-content"
         role="tabpanel"
         aria-labelledby={`tab-${tab().id}`}
+        hidden={!fold.isOpen()}
       >
         {panel()}
       </div>

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { centimetres, clock, fixed, newtons, speed } from './format';
+import { axisLabel, centimetres, clock, fixed, newtons, speed } from './format';
 
 describe('readouts', () => {
   it('have a true minus sign, but not on zero', () => {
@@ -18,6 +18,10 @@ describe('readouts', () => {
     expect(clock(59.94)).toBe('59.9 s');
     expect(clock(59.96)).toBe('1:00.0');
     expect(clock(62.44)).toBe('1:02.4');
+  });
+
+  it('label an axis without rounding its halves', () => {
+    expect([0, 2.5, 5, 7.5].map(axisLabel)).toEqual(['0', '2.5', '5', '7.5']);
   });
 
   it('name speeds as fractions and multiples', () => {

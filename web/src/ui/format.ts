@@ -7,6 +7,11 @@ export function fixed(value: number, digits: number): string {
   return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212');
 }
 
+/** A label of an axis: with a decimal only if the value is not whole, so that 2.5 does not become 3. */
+export function axisLabel(value: number): string {
+  return fixed(value, Number.isInteger(value) ? 0 : 1);
+}
+
 export function centimetres(value_m: number, digits = 1): string {
   return `${fixed(value_m * 100, digits)} cm`;
 }

@@ -5,6 +5,8 @@ import { counted, fixed } from '../../ui/format';
 import { blocksPath, patchPath } from '../../lab/homography';
 import { CAMERA_PX, OBSERVATION_PX, OBSTACLE_MEAN } from '../../net/protocol.gen';
 import type { Notices, Pictures } from '../../lab/slices';
+import { createFold } from '../../ui/fold';
+import { FoldButton } from '../../ui/FoldButton';
 import './camera.css';
 
 type BlocksShown = 'none' | 'quadtree' | 'rectangles';
@@ -21,7 +23,7 @@ function drawGray(canvas: HTMLCanvasElement, gray: Uint8Array): void {
   ctx.putImageData(image, 0, 0);
 }
 
-export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
+function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
   const { lab } = props;
   let cameraCanvas!: HTMLCanvasElement;
   let channel0!: HTMLCanvasElement;
@@ -67,10 +69,100 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
     return blocksPath(picture_from_table, layer, one);
   };
   return (
-    <section class="panel camera" aria-labelledby="camera-title">
+    <>
+      <figure class="camera-figure">
+        <div class="picture-frame">
+          <canvas
+            ref={cameraCanvas}
+            width={CAMERA_PX}
+            height={CAMERA_PX}
+            role="img"
+            aria-label="Live image of the end-effector camera"
+          />
+          <svg
+            class="patch"
+            classList={{ obstacle: lab.overlay()?.obstacle ?? false }}
+            viewBox={`0 0 ${CAMERA_PX} ${CAMERA_PX}`}
+            aria-hidden="true"
+          >
+            <path class="blocks" d={blocks()} />
+            <Show when={lab.overlay()}>{(overlay) => <path d={patchPath(overlay())} />}</Show>
+          </svg>
+          <Show when={!seen()}>
+            <p class="placeholder">No image yet</p>
+          </Show>
+        </div>
+        <figcaption class="blocks-choice">
+          <span>
+            <label for="blocks-shown">Blocks</label>{' '}
+            <select
+              id="blocks-shown"
+              value={blocksShown()}
+              onChange={(event) => {
+                setBlocksShown(event.currentTarget.value as BlocksShown);
+              }}
+            >
+              <option value="none">hidden</option>
+              <option value="quadtree">quadtree</option>
+              <option value="rectangles">rectangles</option>
+            </select>
+          </span>
+          <Show when={lab.overlay()?.blocks}>
+            {(layer) => (
+              <span
+                class="number"
+                data-testid="blocks"
+                title="The dark blocks of the quadtree are merged into the smallest possible number of rectangles: N − L − H + C"
+              >
+                {counted(layer().rectangles.length, 'rectangle')} (merged from{' '}
+                {counted(layer().dark.length, 'block')})
+              </span>
+            )}
+          </Show>
+        </figcaption>
+      </figure>
+      <figure>
+        <canvas
+          ref={channel0}
+          class="pixels"
+          width={OBSERVATION_PX}
+          height={OBSERVATION_PX}
+          role="img"
+          aria-label="Observation, channel 0: the camera image with 84 by 84 pixels"
+        />
+        <figcaption>Network: image</figcaption>
+      </figure>
+      <figure>
+        <canvas
+          ref={channel1}
+          class="pixels"
+          width={OBSERVATION_PX}
+          height={OBSERVATION_PX}
+          role="img"
+          aria-label="Observation, channel 1: goal in the upper half, tool in the lower half, x on the left, y on the right"
+        />
+        <figcaption>Network: goal, tool</figcaption>
+      </figure>
+    </>
+  );
+}
+
+export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
+  const { lab } = props;
+  const fold = createFold('camera');
+  return (
+    <section
+      class="panel camera"
+      aria-labelledby="camera-title"
+      data-closed={fold.isOpen() ? undefined : ''}
+    >
       <header class="panel-head">
-        <h2 id="camera-title">Camera</h2>
-        <Show when={lab.overlay()}>
+        <h2 id="camera-title">
+          <FoldButton fold={fold} controls="camera-pictures">
+            Camera
+          </FoldButton>
+        </h2>
+        <Show when={fold.isOpen() && lab.overlay()}>
           {(overlay) => (
             <span
               class="verdict"
@@ -83,80 +175,10 @@ export function CameraPanel(props: { lab: Notices & Pictures }): JSX.Element {
           )}
         </Show>
       </header>
-      <div class="pictures">
-        <figure class="camera-figure">
-          <div class="picture-frame">
-            <canvas
-              ref={cameraCanvas}
-              width={CAMERA_PX}
-              height={CAMERA_PX}
-              role="img"
-              aria-label="Live image of the end-effector camera"
-            />
-            <svg
-              class="patch"
-              classList={{ obstacle: lab.overlay()?.obstacle ?? false }}
-              viewBox={`0 0 ${CAMERA_PX} ${CAMERA_PX}`}
-              aria-hidden="true"
-            >
-              <path class="blocks" d={blocks()} />
-              <Show when={lab.overlay()}>{(overlay) => <path d={patchPath(overlay())} />}</Show>
-            </svg>
-            <Show when={!seen()}>
-              <p class="placeholder">No image yet</p>
-            </Show>
-          </div>
-          <figcaption class="blocks-choice">
-            <span>
-              <label for="blocks-shown">Blocks</label>{' '}
-              <select
-                id="blocks-shown"
-                value={blocksShown()}
-                onChange={(event) => {
-                  setBlocksShown(event.currentTarget.value as BlocksShown);
-                }}
-              >
-                <option value="none">hidden</option>
-                <option value="quadtree">quadtree</option>
-                <option value="rectangles">rectangles</option>
-              </select>
-            </span>
-            <Show when={lab.overlay()?.blocks}>
-              {(layer) => (
-                <span
-                  class="number"
-                  data-testid="blocks"
-                  title="The dark blocks of the quadtree are merged into the smallest possible number of rectangles: N − L − H + C"
-                >
-                  {counted(layer().rectangles.length, 'rectangle')} (merged from{' '}
-                  {counted(layer().dark.length, 'block')})
-                </span>
-              )}
-            </Show>
-          </figcaption>
-        </figure>
-        <figure>
-          <canvas
-            ref={channel0}
-            class="pixels"
-            width={OBSERVATION_PX}
-            height={OBSERVATION_PX}
-            role="img"
-            aria-label="Observation, channel 0: the camera image with 84 by 84 pixels"
-          />
-          <figcaption>Network: image</figcaption>
-        </figure>
-        <figure>
-          <canvas
-            ref={channel1}
-            class="pixels"
-            width={OBSERVATION_PX}
-            height={OBSERVATION_PX}
-            role="img"
-            aria-label="Observation, channel 1: goal in the upper half, tool in the lower half, x on the left, y on the right"
-          />
-          <figcaption>Network: goal, tool</figcaption>
-        </figure>
+      <div id="camera-pictures" class="pictures" hidden={!fold.isOpen()}>
+        <Show when={fold.isOpen()}>
+          <CameraPictures lab={lab} />
+        </Show>
       </div>
     </section>
   );

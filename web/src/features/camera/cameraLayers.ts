@@ -8,6 +8,7 @@ import type { Pictures } from '../../lab/slices';
 export const CAMERA_LAYER: MapLayer & InScene = {
   id: 'camera',
   label: 'Camera field',
+  swatch: ['tool'],
   group: 'Camera',
   shownAtFirst: true,
   create: () => ({ moving: () => drawFootprint }),
@@ -17,6 +18,7 @@ export const CAMERA_LAYER: MapLayer & InScene = {
 export const SENSED_LAYER: MapLayer = {
   id: 'sensed',
   label: 'Sensed',
+  swatch: ['sensed'],
   group: 'Camera',
   shownAtFirst: true,
   create: ({ lab }: LayerContext<Pictures>) => ({

@@ -5,6 +5,7 @@ import { drawCapture } from './drawCapture';
 export const CAPTURE_LAYER: MapLayer & InScene = {
   id: 'capture',
   label: 'Capture',
+  swatch: ['tool'],
   group: 'Motion',
   shownAtFirst: true,
   create: () => ({ moving: () => drawCapture }),

@@ -2,7 +2,7 @@
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
-import { centimetres, clock, fixed } from '../../ui/format';
+import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
 import { createPalette } from '../../ui/palette';
 import { CONTROLLERS, CONTROLLER_LABELS } from '../../lab/parameters';
@@ -112,7 +112,7 @@ function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.
                 {CONTROLLER_LABELS[branch.controller]}
                 <Show when={branch.controller === props.comparison.controller}>
                   <span class="tag" title="The controller in use at that moment">
-                    in use
+                    was in use
                   </span>
                 </Show>
               </th>
@@ -221,7 +221,7 @@ function Errors(
     ],
     yRange: (max) => [0, Math.max(1.2 * threshold_cm(), 1.1 * max)],
     xText: (value) => `${value} s`,
-    yText: (value) => fixed(value, 0),
+    yText: axisLabel,
     shades: () => [],
     rules,
     onCursor: () => undefined,

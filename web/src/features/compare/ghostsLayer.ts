@@ -5,6 +5,7 @@ import type { Compared } from '../../lab/slices';
 export const GHOSTS_LAYER: MapLayer = {
   id: 'ghosts',
   label: 'Ghosts',
+  swatch: ['rl', 'errt', 'attractor'],
   group: 'Motion',
   shownAtFirst: true,
   isUnclipped: true,

@@ -5,12 +5,16 @@ import { GROUPS, type Group } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
+import { createFold } from '../../ui/fold';
+import { FoldButton } from '../../ui/FoldButton';
 import './ParameterForm.css';
+
+const changedOf = (form: Form, group: Group): number =>
+  group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
 
 function GroupBox(props: { form: Form; group: Group }): JSX.Element {
   const { form, group } = props;
-  const changed = (): number =>
-    group.fields.filter(({ name }) => form.values()[name] !== form.defaults()[name]).length;
+  const changed = (): number => changedOf(form, group);
   return (
     <details class="group" open={group.open}>
       <summary>
@@ -32,22 +36,37 @@ export function ParameterForm(props: { lab: Session & Trial; scene: SceneMessage
   const groups = createMemo(() =>
     GROUPS.filter((group) => !group.controller || group.controller === controller()),
   );
+  const changed = (): number => groups().reduce((sum, group) => sum + changedOf(form, group), 0);
+  const fold = createFold('parameters');
   return (
     <div class="parameters">
       <div class="parameters-head">
-        <h3>Parameters</h3>
-        <button
-          type="button"
-          class="small"
-          disabled={form.disabled()}
-          onClick={() => {
-            form.edit(props.scene.defaults);
-          }}
-        >
-          Restore defaults
-        </button>
+        <h3>
+          <FoldButton fold={fold} controls="parameter-groups">
+            Parameters
+          </FoldButton>
+          <Show when={!fold.isOpen() && changed() > 0}>
+            <span class="changed-count">{changed()} changed</span>
+          </Show>
+        </h3>
+        <Show when={fold.isOpen()}>
+          <button
+            type="button"
+            class="small"
+            disabled={form.disabled()}
+            onClick={() => {
+              form.edit(props.scene.defaults);
+            }}
+          >
+            Restore defaults
+          </button>
+        </Show>
       </div>
-      <For each={groups()}>{(group) => <GroupBox form={form} group={group} />}</For>
+      <div id="parameter-groups" hidden={!fold.isOpen()}>
+        <Show when={fold.isOpen()}>
+          <For each={groups()}>{(group) => <GroupBox form={form} group={group} />}</For>
+        </Show>
+      </div>
     </div>
   );
 }

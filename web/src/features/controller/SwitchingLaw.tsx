@@ -9,12 +9,15 @@ import type {
   SceneMessage,
   StateMessage,
 } from '../../net/protocol.gen';
+import { TERMS } from '../../lab/terms';
 import { Fact } from '../../ui/Fact';
 import '../../ui/Fact.css';
 import './SwitchingLaw.css';
 
 const GAUGE_WIDTH = 272;
 const GAUGE_LEFT = 4;
+/** Right end of the gauge: the largest T. A fixed scale shows how T moves. */
+const GAUGE_FULL_M = 0.2;
 /** Above this ratio lift-off is near. */
 const LIFT_ALARM = 0.97;
 
@@ -34,6 +37,7 @@ function Block(props: {
   y: number;
   name: string;
   does: string;
+  help: string;
   active: boolean;
   mode: 1 | 2;
 }): JSX.Element {
@@ -44,6 +48,7 @@ function Block(props: {
       data-mode={props.mode}
       data-active={props.active ? 'true' : 'false'}
     >
+      <title>{props.help}</title>
       <rect x="112" y={props.y} width="116" height="38" rx="5" />
       <text class="name" x="170" y={props.y + 16}>
         {props.name}
@@ -85,11 +90,19 @@ function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
           {props.positioner === 'arm' ? 'arm' : 'stage'}
         </text>
       </g>
-      <Block y={6} name="Sub-controller 1" does="fetch the bead" active={first()} mode={1} />
+      <Block
+        y={6}
+        name="Sub-controller 1"
+        does="fetch the bead"
+        help={TERMS['sub-controller 1']}
+        active={first()}
+        mode={1}
+      />
       <Block
         y={60}
         name="Sub-controller 2"
         does={`transport: ${CONTROLLER_LABELS[props.state.controller]}`}
+        help={TERMS['sub-controller 2']}
         active={!first()}
         mode={2}
       />
@@ -123,9 +136,8 @@ function Diagram(props: Props & { positioner: PositionerKind }): JSX.Element {
 }
 
 function Gauge(props: Props): JSX.Element {
-  const full_m = (): number => 1.5 * props.parameters.threshold_m;
   const at = (value_m: number): number =>
-    GAUGE_LEFT + Math.min(1, Math.max(0, value_m / full_m())) * GAUGE_WIDTH;
+    GAUGE_LEFT + Math.min(1, Math.max(0, value_m / GAUGE_FULL_M)) * GAUGE_WIDTH;
   const fetch = (): number =>
     props.parameters.switching_law === 'literal'
       ? at(props.parameters.threshold_m)

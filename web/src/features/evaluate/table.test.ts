@@ -24,7 +24,7 @@ const FAILURE: EvaluationFailure = {
   goal_m: [0.1, -0.4],
   reached: false,
   outcome: 'stopped: 150 steps without reaching the goal',
-  trouble: 'follows a wall',
+  trouble: 'following a wall',
   refusal: null,
   steps: 150,
   disturbances: 0,
@@ -36,7 +36,16 @@ describe('text of a row', () => {
     expect(cm(0.0141)).toBe('1.4');
     expect(cm(null)).toBe('–');
     expect(decisionWords(ROW)).toBe('2.3 · 7.5');
-    expect(reason(FAILURE)).toBe('stopped: 150 steps without reaching the goal; follows a wall');
+    const cell = { controller: 'attractor', map: 'posts' } as const;
+    expect(reason(FAILURE, cell)).toBe(
+      'Attractor is following a wall. It stopped: 150 steps without reaching the goal.',
+    );
+    expect(reason({ ...FAILURE, refusal: 'a wall is ahead' }, cell)).toMatch(
+      /holds: a wall is ahead\.$/,
+    );
+    expect(reason({ ...FAILURE, outcome: 'transporting', trouble: null }, cell)).toBe(
+      'transporting',
+    );
   });
 });
 

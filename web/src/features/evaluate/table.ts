@@ -1,7 +1,8 @@
 // Rows as text: in the table, and in the files to download. Pure.
 
 import { fixed } from '../../ui/format';
-import type { EvaluationFailure, Row } from '../../net/protocol.gen';
+import { causeOf, isFailure } from '../../lab/failure';
+import type { EvaluationCell, EvaluationFailure, Row } from '../../net/protocol.gen';
 
 export function percentRange([low, high]: readonly [number, number]): string {
   return `${fixed(100 * low, 0)}–${fixed(100 * high, 0)} %`;
@@ -16,9 +17,15 @@ export function decisionWords(row: Row): string {
   return `${fixed(row.decision_ms_p50, 1)} · ${fixed(row.decision_ms_p99, 1)}`;
 }
 
-/** Why a trial failed: its outcome and its last trouble. */
-export function reason({ outcome, trouble, refusal }: EvaluationFailure): string {
-  return [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
+/** Why a trial failed, in the words of the live session. */
+export function reason(
+  { outcome, trouble, refusal }: EvaluationFailure,
+  { controller, map }: Pick<EvaluationCell, 'controller' | 'map'>,
+): string {
+  if (!isFailure(outcome))
+    return [outcome, trouble, refusal].filter((why) => why !== null).join('; ');
+  const cause = causeOf({ controller, end: outcome, trouble, map });
+  return refusal === null ? cause : `${cause} The arm holds: ${refusal}.`;
 }
 
 /** `1.043`, or a dash if no bead was delivered. */

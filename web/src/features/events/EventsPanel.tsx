@@ -1,38 +1,61 @@
 // All events, oldest first. The list stays at the newest event unless the user scrolls up.
 
-import { For, Show, createEffect, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, createSignal, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { LogLine } from '../../lab/model';
 import type { EventMessage } from '../../net/protocol.gen';
-import { sessionPath } from '../../net/session';
 import { eventTitle } from '../../lab/eventStory';
-import type { Events, Session, Trial } from '../../lab/slices';
+import { CaseBar } from './CaseBar';
 import './events.css';
 
 /** Closer to the end than this, the list follows new events. */
 const FOLLOW_PX = 24;
 
+/** The button that a key moves to, from the number of the current one and the number of buttons. */
+const MOVES: Partial<Record<string, (at: number, count: number) => number>> = {
+  ArrowUp: (at) => at - 1,
+  ArrowDown: (at) => at + 1,
+  Home: () => 0,
+  End: (_, count) => count - 1,
+};
+
 const when = (line: LogLine): string =>
   line.sim_time_s === undefined ? '' : clock(line.sim_time_s);
 
-function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
+function EventsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
   /** The session can only rewind to ticks that the timeline still has. */
   const onTimeline = (event: EventMessage | undefined): EventMessage | undefined =>
     event && lab.marks().includes(event) ? event : undefined;
+  const events = createMemo(() =>
+    lab
+      .log()
+      .map(({ event }) => onTimeline(event))
+      .filter((event) => event !== undefined),
+  );
+  const [current, setCurrent] = createSignal<EventMessage>();
+  // Tab reaches one event: the last chosen one, otherwise the newest.
+  const reached = createMemo(() => {
+    const chosen = current();
+    return chosen && events().includes(chosen) ? chosen : events().at(-1);
+  });
+  const onKey = (event: KeyboardEvent): void => {
+    const all = events();
+    const now = reached();
+    const move = MOVES[event.key];
+    if (!move || !now) return;
+    event.preventDefault();
+    const index = Math.min(all.length - 1, Math.max(0, move(all.indexOf(now), all.length)));
+    setCurrent(all[index]);
+    box.querySelectorAll('button')[index]?.focus();
+  };
   createEffect(() => {
     lab.log();
     if (following) box.scrollTop = box.scrollHeight;
   });
-  /** A case needs a delivery that it can expect. */
-  const caseAddress = (): string | undefined => {
-    const state = lab.state();
-    if (!state || (!state.goal_m && state.deliveries === 0)) return undefined;
-    return sessionPath(lab.session, 'case.json');
-  };
   return (
     <div class="log">
       <div
@@ -41,7 +64,9 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
         role="log"
         aria-live="off"
         aria-label="Events"
-        tabindex="0"
+        // Without buttons the keyboard could not scroll it.
+        tabindex={events().length === 0 ? 0 : undefined}
+        onKeyDown={onKey}
         onScroll={() => {
           following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
         }}
@@ -60,7 +85,9 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
                       class="link-like"
                       aria-label={`Why: ${eventTitle(event())}`}
                       title="Why?"
+                      tabindex={reached() === event() ? 0 : -1}
                       onClick={() => {
+                        setCurrent(event());
                         lab.inspect(event());
                       }}
                     >
@@ -77,18 +104,7 @@ function EventsPanel(props: PanelProps<Session & Trial & Events>): JSX.Element {
           )}
         </For>
       </div>
-      <Show when={caseAddress()}>
-        {(address) => (
-          <a
-            class="button small"
-            href={address()}
-            download=""
-            title="The trial with all inputs, as a file. In tests/cases it becomes a test"
-          >
-            Keep as test case
-          </a>
-        )}
-      </Show>
+      <CaseBar lab={lab} />
     </div>
   );
 }

@@ -12,6 +12,7 @@ import type { Session, Trial } from '../../lab/slices';
 export const FIELD_LAYER: MapLayer = {
   id: 'field',
   label: 'Field and pull',
+  swatch: ['field-low', 'field-middle', 'field-high'],
   group: 'Motion',
   create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const answer = createAnswer<PlaneQuery, Plane>('/api/magnetics/plane', () => {

@@ -59,9 +59,9 @@ export const ATTRACTOR: Lesson = {
     ['improved law: delivered', deliveryWords(improved)],
   ],
   why: [
-    'The law removes the part of the motion that leads into the wall. In front of the middle of a flat wall, the whole pull toward the goal points into the wall, so no motion is left. A little to the side, the flow leads back to the middle. Eight other starts, up to 2.5 cm to either side, end in the same place.',
+    'The law removes the part of the motion that leads into the wall. In front of the middle of a flat wall, the whole pull toward the goal points into the wall, so no motion is left. A little to the side, the flow leads back to the middle.',
     'Where no motion is left, the improved law follows the contour of the wall. It bends the flow around the centre of the wall, not around its face.',
-    'The improved law still uses only nearby walls. Between the folds of the colon it delivers the bead to 87 of 200 random goals; the paper’s law to 48.',
+    'The improved law still uses only nearby walls, so it does not reach every goal between the folds of the colon.',
   ],
   paper:
     'Section IV-B, equation 4. Section IV-D says that the law is globally stable; this wall shows that it is not.',
@@ -118,7 +118,7 @@ export const ERRT: Lesson = {
   },
   why: [
     'ERRT keeps the walls that the camera has shown in an obstacle map, as few rectangles as possible. On the way to the goal, each new fold can block the plan. On the way back all folds are in the map, so the new goal needs one new plan.',
-    'ERRT also keeps waypoints of earlier plans. They help the search: six of ten extensions of its tree aim at one of them.',
+    'ERRT also keeps waypoints of earlier plans. They help the search: most extensions of its tree aim at one of them.',
     'The attractor and the policy remember nothing: they decide from the present camera image.',
   ],
   paper: 'Section IV-C: the waypoint cache, and obstacles as a minimum number of rectangles.',
@@ -182,10 +182,10 @@ export const POLICY: Lesson = {
     ['left to the goal', centimetres(moved?.goalDistance_m ?? 0)],
   ],
   why: [
-    'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down the value −0.69 and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the value 0.99, and the policy always chooses it.',
+    'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down a low value and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the highest value, and the policy always chooses it.',
     'The shield knows the position of the camera. It refuses that step and takes the next best one, to the left or to the right, so the tool moves to and fro. With the shield off, the arm does not move.',
     'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with.',
-    'The policy also needs a map that it was trained on. On colon-folds, which was not in its training, it reaches 18 of 200 random goals; ERRT reaches 199.',
+    'The policy also needs a map that it was trained on. On colon-folds, which was not in its training, it rarely arrives; ERRT nearly always does.',
   ],
   paper:
     'Section IV-A, sub-controller 2: observations of 2 × 84 × 84, four actions, success within 2 cm of the goal.',

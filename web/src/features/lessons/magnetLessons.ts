@@ -1,6 +1,7 @@
 // Lessons about the magnet: how the bead follows it, and when the bead jumps to it.
 
 import { centimetres, fixed, millimetres } from '../../ui/format';
+import { FACTS } from './facts.gen';
 import { storedRange } from '../../lab/parameters';
 import { DELIVERED, deliveryWords, type Lesson, RUNNING } from './lesson';
 
@@ -13,8 +14,7 @@ export const MEET_THE_MAGNET: Lesson = {
   title: 'Meet the magnet',
   aim: 'See how a bead follows a magnet that never touches it.',
   minutes: 2,
-  question:
-    'The magnet hangs 10 cm above the table and moves to the right at 40 mm/s. Where is the bead while the magnet moves?',
+  question: `The magnet hangs ${centimetres(FACTS.height_m, 0)} above the table and moves to the right at ${millimetres(FACTS.transport_speed_m_s)}/s. Where is the bead while the magnet moves?`,
   choices: [
     { id: 'below', text: 'Right below the magnet' },
     { id: 'behind', text: 'A little behind, 1 to 3 cm' },
@@ -47,9 +47,9 @@ export const MEET_THE_MAGNET: Lesson = {
     ['delivered', deliveryWords(track)],
   ],
   why: [
-    'Right below the magnet there is no sideways pull. The pull grows with the distance to the side, up to 0.31 of the bead’s weight at 4 cm. Farther out it becomes weaker again.',
-    'The moving bead stays at the distance where the pull equals friction plus drag: about 16 mm at 40 mm/s. When the magnet stops, there is no drag, and the bead slides to about 4 mm from the magnet.',
-    'Even the strongest pull cannot move the bead faster than 79 mm/s. A faster magnet would leave it behind.',
+    `Right below the magnet there is no sideways pull. The pull grows with the distance to the side, up to ${fixed(FACTS.strongest_pull, 2)} of the bead’s weight at ${centimetres(FACTS.strongest_at_m)}. Farther out it becomes weaker again.`,
+    `The moving bead stays at the distance where the pull equals friction plus drag: ${millimetres(FACTS.follows_at_m)} at ${millimetres(FACTS.transport_speed_m_s)}/s. When the magnet stops, there is no drag, and the bead slides to ${millimetres(FACTS.rests_at_m)} from the magnet.`,
+    `Even the strongest pull cannot move the bead faster than ${millimetres(FACTS.greatest_speed_m_s)}/s. A faster magnet would leave it behind.`,
   ],
   paper: 'Section V: the magnets, and the plane 10 cm above the table.',
 };
@@ -59,10 +59,12 @@ export const LIFT_OFF: Lesson = {
   title: 'Lift-off',
   aim: 'Find out why the magnet has to stay 10 cm above the table.',
   minutes: 3,
-  question:
-    'With its lower face 100 mm above the table, the magnet lifts 0.81 of the bead’s weight. You lower the magnet. When does the bead jump up to it?',
+  question: `With its lower face ${millimetres(FACTS.height_m)} above the table, the magnet lifts ${fixed(FACTS.lift, 2)} of the bead’s weight. You lower the magnet. When does the bead jump up to it?`,
   choices: [
-    { id: 'soon', text: 'Soon: about 5 mm lower' },
+    {
+      id: 'soon',
+      text: `Soon: about ${millimetres(FACTS.height_m - FACTS.lift_off_m)} lower`,
+    },
     { id: 'half', text: 'At about half the height' },
     { id: 'touch', text: 'Only when the magnet almost touches the bead' },
   ],
@@ -131,9 +133,9 @@ export const LIFT_OFF: Lesson = {
     ['lift / weight on edge at 90 mm', edge ? fixed(edge.greatestLift, 2) : '–'],
   ],
   why: [
-    'The lift grows fast as the magnet comes down: 0.81 of the weight at 100 mm, 0.90 at 97 mm, and the whole weight at 94.4 mm. There the bead rises. The pull grows as it rises, so the bead hits the magnet.',
-    'A height of 10 cm is a compromise. If the magnet is higher, its sideways pull soon becomes weaker than friction. If it is lower, the bead jumps to it.',
-    'On its edge (B), the magnet has a weaker field at the bead. It would lift the bead only at a height of 74 mm. But its sideways pull is also much weaker: in the layer Capture, only two small areas are left of the ring.',
+    `The lift grows fast as the magnet comes down: ${fixed(FACTS.lift, 2)} of the weight at ${millimetres(FACTS.height_m)}, 0.90 at ${millimetres(FACTS.nine_tenths_at_m)}, and the whole weight at ${millimetres(FACTS.lift_off_m, 1)}. There the bead rises. The pull grows as it rises, so the bead hits the magnet.`,
+    `A height of ${centimetres(FACTS.height_m, 0)} is a compromise. If the magnet is higher, its sideways pull soon becomes weaker than friction. If it is lower, the bead jumps to it.`,
+    `On its edge (B), the magnet has a weaker field at the bead. It would lift the bead only at a height of ${millimetres(FACTS.lift_off_on_edge_m)}. But its sideways pull is also much weaker: in the layer Capture, only two small areas are left of the ring.`,
   ],
-  paper: `Section V: the arm moves in a plane ${centimetres(0.1, 0)} above the table.`,
+  paper: `Section V: the arm moves in a plane ${centimetres(FACTS.height_m, 0)} above the table.`,
 };

@@ -15,6 +15,7 @@ import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
 import { startTrack, observe, type Track } from './track';
 import type { Events, Layers, Pictures, Session, Trial } from '../../lab/slices';
+import type { Parameters } from '../../net/protocol.gen';
 
 type Tracks = readonly (Track | undefined)[];
 
@@ -54,6 +55,8 @@ function createLessons(lab: LessonsLab): Lessons {
   const [tracks, setTracks] = createSignal<Tracks>([]);
   /** Layers that the lesson switched on and has to switch off again. */
   let lent: readonly string[] = [];
+  /** Parameters and speed before the lesson's first experiment. */
+  let before: { readonly parameters: Parameters; readonly speed: number } | undefined;
 
   const keep = (next: Progress): void => {
     setProgress(next);
@@ -88,8 +91,18 @@ function createLessons(lab: LessonsLab): Lessons {
     for (const layer of lent) if (!still.includes(layer)) lab.showLayer(layer, false);
     lent = lent.filter((layer) => still.includes(layer));
   };
+  /** Restores parameters and speed, unless the user has loaded something else meanwhile. */
+  const restore = (): void => {
+    const isStillThere = tracks().some((one) => one && one.trial === lab.scene()?.trial);
+    if (before && isStillThere && lab.canOperate()) {
+      lab.send({ type: 'configure', parameters: before.parameters });
+      lab.send({ type: 'set_speed', factor: before.speed });
+    }
+    before = undefined;
+  };
   const leave = (): void => {
     giveBackLayers();
+    restore();
     setLeft(lesson());
     setLesson(undefined);
     setStep(0);
@@ -130,6 +143,7 @@ function createLessons(lab: LessonsLab): Lessons {
       if (!here || !scene) return;
       const read = experimentFrom(here.link, scene);
       if (read.kind !== 'experiment') return;
+      before ??= { parameters: scene.parameters, speed: lab.state()?.speed_target ?? 1 };
       setTracks(tracks().map((old, index) => (index === step() - 1 ? undefined : old)));
       lab.send(loadMessage(read.experiment, scene.defaults));
       lab.send({ type: 'set_speed', factor: here.speed });

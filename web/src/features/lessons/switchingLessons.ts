@@ -1,6 +1,7 @@
 // Lessons about switching: what happens to a lost bead, and how the threshold and the law decide.
 
-import { centimetres } from '../../ui/format';
+import { centimetres, millimetres } from '../../ui/format';
+import { FACTS } from './facts.gen';
 import { DELIVERED, deliveryWords, type Lesson, type Run, RUNNING } from './lesson';
 
 const KICKED = '#v=1&map=open&controller=attractor&seed=1&start=-0.2,-0.36&goal=0.2,-0.36';
@@ -22,7 +23,7 @@ export const LOSE_THE_BEAD: Lesson = {
   choices: [
     { id: 'on', text: 'It continues to the goal without the bead' },
     { id: 'waits', text: 'It stops until the bead is back' },
-    { id: 'fetches', text: 'It flies to the bead, straight over the walls' },
+    { id: 'fetches', text: 'It flies straight to the bead' },
   ],
   runs: [
     {
@@ -71,8 +72,8 @@ export const LOSE_THE_BEAD: Lesson = {
     ['delivered', deliveryWords(track)],
   ],
   why: [
-    'When the bead is farther away than T, sub-controller 1 moves the arm. It gets the bead’s position from the optical tracker and flies there at up to 250 mm/s. All walls are lower than the tool, so it can fly straight over them.',
-    'When the tool is within 1 cm of the bead, sub-controller 2 takes over. It uses only the camera and goes around the walls, because the bead has to follow on the table.',
+    `When the bead is farther away than T, sub-controller 1 moves the arm. It gets the bead’s position from the optical tracker and flies there at up to ${millimetres(FACTS.approach_speed_m_s)}/s. All walls are lower than the tool, so it can fly straight over them.`,
+    `When the tool is within ${centimetres(FACTS.fetch_radius_m, 0)} of the bead, sub-controller 2 takes over. It uses only the camera and goes around the walls, because the bead has to follow on the table.`,
   ],
   paper: 'Section IV-A: sub-controllers 1 and 2, and the switching signal, equation 1.',
 };
@@ -117,13 +118,14 @@ export const THRESHOLD: Lesson = {
     return first && second && second.time_s < first.time_s ? 'sooner' : 'later';
   },
   facts: ([wide, narrow]) => [
-    ['T = 10 cm: fetched', `${wide?.losses ?? 0} times`],
+    ['T = 10 cm: greatest distance', centimetres(wide?.greatestError_m ?? 0)],
+    ['fetched', `${wide?.losses ?? 0} times`],
     ['delivered', deliveryWords(wide)],
     ['T = 3 cm: fetched', `${narrow?.losses ?? 0} times`],
     ['delivered', deliveryWords(narrow)],
   ],
   why: [
-    'A kick of 0.5 mN·s moves the bead about 5 cm away from the tool. There the magnet’s pull is still stronger than friction (it is up to 94.5 mm), and it brings the bead back while the arm continues.',
+    `With T = 10 cm no kick counts as a loss. Up to ${millimetres(FACTS.reach_m, 1)} away, the magnet’s pull is still stronger than friction, and it brings the bead back while the arm continues.`,
     'With T = 3 cm each kick counts as a loss: the arm turns around, fetches the bead, and starts a new leg.',
     'The best T is a little less than the reach of the magnet. The paper calls T = 10 cm arbitrary, but it is close to this value.',
   ],
@@ -184,8 +186,8 @@ export const TWO_LAWS: Lesson = {
   ],
   why: [
     'At e = T sub-controller 2 takes over and moves toward the goal, away from the bead. At a distance of 10 cm the pull is too weak to move the bead. So the bead stays, e becomes larger than T again, and sub-controller 1 takes over again.',
-    'With a faster tool the problem does not show: at the usual 250 mm/s the tool is well within T at the next decision, a quarter of a second later. That is luck, not design.',
-    'Two thresholds solve the problem: the bead counts as fetched within 1 cm, and as lost beyond T.',
+    `With a faster tool the problem does not show: at the usual ${millimetres(FACTS.approach_speed_m_s)}/s the tool is well within T at the next decision, a quarter of a second later. That is luck, not design.`,
+    `Two thresholds solve the problem: the bead counts as fetched within ${centimetres(FACTS.fetch_radius_m, 0)}, and as lost beyond T.`,
   ],
   paper: 'Section IV-A, equation 1, and the text below it. The two differ at e = T.',
 };

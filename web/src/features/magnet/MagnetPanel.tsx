@@ -3,7 +3,7 @@
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { createAnswer } from '../../net/requests';
-import { fixed } from '../../ui/format';
+import { axisLabel, fixed } from '../../ui/format';
 import {
   breakaway,
   directionOf,
@@ -129,7 +129,7 @@ function Magnet(props: {
     xRange: () => [1000 * HEIGHTS_M[0], 1000 * HEIGHTS_M[1]],
     yRange: (max) => [0, Math.max(5, 1.1 * max)],
     xText: (value) => `${value} mm`,
-    yText: (value) => fixed(value, 0),
+    yText: axisLabel,
     shades: () => {
       const end_m = liftOff_m();
       return end_m === undefined

@@ -11,6 +11,7 @@ import type { Pictures } from '../../lab/slices';
 export const SEEN_LAYER: MapLayer = {
   id: 'seen',
   label: 'Seen so far',
+  swatch: ['unseen', 'sensed'],
   group: 'Camera',
   isUnclipped: true,
   create: ({ lab, palette, isShown }: LayerContext<Pictures>) => {
@@ -35,11 +36,13 @@ export const SEEN_LAYER: MapLayer = {
 function ofBlocks(
   id: string,
   label: string,
+  swatch: MapLayer['swatch'],
   draw: (ctx: CanvasRenderingContext2D, view: View, palette: Palette, layer: BlocksLayer) => void,
 ): MapLayer {
   return {
     id,
     label,
+    swatch,
     group: 'Camera',
     create: ({ lab }: LayerContext<Pictures>) => ({
       aboveWalls: () => () => {
@@ -55,5 +58,5 @@ function ofBlocks(
   };
 }
 
-export const BLOCKS_LAYER = ofBlocks('blocks', 'Quadtree', drawBlocks);
-export const RECTANGLES_LAYER = ofBlocks('rectangles', 'Rectangles', drawRectangles);
+export const BLOCKS_LAYER = ofBlocks('blocks', 'Quadtree', ['muted', 'sensed'], drawBlocks);
+export const RECTANGLES_LAYER = ofBlocks('rectangles', 'Rectangles', ['error-x'], drawRectangles);

@@ -16,6 +16,7 @@ function ofPlan<T>(
 ): MapLayer {
   return {
     ...layer,
+    swatch: ['plan'],
     group: 'ERRT',
     create: ({ lab, isShown }: LayerContext<Pictures>) => ({
       aboveWalls: (view) => {

@@ -4,6 +4,9 @@ import { Show, type JSX } from 'solid-js';
 import { achievedWords, lateWords, lostWords } from './steps';
 import type { Trial } from '../../lab/slices';
 
+const LIMIT_HELP = 'This machine cannot run faster. The result of the trial is the same.';
+const LATE_HELP = 'The machine is busy, so the last ticks came late. The result is the same.';
+
 export function Achieved(props: { lab: Trial }): JSX.Element {
   const { lab } = props;
   const achieved = () =>
@@ -22,7 +25,11 @@ export function Achieved(props: { lab: Trial }): JSX.Element {
         {achieved().text}
         {/* At the machine's limit ticks are late in any case. */}
         <Show when={achieved().limited ? 'machine limit' : late()}>
-          {(words) => <span class="limit">{words()}</span>}
+          {(words) => (
+            <span class="limit" title={achieved().limited ? LIMIT_HELP : LATE_HELP}>
+              {words()}
+            </span>
+          )}
         </Show>
       </Show>
       <Show when={lost()}>{(words) => <span class="visually-hidden">; {words()}</span>}</Show>

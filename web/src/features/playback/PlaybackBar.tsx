@@ -1,6 +1,6 @@
 // The playback bar: run, pause, step, reset, speed, seed, map, timeline.
 
-import { Show, createEffect, createMemo, on, type JSX } from 'solid-js';
+import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
 import { loadMap } from '../../lab/loadMap';
 import { speedName, SPEEDS, ticksToControlStep } from './steps';
@@ -14,12 +14,14 @@ import './PlaybackBar.css';
 /** One second of ticks. */
 const MANY_TICKS = 125;
 const SEED_LIMIT = 2 ** 32;
+const NO_GOAL = 'No goal is set: choose a free place in the workspace.';
 
-function RunButtons(props: { lab: Session & Trial }): JSX.Element {
+function RunButtons(props: { lab: Session & Trial & Notices }): JSX.Element {
   const { lab } = props;
   const running = (): boolean => lab.state()?.running ?? false;
   const toggle = (): void => {
     lab.send({ type: running() ? 'pause' : 'run' });
+    if (!running() && !lab.state()?.goal_m) lab.notify('workspace', NO_GOAL);
   };
   return (
     <div class="buttons">
@@ -44,6 +46,7 @@ function RunButtons(props: { lab: Session & Trial }): JSX.Element {
       </button>
       <button
         type="button"
+        class="seldom"
         disabled={!lab.canOperate() || running()}
         title="To the next control step: 31 or 32 ticks, a quarter of a second (,)"
         onClick={() => {
@@ -95,6 +98,7 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
         step="1"
         disabled={!lab.canOperate()}
         title="Enter resets the trial with this seed"
+        style={{ '--digits': String(props.seed).length }}
         // Leaving the field does not reset the trial.
         onBlur={show}
       />
@@ -120,10 +124,13 @@ export function PlaybackBar(props: {
   choices: JSX.Element;
   /** At the end of the row. */
   share: JSX.Element;
+  /** Beside the timeline. */
+  runs: JSX.Element;
   /** Below the timeline. */
   below: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
+  const [isOpen, setOpen] = createSignal(false);
   // A memo, so that other updates do not recreate the list under the pointer.
   const target = createMemo(() => lab.state()?.speed_target ?? 1);
   const speeds = createMemo(() => {
@@ -139,46 +146,57 @@ export function PlaybackBar(props: {
       {props.above}
       <div class="transport-row">
         <RunButtons lab={lab} />
-        <TruthSelect
-          label="Speed"
-          value={String(target())}
-          options={speeds()}
-          refusals={lab.refusals()}
-          disabled={!lab.canOperate()}
-          onChoose={(value) => {
-            lab.send({ type: 'set_speed', factor: Number(value) });
-          }}
-        />
-        <Achieved lab={lab} />
-        <Show when={lab.scene()}>
-          {(scene) => (
-            <>
-              <TruthSelect
-                label="Map"
-                value={scene().map}
-                options={maps()}
-                refusals={lab.refusals()}
-                disabled={!lab.canOperate()}
-                onChoose={(map) => {
-                  loadMap(lab, map);
-                }}
-              />
-              {props.choices}
-              <Seed lab={lab} seed={scene().seed} />
-              {props.share}
-            </>
-          )}
-        </Show>
+        <button
+          type="button"
+          class="more"
+          aria-expanded={isOpen()}
+          aria-controls="more-controls"
+          onClick={() => setOpen(!isOpen())}
+        >
+          More
+        </button>
+        <div id="more-controls" class="more-controls" data-open={isOpen()}>
+          <TruthSelect
+            label="Speed"
+            value={String(target())}
+            options={speeds()}
+            refusals={lab.refusals()}
+            disabled={!lab.canOperate()}
+            onChoose={(value) => {
+              lab.send({ type: 'set_speed', factor: Number(value) });
+            }}
+          />
+          <Achieved lab={lab} />
+          <Show when={lab.scene()}>
+            {(scene) => (
+              <>
+                <TruthSelect
+                  label="Map"
+                  value={scene().map}
+                  options={maps()}
+                  refusals={lab.refusals()}
+                  disabled={!lab.canOperate()}
+                  onChoose={(map) => {
+                    loadMap(lab, map);
+                  }}
+                />
+                {props.choices}
+                <Seed lab={lab} seed={scene().seed} />
+                {props.share}
+              </>
+            )}
+          </Show>
+        </div>
         <div class="now number">
           <span class="sim-time" data-testid="sim-time">
             {clock(lab.state()?.sim_time_s ?? 0)}
           </span>
-          <span class="tick" data-testid="tick">
+          <span class="tick seldom" data-testid="tick">
             tick {lab.state()?.tick ?? 0}
           </span>
         </div>
       </div>
-      <Timeline lab={lab} />
+      <Timeline lab={lab} beside={props.runs} />
       {props.below}
       <PlaceNotice lab={lab} place="playback" />
     </footer>

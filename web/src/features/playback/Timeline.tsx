@@ -13,7 +13,11 @@ const MAX_REWINDS_PER_S = 15;
 /** How long the slider stays where it was released, until the server answers. */
 const SETTLE_MS = 300;
 
-export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element {
+export function Timeline(props: {
+  lab: Session & Trial & Events;
+  /** At the end of the line. */
+  beside: JSX.Element;
+}): JSX.Element {
   const { lab } = props;
   const [scrubbed, setScrubbed] = createSignal<number>();
   const oldest = createMemo(() => lab.state()?.oldest_tick ?? 0);
@@ -79,6 +83,7 @@ export function Timeline(props: { lab: Session & Trial & Events }): JSX.Element 
         />
       </div>
       <span class="end number">{seconds(newest())}</span>
+      {props.beside}
     </div>
   );
 }

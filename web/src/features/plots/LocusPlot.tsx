@@ -9,6 +9,7 @@ import { drawLocus, placesAt, sampleAt } from './drawLocus';
 import type { Figure } from './figure';
 import { LOCUS_LETTER } from './parts';
 import { nearestIndex } from './sample';
+import { TERMS } from '../../lab/terms';
 import type { Vec2 } from '../../lab/geometry';
 import type { Trial } from '../../lab/slices';
 import '../../ui/plot.css';
@@ -99,7 +100,7 @@ export function LocusPlot(props: {
     <figure class="plot" data-part={LOCUS_LETTER}>
       <figcaption>
         <span class="letter">{LOCUS_LETTER}</span>
-        <strong>Locus</strong>
+        <strong title={TERMS.locus}>Locus</strong>
         <span class="key" data-color="tool">
           tool
         </span>

@@ -13,7 +13,11 @@ const WORDS: Readonly<Record<Copied, string>> = {
   selected: 'Selected: copy it with the keyboard or the menu.',
 };
 
-export function ShareButton(props: { links: PageExperiment }): JSX.Element {
+export function ShareButton(props: {
+  links: PageExperiment;
+  /** Below the link. */
+  children: JSX.Element;
+}): JSX.Element {
   let box!: HTMLDivElement;
   let button!: HTMLButtonElement;
   let field!: HTMLInputElement;
@@ -83,6 +87,7 @@ export function ShareButton(props: { links: PageExperiment }): JSX.Element {
             scripted disturbances. On a Ferry server it loads this experiment at its start.
           </p>
           <p class="hint">It does not contain what you did by hand, such as drags and kicks.</p>
+          {props.children}
         </div>
       </Show>
     </div>

@@ -12,6 +12,7 @@ import type { Session, Trial } from '../../lab/slices';
 export const SINGULARITY_LAYER: MapLayer = {
   id: 'singularity',
   label: 'Singularity',
+  swatch: ['danger'],
   group: 'Arm',
   unavailable: (lab: Trial) =>
     lab.scene()?.positioner === 'planar_stage'

@@ -7,7 +7,7 @@ import { trailsOf } from './trail';
 
 const UP_M = 1.2e-3;
 /** More points than this do not change the look of a trail. */
-const POINTS = 800;
+const POINTS = 2000;
 
 export const sceneTrails: CreateSceneObject = (paints) => {
   const style = { width_px: 1.75, opacity: 0.6, through: true };

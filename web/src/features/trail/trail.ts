@@ -1,9 +1,6 @@
 import type { History } from '../../lab/history';
 import type { StateMessage } from '../../net/protocol.gen';
 
-/** The same time as in the plots. */
-const TRAIL_S = 60;
-
 export interface Trail {
   readonly of: 'tool' | 'bead';
   /** Oldest first. */
@@ -13,10 +10,10 @@ export interface Trail {
 
 const NONE = new Float64Array();
 
-/** The trails up to a state. */
+/** The trails from the start of the trial up to a state. */
 export function trailsOf(state: StateMessage, history: History): readonly [Trail, Trail] {
   const [toolX = NONE, toolY = NONE, beadX = NONE, beadY = NONE] = history.window(
-    state.sim_time_s - TRAIL_S,
+    0,
     state.sim_time_s,
     ['tool_x_m', 'tool_y_m', 'bead_x_m', 'bead_y_m'],
   );

@@ -12,6 +12,7 @@ const drawTrails: Draw<MovingPicture> = (ctx, { view, palette, state, history })
 export const TRAIL_LAYER: MapLayer & InScene = {
   id: 'trail',
   label: 'Trails',
+  swatch: ['tool', 'bead'],
   group: 'Motion',
   shownAtFirst: true,
   create: () => ({ moving: () => drawTrails }),

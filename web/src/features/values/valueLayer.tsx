@@ -13,6 +13,7 @@ import type { Session, Trial } from '../../lab/slices';
 export const VALUE_LAYER: MapLayer = {
   id: 'value',
   label: 'Value',
+  swatch: ['heat-low', 'heat-middle', 'heat-high'],
   group: 'RL',
   create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
     const key = createMemo(() => {

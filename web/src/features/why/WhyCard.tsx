@@ -7,7 +7,8 @@ import { centimetres, clock } from '../../ui/format';
 import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
 import { eventTitle, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
-import type { Events, OpenTab, Session } from '../../lab/slices';
+import { causeOfEvent } from '../../lab/failure';
+import type { Events, OpenTab, Session, Trial } from '../../lab/slices';
 import './why.css';
 
 /** e on a scale from 0 to twice the limit. The limit is in the middle. */
@@ -23,10 +24,15 @@ function MarginBar(props: { moment: MomentMessage }): JSX.Element {
   );
 }
 
-function Story(props: { moment: MomentMessage; path: string }): JSX.Element {
+function Story(props: {
+  moment: MomentMessage;
+  path: string;
+  cause: string | undefined;
+}): JSX.Element {
   const margin = createMemo(() => marginOf(props.moment));
   return (
     <>
+      <Show when={props.cause}>{(cause) => <p class="why-cause">{cause()}</p>}</Show>
       <p class="why-margin-text number">
         e {centimetres(margin().error_m)}, limit {centimetres(margin().threshold_m)}:{' '}
         <strong>{margin().text}</strong>
@@ -47,7 +53,10 @@ function Story(props: { moment: MomentMessage; path: string }): JSX.Element {
 const isSame = (a: EventMessage, b: EventMessage): boolean =>
   a.tick === b.tick && a.kind === b.kind && a.text === b.text;
 
-function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): JSX.Element {
+function Card(props: {
+  lab: Session & Trial & Events & OpenTab;
+  event: EventMessage;
+}): JSX.Element {
   const { lab } = props;
   let card!: HTMLElement;
   const path = createMemo(() => sessionPath(lab.session, `moments/${props.event.tick}`));
@@ -129,7 +138,13 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
             )}
           </Match>
           <Match when={!moment.loading && moment()}>
-            {(found) => <Story moment={found()} path={path()} />}
+            {(found) => (
+              <Story
+                moment={found()}
+                path={path()}
+                cause={causeOfEvent(props.event, found(), lab.scene()?.map ?? '')}
+              />
+            )}
           </Match>
         </Switch>
       </div>
@@ -164,7 +179,7 @@ function Card(props: { lab: Session & Events & OpenTab; event: EventMessage }): 
 }
 
 /** Open while an event is inspected. Closing it returns the focus. */
-export function WhyCard(props: { lab: Session & Events & OpenTab }): JSX.Element {
+export function WhyCard(props: { lab: Session & Trial & Events & OpenTab }): JSX.Element {
   let from: Element | null = null;
   createEffect(
     on(props.lab.inspected, (now, before) => {

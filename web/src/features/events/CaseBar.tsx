@@ -1,0 +1,69 @@
+// Saves the trial as a test case, opens a saved one, and shows the opened one.
+
+import { For, Show, createMemo, type JSX } from 'solid-js';
+import { sessionPath } from '../../net/session';
+import type { Lab } from '../../lab/slices';
+import { caseWords, openCase } from './cases';
+
+export function CaseBar(props: { lab: Lab }): JSX.Element {
+  const { lab } = props;
+  let input!: HTMLInputElement;
+  /** A case needs a delivery that it can expect. */
+  const caseAddress = (): string | undefined => {
+    const state = lab.state();
+    if (!state || (!state.goal_m && state.deliveries === 0)) return undefined;
+    return sessionPath(lab.session, 'case.json');
+  };
+  const words = createMemo(
+    () => {
+      const [scene, state] = [lab.scene(), lab.state()];
+      if (!scene?.case || !state) return [];
+      return caseWords(scene.case, lab.marks(), state, scene.tick_s);
+    },
+    [],
+    { equals: (a, b) => a.join() === b.join() },
+  );
+  return (
+    <div class="case-bar">
+      <For each={words()}>{(sentence) => <p>{sentence}</p>}</For>
+      <div class="buttons">
+        <Show when={caseAddress()}>
+          {(address) => (
+            <a
+              class="button small"
+              href={address()}
+              download=""
+              title="The trial with all inputs, as a file. In tests/cases it becomes a test"
+            >
+              Keep as test case
+            </a>
+          )}
+        </Show>
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate()}
+          title="Sets the trial up and repeats its inputs. A file can also be dropped on the page"
+          onClick={() => {
+            input.click();
+          }}
+        >
+          Open test case…
+        </button>
+        <input
+          ref={input}
+          type="file"
+          accept=".json,application/json"
+          aria-label="File of the test case"
+          hidden
+          onChange={() => {
+            const file = input.files?.[0];
+            if (file) void openCase(lab, file);
+            // The same file may be chosen again after it was corrected.
+            input.value = '';
+          }}
+        />
+      </div>
+    </div>
+  );
+}

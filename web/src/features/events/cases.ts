@@ -1,0 +1,81 @@
+// Test cases: opens a saved one, and says what the opened one contains.
+
+import {
+  type CaseSummary,
+  type EventMessage,
+  MAX_MESSAGE_BYTES,
+  type StateMessage,
+} from '../../net/protocol.gen';
+import { clock, counted } from '../../ui/format';
+import type { Notices, OpenTab, Session } from '../../lab/slices';
+
+/** For the rest of the message. */
+const SPARE_BYTES = 1024;
+const TOO_LARGE = `This test case is too large: the limit is ${MAX_MESSAGE_BYTES >> 20} MiB.`;
+
+/** Whether the text fits into a message. */
+export function fits(text: string): boolean {
+  const { length } = new TextEncoder().encode(JSON.stringify(text));
+  return length + SPARE_BYTES <= MAX_MESSAGE_BYTES;
+}
+
+/** Sends the file to the server, which reads it. */
+export async function openCase(lab: Session & Notices & OpenTab, file: File): Promise<void> {
+  const say = (text: string): void => {
+    lab.notify('playback', text);
+  };
+  if (!lab.canOperate()) {
+    say('Take control to open a test case.');
+    return;
+  }
+  if (file.size > MAX_MESSAGE_BYTES) {
+    say(TOO_LARGE);
+    return;
+  }
+  let text;
+  try {
+    text = await file.text();
+  } catch {
+    say('The browser could not read this file.');
+    return;
+  }
+  if (fits(text)) {
+    lab.send({ type: 'open_case', case: text });
+    lab.openTab('events');
+  } else {
+    say(TOO_LARGE);
+  }
+}
+
+type Verdict = 'met' | 'not met' | 'open';
+
+/** Whether the expectation is met at this tick. */
+function verdict(
+  { deliveries = 0, by_tick = 0 }: CaseSummary,
+  events: readonly EventMessage[],
+  tick: number,
+): Verdict {
+  const last = Math.min(tick, by_tick);
+  const delivered = events.filter((event) => event.kind === 'delivered' && event.tick <= last);
+  if (delivered.length >= deliveries) return 'met';
+  return tick >= by_tick ? 'not met' : 'open';
+}
+
+/** What the case contains, one sentence each. */
+export function caseWords(
+  summary: CaseSummary,
+  events: readonly EventMessage[],
+  { tick }: Pick<StateMessage, 'tick'>,
+  tick_s: number,
+): string[] {
+  const { about, inputs, last_tick, deliveries, by_tick } = summary;
+  const sentences = [`Test case: ${about}`];
+  if (inputs > 0) {
+    sentences.push(`${counted(inputs, 'input')}, the last one at ${clock(last_tick * tick_s)}.`);
+  }
+  if (deliveries !== undefined && by_tick !== undefined) {
+    const now = verdict(summary, events, tick);
+    sentences.push(`Expected: ${deliveries} delivered by ${clock(by_tick * tick_s)} (${now}).`);
+  }
+  return sentences;
+}

@@ -1,0 +1,74 @@
+// Buttons that save a picture or a video of the view, and the clock of a video that is being recorded.
+
+import { Show, onCleanup, type JSX } from 'solid-js';
+import type { Capture } from './capture';
+import { VIDEO_LIMIT_S } from './video';
+import './export.css';
+
+export function CaptureTools(props: { capture: Capture }): JSX.Element {
+  const { capture } = props;
+  const isRecording = (): boolean => capture.recorded_s() !== undefined;
+  return (
+    <div class="capture" role="group" aria-label="Picture and video">
+      <div class="buttons">
+        <button
+          type="button"
+          class="small"
+          title="The plan or the 3-D view as it is now"
+          disabled={!capture.isReady()}
+          onClick={() => void capture.savePicture()}
+        >
+          Picture (PNG)
+        </button>
+        <Show when={capture.canRecord}>
+          <button
+            type="button"
+            class="small"
+            disabled={!capture.isReady()}
+            onClick={() => {
+              if (isRecording()) capture.stopVideo();
+              else capture.startVideo();
+            }}
+          >
+            {isRecording() ? 'Stop video' : 'Record video'}
+          </button>
+        </Show>
+      </div>
+      <p class="hint">
+        {capture.canRecord
+          ? `Of the plan or the 3-D view, with map, controller and time below it. A video has at most ${VIDEO_LIMIT_S} s.`
+          : 'This browser cannot record videos: it has no MediaRecorder for WebM or MP4.'}
+      </p>
+    </div>
+  );
+}
+
+const clock = (time_s: number): string =>
+  `${Math.floor(time_s / 60)}:${String(time_s % 60).padStart(2, '0')}`;
+
+/** Over the view while a video is recorded. */
+export function RecordingClock(props: { capture: Capture }): JSX.Element {
+  const { capture } = props;
+  // Without the view there is nothing to record.
+  onCleanup(() => capture.stopVideo());
+  return (
+    <Show when={capture.recorded_s() !== undefined}>
+      <div class="recording-clock" role="group" aria-label="Video">
+        <span class="number" role="timer">
+          {clock(capture.recorded_s() ?? 0)}
+        </span>
+        <button
+          type="button"
+          class="small"
+          aria-label="Stop video"
+          title="Saves the video"
+          onClick={() => {
+            capture.stopVideo();
+          }}
+        >
+          Stop
+        </button>
+      </div>
+    </Show>
+  );
+}

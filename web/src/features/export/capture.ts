@@ -1,0 +1,98 @@
+// Pictures and videos of the view. The page makes them; nothing is sent to the server.
+
+import { createSignal, untrack, type Accessor } from 'solid-js';
+import { download } from '../../ui/download';
+import type { Palette } from '../../ui/palette';
+import type { ViewPicture } from '../../plan/viewPicture';
+import type { Notices, Trial } from '../../lab/slices';
+import { caption, createSheet, fileName, fillSheet, pngOfSheet } from './picture';
+import { ownVideoType, record, videoEnding, type Recording } from './video';
+
+/** Pixels of a picture per CSS pixel, at least. */
+const PICTURE_RATIO = 2;
+
+export interface Capture {
+  /** Whether there is a view to capture. */
+  readonly isReady: Accessor<boolean>;
+  readonly canRecord: boolean;
+  /** Whole seconds of the video that is being recorded; undefined if none is. */
+  readonly recorded_s: Accessor<number | undefined>;
+  savePicture(): Promise<void>;
+  startVideo(): void;
+  stopVideo(): void;
+}
+
+export function createCapture(
+  lab: Trial & Notices,
+  view: Accessor<ViewPicture | undefined>,
+  palette: Accessor<Palette>,
+): Capture {
+  const type = ownVideoType();
+  const [recorded_s, setRecorded] = createSignal<number>();
+  let recording: Recording | undefined;
+
+  const say = (reason: unknown): void => {
+    lab.notify('workspace', reason instanceof Error ? reason.message : String(reason));
+  };
+  /** Draws the view as it is now. */
+  const fill = (sheet: HTMLCanvasElement, ratio: number): boolean =>
+    untrack(() => {
+      const [now, scene, state] = [view(), lab.scene(), lab.state()];
+      if (!now || !scene || !state) return false;
+      return fillSheet(sheet, ratio, now, palette(), caption(scene.map, state));
+    });
+  const nameOf = (ending: string): string =>
+    untrack(() => {
+      const [scene, state] = [lab.scene(), lab.state()];
+      return scene && state ? fileName(scene.map, state, ending) : `ferry.${ending}`;
+    });
+
+  return {
+    isReady: () => view() !== undefined && lab.state() !== undefined,
+    canRecord: type !== undefined,
+    recorded_s,
+    async savePicture() {
+      const now = untrack(view);
+      if (!now) return;
+      const ratio = Math.max(PICTURE_RATIO, window.devicePixelRatio);
+      const sheet = createSheet(now, ratio);
+      const name = nameOf('png');
+      try {
+        if (fill(sheet, ratio)) download(name, await pngOfSheet(sheet));
+      } catch (reason) {
+        say(reason);
+      }
+    },
+    startVideo() {
+      const now = untrack(view);
+      if (!now || recording || type === undefined) return;
+      const ratio = window.devicePixelRatio;
+      const sheet = createSheet(now, ratio);
+      try {
+        // The recorder needs a picture to begin with.
+        fill(sheet, ratio);
+        setRecorded(0);
+        recording = record(
+          sheet,
+          type,
+          (elapsed_s) => {
+            fill(sheet, ratio);
+            setRecorded(Math.floor(elapsed_s));
+          },
+          (video) => {
+            recording = undefined;
+            setRecorded(undefined);
+            if (video instanceof Error) say(video);
+            else download(nameOf(videoEnding(type)), video);
+          },
+        );
+      } catch (reason) {
+        setRecorded(undefined);
+        say(reason);
+      }
+    },
+    stopVideo() {
+      recording?.stop();
+    },
+  };
+}

@@ -1,0 +1,62 @@
+// The current tip, over the upper edge of the workspace, where it moves nothing.
+
+import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
+import type { Session, Trial } from '../../lab/slices';
+import { IS_TOUCH } from '../../ui/touch';
+import { recall, remember } from '../../ui/storage';
+import { type Shown, TIP_IDS, type TipId, doneAfter, nextTip, tipsFrom, tipText } from './tips';
+import './tips.css';
+
+const KEY = 'tips';
+
+export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Element {
+  const { lab } = props;
+  const [done, setDone] = createSignal<ReadonlySet<TipId>>(tipsFrom(recall(KEY)));
+  const store = (tips: ReadonlySet<TipId>): void => {
+    setDone(tips);
+    remember(KEY, [...tips].join());
+  };
+  const shown = createMemo(
+    (): Shown | undefined => {
+      const state = lab.state();
+      return (
+        state && {
+          running: state.running,
+          holding: state.hand_m !== null,
+          goal: state.goal_m?.join() ?? '',
+          controller: state.controller,
+          scene: props.scene,
+        }
+      );
+    },
+    undefined,
+    { equals: (a, b) => JSON.stringify(a) === JSON.stringify(b) },
+  );
+  createEffect(
+    on(shown, (now, before) => {
+      // A viewer only watches, and the first state is not a change.
+      if (!now || !before || !lab.canOperate()) return;
+      const after = doneAfter(done(), now, before);
+      if (after.size > done().size) store(after);
+    }),
+  );
+  const tip = (): TipId | undefined => (lab.canOperate() ? nextTip(done()) : undefined);
+  return (
+    <Show when={tip()}>
+      {(id) => (
+        <p class="tip" role="status">
+          <span>{tipText(id(), IS_TOUCH)}</span>
+          <button
+            type="button"
+            class="small"
+            onClick={() => {
+              store(new Set(TIP_IDS));
+            }}
+          >
+            Skip tips
+          </button>
+        </p>
+      )}
+    </Show>
+  );
+}

@@ -1,0 +1,35 @@
+import { describe, expect, it } from 'vitest';
+import { type Shown, TIP_IDS, doneAfter, nextTip, tipsFrom } from './tips';
+
+const BEFORE: Shown = { running: false, holding: false, goal: '', controller: 'rl', scene: false };
+
+describe('tips', () => {
+  it('come one at a time', () => {
+    expect(nextTip(new Set())).toBe('run');
+    expect(nextTip(new Set(['run', 'goal']))).toBe('drag');
+    expect(nextTip(new Set(TIP_IDS))).toBeUndefined();
+  });
+
+  it.each([
+    ['run', { running: true }],
+    ['drag', { holding: true }],
+    ['goal', { goal: '0.1,-0.3' }],
+    ['controller', { controller: 'errt' }],
+    ['scene', { scene: true }],
+  ] as const)('%s is done by what it asks for', (id, change) => {
+    expect([...doneAfter(new Set(), { ...BEFORE, ...change }, BEFORE)]).toEqual([id]);
+  });
+
+  it('are not done by a removed goal', () => {
+    expect(doneAfter(new Set(), BEFORE, { ...BEFORE, goal: '0.1,-0.3' }).size).toBe(0);
+  });
+
+  it('stay done', () => {
+    expect([...doneAfter(new Set(['run']), BEFORE, BEFORE)]).toEqual(['run']);
+  });
+
+  it('are read from what is stored', () => {
+    expect([...tipsFrom('drag,run,other')]).toEqual(['run', 'drag']);
+    expect(tipsFrom(null).size).toBe(0);
+  });
+});

@@ -1,0 +1,54 @@
+// What a new visitor can try, one tip at a time. A tip goes when it is done, and does not come back. Pure.
+
+export const TIP_IDS = ['run', 'drag', 'goal', 'controller', 'scene'] as const;
+export type TipId = (typeof TIP_IDS)[number];
+
+/** What the page shows at one moment. */
+export interface Shown {
+  readonly running: boolean;
+  /** The hand holds the bead. */
+  readonly holding: boolean;
+  readonly goal: string;
+  readonly controller: string;
+  /** The 3-D view. */
+  readonly scene: boolean;
+}
+
+const DONE: Readonly<Record<TipId, (now: Shown, before: Shown) => boolean>> = {
+  run: (now) => now.running,
+  drag: (now) => now.holding,
+  goal: (now, before) => now.goal !== '' && now.goal !== before.goal,
+  controller: (now, before) => now.controller !== before.controller,
+  scene: (now) => now.scene,
+};
+
+/** The tips that are done after a change. */
+export function doneAfter(done: ReadonlySet<TipId>, now: Shown, before: Shown): Set<TipId> {
+  return new Set(TIP_IDS.filter((id) => done.has(id) || DONE[id](now, before)));
+}
+
+export function nextTip(done: ReadonlySet<TipId>): TipId | undefined {
+  return TIP_IDS.find((id) => !done.has(id));
+}
+
+/** Reads the stored tips; unknown names are ignored. */
+export function tipsFrom(text: string | null): Set<TipId> {
+  const names = (text ?? '').split(',');
+  return new Set(TIP_IDS.filter((id) => names.includes(id)));
+}
+
+/** `isTouch`: a finger taps, a mouse clicks. */
+export function tipText(id: TipId, isTouch: boolean): string {
+  switch (id) {
+    case 'run':
+      return 'Press Run, then drag the bead away.';
+    case 'drag':
+      return 'Drag the bead away from the magnet. The arm fetches it.';
+    case 'goal':
+      return `${isTouch ? 'Tap' : 'Click'} a free place to set another goal.`;
+    case 'controller':
+      return 'Choose another controller: RL, ERRT or Attractor.';
+    case 'scene':
+      return 'Choose 3-D to see the arm.';
+  }
+}
