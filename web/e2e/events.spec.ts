@@ -116,7 +116,12 @@ test('compares controllers from a moment on', async ({ lab }) => {
     },
     COMPUTED_MS,
   );
-  expect((await column(0)).join()).toMatch(/^RL,ERRT,Attractor\s*in use$/);
+  expect((await column(0)).join()).toMatch(/^RL,ERRT,Attractor\s*was in use$/);
+  // Evaluations have the same definition.
+  for (const axis of ['x', 'y']) {
+    const head = panel.getByRole('columnheader', { name: `max ${axis}`, exact: true });
+    await expect(head).toHaveAttribute('title', `Largest difference in ${axis} during transport`);
+  }
   expect(lab.state.world_hash, 'the session changed').toBe(hash);
   expect(lab.state.newest_tick, 'the later ticks were lost').toBe(newest);
 

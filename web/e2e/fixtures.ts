@@ -35,8 +35,23 @@ interface TestFixtures {
   openLab: (options?: OpenOptions) => Promise<Lab>;
 }
 
+/**
+ * Tips and closed panels are tested in tips.spec.ts and panels.spec.ts. Elsewhere tips would cover a part of the map,
+ * and the tests use all panels.
+ */
+const skipTips = (page: Page) =>
+  page.addInitScript(() => {
+    localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
+    for (const panel of ['camera', 'parameters', 'lower', 'aside']) {
+      if (localStorage.getItem(`ferry.panel.${panel}`) === null) {
+        localStorage.setItem(`ferry.panel.${panel}`, 'open');
+      }
+    }
+  });
+
 async function open(page: Page, url: string) {
   await useSlowDisplay(page);
+  await skipTips(page);
   return Lab.attach(page, url);
 }
 

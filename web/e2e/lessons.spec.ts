@@ -17,7 +17,7 @@ interface Lesson {
 const LESSONS: readonly Lesson[] = [
   {
     title: 'Lose the bead',
-    choice: 'It flies to the bead',
+    choice: 'It flies straight to the bead',
     runs: 1,
     action: { button: 'Take it away for me', after: 'The simulation runs', speed: '4' },
   },
@@ -103,6 +103,11 @@ for (const { title, choice, runs, action } of LESSONS) {
     await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
     await lab.button('Finish').click();
     await expect(lab.page.getByText('1 of 8 done')).toBeVisible();
+    await until('the settings before the lesson', () => {
+      const { parameters, defaults } = lab.scene;
+      return JSON.stringify(parameters) === JSON.stringify(defaults);
+    });
+    await expect(lab.label('Speed')).toHaveValue('1');
     await lab.button('Start over').click();
     await expect(lab.page.getByText('0 of 8 done')).toBeVisible();
   });

@@ -8,7 +8,7 @@ const REFUSED: Record<string, { text: string; words: string }> = {
     text: DRAWING.replace('viewBox', 'data-box'),
     words: 'viewBox',
   },
-  'a text file': { text: 'no drawing at all', words: 'map' },
+  'a text file': { text: 'no drawing at all', words: 'this is not an SVG' },
   'a drawing that is too large': {
     text: DRAWING.replace('</svg>', `<!--${' '.repeat(1024 * 1024)}--></svg>`),
     words: '1 MiB',
@@ -29,9 +29,17 @@ for (const [what, { text, words }] of Object.entries(REFUSED)) {
 test('opens an uploaded map, and delivers the bead on it', async ({ lab, server }) => {
   const { page } = lab;
   await lab.map('colon');
-  await openMap(page, () => lab.button('Open map…').click());
-  await expect.poll(() => lab.scene.map).toMatch(/^map-/);
-  const name = lab.scene.map;
+  // The map keeps the name of its file.
+  const name = 'two-rooms';
+  const upload = () =>
+    openMap(page, () => lab.button('Open map…').click(), DRAWING, 'Two rooms.svg');
+  await upload();
+  await expect.poll(() => lab.scene.map).toBe(name);
+  const report = page.locator('.map-report');
+  await expect(report).toContainText('580 × 330 mm, 2 walls.');
+  await expect(report).toContainText('The narrowest place is');
+  await lab.button('Dismiss the report').click();
+  await expect(report).toHaveCount(0);
   expect(lab.scene.walls.length).toBe(2);
   expect(lab.scene.maps).toContain(name);
   await expect(lab.label('Map')).toHaveValue(name);
@@ -46,4 +54,31 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   expect(removed.status()).toBe(204);
   await lab.reset();
   await expect.poll(() => lab.scene.maps).not.toContain(name);
+  // A deleted name is not given to another drawing.
+  await upload();
+  await expect.poll(() => lab.scene.map).toMatch(/^map-/);
+  const other = lab.scene.map;
+  await lab.map('posts');
+  await page.request.delete(`${server.url}/api/maps/${other}`);
+});
+
+test('moves a drawing at the arm’s base into its reach', async ({ lab, server }) => {
+  const { page } = lab;
+  const drawing =
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 -100 300 200"><rect width="50" height="10"/></svg>';
+  await openMap(page, () => lab.button('Open map…').click(), drawing, 'base.svg');
+  const report = page.locator('.map-report');
+  await expect(report).toContainText(/The arm reaches \d+ % of the free area/);
+  await report.getByRole('button', { name: 'Move into reach' }).click();
+  await expect.poll(() => lab.scene.map).toBe('base-moved');
+  await expect(report).toContainText('300 × 200 mm, 1 wall.');
+  await expect(report).not.toContainText('The arm reaches');
+  const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;
+  const corners_m = [x_min_m, x_max_m, y_min_m, y_max_m].map((side) => Number(side.toFixed(3)));
+  expect(corners_m).toEqual([-0.16, 0.14, -0.475, -0.275]);
+  await lab.button('Dismiss the report').click();
+  await lab.map('posts');
+  for (const name of ['base', 'base-moved']) {
+    await page.request.delete(`${server.url}/api/maps/${name}`);
+  }
 });

@@ -9,6 +9,8 @@ import { until } from './support/wait';
 const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const ENDED = /The session has ended: the camera was lost/i;
 const RESTART = 'Restart';
+const GOES_ON = /The server was restarted. This session goes on at/;
+const STARTED_OVER = /started over/;
 const PASSED_ON = /another browser took control/i;
 
 test('opens one session per address', async ({ lab, openLab, newSession }) => {
@@ -70,6 +72,49 @@ test('opens its session again after the server restarts', async ({ openLab, watc
     await expect(connection).toHaveText('live', { timeout: 30_000 });
     await until('a fresh session', () => lab.state.tick === 0 && lab.hello.session === 'anna');
     await expect(lab.button('Run')).toBeEnabled();
+  } finally {
+    await server.stop();
+  }
+});
+
+test('goes on where the server stopped, and says so', async ({ openLab, watch }) => {
+  watch.allow(CONNECTION_LOST);
+  let server = await Server.start({ scenario: null });
+  try {
+    watch.allowHost(server.url);
+    const lab = await openLab({ url: `${server.url}/s/anna` });
+    await lab.controller('ERRT');
+    await lab.tune('Threshold T', '8');
+    await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
+    await lab.run();
+    await until('50 ticks', () => lab.state.tick > 50);
+    await lab.pause();
+    await lab.reset();
+    await lab.run();
+    await until('30 ticks', () => lab.state.tick > 30);
+    await lab.pause();
+    const { tick, goal_m, bead_m } = lab.state;
+    const { port, data } = server;
+    await server.end();
+    const connection = lab.page.getByTestId('connection');
+    await expect(connection).not.toHaveText('live');
+    server = await Server.start({ port, data, scenario: null });
+    await expect(connection).toHaveText('live', { timeout: 30_000 });
+    await expect(lab.notice('transport')).toContainText(GOES_ON);
+    expect(lab.state).toMatchObject({ tick, goal_m, bead_m, running: false, controller: 'errt' });
+    expect(lab.scene.parameters.threshold_m).toBe(0.08);
+    expect(lab.scene.kept_runs).toHaveLength(1);
+    await lab.run();
+    await until('more ticks', () => lab.state.tick > tick + 20);
+
+    // A chosen scenario comes first; what was saved is a kept run.
+    await lab.pause();
+    await server.end();
+    await expect(connection).not.toHaveText('live');
+    server = await Server.start({ port, data });
+    await expect(connection).toHaveText('live', { timeout: 30_000 });
+    await expect(lab.notice('transport')).toContainText(STARTED_OVER);
+    await until('the kept runs', () => lab.state.tick === 0 && lab.scene.kept_runs.length === 2);
   } finally {
     await server.stop();
   }

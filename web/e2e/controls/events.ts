@@ -87,6 +87,14 @@ const sends = (type: string, ready: (lab: Lab) => Promise<unknown>) => ({
   },
 });
 
+/** Also waits for the file: the next row counts downloads, too. */
+async function stopVideo(lab: Lab) {
+  const downloading = lab.page.waitForEvent('download');
+  await lab.button('Stop video').first().click();
+  await downloading;
+  await expect(lab.page.getByRole('timer')).toHaveCount(0);
+}
+
 export const SHARE: Section = {
   name: 'the experiment link',
   rowReady: open('Share'),
@@ -98,6 +106,13 @@ export const SHARE: Section = {
         ),
     },
     'button Copy': { see: (lab) => lab.page.locator('.share-done').innerText() },
+    'button Picture (PNG)': { see: downloads },
+    'button Record video': {
+      see: (lab) => lab.page.getByRole('timer').count(),
+      after: stopVideo,
+    },
+    // One in the popover, one over the view.
+    'button Stop video': { elsewhere: 'records a video of the view Plan' },
   },
 };
 
@@ -114,6 +129,7 @@ export const EVENTS: Section = {
     'button /^(?!Why)[A-Z][a-z -]* at \\d/': { see: dialogs, after: close },
     'button /^Why: /': { see: dialogs, after: close },
     'link Keep as test case': { see: downloads },
+    'button Open test case…': { elsewhere: 'opens a saved test case and repeats its inputs' },
     'button Previous event': { see: explanation, ready: openExplanation, after: close },
     'button Next event': { see: explanation, ready: openExplanation, after: close },
     'button Close': { see: dialogs, ready: openExplanation },

@@ -66,7 +66,21 @@ const VIEWS: Section = {
     'tab Compare': { see: isSelected },
     'tab Magnet': { see: isSelected },
     'tab Plots': { see: isSelected },
+    'button Camera': toggle(expanded),
+    'button Parameters': toggle(expanded),
+    'button Beside the workspace': toggle(expanded),
+    'button Below the workspace': toggle(expanded),
     'button Share': toggle(expanded),
+    'link Present': {
+      see: (lab) => lab.page.url(),
+      after: async (lab) => {
+        const { origin } = new URL(lab.page.url());
+        await lab.page.getByRole('heading', { name: 'Demonstration' }).waitFor();
+        await lab.page.goBack();
+        await lab.live();
+        await lab.page.request.delete(`${origin}/api/sessions/demo`);
+      },
+    },
     'button Layers': toggle(expanded),
     'button Disturb': toggle(expanded),
     'radio RL': controller('RL'),
@@ -97,6 +111,13 @@ const WORKSPACE: Section = {
         await lab.notice('workspace').waitFor();
       },
     },
+    'button Fit': {
+      see: (lab) => lab.canvas.getAttribute('data-px-per-m'),
+      ready: async (lab) => {
+        await lab.canvas.press('+');
+        await lab.button('Fit').waitFor();
+      },
+    },
     'combobox Blocks': {
       see: (lab) => lab.page.locator('.patch .blocks').getAttribute('d'),
       ready: async (lab) => {
@@ -107,6 +128,16 @@ const WORKSPACE: Section = {
     },
   },
 };
+
+/** A reset keeps the run before it. */
+async function ensureKeptRun(lab: Lab) {
+  if (lab.scene.kept_runs.length > 0) return;
+  const { trial: before } = lab.scene;
+  await lab.button('Step').click();
+  await until('a tick', () => lab.state.tick > 0);
+  await lab.button('Reset').click();
+  await until('a kept run', () => lab.scene.trial !== before && lab.scene.kept_runs.length > 0);
+}
 
 const PLAYBACK: Section = {
   name: 'the playback bar',
@@ -124,6 +155,15 @@ const PLAYBACK: Section = {
     'combobox Speed': { see: (lab) => lab.state.speed_target },
     'spinbutton Seed': { see: (lab) => lab.scene.seed, act: typeSeed },
     'button New seed': { see: (lab) => lab.scene.seed },
+    'button /^Kept runs/': toggle(expanded, ensureKeptRun),
+    'button /^Return to run/': {
+      see: trial,
+      ready: async (lab) => {
+        await ensureKeptRun(lab);
+        const button = lab.page.getByRole('button', { name: /^Kept runs/ });
+        if ((await button.getAttribute('aria-expanded')) === 'false') await button.click();
+      },
+    },
   },
 };
 
@@ -143,6 +183,9 @@ const EXPERIMENTS: Section = {
         expect(removed.status()).toBe(204);
         await until('the removal of the map', () => !lab.scene.maps.includes(name));
       },
+    },
+    'button Dismiss the report': {
+      elsewhere: 'opens an uploaded map, and delivers the bead on it',
     },
     'button Restore defaults': RESTORE,
     'combobox Preset': { see: trial },

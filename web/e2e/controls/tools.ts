@@ -181,6 +181,8 @@ export const RECORDINGS: Section = {
     // Rerun's viewer needs the WebGL arguments of rerun.spec.ts.
     'button /^Open /': { elsewhere: 'opens a recording in Rerun’s viewer' },
     'link /^Download /': { see: downloads },
+    'button /^Rename /': { elsewhere: 'names a recording, also on a phone' },
+    'button /^Delete /': { elsewhere: 'deletes a recording after a question' },
   },
 };
 

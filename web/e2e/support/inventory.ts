@@ -92,7 +92,7 @@ function measure(this: HTMLInputElement & Indexed, index: number): Measured {
   const areas = [this, ...labels].map((one) => one.getBoundingClientRect());
   const smaller = (area: DOMRect) => Math.min(area.width, area.height);
   const { width, height } = areas.reduce((a, b) => (smaller(b) > smaller(a) ? b : a));
-  const list = this.closest('[role=tablist], [role=tree], [role=toolbar]');
+  const list = this.closest('[role=tablist], [role=tree], [role=toolbar], [role=log]');
   return {
     width,
     height,

@@ -9,10 +9,15 @@ export const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="-300 21
 </svg>`;
 
 /** Opens the file dialog by `press` and chooses a file with `text`. */
-export async function openMap(page: Page, press: () => Promise<unknown>, text = DRAWING) {
+export async function openMap(
+  page: Page,
+  press: () => Promise<unknown>,
+  text = DRAWING,
+  name = 'mine.svg',
+) {
   const opening = page.waitForEvent('filechooser');
   await press();
   const chooser = await opening;
-  const file = { name: 'mine.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(text) };
+  const file = { name, mimeType: 'image/svg+xml', buffer: Buffer.from(text) };
   await chooser.setFiles(file);
 }

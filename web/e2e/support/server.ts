@@ -20,6 +20,10 @@ export interface ServerOptions {
   readonly port?: string;
   /** Without a login if not set. */
   readonly token?: string;
+  /** What sessions begin with; with `null`, saved sessions go on. The tests set their own goals. */
+  readonly scenario?: string | null;
+  /** The data folder of a server that was stopped; a new one if not set. */
+  readonly data?: string;
 }
 
 /** A server process with its own data folder. */
@@ -29,7 +33,7 @@ export class Server {
   private constructor(
     readonly url: string,
     private readonly child: ChildProcess,
-    private readonly data: string,
+    readonly data: string,
     private readonly exited: Promise<unknown>,
   ) {}
 
@@ -37,11 +41,17 @@ export class Server {
     return execFileSync(BINARY, ['token'], { encoding: 'utf8' }).trim();
   }
 
-  static async start({ port = '0', token }: ServerOptions = {}) {
-    const data = await mkdtemp(join(tmpdir(), 'ferry-e2e-'));
+  static async start({ port = '0', token, scenario = 'empty', ...given }: ServerOptions = {}) {
+    const data = given.data ?? (await mkdtemp(join(tmpdir(), 'ferry-e2e-')));
     const child = spawn(
       BINARY,
-      ['serve', '--bind', `127.0.0.1:${port}`, '--data', data, '--sessions', String(SESSIONS)],
+      [
+        'serve',
+        ...['--bind', `127.0.0.1:${port}`],
+        ...['--data', data],
+        ...['--sessions', String(SESSIONS)],
+        ...(scenario === null ? [] : ['--scenario', scenario]),
+      ],
       {
         stdio: ['ignore', 'pipe', 'pipe'],
         env: { ...process.env, ...(token === undefined ? {} : { FERRY_TOKEN: token }) },
@@ -79,9 +89,14 @@ export class Server {
     return this.lines.join('\n');
   }
 
-  async stop() {
+  /** Leaves the data folder for another server. */
+  async end() {
     this.child.kill('SIGTERM');
     await this.exited;
+  }
+
+  async stop() {
+    await this.end();
     await rm(this.data, { recursive: true, force: true });
   }
 

@@ -1,0 +1,126 @@
+// Test cases: a saved one opens and repeats its inputs, a damaged one is refused.
+
+import { readFile } from 'node:fs/promises';
+import { Buffer } from 'node:buffer';
+import { type Lab, expect, test } from './fixtures';
+import { distance } from './support/table';
+import { until } from './support/wait';
+
+const TOO_LARGE = 2 * 1024 * 1024;
+
+/** The parts of a case that the tests change. */
+interface Case {
+  scenario: { map: string; seed: number; parameters: Record<string, unknown> };
+  inputs: unknown[];
+  more?: unknown;
+}
+
+async function steps(lab: Lab, count: number) {
+  for (let i = 0; i < count; i++) {
+    const { tick } = lab.state;
+    await lab.button('Step ¼ s').click();
+    await until('a control step', () => lab.state.tick > tick);
+  }
+  return lab.state;
+}
+
+/** Sets a goal, moves the bead half a second later, and saves the trial half a second after that. */
+async function makeCase(lab: Lab) {
+  await lab.reset();
+  const start = await lab.bead();
+  await lab.setGoal(lab.freePoints(start, 0.2, 0.4)[0]);
+  await steps(lab, 2);
+  const [away] = lab.freePoints(await lab.bead(), 0.15, 0.25);
+  await lab.startDrag(away);
+  await lab.page.mouse.up();
+  await until('the bead at its new place', async () => distance(await lab.bead(), away) < 0.01);
+  const { tick, world_hash: hash } = await steps(lab, 2);
+  await lab.tab('Events').click();
+  const downloading = lab.page.waitForEvent('download');
+  await lab.page.getByRole('link', { name: 'Keep as test case' }).click();
+  const text = await readFile(await (await downloading).path(), 'utf8');
+  const { inputs } = JSON.parse(text) as Case;
+  const { seed } = lab.scene;
+  return { text, start, tick, hash, goal: lab.state.goal_m, seed, inputs: inputs.length };
+}
+
+async function choose(lab: Lab, text: string) {
+  await lab.tab('Events').click();
+  const opening = lab.page.waitForEvent('filechooser');
+  await lab.button('Open test case…').click();
+  const file = { name: 'a.json', mimeType: 'application/json', buffer: Buffer.from(text) };
+  await (await opening).setFiles(file);
+}
+
+/** Drops a file on the page. */
+async function drop(lab: Lab, text: string) {
+  const dataTransfer = await lab.page.evaluateHandle((content) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([content], 'Dropped.JSON', { type: 'application/json' }));
+    return transfer;
+  }, text);
+  await lab.page.dispatchEvent('main', 'drop', { dataTransfer });
+}
+
+test('opens a saved test case and repeats its inputs', async ({ lab }) => {
+  const kept = await makeCase(lab);
+  for (const openBy of [choose, drop]) {
+    await lab.map('open');
+    await lab.controller('ERRT');
+    await openBy(lab, kept.text);
+    await until('the case', () => lab.scene.map === 'posts' && lab.scene.case);
+    expect(lab.scene.case?.inputs).toBe(kept.inputs);
+    expect(lab.scene.seed).toBe(kept.seed);
+    await until('its start', () => lab.state.tick === 0 && lab.state.controller === 'attractor');
+    expect(distance(await lab.bead(), kept.start)).toBeLessThan(1e-9);
+    expect(lab.state.goal_m).toEqual(kept.goal);
+    const bar = lab.page.locator('.case-bar');
+    await expect(bar).toContainText('Test case: attractor on posts, with disturbances by hand.');
+    await expect(bar).toContainText(`${kept.inputs} inputs, the last one at 0.5 s.`);
+    await expect(bar).toContainText(/Expected: 1 delivered by 1:01\.\d \(open\)\./);
+    const { tick, world_hash } = await steps(lab, 4);
+    expect({ tick, hash: world_hash }).toEqual({ tick: kept.tick, hash: kept.hash });
+    await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
+  }
+  // A rewind repeats it, too.
+  await lab.label('Timeline').press('Home');
+  await until('the start', () => lab.state.tick === 0);
+  const { tick, world_hash } = await steps(lab, 4);
+  expect({ tick, hash: world_hash }).toEqual({ tick: kept.tick, hash: kept.hash });
+});
+
+test('refuses a damaged test case, which changes nothing', async ({ lab, openLab }) => {
+  const { text, tick, hash } = await makeCase(lab);
+  const changed = (change: (copy: Case) => unknown) => {
+    const copy = JSON.parse(text) as Case;
+    change(copy);
+    return JSON.stringify(copy);
+  };
+  const { trial } = lab.scene;
+  const refused: [text: string, words: RegExp][] = [
+    ['no case at all', /test case: expected/],
+    [text.slice(0, text.length / 2), /test case: .*EOF while parsing/],
+    [changed((copy) => (copy.more = 1)), /test case: .*unknown field `more`/],
+    [changed((copy) => (copy.scenario.seed = -1)), /test case: scenario\.seed: .*-1/],
+    [changed((copy) => (copy.scenario.parameters.friction = 7)), /friction is 7/],
+    [changed((copy) => (copy.scenario.map = 'liver')), /there is no map named "liver"/],
+    [' '.repeat(TOO_LARGE), /too large: the limit is 2 MiB/],
+  ];
+  const refusal = lab.notice('transport');
+  for (const [content, words] of refused) {
+    await choose(lab, content);
+    await expect(refusal).toContainText(words);
+    await refusal.getByRole('button', { name: 'Dismiss' }).click();
+    await expect(refusal).toHaveCount(0);
+  }
+  expect(lab.scene.trial).toBe(trial);
+  expect({ tick: lab.state.tick, hash: lab.state.world_hash }).toEqual({ tick, hash });
+  expect(lab.scene.case).toBeNull();
+
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await viewer.tab('Events').click();
+  await expect(viewer.button('Open test case…')).toBeDisabled();
+  await drop(viewer, text);
+  await expect(viewer.notice('transport')).toContainText('Take control to open a test case.');
+});

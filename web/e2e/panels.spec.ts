@@ -1,0 +1,86 @@
+// The first visit shows the workspace, the controller and Run. The other panels open on demand and stay as they were left.
+
+import type { Page } from '@playwright/test';
+import { Lab, expect, test } from './fixtures';
+import { violations } from './support/axe';
+import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
+
+const PANELS = ['Camera', 'Parameters', 'Beside the workspace', 'Below the workspace'];
+const fold = (page: Page, name: string) => page.getByRole('button', { name, exact: true });
+const area_px = async (page: Page, selector: string) => {
+  const box = await page.locator(selector).boundingBox();
+  return box ? box.width * box.height : 0;
+};
+
+/** The name of the focused element. */
+const focused = (page: Page) => page.evaluate(() => document.activeElement?.textContent.trim());
+
+test('opens panels on demand, and keeps them', async ({ page, session }) => {
+  const lab = await Lab.attach(page, session.url);
+  for (const name of PANELS) {
+    await expect(fold(page, name)).toHaveAttribute('aria-expanded', 'false');
+  }
+  await expect(page.getByLabel('Threshold T')).toHaveCount(0);
+  await expect(page.getByRole('img', { name: /Live image/ })).toHaveCount(0);
+  await expect(lab.button('Run')).toBeVisible();
+  expect(await violations(page)).toEqual([]);
+  expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
+  const before = await area_px(page, '.workspace');
+
+  await fold(page, 'Camera').click();
+  await expect(page.getByRole('img', { name: /Live image/ })).toBeVisible();
+  await expect(page.getByText('No image yet')).toHaveCount(0);
+  await fold(page, 'Parameters').press('Enter');
+  await expect(page.getByLabel('Threshold T').first()).toBeVisible();
+  // A tab opens its panel.
+  await page.getByRole('tab', { name: 'Magnet' }).click();
+  await expect(page.getByRole('tabpanel', { name: 'Magnet' })).toBeVisible();
+  expect(await area_px(page, '.workspace')).toBeLessThan(before);
+
+  await page.reload();
+  await lab.live();
+  for (const [name, open] of [
+    ['Camera', 'true'],
+    ['Parameters', 'true'],
+    ['Beside the workspace', 'false'],
+    ['Below the workspace', 'true'],
+  ] as const) {
+    await expect(fold(page, name)).toHaveAttribute('aria-expanded', open);
+  }
+  await expect(page.getByRole('tabpanel', { name: 'Magnet' })).toBeVisible();
+  for (const name of ['Camera', 'Parameters', 'Below the workspace']) {
+    await fold(page, name).click();
+  }
+  await expect.poll(() => area_px(page, '.workspace')).toBe(before);
+});
+
+test('shows the first visit on one screen', async ({ page, session }) => {
+  await Lab.attach(page, session.url);
+  for (const [width, height] of [
+    [1280, 800],
+    [1440, 900],
+    [2560, 1440],
+  ] as const) {
+    await page.setViewportSize({ width, height });
+    const overflow = () =>
+      page.evaluate(() => ({
+        x: document.documentElement.scrollWidth - innerWidth,
+        y: document.documentElement.scrollHeight - innerHeight,
+      }));
+    await expect.poll(overflow).toEqual({ x: 0, y: 0 });
+    const plan = await page.locator('.workspace').boundingBox();
+    expect(plan?.height, `workspace at ${width}×${height}`).toBeGreaterThan(0.6 * height);
+  }
+});
+
+test('Run is among the first ten stops of the Tab key', async ({ lab }) => {
+  await lab.page.evaluate(() => {
+    (document.activeElement as HTMLElement | null)?.blur();
+  });
+  const stops: (string | undefined)[] = [];
+  for (let stop = 0; stop < 10 && stops.at(-1) !== 'Run'; stop += 1) {
+    await lab.page.keyboard.press('Tab');
+    stops.push(await focused(lab.page));
+  }
+  expect(stops).toContain('Run');
+});
