@@ -1,4 +1,4 @@
-//! Reads untrusted files up to a size limit.
+//! Reads untrusted files up to a size limit, and replaces files as a whole.
 
 use std::fs::File;
 use std::io::Read;
@@ -37,6 +37,21 @@ pub fn read_at_most(path: &Path, max: u64) -> Result<Vec<u8>, ReadError> {
     }
 }
 
+/// Writes to a temporary name beside the file first, so that no reader finds half a file. Two writers of one file must
+/// not run at the same time.
+///
+/// # Errors
+/// The old file, if any, is unchanged.
+pub fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let part = path.with_extension("part");
+    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
+    if written.is_err() {
+        // Half a file on a full disk takes space.
+        let _ = std::fs::remove_file(&part);
+    }
+    written
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,6 +67,18 @@ mod tests {
         // A sparse file: larger than the memory of the machine.
         File::create(&path).unwrap().set_len(1 << 42).unwrap();
         assert!(matches!(read(), Err(ReadError::TooLarge { bytes, max: 4 }) if bytes == 1 << 42));
+    }
+
+    #[test]
+    fn replaces_a_file_or_leaves_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file.json");
+        replace(&path, b"one").unwrap();
+        replace(&path, b"two").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        std::fs::create_dir(folder.path().join("file.part")).unwrap();
+        assert!(replace(&path, b"three").is_err());
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
     }
 
     #[cfg(unix)]

@@ -132,7 +132,7 @@ impl Server {
     ) -> Result<Arc<Self>, ServeError> {
         let Settings { data, retention, sessions, park_after, opening, start_over } = settings;
         let recordings = Archive::new(data.join("recordings"), retention);
-        let maps = Maps::in_folder(data.join("maps"));
+        let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
         let settings = SessionSettings { most: sessions, park_after, opening };
         let saved = SavedSessions::in_folder(data.join("sessions"), start_over);
         let sessions =
@@ -210,14 +210,16 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     let sweeper = server.clone();
     let sweeping = tokio::spawn(async move { sweeper.sweep().await });
     let saver = server.sessions.clone();
-    let saving = tokio::spawn(async move { saver.keep_saving().await });
+    let stopping = server.stopping.clone();
+    let saving = tokio::spawn(async move { saver.keep_saving(stopping).await });
     let connections = accept::serve(listener, router(server.clone()), server.counters.clone(), server.stopping.clone());
     let stopped = server.clone();
     let pausing = async move {
         // An error means that the sender was dropped, which also stops the server.
         drop(stopped.stopping.clone().wait_for(|&stop| stop).await);
         stopped.evaluations.stop();
-        saving.abort();
+        // A file that is being written must not replace the last one.
+        drop(saving.await);
         let hubs = stopped.sessions.hold().await;
         stopped.sockets.close();
         if tokio::time::timeout(DISCONNECT_WITHIN, stopped.sockets.wait()).await.is_err() {

@@ -122,6 +122,8 @@ struct Opening {
     arena: Arc<Arena>,
     scenario: Scenario,
     logged: LoggedBeginning,
+    /// Whether another trial was recorded before.
+    is_new: bool,
     tick: u64,
     goal_m: Option<Point2<f64>>,
 }
@@ -217,6 +219,7 @@ impl Sink for Recorder {
             arena: trial.arena().clone(),
             scenario: trial.scenario().clone(),
             logged: LoggedBeginning::of(trial, how),
+            is_new: how != Beginning::Resumed,
             tick: trial.state().world.tick,
             goal_m: trial.state().world.goal_m,
         };

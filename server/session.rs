@@ -215,6 +215,7 @@ pub struct Session {
     events: broadcast::Sender<Event>,
     thread: Mutex<Option<JoinHandle<()>>>,
     resumed_tick: Option<u64>,
+    has_left_out: bool,
     /// Shared with the thread, which checks it before each tick of a `Step`.
     interrupted: Arc<AtomicBool>,
 }
@@ -265,13 +266,14 @@ impl Session {
         let mut worker = worker::Worker::new(scenario, arena, library, make_camera, sink, events.clone())?;
         worker.begin(opening);
         let (publish, view) = watch::channel(Arc::new(worker.view()));
-        let (interrupted, resumed_tick) = (worker.interrupted.clone(), worker.resumed_tick);
+        let (interrupted, resumed_tick, has_left_out) =
+            (worker.interrupted.clone(), worker.resumed_tick, worker.has_left_out);
         let thread = std::thread::Builder::new()
             .name(format!("session {name}"))
             .spawn(move || worker.run(&inbox, &publish))
             .map_err(|error| TrialError::Thread(error.to_string()))?;
         let (commands, thread) = (Mutex::new(Some(commands)), Mutex::new(Some(thread)));
-        Ok(Self { commands, view, events, thread, resumed_tick, interrupted })
+        Ok(Self { commands, view, events, thread, resumed_tick, has_left_out, interrupted })
     }
 
     /// Sends a command and waits for its answer. Needs a tokio runtime with time.
@@ -303,9 +305,14 @@ impl Session {
         answer.map_err(|_| CommandError::Ended)
     }
 
-    /// Tick from which it went on after a restart of the server.
+    /// Tick from which it went on, if it was saved before.
     pub fn resumed_tick(&self) -> Option<u64> {
         self.resumed_tick
+    }
+
+    /// Whether something that was saved could not be restored.
+    pub fn has_left_out(&self) -> bool {
+        self.has_left_out
     }
 
     fn enqueue(&self, request: Request) -> Result<(), CommandError> {

@@ -139,8 +139,7 @@ impl Arena {
         else {
             return 1.0;
         };
-        let space = FreeSpace::new(&self.map, CLEARANCE_M);
-        let cells: Vec<_> = space.cells().flatten().collect();
+        let cells: Vec<_> = self.space.cells().flatten().collect();
         let reached = cells.iter().filter(|cell| (min_m..=max_m).contains(&cell.coords.norm())).count();
         if cells.is_empty() { 1.0 } else { reached as f64 / cells.len() as f64 }
     }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::support::{Browser, Laboratory};
+use crate::support::{Browser, Laboratory, files, read};
 
 async fn step(browser: &mut Browser, ticks: u64, to: u64) -> Value {
     browser.send(json!({"type": "step", "ticks": ticks})).await;
@@ -56,6 +56,36 @@ async fn a_rewind_a_reset_and_another_map_keep_what_they_leave() {
     assert_eq!((&error["code"], &error["field"]), (&json!("no_run"), &json!("run")), "{error}");
     assert_eq!(browser.state("unchanged", |m| m["tick"] == 375).await["world_hash"], other["world_hash"]);
     lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_kept_run_has_the_inputs_that_no_tick_had_carried() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    step(&mut browser, 100, 100).await;
+    browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
+    browser.state("the goal", |m| m["goal_m"].is_array()).await;
+    browser.send(json!({"type": "reset"})).await;
+    runs(&mut browser, 1).await;
+    browser.send(json!({"type": "return_to", "run": 1})).await;
+    browser.state("its end", |m| m["tick"] == 100 && m["goal_m"].is_array()).await;
+    browser.send(json!({"type": "rewind", "tick": 0})).await;
+    browser.state("the start", |m| m["tick"] == 0).await;
+    browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
+    let kept = runs(&mut browser, 1).await;
+    browser.send(json!({"type": "return_to", "run": kept[0]["number"]})).await;
+    step(&mut browser, 5000, 5100).await;
+    let (status, case) = lab.ask("GET", "/api/sessions/main/case.json", "").await;
+    assert_eq!(status, 200, "{case}");
+    assert_eq!(case["inputs"], json!([{"tick": 100, "input": {"set_goal": {"x_m": 0.12, "y_m": -0.33}}}]), "{case}");
+
+    // The recording tells returned runs from the trial before.
+    let data = lab.close().await;
+    let file = files(&data.path().join("recordings"), "rrd").remove(0);
+    let found = read(std::slice::from_ref(&file)).remove(0);
+    let names: Vec<_> =
+        found["trials"].as_array().unwrap().iter().map(|trial| trial[1].as_str().unwrap()[..1].to_owned()).collect();
+    assert_eq!(names, ["1", "2", "3", "3", "4"], "{found}");
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         w.y_max_m
     );
     println!("moved by   {}", if map.is_for_stage() { "a planar stage, no arm" } else { "the arm" });
-    let summary = Summary::of(&map, CLEARANCE_M);
+    let summary = Summary::of(&map, BEAD_RADIUS_M);
     println!("walls      {} polygons, {} free regions", summary.walls, map.free().len());
     for (what, clearance_m) in [("bead", BEAD_RADIUS_M), ("trials", CLEARANCE_M)] {
         let space = FreeSpace::new(&map, clearance_m);

@@ -1,18 +1,23 @@
 //! Sessions on disk, so that they go on when the server was restarted or when their place was needed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::live::Hub;
+use super::sessions::MAIN;
+use crate::files::replace;
 use crate::scenario::ControllerName;
-use crate::session::{Opening, Saved, View};
+use crate::session::{Opening, Saved, Session, View};
 use crate::trial::LogError;
 
 pub const SAVE_EVERY: Duration = Duration::from_secs(1);
 /// A hanging session must not keep the others from being saved.
 const SAVE_WITHIN: Duration = Duration::from_millis(500);
+/// Most files; the oldest of sessions that are not open are deleted.
+const MOST: usize = 256;
+const ENDING: &str = "ferry";
 
 /// Differs whenever there is something new to save.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,18 +44,20 @@ pub struct SavedSessions {
     folder: PathBuf,
     /// Whether sessions begin with the server's scenario although they were saved.
     start_over: bool,
-    /// What each file contains, by session.
+    /// What each file contains, by open session.
     written: Mutex<BTreeMap<String, Mark>>,
+    /// Held while files are written, so that an older state does not replace a newer one.
+    writing: tokio::sync::Mutex<()>,
 }
 
 impl SavedSessions {
     /// The folder is created at the first write.
     pub fn in_folder(folder: PathBuf, start_over: bool) -> Self {
-        Self { folder, start_over, written: Mutex::default() }
+        Self { folder, start_over, written: Mutex::default(), writing: tokio::sync::Mutex::default() }
     }
 
     fn path(&self, id: &str) -> PathBuf {
-        self.folder.join(format!("{id}.ferry"))
+        self.folder.join(format!("{id}.{ENDING}"))
     }
 
     /// What a session begins with. After a fault, it does not go on from a state that may cause the fault again.
@@ -66,36 +73,67 @@ impl SavedSessions {
         }
     }
 
-    /// A session that was just opened needs no saving yet.
-    pub fn opened(&self, id: &str, view: &View) {
-        self.written().insert(id.to_owned(), Mark::of(view));
+    /// A session that was just opened needs no saving yet. What it could not read is set aside, not replaced.
+    pub fn opened(&self, id: &str, session: &Session) {
+        if session.has_left_out() {
+            let path = self.path(id);
+            let aside = path.with_extension("ferry-unreadable");
+            match std::fs::rename(&path, &aside) {
+                Ok(()) => tracing::warn!(path = %aside.display(), "saved session set aside"),
+                Err(error) => tracing::warn!(%error, path = %path.display(), "saved session not set aside"),
+            }
+        }
+        self.written().insert(id.to_owned(), Mark::of(&session.watch().borrow()));
+    }
+
+    /// Only open sessions are saved.
+    pub fn closed(&self, id: &str) {
+        self.written().remove(id);
+    }
+
+    /// Deletes what was saved. Returns whether there was anything.
+    pub async fn forget(&self, id: &str) -> bool {
+        let _one_at_a_time = self.writing.lock().await;
+        self.closed(id);
+        std::fs::remove_file(self.path(id)).is_ok()
     }
 
     /// Saves the sessions in which something has happened since they were opened or saved.
-    pub async fn save(&self, hubs: impl IntoIterator<Item = Arc<Hub>>) {
-        futures_util::future::join_all(hubs.into_iter().map(|hub| self.save_one(hub))).await;
+    ///
+    /// # Errors
+    /// The last error of a file. A session that hangs is not an error: what was saved last stays.
+    pub async fn save(&self, hubs: impl IntoIterator<Item = Arc<Hub>>) -> Result<(), LogError> {
+        let _one_at_a_time = self.writing.lock().await;
+        let saved = futures_util::future::join_all(hubs.into_iter().map(|hub| self.save_one(hub))).await;
+        saved.into_iter().fold(Ok(()), Result::and)
     }
 
-    async fn save_one(&self, hub: Arc<Hub>) {
+    async fn save_one(&self, hub: Arc<Hub>) -> Result<(), LogError> {
         let mark = {
             let views = hub.session.watch();
             let view = views.borrow();
             if view.ended.is_some() {
-                return;
+                return Ok(());
             }
             Mark::of(&view)
         };
-        // Sessions without a mark have names that do not come again.
+        // Sessions without a mark are not saved.
         if self.written().get(&hub.id).is_none_or(|&before| before == mark) {
-            return;
+            return Ok(());
         }
-        let Ok(Ok(saved)) = tokio::time::timeout(SAVE_WITHIN, hub.session.saved()).await else { return };
+        let Ok(Ok(saved)) = tokio::time::timeout(SAVE_WITHIN, hub.session.saved()).await else {
+            tracing::warn!(session = hub.id, "session not saved: it does not answer");
+            return Ok(());
+        };
         let (folder, path) = (self.folder.clone(), self.path(&hub.id));
-        match tokio::task::spawn_blocking(move || write(&folder, &path, &saved)).await {
-            Ok(Ok(())) => drop(self.written().insert(hub.id.clone(), mark)),
-            Ok(Err(error)) => tracing::warn!(%error, session = hub.id, "session not saved"),
-            Err(error) => tracing::error!(%error, session = hub.id, "session not saved"),
+        let open: BTreeSet<String> = self.written().keys().cloned().collect();
+        let writing = tokio::task::spawn_blocking(move || write(&folder, &path, &saved, &open));
+        let written = writing.await.unwrap_or_else(|error| Err(std::io::Error::other(error).into()));
+        match &written {
+            Ok(()) => drop(self.written().insert(hub.id.clone(), mark)),
+            Err(error) => tracing::warn!(%error, session = hub.id, "session not saved"),
         }
+        written
     }
 
     fn written(&self) -> std::sync::MutexGuard<'_, BTreeMap<String, Mark>> {
@@ -103,10 +141,51 @@ impl SavedSessions {
     }
 }
 
-/// Replaces the file as a whole.
-fn write(folder: &Path, path: &Path, saved: &Saved) -> Result<(), LogError> {
-    let part = path.with_extension("part");
+fn write(folder: &Path, path: &Path, saved: &Saved, open: &BTreeSet<String>) -> Result<(), LogError> {
     std::fs::create_dir_all(folder)?;
-    std::fs::write(&part, saved.to_bytes()?)?;
-    Ok(std::fs::rename(&part, path)?)
+    if !path.exists() {
+        make_room(folder, open);
+    }
+    Ok(replace(path, &saved.to_bytes()?)?)
+}
+
+/// Deletes the oldest files of sessions that are not open, until there is room for another one.
+fn make_room(folder: &Path, open: &BTreeSet<String>) {
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter(|entry| entry.path().extension().is_some_and(|ending| ending == ENDING))
+        .map(|entry| (entry.metadata().and_then(|data| data.modified()).ok(), entry.path()))
+        .collect();
+    files.sort();
+    let surplus = (files.len() + 1).saturating_sub(MOST);
+    let is_needed = |path: &Path| {
+        path.file_stem().and_then(|name| name.to_str()).is_none_or(|name| name == MAIN || open.contains(name))
+    };
+    for (_, path) in files.into_iter().filter(|(_, path)| !is_needed(path)).take(surplus) {
+        tracing::info!(path = %path.display(), "oldest saved session deleted: there are too many");
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_oldest_files_make_room_except_those_of_open_sessions() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(format!("{name}.{ENDING}"));
+        let names = (0..MOST).map(|number| format!("s{number}"));
+        for (age, name) in std::iter::once(MAIN.to_owned()).chain(names).enumerate() {
+            let file = std::fs::File::create(path(&name)).unwrap();
+            file.set_modified(std::time::UNIX_EPOCH + Duration::from_secs(age as u64)).unwrap();
+        }
+        std::fs::write(folder.path().join("other.txt"), "").unwrap();
+        make_room(folder.path(), &BTreeSet::from(["s0".to_owned()]));
+        let exists = ["main", "s0", "s1", "s2", "s3"].map(|name| path(name).exists());
+        assert_eq!(exists, [true, true, false, false, true]);
+        assert!(folder.path().join("other.txt").exists());
+    }
 }

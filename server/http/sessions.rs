@@ -1,5 +1,8 @@
 //! The sessions of a server: opened by name, parked without viewers, closed when others need their place.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
@@ -28,6 +31,8 @@ const NAME_LENGTH: usize = 32;
 const NUMBERED: &str = "session-";
 /// A session that takes longer to start hangs.
 const BEGIN_WITHIN: Duration = Duration::from_secs(30);
+/// A hanging session must not keep the others from closing.
+const PAUSE_WITHIN: Duration = Duration::from_millis(300);
 /// Maximum time to wait for a session to end.
 const END_WITHIN: Duration = Duration::from_secs(5);
 
@@ -174,46 +179,62 @@ impl Sessions {
         if all.len() < self.settings.most {
             return Ok(());
         }
-        let parked = all.into_iter().filter(|hub| hub.id != MAIN && hub.is_parked());
-        match parked.max_by_key(|hub| hub.unwatched_for()) {
-            Some(longest) => {
-                tracing::info!(session = longest.id, "parked session makes way for another");
-                self.saved.save([longest.clone()]).await;
-                self.end(longest).await;
-                Ok(())
-            }
-            None => {
-                let detail = format!(
-                    "there are {} sessions already, and all are in use: one has to end first",
-                    self.settings.most
-                );
-                Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail))
+        let mut parked: Vec<_> = all.into_iter().filter(|hub| hub.id != MAIN && hub.is_parked()).collect();
+        parked.sort_by_key(|hub| std::cmp::Reverse(hub.unwatched_for()));
+        for hub in parked {
+            // It goes on when it is opened again, so it must be on the disk.
+            if self.saved.save([hub.clone()]).await.is_ok() {
+                tracing::info!(session = hub.id, "parked session makes way for another");
+                self.end(hub).await;
+                return Ok(());
             }
         }
+        let detail =
+            format!("there are {} sessions already, and all are in use: one has to end first", self.settings.most);
+        Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, "too_many_sessions", detail))
     }
 
     fn start(&self, id: &str, scenario: Scenario, after_fault: bool) -> Result<Arc<Hub>, TrialError> {
-        // If the recording cannot start, the page shows that and the session runs without it.
-        let sink: Box<dyn Sink> = match Recorder::in_archive(&self.archive, id, Options::LIVE) {
-            Ok(recorder) => Box::new(recorder),
-            Err(error) => {
-                tracing::warn!(%error, session = id, "session not recorded");
-                Box::new(Nowhere { reason: error.to_string() })
-            }
-        };
+        let sink = self.sink(id);
         let is_saved = id != DEMO && !id.starts_with(NUMBERED);
         let opening = if is_saved { self.saved.opening(id, after_fault) } else { Opening::Fresh };
         let session = Session::start(id, scenario, opening, self.known_maps.clone(), self.gpu.clone(), sink)?;
         if is_saved {
-            self.saved.opened(id, &session.watch().borrow());
+            self.saved.opened(id, &session);
         }
         tracing::info!(session = id, "session opened");
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))
     }
 
+    fn sink(&self, id: &str) -> Box<dyn Sink> {
+        if id == DEMO {
+            // It runs for days: its recordings would take the place of all others.
+            return Box::new(Nowhere { reason: "the demonstration is not recorded".into() });
+        }
+        match Recorder::in_archive(&self.archive, id, Options::LIVE) {
+            Ok(recorder) => Box::new(recorder),
+            Err(error) => {
+                // The page shows this, and the session runs without a recording.
+                tracing::warn!(%error, session = id, "session not recorded");
+                Box::new(Nowhere { reason: error.to_string() })
+            }
+        }
+    }
+
+    /// Ends a session, if it is open, and deletes what was saved of it. Returns whether there was anything.
+    pub async fn discard(&self, id: &str) -> bool {
+        let found = self.find(id);
+        let was_open = found.is_some();
+        if let Some(hub) = found {
+            self.end(hub).await;
+        }
+        is_name(id) && self.saved.forget(id).await || was_open
+    }
+
     /// Ends a session and disconnects its browsers.
     pub async fn end(&self, hub: Arc<Hub>) {
         let id = hub.id.clone();
+        self.saved.closed(&id);
         self.hubs.write().unwrap_or_else(PoisonError::into_inner).remove(&id);
         // Joining the session's thread and closing its file blocks.
         let closing = tokio::task::spawn_blocking(move || hub.shut());
@@ -236,23 +257,25 @@ impl Sessions {
         }
     }
 
-    /// Saves all sessions, again and again.
-    pub async fn keep_saving(&self) {
-        loop {
-            tokio::time::sleep(SAVE_EVERY).await;
-            self.saved.save(self.all()).await;
+    /// Saves all sessions, again and again, until the server stops.
+    pub async fn keep_saving(&self, mut stopping: watch::Receiver<bool>) {
+        // An error means that the sender was dropped, which also stops the server.
+        while tokio::time::timeout(SAVE_EVERY, stopping.wait_for(|&stop| stop)).await.is_err() {
+            // Each error is logged, and the next turn tries again.
+            let _ = self.saved.save(self.all()).await;
         }
     }
 
-    /// Pauses, saves and removes all sessions.
+    /// Pauses, saves and removes all sessions. A session that hangs is not saved.
     pub async fn hold(&self) -> Vec<Arc<Hub>> {
         let hubs = std::mem::take(&mut *self.hubs.write().unwrap_or_else(PoisonError::into_inner));
         let hubs: Vec<_> = hubs.into_values().collect();
         hubs.iter().for_each(|hub| hub.session.interrupt());
-        let holding = futures_util::future::join_all(hubs.iter().map(|hub| hub.session.send(Command::Pause)));
-        // A hanging session must not keep the others from closing.
-        let _ = tokio::time::timeout(Duration::from_millis(300), holding).await;
-        self.saved.save(hubs.iter().cloned()).await;
+        let pauses = hubs.iter().map(|hub| tokio::time::timeout(PAUSE_WITHIN, hub.session.send(Command::Pause)));
+        let paused = futures_util::future::join_all(pauses).await;
+        let answering = hubs.iter().zip(paused).filter(|(_, paused)| paused.is_ok());
+        // Each error is logged.
+        let _ = self.saved.save(answering.map(|(hub, _)| hub.clone())).await;
         hubs
     }
 }
@@ -269,120 +292,5 @@ fn not_opened(error: TrialError) -> Problem {
     match error {
         TrialError::Camera(_) | TrialError::Thread(_) => Problem::internal(error),
         error => Problem::from(&CommandError::Trial(error)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::time::Instant;
-
-    use super::*;
-    use crate::trial::Input;
-
-    fn sessions(folder: &tempfile::TempDir, settings: SessionSettings) -> Arc<Sessions> {
-        let archive = Archive::new(folder.path().join("recordings"), crate::recording::Retention::default());
-        let saved = SavedSessions::in_folder(folder.path().join("sessions"), false);
-        let gpu = Gpu::open(Default::default()).unwrap();
-        let maps = watch::channel(0).1;
-        Arc::new(Sessions::new(gpu, archive, Arc::default(), maps, settings, saved).unwrap())
-    }
-
-    fn settings(most: usize, park_after: Duration) -> SessionSettings {
-        SessionSettings { most, park_after, opening: Scenario::idle("posts", 1) }
-    }
-
-    #[tokio::test(flavor = "multi_thread")]
-    async fn reopening_a_session_that_ended_by_a_fault_restarts_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let sessions = sessions(&folder, settings(3, Duration::from_secs(3600)));
-        let opened = sessions.open("anna").await.unwrap();
-        assert!(Arc::ptr_eq(&opened, &sessions.open("anna").await.unwrap()));
-        crate::faults::arm("session anna", "step");
-        opened.session.send(Command::Run).await.unwrap();
-        let mut views = opened.session.watch();
-        let ended = views.wait_for(|view| view.ended.is_some());
-        tokio::time::timeout(Duration::from_secs(20), ended).await.unwrap().unwrap();
-        let again = sessions.open("anna").await.unwrap();
-        assert!(!Arc::ptr_eq(&opened, &again) && again.session.watch().borrow().ended.is_none());
-        assert!(*opened.closing().borrow(), "browsers of the old session are disconnected");
-        assert_eq!(sessions.all().len(), 2);
-    }
-
-    #[tokio::test(flavor = "multi_thread")]
-    async fn a_hanging_session_does_not_block_the_others() {
-        let folder = tempfile::tempdir().unwrap();
-        let sessions = sessions(&folder, settings(4, Duration::ZERO));
-        let hung = sessions.open("carl").await.unwrap();
-        crate::faults::arm("session carl", "hang");
-        hung.session.send(Command::Run).await.unwrap();
-        let mut views = hung.session.watch();
-        // Its next step never returns.
-        while tokio::time::timeout(Duration::from_secs(2), views.changed()).await.is_ok() {}
-        let other = sessions.open("dora").await.unwrap();
-        other.session.send(Command::Run).await.unwrap();
-        let began = Instant::now();
-        sessions.park().await;
-        assert!(!other.session.watch().borrow().running, "the other is parked");
-        other.session.send(Command::Run).await.unwrap();
-        sessions.end(hung.clone()).await;
-        assert!(began.elapsed() < 2 * END_WITHIN + Duration::from_secs(2), "it took {:?}", began.elapsed());
-        let again = sessions.open("carl").await.unwrap();
-        again.session.send(Command::Step(1)).await.unwrap();
-        let tick = other.session.watch().borrow().moment.tick;
-        assert!(other.session.watch().borrow().running && tick > 125, "the other is at tick {tick}");
-        assert!(!Arc::ptr_eq(&again, &hung) && *hung.closing().borrow());
-    }
-
-    #[tokio::test(flavor = "multi_thread")]
-    async fn a_session_goes_on_from_the_disk() {
-        let folder = tempfile::tempdir().unwrap();
-        let settings = || settings(4, Duration::from_secs(3600));
-        let first = sessions(&folder, settings());
-        let anna = first.open("anna").await.unwrap();
-        first.saved.save(first.all()).await;
-        assert!(!folder.path().join("sessions").exists(), "nothing has happened yet");
-        let goal = Input::SetGoal { x_m: 0.1, y_m: -0.3 };
-        anna.session.send(Command::Input(goal)).await.unwrap();
-        anna.session.send(Command::Step(100)).await.unwrap();
-        anna.session.send(Command::Reset(Some(9))).await.unwrap();
-        anna.session.send(Command::Step(50)).await.unwrap();
-        let view = anna.session.watch().borrow().clone();
-        first.hold().await;
-
-        let second = sessions(&folder, settings());
-        let again = second.open("anna").await.unwrap();
-        let after = again.session.watch().borrow().clone();
-        assert_eq!((after.world_hash, after.moment.tick, after.running), (view.world_hash, 50, false));
-        assert_eq!(after.scenery.scenario.seed, 9);
-        assert_eq!(again.session.resumed_tick(), Some(50));
-        let kept: Vec<_> = after.scenery.kept_runs.iter().map(|run| (run.seed, run.tick)).collect();
-        assert_eq!(kept, [(1, 100)]);
-        again.session.send(Command::Return(after.scenery.kept_runs[0].number)).await.unwrap();
-        let returned = again.session.watch().borrow().clone();
-        assert_eq!((returned.moment.tick, returned.moment.goal_m.is_some()), (100, true));
-        assert_eq!(second.find(MAIN).unwrap().session.resumed_tick(), None, "nothing happened in main");
-        second.hold().await;
-
-        // A damaged file is no reason to fail, and the page says so.
-        let file = folder.path().join("sessions/anna.ferry");
-        let mut bytes = std::fs::read(&file).unwrap();
-        let middle = bytes.len() / 2;
-        bytes[middle] ^= 1;
-        std::fs::write(&file, bytes).unwrap();
-        let third = sessions(&folder, settings());
-        let fresh = third.open("anna").await.unwrap();
-        let view = fresh.session.watch().borrow().clone();
-        assert_eq!((view.moment.tick, fresh.session.resumed_tick()), (0, None));
-        assert!(view.journal[0].text.starts_with("the session started over: log: damaged"), "{:?}", view.journal);
-    }
-
-    #[test]
-    fn session_names_are_valid_in_addresses_and_file_names() {
-        for good in ["anna", "group-7", "2026", &"x".repeat(32)] {
-            assert!(is_name(good), "{good}");
-        }
-        for bad in ["", "-a", "Anna", "a/b", "..", "a.b", "a b", "ä", "a\0", "a%2f", &"x".repeat(33)] {
-            assert!(!is_name(bad), "{bad}");
-        }
     }
 }

@@ -27,11 +27,17 @@ struct Added {
 }
 
 impl Added {
-    /// The name after the largest number so far.
+    /// A new name, with a number after the largest one so far.
     fn numbered(&self) -> String {
-        let number = |name: &String| name.strip_prefix(NUMBERED)?.parse::<u32>().ok();
-        let last = self.used.iter().filter_map(number).max().unwrap_or(0);
-        format!("{NUMBERED}{}", last.saturating_add(1))
+        let last = self.used.iter().filter_map(|name| number(name)).max().unwrap_or(0);
+        let mut number = u64::from(last) + 1;
+        loop {
+            let name = format!("{NUMBERED}{number}");
+            if !self.used.contains(&name) {
+                return name;
+            }
+            number += 1;
+        }
     }
 
     fn insert(&mut self, map: Map) {
@@ -59,7 +65,8 @@ impl Library {
         Map::shipped_names().into_iter().chain(added.maps.iter().map(|map| map.name().to_owned())).collect()
     }
 
-    /// Adds a drawing. It gets the wished name if that is valid ([`is_added`]) and was never used, otherwise a number.
+    /// Adds a drawing. It gets the wished name if that is valid ([`is_added`]), not a numbered one, and was never used,
+    /// otherwise a number.
     ///
     /// # Errors
     /// If it is not a valid map (see [`Map::from_svg`]), or if there are already [`ADDED_MAPS`].
@@ -70,7 +77,7 @@ impl Library {
         if added.maps.len() >= ADDED_MAPS {
             return Err(MapError::TooMany { max: ADDED_MAPS });
         }
-        let free = wished.filter(|name| is_added(name) && !added.used.contains(*name));
+        let free = wished.filter(|name| is_added(name) && number(name).is_none() && !added.used.contains(*name));
         map.name = free.map_or_else(|| added.numbered(), str::to_owned);
         added.insert(map.clone());
         Ok(map)
@@ -93,8 +100,8 @@ impl Library {
         Ok(())
     }
 
-    /// Marks a name as used, because a map of this name was removed.
-    pub fn retire(&self, name: &str) {
+    /// Marks a name as used: a map of this name was removed, or exists elsewhere. No drawing gets it any more.
+    pub fn reserve(&self, name: &str) {
         self.added.write().unwrap_or_else(PoisonError::into_inner).used.insert(name.to_owned());
     }
 
@@ -104,6 +111,11 @@ impl Library {
         let index = added.maps.iter().position(|map| map.name() == name)?;
         Some(added.maps.remove(index))
     }
+}
+
+/// The number in the name of an added map that has no other name.
+fn number(name: &str) -> Option<u32> {
+    name.strip_prefix(NUMBERED)?.parse().ok()
 }
 
 /// Whether an added map may have this name: up to 40 of a to z, 0 to 9, - and _, not the name of a shipped map.
@@ -149,14 +161,14 @@ mod tests {
         let drawing = drawing();
         assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "two-rooms");
         assert_eq!(library.find("two-rooms").unwrap().name(), "two-rooms");
-        for wished in ["two-rooms", "colon", "Two rooms", "", "-a", "../x", "a.svg", &"x".repeat(41)] {
-            let name = library.add(Some(wished), &drawing).unwrap().name().to_owned();
-            assert!(name.starts_with("map-"), "{wished:?} became {name}");
+        let refused = ["two-rooms", "colon", "Two rooms", "", "-a", "../x", "a.svg", "map-4294967295", &"x".repeat(41)];
+        for (wished, number) in refused.into_iter().zip(1..) {
+            assert_eq!(library.add(Some(wished), &drawing).unwrap().name(), format!("map-{number}"), "{wished:?}");
         }
         library.remove("two-rooms").unwrap();
-        assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "map-9", "a deleted name is not reused");
-        library.retire("old");
-        assert_eq!(library.add(Some("old"), &drawing).unwrap().name(), "map-10");
+        assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "map-10", "a deleted name is not reused");
+        library.reserve("old");
+        assert_eq!(library.add(Some("old"), &drawing).unwrap().name(), "map-11");
     }
 
     #[test]

@@ -5,8 +5,8 @@ use std::cmp::Reverse;
 use super::{FreeSpace, Map};
 use crate::geometry::Point2;
 
-/// A bay whose middle is less than this wider than its mouth counts as an uneven wall, not as a room.
-const PROMINENCE_M: f64 = 0.01;
+/// A bay that is less than this wider than its mouth counts as an uneven wall, not as a room.
+const PROMINENCE_M: f64 = 0.02;
 
 /// The narrowest place between two rooms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Summary {
     /// Width and height of the workspace, m.
     pub size_m: [f64; 2],
     pub walls: usize,
-    /// Number of connected parts that a trial can use.
+    /// Number of connected parts.
     pub regions: usize,
     /// Area of these parts, m².
     pub free_m2: f64,
@@ -33,7 +33,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// `clearance_m` is the distance that a trial keeps from walls.
+    /// `clearance_m` is the distance to the walls within which nothing is free.
     pub fn of(map: &Map, clearance_m: f64) -> Self {
         let size = map.workspace().size_m();
         let space = FreeSpace::new(map, clearance_m);
@@ -80,7 +80,7 @@ fn narrowest(space: &FreeSpace, clearance_m: &[Option<f64>]) -> Option<Narrow> {
         let Some((&widest, others)) = rooms.split_first() else { continue };
         link[cell] = Some(widest);
         for &other in others {
-            if of(other) - of(cell) >= PROMINENCE_M {
+            if 2.0 * (of(other) - of(cell)) >= PROMINENCE_M {
                 // Later cells are narrower.
                 last = Some(Narrow { width_m: 2.0 * of(cell), at: space.center(cell) });
             }
@@ -94,9 +94,11 @@ fn narrowest(space: &FreeSpace, clearance_m: &[Option<f64>]) -> Option<Narrow> {
 mod tests {
     use super::*;
 
+    const BEAD_M: f64 = 0.0025;
+
     fn summary(shapes: &str) -> Summary {
         let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">{shapes}</svg>"#);
-        Summary::of(&Map::from_svg("drawn", &svg).unwrap(), 0.013)
+        Summary::of(&Map::from_svg("drawn", &svg).unwrap(), BEAD_M)
     }
 
     #[test]
@@ -114,8 +116,9 @@ mod tests {
         assert!((door.width_m - 0.06).abs() < 0.006, "{door:?}");
         assert!(door.at.x.abs() < 0.015 && (door.at.y + 0.37).abs() < 0.01, "{door:?}");
         assert_eq!(rooms.regions, 1);
-        let parts = summary(r#"<rect x="-10" y="200" width="20" height="190"/>"#);
-        assert_eq!((parts.regions, parts.narrowest), (2, None), "the bead cannot pass 10 mm");
+        assert_eq!(summary(r#"<rect x="-10" y="200" width="20" height="180"/>"#).regions, 1, "20 mm");
+        let parts = summary(r#"<rect x="-10" y="200" width="20" height="196"/>"#);
+        assert_eq!((parts.regions, parts.narrowest), (2, None), "the bead cannot pass 4 mm");
     }
 
     #[test]

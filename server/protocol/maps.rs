@@ -23,7 +23,7 @@ pub struct MapReport {
     pub width_m: f64,
     pub height_m: f64,
     pub walls: usize,
-    /// Number of connected parts that a trial can use; the bead cannot pass between them.
+    /// Number of connected parts; the bead cannot pass between them.
     pub regions: usize,
     /// Area of these parts, m².
     pub free_m2: f64,

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::{Opening, RecordingError, Sample};
-use crate::files::read_at_most;
+use crate::files::{read_at_most, replace};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 use crate::trial::{EventKind, Phase};
@@ -60,11 +60,8 @@ impl About {
         about.filter(is_sound).unwrap_or_default()
     }
 
-    /// Writes to a temporary name first, so that no reader finds half a file.
     pub fn write(&self, path: &Path) -> std::io::Result<()> {
-        let part = path.with_extension("part");
-        std::fs::write(&part, serde_json::to_vec(self).map_err(std::io::Error::other)?)?;
-        std::fs::rename(part, path)
+        replace(path, &serde_json::to_vec(self).map_err(std::io::Error::other)?)
     }
 }
 

@@ -127,7 +127,7 @@ impl Writer {
 
     pub(super) fn begin(&mut self, opening: &Opening, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {
         self.flush()?;
-        let is_new = opening.logged.state.is_none();
+        let is_new = opening.is_new;
         timeline.begin(opening.tick, is_new);
         self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, timeline);
         (self.mode, self.phase, self.plans) = (None, None, None);
@@ -153,7 +153,7 @@ impl Writer {
         let number = timeline.trials;
         let controller = scenario.controller.as_str();
         self.log("trial", &StateChange::new().with_state([format!("{number}: {}, {controller}", map.name())]))?;
-        let how = if is_new { "begins" } else { "continues" };
+        let how = if opening.logged.state.is_none() { "begins" } else { "continues" };
         let text = format!("trial {number} {how}: map {}, controller {controller}, seed {}", map.name(), scenario.seed);
         self.log("log", &TextLog::new(text).with_level("INFO"))?;
         // Samples take a shorter path to the file. The viewer opens at the first time that it reads.

@@ -10,7 +10,9 @@ use crate::trial::{Arena, Event, TrialState};
 
 /// Limits of all kept runs together; the oldest runs are dropped.
 const MOST: usize = 8;
+/// Twenty minutes.
 const MOST_MOMENTS: usize = 4800;
+const MOST_INPUTS: usize = 100_000;
 
 /// A trial with its past, at its last tick.
 #[derive(Debug)]
@@ -26,7 +28,7 @@ pub struct KeptRun {
 /// What a browser shows of a kept run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptRunSummary {
-    /// From 1, never used again.
+    /// From 1, never used again while the session is open.
     pub number: u32,
     pub map: String,
     pub seed: u64,
@@ -51,10 +53,15 @@ impl KeptRuns {
         }
         self.last += 1;
         self.kept.push_back((self.last, run));
-        let moments = |kept: &VecDeque<(u32, KeptRun)>| kept.iter().map(|(_, run)| run.timeline.len()).sum::<usize>();
-        while self.kept.len() > 1 && (self.kept.len() > MOST || moments(&self.kept) > MOST_MOMENTS) {
+        while self.kept.len() > 1 && self.are_too_many() {
             self.kept.pop_front();
         }
+    }
+
+    fn are_too_many(&self) -> bool {
+        let sizes = self.kept.iter().map(|(_, run)| run.timeline.size());
+        let (moments, inputs) = sizes.fold((0, 0), |(a, b), (moments, inputs)| (a + moments, b + inputs));
+        self.kept.len() > MOST || moments > MOST_MOMENTS || inputs > MOST_INPUTS
     }
 
     /// Oldest first.

@@ -1,30 +1,36 @@
 //! What of a session survives a restart of the server: its trial and its kept runs, each at its end. A saved session is
 //! an input log without ticks.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
 
 use super::Opening;
 use super::kept_runs::KeptRun;
 use super::timeline::Timeline;
 use super::worker::Worker;
 use crate::camera::ImageSource;
+use crate::faults;
 use crate::files::read_at_most;
-use crate::map::Library;
+use crate::map::{Library, Map};
+use crate::scenario::Scenario;
 use crate::trial::{
     Arena, Beginning, Entry, Event, EventKind, InputLog, LogError, LogWriter, LoggedBeginning, LoggedMap, Trial,
-    TrialError,
+    TrialError, TrialState,
 };
 
-/// Nine runs, each with a map of at most a few megabytes.
+/// Ten runs, each with a map of at most a few megabytes.
 const BYTES_MOST: u64 = 64 << 20;
 
-/// Why a session started over.
+/// Why a saved trial was left out.
 #[derive(Debug, thiserror::Error)]
 enum RestoreError {
     #[error(transparent)]
     Log(#[from] LogError),
     #[error(transparent)]
     Trial(#[from] TrialError),
+    #[error("it could not be restored: {0}")]
+    Panic(String),
 }
 
 /// Oldest run first; the last one is the trial.
@@ -53,80 +59,142 @@ impl Saved {
     }
 }
 
+/// What of a saved session can be used.
+#[derive(Default)]
+struct Restored {
+    /// Oldest first.
+    runs: Vec<KeptRun>,
+    /// The trial, if it is usable.
+    present: Option<KeptRun>,
+    errors: Vec<RestoreError>,
+}
+
 impl<E: ImageSource> Worker<E> {
     pub(super) fn saved(&self) -> Saved {
-        let runs = self.kept_runs.iter().map(|run| LoggedBeginning {
-            scenario: run.scenario.clone(),
-            map: Some(LoggedMap::from(&run.arena.map)),
+        let logged = |scenario: &Scenario, arena: &Arena, state: &TrialState| LoggedBeginning {
+            scenario: scenario.clone(),
+            map: Some(LoggedMap::from(&arena.map)),
             policy_hash: None,
-            state: Some(Box::new(run.state.clone())),
-        });
-        Saved(runs.chain([LoggedBeginning::of(&self.trial, Beginning::Resumed)]).collect())
+            state: Some(Box::new(state.clone())),
+        };
+        let runs = self.kept_runs.iter().map(|run| logged(&run.scenario, &run.arena, &run.state));
+        let own = |state| logged(self.trial.scenario(), self.trial.arena(), state);
+        let present = self.trial.state();
+        // After a rewind the end is not yet a kept run.
+        let end = self.end.as_ref().map(|end| &end.state).filter(|end| end.world.tick > present.world.tick);
+        Saved(runs.chain(end.map(own)).chain([own(present)]).collect())
     }
 
-    /// Goes on from what was saved, or keeps it as runs beside the chosen opening. A saved session that cannot be read
-    /// is reported, and the session starts over.
+    /// Goes on from what was saved, or keeps it as runs beside the chosen opening. What cannot be restored is reported
+    /// and left out; without its trial the session starts over.
     pub(super) fn begin(&mut self, opening: Opening) {
-        let restored = match opening {
-            Opening::Fresh => return,
-            Opening::Saved(saved) => self.runs_of(saved).and_then(|runs| self.go_on(runs)),
-            Opening::Beside(saved) => self.runs_of(saved).map(|runs| self.keep(runs)),
-            Opening::Unreadable(error) => Err(error.into()),
+        let (restored, goes_on) = match opening {
+            Opening::Fresh => {
+                self.sink.begin(&self.trial, Beginning::SetUp);
+                return;
+            }
+            Opening::Saved(saved) => (self.restore(saved), true),
+            Opening::Beside(saved) => (self.restore(saved), false),
+            Opening::Unreadable(error) => (Restored { errors: vec![error.into()], ..Restored::default() }, true),
         };
-        let text = restored.unwrap_or_else(|error| {
-            tracing::warn!(%error, "saved session not restored");
-            format!("the session started over: {error}")
-        });
+        let Restored { mut runs, present, mut errors } = restored;
+        let mut went_on = false;
+        match present {
+            Some(run) if goes_on => match caught(|| self.prepare(&run)) {
+                Ok(prepared) => {
+                    self.keep(std::mem::take(&mut runs));
+                    self.resumed_tick = Some(run.state.world.tick);
+                    self.take_up(run, prepared);
+                    went_on = true;
+                }
+                Err(error) => errors.push(error),
+            },
+            run => runs.extend(run),
+        }
+        if !went_on {
+            self.sink.begin(&self.trial, Beginning::SetUp);
+            self.keep(runs);
+        }
+        let how = match went_on {
+            true => "the session goes on from its last saved state",
+            false if goes_on => "the session started over",
+            false => "the session started over; what was saved is kept as runs",
+        };
+        self.has_left_out = !errors.is_empty();
+        let text = match errors.first() {
+            None => how.to_owned(),
+            Some(first) => {
+                tracing::warn!(count = errors.len(), error = %first, "saved trials left out");
+                let count = match errors.len() {
+                    1 => "a saved trial".to_owned(),
+                    count => format!("{count} saved trials"),
+                };
+                format!("{how}; {count} could not be read: {first}")
+            }
+        };
         let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
         self.sink.note(&event);
         self.report(event);
     }
 
-    fn keep(&mut self, runs: Vec<KeptRun>) -> String {
+    fn keep(&mut self, runs: Vec<KeptRun>) {
         runs.into_iter().for_each(|run| self.kept_runs.keep(run));
         self.scenery = self.next_scenery(0).into();
-        "the server was restarted; the trial before is a kept run".to_owned()
     }
 
-    fn go_on(&mut self, mut runs: Vec<KeptRun>) -> Result<String, RestoreError> {
-        let last = runs.pop().ok_or(LogError::Empty)?;
-        let prepared = self.prepare(&last)?;
-        runs.into_iter().for_each(|run| self.kept_runs.keep(run));
-        self.resumed_tick = Some(last.state.world.tick);
-        self.take_up(last, prepared);
-        Ok("the server was restarted; the trial goes on from its last saved state".to_owned())
-    }
-
-    /// The runs with their maps, after a check of every state.
-    fn runs_of(&self, saved: Saved) -> Result<Vec<KeptRun>, RestoreError> {
+    /// Runs with their maps, after a check of every state.
+    fn restore(&self, Saved(logged): Saved) -> Restored {
+        let last = logged.len().checked_sub(1);
+        let mut restored = Restored::default();
         let mut map: Option<LoggedMap> = None;
-        let mut runs = Vec::new();
-        for run in saved.0 {
-            map = run.map.or(map);
+        let mut arena: Option<Arc<Arena>> = None;
+        for (index, run) in logged.into_iter().enumerate() {
+            if run.map.is_some() {
+                (map, arena) = (run.map, None);
+            }
             let (Some(map), Some(state)) = (&map, run.state) else { continue };
-            let arena = Arena::of(known(&self.scenery.known_maps, map)?);
-            let mut trial = Trial::new(run.scenario.clone(), arena.clone())?;
-            trial.resume(*state)?;
-            let state = trial.snapshot();
-            let mut timeline = Timeline::default();
-            timeline.keep(state.clone());
-            runs.push(KeptRun {
-                scenario: run.scenario,
-                arena,
-                state,
-                timeline,
-                journal: Default::default(),
-                case: None,
+            let read = caught(|| {
+                let arena = match &arena {
+                    Some(arena) => arena.clone(),
+                    None => Arena::of(known(&self.scenery.known_maps, map)?),
+                };
+                let mut trial = Trial::new(run.scenario.clone(), arena.clone())?;
+                trial.resume(*state)?;
+                let state = trial.snapshot();
+                let timeline = Timeline::from_state(state.clone());
+                Ok(KeptRun { scenario: run.scenario, arena, state, timeline, journal: Arc::default(), case: None })
             });
+            match read {
+                Ok(run) => {
+                    arena = Some(run.arena.clone());
+                    if Some(index) == last {
+                        restored.present = Some(run);
+                    } else {
+                        restored.runs.push(run);
+                    }
+                }
+                Err(error) => restored.errors.push(error),
+            }
         }
-        Ok(runs)
+        restored
     }
 }
 
+/// A state of another version may be one that the code does not expect.
+fn caught<T>(work: impl FnOnce() -> Result<T, TrialError>) -> Result<T, RestoreError> {
+    catch_unwind(AssertUnwindSafe(work))
+        .map_err(|panic| RestoreError::Panic(faults::words(&*panic)))?
+        .map_err(RestoreError::from)
+}
+
 /// The library's map if it is the same drawing; it may have been deleted or changed since.
-fn known(library: &Library, logged: &LoggedMap) -> Result<crate::map::Map, TrialError> {
+fn known(library: &Library, logged: &LoggedMap) -> Result<Map, TrialError> {
     match library.find(&logged.name) {
         Ok(map) if map.svg() == logged.svg => Ok(map),
-        _ => Ok(crate::map::Map::from_svg(&logged.name, &logged.svg)?),
+        _ => {
+            // No other drawing gets the name from now on.
+            library.reserve(&logged.name);
+            Ok(Map::from_svg(&logged.name, &logged.svg)?)
+        }
     }
 }

@@ -16,9 +16,16 @@ pub struct Timeline {
     moments: VecDeque<Arc<TrialState>>,
     /// Inputs with the tick before which they were applied.
     inputs: VecDeque<(u64, Input)>,
+    /// Whether inputs before the first moment are not known.
+    is_cut: bool,
 }
 
 impl Timeline {
+    /// Only this state is known of the past.
+    pub fn from_state(state: TrialState) -> Self {
+        Self { moments: VecDeque::from([Arc::new(state)]), inputs: VecDeque::new(), is_cut: true }
+    }
+
     /// Keeps a state and drops later ones.
     pub fn keep(&mut self, state: TrialState) {
         self.forget_after(state.world.tick);
@@ -57,7 +64,7 @@ impl Timeline {
     /// All inputs since the start of the trial; `None` if the start is no longer kept.
     pub fn inputs_from_start(&self) -> Option<Vec<(u64, Input)>> {
         let (first, _) = self.range()?;
-        (first == 0).then(|| self.inputs.iter().cloned().collect())
+        (first == 0 && !self.is_cut).then(|| self.inputs.iter().cloned().collect())
     }
 
     /// Whether there are moments after a tick.
@@ -82,9 +89,9 @@ impl Timeline {
         after.checked_sub(1).map(|index| &*self.moments[index])
     }
 
-    /// Number of moments.
-    pub fn len(&self) -> usize {
-        self.moments.len()
+    /// Number of moments, and of inputs.
+    pub fn size(&self) -> (usize, usize) {
+        (self.moments.len(), self.inputs.len())
     }
 
     /// First and last tick kept.

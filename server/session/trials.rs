@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::kept_runs::KeptRun;
 use super::opened_case::OpenedCase;
-use super::worker::Worker;
+use super::worker::{End, Worker};
 use super::{CommandError, Kept, Scenery};
 use crate::camera::ImageSource;
 use crate::map::is_added;
@@ -66,7 +66,6 @@ impl<E: ImageSource> Worker<E> {
         let text = format!("set up: map {}, seed {}{case}", scenario.map, scenario.seed);
         let event = Event::new(0, EventKind::Session, text);
         self.sink.note(&event);
-        self.journal = Arc::default();
         self.report(event);
         self.apply_case();
         if !self.trial.waiting_inputs().is_empty() {
@@ -78,15 +77,27 @@ impl<E: ImageSource> Worker<E> {
 
     /// Keeps the trial with all that happened, before another one takes its place.
     fn leave(&mut self) {
-        let run = KeptRun {
+        let end = self.end.take().unwrap_or_else(|| self.present());
+        self.keep_run(end);
+        (self.timeline, self.journal) = Default::default();
+    }
+
+    pub(super) fn present(&self) -> End {
+        End { state: self.trial.snapshot(), waiting: self.trial.waiting_inputs().to_vec() }
+    }
+
+    pub(super) fn keep_run(&mut self, End { state, waiting }: End) {
+        let mut timeline = self.timeline.clone();
+        // The state contains what these inputs did, but no tick has noted them.
+        timeline.note(state.world.tick, &waiting);
+        self.kept_runs.keep(KeptRun {
             scenario: self.trial.scenario().clone(),
             arena: self.trial.arena().clone(),
-            state: self.end.take().unwrap_or_else(|| self.trial.snapshot()),
-            timeline: std::mem::take(&mut self.timeline),
-            journal: std::mem::take(&mut self.journal),
+            state,
+            timeline,
+            journal: self.journal.clone(),
             case: self.scenery.case.clone(),
-        };
-        self.kept_runs.keep(run);
+        });
     }
 
     pub(super) fn return_to(&mut self, number: u32) -> Result<(), CommandError> {
@@ -124,7 +135,7 @@ impl<E: ImageSource> Worker<E> {
         scenery.case = run.case;
         self.scenery = Arc::new(scenery);
         self.hand_is_stale = self.trial.state().world.plant.hand.is_some() && !self.case_holds();
-        self.sink.begin(&self.trial, Beginning::Resumed);
+        self.sink.begin(&self.trial, Beginning::Returned);
         self.sight = Arc::new((self.trial.state().world.tick, sight));
     }
 
@@ -147,7 +158,11 @@ impl<E: ImageSource> Worker<E> {
                 // The experiment's link would open the other drawing.
                 Ok(_) => return Err(CommandError::OtherDrawing { name: own.name.clone() }),
                 Err(error) if !is_added(&own.name) => return Err(error.into()),
-                Err(_) => own.arena()?,
+                Err(_) => {
+                    let arena = own.arena()?;
+                    known.reserve(&own.name);
+                    arena
+                }
             },
         };
         let scenario = Scenario { map: arena.map.name().to_owned(), ..case.scenario };
@@ -180,7 +195,7 @@ impl<E: ImageSource> Worker<E> {
 
     /// Inputs of the case that a state of this tick does not contain, and that have not been applied in the session.
     pub(super) fn case_inputs_after(&self, tick: u64) -> impl Iterator<Item = (u64, Input)> {
-        let newest = self.end.as_ref().unwrap_or(self.trial.state()).world.tick;
+        let newest = self.end.as_ref().map_or(self.trial.state(), |end| &end.state).world.tick;
         let from = newest.max(tick + 1);
         let ahead = self.scenery.case.as_ref().map_or(&[][..], |case| case.inputs_from(from));
         ahead.iter().map(|timed| (timed.tick, timed.input.clone()))

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{broadcast, watch};
 
-use super::kept_runs::{KeptRun, KeptRuns};
+use super::kept_runs::KeptRuns;
 use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
 use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
@@ -27,6 +27,12 @@ const DRAIN_EVERY: Duration = Duration::from_millis(4);
 /// Creates a camera for an arena.
 pub(super) type MakeCamera<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
 
+/// A state, and the inputs that wait for its next tick.
+pub(super) struct End {
+    pub(super) state: TrialState,
+    pub(super) waiting: Vec<Input>,
+}
+
 pub(super) struct Worker<E> {
     pub(super) trial: Trial,
     pub(super) make_camera: MakeCamera<E>,
@@ -34,11 +40,13 @@ pub(super) struct Worker<E> {
     pub(super) sink: Box<dyn Sink>,
     events: broadcast::Sender<Event>,
     pub(super) timeline: Timeline,
-    /// The state before the first of several rewinds, until the trial goes on.
-    pub(super) end: Option<TrialState>,
+    /// The end before the first of several rewinds, until the trial goes on.
+    pub(super) end: Option<End>,
     pub(super) kept_runs: KeptRuns,
-    /// Tick at which the trial went on after a restart of the server.
+    /// Tick at which the trial went on from what was saved.
     pub(super) resumed_tick: Option<u64>,
+    /// Something that was saved could not be restored.
+    pub(super) has_left_out: bool,
     pub(super) scenery: Arc<Scenery>,
     pub(super) sight: Arc<(u64, Sight)>,
     pub(super) running: bool,
@@ -58,13 +66,12 @@ impl<E: ImageSource> Worker<E> {
         arena: Arc<Arena>,
         library: Arc<Library>,
         make_camera: MakeCamera<E>,
-        mut sink: Box<dyn Sink>,
+        sink: Box<dyn Sink>,
         events: broadcast::Sender<Event>,
     ) -> Result<Self, TrialError> {
         let mut camera = make_camera(&arena)?;
         let trial = Trial::new(scenario, arena)?;
         let scenery = Arc::new(Scenery::of(&trial, library, 0, 0));
-        sink.begin(&trial, Beginning::SetUp);
         let sight = Arc::new((0, trial.observe(&mut camera)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
@@ -79,6 +86,7 @@ impl<E: ImageSource> Worker<E> {
             end: None,
             kept_runs: KeptRuns::default(),
             resumed_tick: None,
+            has_left_out: false,
             scenery,
             sight,
             running: false,
@@ -232,8 +240,14 @@ impl<E: ImageSource> Worker<E> {
             Command::Open(case) => self.open(*case)?,
             Command::Rewind(tick) => {
                 let state = self.moment(tick)?.clone();
-                self.end.get_or_insert_with(|| self.trial.snapshot());
                 self.running = false;
+                if state.world.tick == self.trial.state().world.tick && hashes(&state) == hashes(self.trial.state()) {
+                    // Restoring it would drop the inputs that wait.
+                    return Ok(());
+                }
+                if self.end.is_none() {
+                    self.end = Some(self.present());
+                }
                 self.trial.restore(state);
                 self.hand_is_stale = self.trial.state().world.plant.hand.is_some() && !self.case_holds();
                 self.scenery = Arc::new(self.next_scenery(0));
@@ -248,7 +262,7 @@ impl<E: ImageSource> Worker<E> {
     fn input(&mut self, input: Input) -> Result<(), CommandError> {
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs and are needed only after a rewind.
-        let before = self.timeline.reaches_past(tick).then(|| self.hashes());
+        let before = self.timeline.reaches_past(tick).then(|| hashes(self.trial.state()));
         let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
             self.drop_stale_hand()?;
@@ -259,7 +273,7 @@ impl<E: ImageSource> Worker<E> {
             self.hand_is_stale = true;
         }
         let configures = done?;
-        if before.is_some_and(|before| before != self.hashes()) {
+        if before.is_some_and(|before| before != hashes(self.trial.state())) {
             self.forget_after(tick);
         }
         if configures {
@@ -287,10 +301,6 @@ impl<E: ImageSource> Worker<E> {
             Ok(sight) => self.sight = Arc::new((self.trial.state().world.tick, sight)),
             Err(error) => self.broken = Some(error.into()),
         }
-    }
-
-    fn hashes(&self) -> (u64, u64) {
-        (self.trial.state().world_hash(), self.trial.state().controller_hash())
     }
 
     /// The hand of a rewound state releases the bead as soon as the session continues.
@@ -337,17 +347,10 @@ impl<E: ImageSource> Worker<E> {
 
     /// Drops everything after a tick. What a rewind has left behind becomes a run.
     fn forget_after(&mut self, tick: u64) {
-        if let Some(state) = self.end.take()
+        if let Some(end) = self.end.take()
             && self.timeline.reaches_past(tick)
         {
-            self.kept_runs.keep(KeptRun {
-                scenario: self.trial.scenario().clone(),
-                arena: self.trial.arena().clone(),
-                state,
-                timeline: self.timeline.clone(),
-                journal: self.journal.clone(),
-                case: self.scenery.case.clone(),
-            });
+            self.keep_run(end);
             self.scenery = Arc::new(self.next_scenery(0));
         }
         self.timeline.forget_after(tick);
@@ -368,4 +371,8 @@ impl<E: ImageSource> Worker<E> {
         }
         let _ = self.events.send(event);
     }
+}
+
+fn hashes(state: &TrialState) -> (u64, u64) {
+    (state.world_hash(), state.controller_hash())
 }

@@ -40,7 +40,7 @@ impl LoggedBeginning {
             scenario: trial.scenario().clone(),
             map: Some(LoggedMap::from(&trial.arena().map)),
             policy_hash: trial.arena().policy.as_ref().map(|policy| policy.hash()),
-            state: (how == Beginning::Resumed).then(|| Box::new(trial.snapshot())),
+            state: (how != Beginning::SetUp).then(|| Box::new(trial.snapshot())),
         }
     }
 }

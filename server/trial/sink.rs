@@ -9,6 +9,8 @@ pub enum Beginning {
     SetUp,
     /// It continues from a state, after a rewind or because the sink requested it.
     Resumed,
+    /// It takes the place of another trial, and continues from a state.
+    Returned,
 }
 
 /// Receives every tick in order. It is called on the trial's thread, so it must not block for long.

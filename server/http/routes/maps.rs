@@ -1,8 +1,9 @@
 //! `/api/maps`: shipped maps and uploaded ones, which are kept in the data folder.
 
-use std::io::Write;
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::collections::BTreeSet;
+use std::io::{ErrorKind, Write};
+use std::path::{Path as FilePath, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::Json;
 use axum::extract::State;
@@ -12,14 +13,15 @@ use serde::{Deserialize, Serialize};
 use tokio::sync::watch;
 use utoipa::{IntoParams, ToSchema};
 
+use crate::files::replace;
 use crate::http::Server;
 use crate::http::body::{WholeBody, attachment};
 use crate::http::path::{MapPath, Path, Query};
 use crate::http::problem::Problem;
-use crate::http::refusals::{NotFound, OutOfRange, TooMany, Unavailable};
-use crate::map::{Library, MAX_SVG_BYTES, MapError, Summary};
+use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
+use crate::map::{Library, MAX_SVG_BYTES, MapError, Summary, is_added};
+use crate::plant::BEAD_RADIUS_M;
 use crate::protocol::MapReport;
-use crate::scenario::CLEARANCE_M;
 use crate::trial::Arena;
 
 /// A drawing of a map.
@@ -36,12 +38,29 @@ const REMOVED: &str = "removed-names";
 pub struct Maps {
     pub all: Arc<Library>,
     folder: PathBuf,
+    /// Map of the opening scenario. It is not deleted, because each new session needs it.
+    needed: String,
+    /// Held while a map is added or removed, so that library and folder agree.
+    changing: Mutex<()>,
     version: watch::Sender<u64>,
 }
 
+/// The names of removed maps.
+fn removed_names(path: &FilePath) -> BTreeSet<String> {
+    match std::fs::read(path) {
+        Ok(bytes) => String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect(),
+        Err(error) if error.kind() == ErrorKind::NotFound => BTreeSet::new(),
+        Err(error) => {
+            tracing::warn!(path = %path.display(), %error, "names of removed maps are unknown: they may be given again");
+            BTreeSet::new()
+        }
+    }
+}
+
 impl Maps {
-    /// The library with the maps of the folder. An invalid file is skipped with a warning.
-    pub fn in_folder(folder: PathBuf) -> Self {
+    /// The library with the maps of the folder. A file that is not a valid map is left out with a warning; its name is
+    /// reserved, so that no other drawing replaces it.
+    pub fn in_folder(folder: PathBuf, needed: String) -> Self {
         let library = Arc::new(Library::default());
         // Without the folder there are no uploaded maps.
         let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten();
@@ -49,18 +68,24 @@ impl Maps {
             entries.map(|entry| (entry.metadata().and_then(|data| data.modified()).ok(), entry.path())).collect();
         // The oldest first.
         paths.sort();
-        let removed = std::fs::read_to_string(folder.join(REMOVED)).unwrap_or_default();
-        removed.lines().for_each(|name| library.retire(name));
+        let removed = removed_names(&folder.join(REMOVED));
+        removed.iter().for_each(|name| library.reserve(name));
         for (_, path) in paths {
             let small = std::fs::metadata(&path).is_ok_and(|data| data.is_file() && data.len() <= MAX_SVG_BYTES as u64);
             let Some(name) = path.file_name().and_then(|name| name.to_str()?.strip_suffix(".svg")) else { continue };
+            if removed.contains(name) {
+                // The server ended while it removed the map.
+                let _ = std::fs::remove_file(&path);
+                continue;
+            }
+            library.reserve(name);
             let text = small.then(|| std::fs::read_to_string(&path).ok()).flatten();
             let restored = text.map(|text| library.restore(name, &text));
             if !matches!(restored, Some(Ok(()))) {
                 tracing::warn!(path = %path.display(), ?restored, "uploaded map left out");
             }
         }
-        Self { all: library, folder, version: watch::Sender::new(0) }
+        Self { all: library, folder, needed, changing: Mutex::default(), version: watch::Sender::new(0) }
     }
 
     /// Changes whenever the list of maps changes.
@@ -74,30 +99,59 @@ impl Maps {
 
     fn add(&self, Wish { name: wished, fit }: Wish, svg: String) -> Result<MapReport, Problem> {
         let svg = if fit { crate::map::fit(&svg)? } else { svg };
-        let map = self.all.add(wished.as_deref(), &svg)?;
-        let name = map.name().to_owned();
-        let kept = std::fs::create_dir_all(&self.folder)
-            .and_then(|()| std::fs::write(self.folder.join(format!("{name}.svg")), &svg));
-        kept.map_err(|error| {
-            self.all.remove(&name);
-            Problem::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", format!("the map could not be stored: {error}"))
-        })?;
+        let map = {
+            let _one_at_a_time = self.changing();
+            let map = self.all.add(wished.as_deref(), &svg)?;
+            let kept =
+                std::fs::create_dir_all(&self.folder).and_then(|()| replace(&self.path(map.name()), svg.as_bytes()));
+            kept.map_err(|error| {
+                self.all.remove(map.name());
+                let detail = format!("the map could not be stored: {error}");
+                Problem::new(StatusCode::INSUFFICIENT_STORAGE, "not_kept", detail)
+            })?;
+            map
+        };
         self.changed();
-        let summary = Summary::of(&map, CLEARANCE_M);
+        let (name, summary) = (map.name().to_owned(), Summary::of(&map, BEAD_RADIUS_M));
         Ok(MapReport::new(name, summary, Arena::of(map).reached_share()))
     }
 
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}.svg"))
+    }
+
+    fn changing(&self) -> std::sync::MutexGuard<'_, ()> {
+        self.changing.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn remove(&self, name: &str) -> Result<(), Problem> {
-        let map = self.all.remove(name).ok_or_else(|| Problem::not_found("uploaded map", name))?;
+        let _one_at_a_time = self.changing();
+        let added = self.all.find(name).is_ok_and(|map| is_added(map.name()));
+        if !added {
+            return Err(Problem::not_found("uploaded map", name));
+        }
+        if name == self.needed {
+            let detail = format!("new sessions begin with the map {name:?} (--scenario)");
+            return Err(Problem::new(StatusCode::CONFLICT, "in_use", detail).field("name"));
+        }
+        // First the name, so that it is not given to another drawing after a crash. A full disk has room for it only
+        // without the drawing.
+        let noted = self.note_removed(name);
+        match std::fs::remove_file(self.path(name)) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(Problem::internal(error)),
+            _ => {}
+        }
+        if let Err(error) = noted.or_else(|_| self.note_removed(name)) {
+            tracing::warn!(%error, name, "the name of a removed map could not be kept: it may be given again");
+        }
+        self.all.remove(name);
         self.changed();
-        // The name is kept, so that it is not given to another drawing after a restart.
-        let noted = std::fs::OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(self.folder.join(REMOVED))
-            .and_then(|mut file| writeln!(file, "{}", map.name()));
-        noted.map_err(Problem::internal)?;
-        std::fs::remove_file(self.folder.join(format!("{}.svg", map.name()))).map_err(Problem::internal)
+        Ok(())
+    }
+
+    fn note_removed(&self, name: &str) -> std::io::Result<()> {
+        let mut file = std::fs::OpenOptions::new().create(true).append(true).open(self.folder.join(REMOVED))?;
+        file.write_all(format!("{name}\n").as_bytes())
     }
 }
 
@@ -166,11 +220,72 @@ pub async fn file(
 
 /// Deletes an uploaded map; sessions that have loaded it keep it.
 #[utoipa::path(delete, path = "/api/maps/{name}", tag = "maps", operation_id = "delete_map", params(MapPath),
-    responses((status = 204, description = "The map is deleted."), NotFound, Unavailable))]
+    responses((status = 204, description = "The map is deleted."), NotFound, Conflict, Unavailable))]
 pub async fn delete(
     State(server): State<Arc<Server>>,
     Path(MapPath { name }): Path<MapPath>,
 ) -> Result<StatusCode, Problem> {
     server.work(move |server| server.maps.remove(&name)).await??;
     Ok(StatusCode::NO_CONTENT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn maps(folder: &FilePath) -> Maps {
+        Maps::in_folder(folder.to_owned(), "posts".into())
+    }
+
+    fn drawing(name: &str) -> String {
+        crate::map::Map::shipped(name).unwrap().svg().to_owned()
+    }
+
+    fn add(maps: &Maps, name: &str, svg: String) -> String {
+        let wish = Wish { name: Some(name.to_owned()), fit: false };
+        maps.add(wish, svg).unwrap_or_else(|problem| panic!("{problem:?}")).name
+    }
+
+    #[test]
+    fn a_file_that_is_left_out_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("mine.svg"), "<svg").unwrap();
+        let maps = maps(folder.path());
+        assert!(maps.all.find("mine").is_err());
+        assert_eq!(add(&maps, "mine", drawing("open")), "map-1");
+        assert_eq!(std::fs::read_to_string(folder.path().join("mine.svg")).unwrap(), "<svg");
+    }
+
+    #[test]
+    fn a_removed_map_stays_removed_and_its_name_is_not_given_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = maps(folder.path());
+        assert_eq!(add(&first, "mine", drawing("open")), "mine");
+        first.remove("mine").unwrap();
+        assert!(first.remove("mine").is_err());
+        // The server ended between the note and the removal of the file.
+        std::fs::write(folder.path().join("mine.svg"), drawing("open")).unwrap();
+        let second = maps(folder.path());
+        assert!(second.all.find("mine").is_err() && !folder.path().join("mine.svg").exists());
+        assert_eq!(add(&second, "mine", drawing("colon")), "map-1");
+    }
+
+    #[test]
+    fn a_map_is_removed_although_its_name_cannot_be_noted() {
+        let folder = tempfile::tempdir().unwrap();
+        let maps = maps(folder.path());
+        assert_eq!(add(&maps, "mine", drawing("open")), "mine");
+        std::fs::create_dir(folder.path().join(REMOVED)).unwrap();
+        maps.remove("mine").unwrap();
+        assert!(!folder.path().join("mine.svg").exists());
+        assert_eq!(add(&maps, "mine", drawing("open")), "map-1");
+    }
+
+    #[test]
+    fn the_map_of_the_opening_scenario_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let maps = Maps::in_folder(folder.path().to_owned(), "mine".into());
+        assert_eq!(add(&maps, "mine", drawing("open")), "mine");
+        assert!(maps.remove("mine").is_err() && maps.all.find("mine").is_ok());
+    }
 }

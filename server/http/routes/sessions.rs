@@ -118,7 +118,7 @@ pub async fn session(
     Ok(Json(summary))
 }
 
-/// Ends a session, and its recording.
+/// Ends a session and its recording, and deletes what was saved of it. The recording stays.
 #[utoipa::path(delete, path = "/api/sessions/{id}", tag = "sessions", params(SessionPath),
     responses((status = 204, description = "It has ended."), NotFound, Conflict))]
 pub async fn delete_session(
@@ -128,8 +128,10 @@ pub async fn delete_session(
     if id == MAIN {
         return Err(Problem::new(StatusCode::CONFLICT, "main_session", "the session main cannot be closed"));
     }
-    server.sessions.end(find(&server, &id)?).await;
-    Ok(StatusCode::NO_CONTENT)
+    match server.sessions.discard(&id).await {
+        true => Ok(StatusCode::NO_CONTENT),
+        false => Err(Problem::not_found("session", &id)),
+    }
 }
 
 /// The current state of a session.
