@@ -3,6 +3,7 @@
 import { readFile } from 'node:fs/promises';
 import { Buffer } from 'node:buffer';
 import { type Lab, expect, test } from './fixtures';
+import { dropFile } from './support/drop';
 import { distance } from './support/table';
 import { until } from './support/wait';
 
@@ -52,19 +53,19 @@ async function choose(lab: Lab, text: string) {
   await (await opening).setFiles(file);
 }
 
-/** Drops a file on the page. */
-async function drop(lab: Lab, text: string) {
-  const dataTransfer = await lab.page.evaluateHandle((content) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([content], 'Dropped.JSON', { type: 'application/json' }));
-    return transfer;
-  }, text);
-  await lab.page.dispatchEvent('main', 'drop', { dataTransfer });
+const drop = (lab: Lab, text: string) =>
+  dropFile(lab.page, 'Dropped.JSON', 'application/json', text);
+
+/** The laboratory opens, because it shows what the file changes. */
+async function dropElsewhere(lab: Lab, text: string) {
+  await lab.view('Recordings').click();
+  await drop(lab, text);
+  await expect(lab.canvas).toBeVisible();
 }
 
 test('opens a saved test case and repeats its inputs', async ({ lab }) => {
   const kept = await makeCase(lab);
-  for (const openBy of [choose, drop]) {
+  for (const openBy of [choose, dropElsewhere]) {
     await lab.map('open');
     await lab.controller('ERRT');
     await openBy(lab, kept.text);

@@ -25,7 +25,7 @@ test('runs its programme again and again', async ({ page, watch }) => {
     const meter = await Meter.attach(page);
     const lab = new Lab(page);
     await page.goto(`${server.url}/demo`);
-    const caption = page.getByRole('status');
+    const caption = page.locator('.demo-caption');
     await expect(caption).toHaveText(PROGRAMME[0]?.title ?? '');
 
     const seen = new Map<string, number>();

@@ -1,14 +1,17 @@
-// The demonstration: its programme, and the visitor who interrupts it.
+// The demonstration: its programme, the visitor who interrupts it, a second screen, an outage, and the return.
 
 import type { Page } from '@playwright/test';
 import { Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { useSlowDisplay } from './support/display';
+import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
 
 const CAPTION_MS = 60_000;
+const RECONNECT_MS = 30_000;
 const SILENCE_MS = 61_000;
+const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 /** The captions of the first part, in order. */
 const CAPTIONS = [
   'A magnet carries a bead through a maze',
@@ -18,6 +21,10 @@ const CAPTIONS = [
   'Lost. The arm flies straight to the bead.',
   'Fetched. It carries on.',
 ];
+const FIRST = CAPTIONS[0] ?? '';
+const VISITED = /^You are in control/;
+const WATCHING = /^Another screen runs/;
+const WAITING = /^One moment/;
 
 declare global {
   interface Window {
@@ -29,42 +36,184 @@ declare global {
 function keepCaptions() {
   window.ferryCaptions = [];
   new MutationObserver(() => {
-    const text = document.querySelector('[role=status]')?.textContent.trim() ?? '';
+    const text = document.querySelector('.demo-caption')?.textContent.trim() ?? '';
     if (text !== '' && text !== window.ferryCaptions.at(-1)) window.ferryCaptions.push(text);
   }).observe(document, { subtree: true, childList: true, characterData: true });
 }
 
 const captionsOf = (page: Page) => page.evaluate(() => window.ferryCaptions);
+const captionOf = (page: Page) => page.locator('.demo-caption');
 
-test('runs its programme, gives way to a visitor, and returns', async ({ page, watch }) => {
-  const server = await Server.start();
+/** The clock by which the programme waits. */
+const jump = (page: Page, ms: number) =>
+  page.evaluate((ahead_ms) => {
+    const now = performance.now.bind(performance);
+    performance.now = () => now() + ahead_ms;
+  }, ms);
+
+/** Opens the demonstration. */
+async function show(page: Page, url: string) {
+  await useSlowDisplay(page);
+  const lab = new Lab(page);
+  await page.goto(url);
+  return lab;
+}
+
+/** Waits until the page has set up the first part. */
+const begun = (lab: Lab) =>
+  until(
+    'the first experiment',
+    () => lab.isComplete && lab.scene.map === 'colon' && lab.state.running,
+  );
+
+let server: Server;
+test.beforeEach(async ({ watch }) => {
+  server = await Server.start();
+  watch.allowHost(server.url);
+});
+test.afterEach(async ({ page }) => {
+  // A page that looks for its server would report that it has gone.
+  await page.goto('about:blank');
+  await server.stop();
+});
+
+test('runs its programme, gives way to a visitor, and returns', async ({ page }) => {
+  await page.addInitScript(keepCaptions);
+  const lab = await show(page, `${server.url}/demo`);
+  await begun(lab);
+  expect(await violations(page)).toEqual([]);
+  for (const [index, caption] of CAPTIONS.entries()) {
+    await until(caption, async () => (await captionsOf(page)).length > index, CAPTION_MS);
+  }
+  expect((await captionsOf(page)).slice(0, CAPTIONS.length)).toEqual(CAPTIONS);
+  expect(lab.state.disturbances).toBe(1);
+
+  await page.mouse.click(200, 200);
+  await expect(captionOf(page)).toHaveText(VISITED);
+  const { trial } = lab.scene;
+  await jump(page, SILENCE_MS);
+  await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
+  await until('the planner', () => lab.state.controller === 'errt');
+
+  await page.keyboard.press('Escape');
+  await page.getByRole('button', { name: 'Laboratory' }).waitFor();
+});
+
+test('goes to the plan view without WebGL 2, shows a refusal, and forgets a zoom', async ({
+  page,
+}) => {
+  await page.addInitScript(() => {
+    const { prototype } = HTMLCanvasElement;
+    // eslint-disable-next-line @typescript-eslint/unbound-method
+    const { getContext } = prototype;
+    prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
+      return kind === 'webgl2' ? null : (getContext.call(this, kind, ...rest) as unknown);
+    } as typeof getContext;
+  });
+  const lab = await show(page, `${server.url}/demo`);
+  await begun(lab);
+  await lab.canvas.waitFor();
+  const scaleOf = async () => Number(await lab.canvas.getAttribute('data-px-per-m'));
+  const whole = await scaleOf();
+  const { trial } = lab.scene;
+  await page.mouse.move(...(await lab.px(await lab.bead())));
+  await page.mouse.wheel(0, -600);
+  await expect.poll(scaleOf).toBeGreaterThan(1.5 * whole);
+  await expect(captionOf(page)).toHaveText(VISITED);
+  await jump(page, SILENCE_MS);
+  await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
+  await expect.poll(scaleOf).toBe(whole);
+
+  await lab.click(lab.wallPoint());
+  await expect(lab.notice('workspace')).toBeVisible();
+  expect(await violations(page)).toEqual([]);
+  expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
+});
+
+test('watches on a second screen, and goes on there when the first one leaves', async ({
+  page,
+  browser,
+}) => {
+  const first = await show(page, `${server.url}/demo`);
+  await begun(first);
+  const context = await browser.newContext();
   try {
-    watch.allowHost(server.url);
-    await useSlowDisplay(page);
-    await page.addInitScript(keepCaptions);
-    const lab = new Lab(page);
-    await page.goto(`${server.url}/demo`);
-    await until('the first experiment', () => lab.isComplete && lab.scene.map === 'colon');
-    expect(await violations(page)).toEqual([]);
-    for (const [index, caption] of CAPTIONS.entries()) {
-      await until(caption, async () => (await captionsOf(page)).length > index, CAPTION_MS);
-    }
-    expect((await captionsOf(page)).slice(0, CAPTIONS.length)).toEqual(CAPTIONS);
-    expect(lab.state.disturbances).toBe(1);
+    const second = await show(await context.newPage(), `${server.url}/demo`);
+    await expect(captionOf(second.page)).toHaveText(WATCHING);
+    expect(second.hello.role).toBe('viewer');
+    // A touch is ignored.
+    await second.page.mouse.click(300, 300);
+    await first.later(250);
+    await expect(captionOf(second.page)).toHaveText(WATCHING);
+    expect(second.sent).toEqual({});
+    expect(first.hello).toMatchObject({ role: 'operator', asked: false });
 
-    await page.mouse.click(200, 200);
-    await expect(page.getByRole('status')).toHaveText(/^You are in control/);
-    const { trial } = lab.scene;
-    // The page's clock, not its timers.
-    await page.clock.setFixedTime(Date.now() + SILENCE_MS);
-    await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
-    await until('the planner', () => lab.state.controller === 'errt');
-
-    await page.keyboard.press('Escape');
-    await page.getByRole('button', { name: 'Laboratory' }).waitFor();
-  } finally {
-    // A page that looks for its server would report that it has gone.
+    const { trial } = second.scene;
     await page.goto('about:blank');
-    await server.stop();
+    await expect(captionOf(second.page)).toHaveText(FIRST);
+    await until('the part again', () => second.scene.trial > trial && second.state.running);
+    expect(second.hello.role).toBe('operator');
+    await second.page.goto('about:blank');
+  } finally {
+    await context.close();
+  }
+});
+
+test('waits for its server, and begins again', async ({ page, watch }) => {
+  watch.allow(CONNECTION_LOST);
+  const lab = await show(page, `${server.url}/demo`);
+  await begun(lab);
+  const { opened } = lab.hello;
+  const { port } = server;
+  await server.stop();
+  await expect(captionOf(page)).toHaveText(WAITING);
+  // A page that loads itself again without a server is lost.
+  await jump(page, SILENCE_MS);
+  await page.waitForRequest(`${server.url}/demo`);
+  lab.sent = {};
+  server = await Server.start({ port });
+  await expect(captionOf(page)).toHaveText(FIRST, { timeout: RECONNECT_MS });
+  expect(lab.hello.opened).not.toBe(opened);
+  await until('the part again', () => lab.sent.load_scenario && lab.sent.run);
+  await begun(lab);
+});
+
+/** The test changes a message to report the end, because it cannot cause a fault of the server. */
+test('loads itself again after its session has ended', async ({ page }) => {
+  let connections = 0;
+  await page.routeWebSocket(/\/live$/, (socket) => {
+    connections += 1;
+    const isFirst = connections === 1;
+    const upstream = socket.connectToServer();
+    upstream.onMessage((text) => {
+      const message =
+        typeof text === 'string' ? (JSON.parse(text) as { type?: string }) : undefined;
+      if (!isFirst || message?.type !== 'state') {
+        socket.send(text);
+        return;
+      }
+      socket.send(JSON.stringify({ ...message, ended: 'the camera was lost' }));
+      void socket.close({ code: 1001, reason: 'the session has ended' });
+    });
+  });
+  await page.goto(`${server.url}/demo`);
+  await expect(captionOf(page)).toHaveText(WAITING);
+  await jump(page, SILENCE_MS);
+  await expect(captionOf(page)).toHaveText(FIRST);
+  expect(connections).toBe(2);
+});
+
+test('returns to the session that it was opened from', async ({ page }) => {
+  const url = `${server.url}/s/anna`;
+  const lab = await Lab.attach(page, url);
+  for (const leave of [
+    () => page.getByRole('link', { name: 'Leave' }).click(),
+    () => page.keyboard.press('Escape'),
+  ]) {
+    await page.getByRole('link', { name: 'Present' }).click();
+    await page.getByRole('heading', { name: 'Demonstration' }).waitFor({ state: 'attached' });
+    await leave();
+    await page.waitForURL(url);
+    await lab.live();
   }
 });

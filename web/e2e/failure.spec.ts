@@ -31,6 +31,10 @@ test('explains a failure, and delivers by another controller', async ({ openLab,
   const story = lab.page.getByRole('dialog');
   await expect(story.locator('.why-cause')).toHaveText(CAUSE);
   await story.getByRole('button', { name: 'Close' }).click();
+  // A controller that is chosen afterwards is not to blame.
+  await lab.controller('RL');
+  await lab.drawn();
+  await expect(cardOf(lab).locator('p')).toHaveText(CAUSE);
   await lab.button('Try ERRT').click();
   await expect(cardOf(lab)).toHaveCount(0);
   await until('ERRT', () => lab.state.controller === 'errt');

@@ -1,6 +1,7 @@
 // Uploaded maps: a valid drawing opens, other files are refused.
 
 import { expect, test } from './fixtures';
+import { dropFile } from './support/drop';
 import { DRAWING, openMap } from './support/maps';
 
 const REFUSED: Record<string, { text: string; words: string }> = {
@@ -60,6 +61,25 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   const other = lab.scene.map;
   await lab.map('posts');
   await page.request.delete(`${server.url}/api/maps/${other}`);
+});
+
+test('takes a drawing that is dropped in another view', async ({ lab, openLab, server }) => {
+  const { page } = lab;
+  const drop = (onto: typeof page) => dropFile(onto, 'Dropped.SVG', 'image/svg+xml', DRAWING);
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await viewer.view('Evaluate').click();
+  await drop(viewer.page);
+  await expect(viewer.notice('transport')).toContainText('Take control to open a map.');
+
+  await lab.view('Recordings').click();
+  await drop(page);
+  await expect.poll(() => lab.scene.map).toBe('dropped');
+  await expect(page.locator('.map-report')).toContainText('580 × 330 mm, 2 walls.');
+  await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await lab.button('Dismiss the report').click();
+  await lab.map('posts');
+  await page.request.delete(`${server.url}/api/maps/dropped`);
 });
 
 test('moves a drawing at the arm’s base into its reach', async ({ lab, server }) => {

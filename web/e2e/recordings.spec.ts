@@ -105,10 +105,11 @@ test('names a recording, also on a phone', async ({ lab, newSession, watch }) =>
 });
 
 test('deletes a recording after a question', async ({ lab, session, newSession, server }) => {
-  const [kept, deleted] = [newSession(), newSession()];
-  // The newest is first in the list.
+  const [kept, deleted, newest] = [newSession(), newSession(), newSession()];
+  // The newest is first in the list, so the deleted one is between the others.
   await record(kept);
   await record(deleted);
+  await record(newest);
   await lab.view('Recordings').click();
   const row = rowOf(lab, deleted);
   const opener = row.getByRole('button', { name: /^Delete / });

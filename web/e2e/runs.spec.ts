@@ -38,5 +38,7 @@ test('returns to what a rewind and a reset have left behind', async ({ lab }) =>
   // Its events are on the timeline again.
   const marks = page.getByRole('toolbar', { name: 'Events in time' });
   await expect(marks.getByRole('button').first()).toBeVisible();
-  await expect(page.getByRole('log')).toHaveCount(1);
+  // Its lines in the list of events lead to their stories again.
+  const delivery = page.getByRole('log').getByRole('button', { name: /^Why: Delivered/ });
+  await expect(delivery).toHaveCount(1);
 });

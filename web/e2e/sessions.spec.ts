@@ -9,8 +9,8 @@ import { until } from './support/wait';
 const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const ENDED = /The session has ended: the camera was lost/i;
 const RESTART = 'Restart';
-const GOES_ON = /The server was restarted. This session goes on at/;
-const STARTED_OVER = /started over/;
+const GOES_ON = /This session was interrupted\. It goes on at/;
+const STARTED_OVER = /This session was interrupted\. It started over/;
 const PASSED_ON = /another browser took control/i;
 
 test('opens one session per address', async ({ lab, openLab, newSession }) => {

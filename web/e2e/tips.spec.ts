@@ -55,6 +55,16 @@ test('shows one tip at a time, and none twice', async ({ page, session }) => {
   await expect(tip(page)).toHaveCount(0);
 });
 
+test('does not ask for what is so already', async ({ page, session, openLab }) => {
+  const first = await openLab();
+  await first.run();
+  await first.releaseControl();
+  // Free control goes to the next browser that connects.
+  const lab = await Lab.attach(page, session.url);
+  await lab.isRole('operator');
+  await isTip(page, /^Drag the bead/);
+});
+
 test('skips all tips', async ({ page, session }) => {
   const lab = await Lab.attach(page, session.url);
   expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
@@ -65,13 +75,20 @@ test('skips all tips', async ({ page, session }) => {
   await expect(tip(page)).toHaveCount(0);
 });
 
-test('asks for a goal when it runs without one', async ({ lab }) => {
-  await lab.run();
-  await expect(lab.notice('workspace')).toContainText(NO_GOAL);
+test('asks for a goal when it runs without one, by key and by button', async ({ lab }) => {
+  const notice = lab.notice('workspace');
+  await lab.page.getByRole('heading', { name: 'Workspace' }).click();
+  await lab.page.keyboard.press(' ');
+  await expect(notice).toContainText(NO_GOAL);
   await lab.setGoal(freePointNearBead(lab));
-  await expect(lab.notice('workspace')).toHaveCount(0);
+  await expect(notice).toHaveCount(0);
   await lab.pause();
   await lab.run();
   await lab.drawn();
-  await expect(lab.notice('workspace')).toHaveCount(0);
+  await expect(notice).toHaveCount(0);
+  await lab.pause();
+  await lab.button('Clear goal').click();
+  await until('no goal', () => !lab.state.goal_m);
+  await lab.run();
+  await expect(notice).toContainText(NO_GOAL);
 });

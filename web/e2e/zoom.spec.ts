@@ -36,3 +36,24 @@ test('zooms at the pointer, moves the plan, and still sets goals', async ({ lab 
   await lab.map('colon');
   await expect(lab.button('Fit')).toHaveCount(0);
 });
+
+test('in a small window the wheel scrolls the page, and with Ctrl it zooms', async ({ lab }) => {
+  const { page } = lab;
+  const { mouse, keyboard } = page;
+  const scrolled = () => page.evaluate(() => window.scrollY);
+  const large = await scaleOf(lab);
+  await page.setViewportSize({ width: 900, height: 700 });
+  await expect.poll(() => scaleOf(lab)).not.toBe(large);
+  const { x, y, width, height } = await lab.boxOf(lab.canvas);
+  const whole = await scaleOf(lab);
+  const start = await scrolled();
+  await mouse.move(x + width / 2, y + height / 2);
+  await mouse.wheel(0, 40);
+  await expect.poll(scrolled).toBe(start + 40);
+  expect(await scaleOf(lab), 'the plan zoomed').toBe(whole);
+  await keyboard.down('Control');
+  await mouse.wheel(0, -600);
+  await keyboard.up('Control');
+  await expect.poll(() => scaleOf(lab)).toBeGreaterThan(2 * whole);
+  expect(await scrolled(), 'the page scrolled, too').toBe(start + 40);
+});

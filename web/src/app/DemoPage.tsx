@@ -20,13 +20,25 @@ export function DemoPage(): JSX.Element {
   const interaction = createInteraction(lab);
   const layers = createLayers(MAP_LAYERS, lab, palette);
   const [isFlat, setFlat] = createSignal(false);
-  const surface = { lab, interaction, layers, palette, helpId: HELP_ID };
+  const toPlan = (): void => {
+    setFlat(true);
+  };
+  const [begun, setBegun] = createSignal(0);
+  const surface = { lab, interaction, layers, palette, helpId: HELP_ID, whole: begun };
   return (
-    <Demo lab={lab}>
+    <Demo
+      lab={lab}
+      onBegin={() => {
+        setBegun((count) => count + 1);
+      }}
+    >
       <p id={HELP_ID} class="visually-hidden">
         Drag the bead to disturb it. Click a free place to set a goal.
       </p>
-      <Show when={isFlat()} fallback={<ScenePanel {...surface} onPlan={() => setFlat(true)} />}>
+      <Show
+        when={isFlat()}
+        fallback={<ScenePanel {...surface} onPlan={toPlan} onProblem={toPlan} />}
+      >
         <PlanView {...surface} />
       </Show>
     </Demo>

@@ -18,6 +18,7 @@ import { LiveRegion } from './LiveRegion';
 import { LowerPanel } from './LowerPanel';
 import { RecordingsView } from '../features/recordings/RecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
+import { createMapOpener } from '../features/maps/opener';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
 import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
@@ -39,7 +40,16 @@ export function Page(): JSX.Element {
   const [view, setView] = createSignal<View>('laboratory');
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture, createPalette(theme));
-  onFileDrop(/\.json$/i, (file) => void openCase(lab, file));
+  const opener = createMapOpener(lab);
+  /** The laboratory shows what a dropped file has changed, or why it was refused. */
+  const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
+    onFileDrop(name, (file) => {
+      setView('laboratory');
+      void take(file);
+    });
+  };
+  onDrop(/\.svg$/i, (file) => opener.open(file));
+  onDrop(/\.json$/i, (file) => openCase(lab, file));
   return (
     <>
       <Header lab={lab} theme={theme} onTheme={toggle} view={view()} onView={setView} />
@@ -52,7 +62,7 @@ export function Page(): JSX.Element {
             above={<ExperimentNotice lab={lab} links={links} />}
             choices={
               <>
-                <OpenMap lab={lab} />
+                <OpenMap lab={lab} opener={opener} />
                 <PresetSelect lab={lab} links={links} />
               </>
             }

@@ -54,8 +54,9 @@ export function WorkspaceHead(props: {
       <div class="buttons">
         <a
           class="button small"
-          href="/demo"
-          title="A demonstration on the whole screen that runs by itself; Esc returns"
+          // The demonstration returns to this page.
+          href={`/demo#${window.location.pathname}`}
+          title="A demonstration that runs by itself. F11 gives it the whole screen, Esc returns."
         >
           Present
         </a>

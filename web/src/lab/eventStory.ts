@@ -18,6 +18,10 @@ const TITLES: Readonly<Record<EventKind, string>> = {
   session: 'Session',
 };
 
+/** Whether two messages are about the same event: the server sends events again. */
+export const isSameEvent = (a: EventMessage, b: EventMessage): boolean =>
+  a.tick === b.tick && a.kind === b.kind && a.text === b.text;
+
 export function eventTitle(event: Pick<EventMessage, 'kind' | 'sim_time_s'>): string {
   return `${TITLES[event.kind]} at ${clock(event.sim_time_s)}`;
 }

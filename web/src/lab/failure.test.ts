@@ -1,10 +1,25 @@
 import { describe, expect, it } from 'vitest';
 import type { MomentMessage } from '../net/protocol.gen';
-import { type Attempt, betterController, causeOf, causeOfEvent, isFailure } from './failure';
+import {
+  adviceOf,
+  type Attempt,
+  betterController,
+  causeOf,
+  causeOfEvent,
+  failedAttempt,
+  furtherSteps,
+  isFailure,
+  needsReset,
+} from './failure';
+import { stateAt } from './testing';
 
+const LEG = 'stopped: 150 steps without reaching the goal';
+const GOAL = 'stopped: 600 steps without delivering';
+const REACHED = 'stopped: reached, but the bead did not follow within 5 s';
+const WALLED_OFF = 'stopped: the goal is walled off';
 const LOOP: Attempt = {
   controller: 'rl',
-  end: 'stopped: 150 steps without reaching the goal',
+  end: LEG,
   trouble: 'going to and fro without getting nearer',
   map: 'colon-folds',
   trainedOn: ['colon'],
@@ -20,15 +35,114 @@ describe('the cause of a failure', () => {
   it('does not blame the map that the policy was trained on', () => {
     expect(causeOf({ ...LOOP, map: 'colon' })).not.toContain('trained');
     expect(causeOf({ ...LOOP, trainedOn: undefined })).not.toContain('trained');
-  });
-
-  it('without a trouble is the limit', () => {
-    const late = { ...LOOP, controller: 'errt' as const, trouble: null };
-    expect(causeOf(late)).toBe('ERRT: 150 steps without reaching the goal.');
+    expect(causeOf({ ...LOOP, controller: 'errt' })).not.toContain('trained');
   });
 
   it('is the magnet after a lift-off', () => {
-    expect(causeOf({ ...LOOP, end: 'lifted off' })).toContain('magnet');
+    expect(causeOf({ ...LOOP, end: 'lifted off' })).toBe(
+      'The magnet lifted the bead off the table.',
+    );
+  });
+
+  it('is not the controller if the bead did not follow', () => {
+    expect(causeOf({ ...LOOP, end: REACHED })).toBe(
+      'The tool reached the goal, but the bead did not follow within 5 s.',
+    );
+  });
+});
+
+/** Every trouble of `server/control/transport.rs`, and none. */
+const TROUBLES: readonly [string | null, string][] = [
+  ['stuck where the flow ends before the goal', 'is stuck where the flow ends before the goal.'],
+  ['going to and fro without getting nearer', 'is going to and fro without getting nearer.'],
+  ['too near a wall to go on', 'is too near a wall to go on.'],
+  ['blocked: each step is refused', 'is blocked: each step is refused.'],
+  ['no path found yet', 'has found no path yet.'],
+  ['walled off', 'found no path: the goal is walled off.'],
+  [null, ''],
+];
+const CONTROLLERS = [
+  ['rl', 'RL'],
+  ['errt', 'ERRT'],
+  ['attractor', 'Attractor'],
+] as const;
+
+describe.each(CONTROLLERS)('%s fails', (controller, name) => {
+  describe.each(TROUBLES)('with the trouble “%s”', (trouble, words) => {
+    const attempt = (end: string): Attempt => ({ controller, end, trouble, map: 'colon' });
+
+    it.each([
+      [LEG, 150],
+      [GOAL, 600],
+    ])('at the limit “%s”', (end, steps) => {
+      const cause = trouble === null ? `${name} ${end}.` : `${name} ${words} It ${end}.`;
+      expect(causeOf(attempt(end))).toBe(cause);
+      expect(furtherSteps(attempt(end))).toBe(steps);
+      expect(betterController(attempt(end))).toBe(controller === 'errt' ? undefined : 'errt');
+      expect(adviceOf(attempt(end))).toBeUndefined();
+      expect(needsReset(attempt(end))).toBe(false);
+    });
+
+    it.each([
+      [
+        REACHED,
+        'The tool reached the goal, but the bead did not follow within 5 s.',
+        'Choose another goal, or drag the bead to this one.',
+        false,
+      ],
+      [WALLED_OFF, `${name} found no path: the goal is walled off.`, 'Choose another goal.', false],
+      ['lifted off', 'The magnet lifted the bead off the table.', undefined, true],
+    ])('with the end “%s”', (end, cause, advice, reset) => {
+      expect(causeOf(attempt(end))).toBe(cause);
+      expect(furtherSteps(attempt(end)), 'further steps would only repeat it').toBeUndefined();
+      expect(betterController(attempt(end))).toBeUndefined();
+      expect(adviceOf(attempt(end))).toBe(advice);
+      expect(needsReset(attempt(end))).toBe(reset);
+    });
+  });
+});
+
+describe('a failed attempt', () => {
+  const scene = { map: 'colon', trial: 3 };
+  const end = stateAt(900, {
+    phase: LEG,
+    goal_m: [0.1, -0.3, 0],
+    steps: 150,
+    controller: 'attractor',
+    trouble: 'too near a wall to go on',
+  });
+  const first = failedAttempt(undefined, end, scene, undefined);
+
+  it('stays as it was when the controller changes', () => {
+    const changed = { ...end, controller: 'rl', trouble: null } as const;
+    expect(failedAttempt(first, changed, scene, undefined)).toEqual(first);
+    expect(first).toMatchObject({ controller: 'attractor', trouble: 'too near a wall to go on' });
+  });
+
+  it('learns on what the policy was trained when that comes later, but only once', () => {
+    const second = failedAttempt(first, end, scene, ['colon']);
+    expect(second?.trainedOn).toEqual(['colon']);
+    expect(failedAttempt(second, end, scene, ['posts'])?.trainedOn).toEqual(['colon']);
+  });
+
+  it.each([
+    ['trial', { map: 'colon', trial: 4 }, {}],
+    ['goal', scene, { goal_m: [0.2, -0.3, 0] as [number, number, number] }],
+    ['number of steps', scene, { steps: 300 }],
+    ['end', scene, { phase: GOAL }],
+  ])('is another one with another %s', (_, otherScene, change) => {
+    const other = { ...end, controller: 'rl' as const, trouble: null, ...change };
+    const next = failedAttempt(first, other, otherScene, undefined);
+    expect(next?.key).not.toBe(first?.key);
+    expect(next?.controller).toBe('rl');
+  });
+
+  it('is over when the bead moves on or the goal is removed', () => {
+    const after = (change: object): unknown =>
+      failedAttempt(first, { ...end, ...change }, scene, undefined);
+    expect(after({ phase: 'transporting' })).toBeUndefined();
+    expect(after({ goal_m: null })).toBeUndefined();
+    expect(after({ goal_m: null, phase: 'lifted off' })).toBeDefined();
   });
 });
 
@@ -46,13 +160,7 @@ it.each([
   ['delivered', false],
   ['transporting', false],
   ['lifted off', true],
-  ['stopped: the goal is walled off', true],
+  [WALLED_OFF, true],
 ])('“%s” is a failure: %s', (phase, failed) => {
   expect(isFailure(phase)).toBe(failed);
-});
-
-it('advises ERRT where it can do better', () => {
-  expect(betterController(LOOP)).toBe('errt');
-  expect(betterController({ ...LOOP, controller: 'errt' })).toBeUndefined();
-  expect(betterController({ ...LOOP, end: 'stopped: the goal is walled off' })).toBeUndefined();
 });

@@ -10,6 +10,16 @@ const scene = (map = 'posts', trial = 0): Input =>
 const state = (tick: number): Input => message({ type: 'state', ...stateAt(tick) });
 const event = (tick: number, kind: EventMessage['kind'] = 'switch'): Input =>
   message({ type: 'event', tick, sim_time_s: tick * 0.008, kind, text: `at ${tick}` });
+/** An event of the past of the run, to which the session has returned. */
+const again = (tick: number): Input =>
+  message({
+    type: 'event',
+    tick,
+    sim_time_s: tick * 0.008,
+    kind: 'switch',
+    text: `at ${tick}`,
+    again: true,
+  });
 const play = (...inputs: Input[]): Model => inputs.reduce(reduce, EMPTY);
 
 describe('messages', () => {
@@ -60,6 +70,35 @@ describe('the timeline', () => {
   it('is empty in another trial, but not in the same one', () => {
     expect(play(scene(), event(5), scene()).marks).toHaveLength(1);
     expect(play(scene(), event(5), scene('posts', 1)).marks).toHaveLength(0);
+  });
+});
+
+describe('events that are sent again', () => {
+  it('are on the timeline as the objects of their log lines, and are not logged again', () => {
+    const model = play(scene(), event(5), event(9), scene('posts', 1), again(5), again(9));
+    expect(model.log).toHaveLength(2);
+    expect(model.marks).toHaveLength(2);
+    model.marks.forEach((mark, index) => expect(mark).toBe(model.log[index]?.event));
+  });
+
+  it('are on the timeline without a log line, too', () => {
+    const model = play(again(5));
+    expect(model.marks.map(({ tick }) => tick)).toEqual([5]);
+    expect(model.log).toEqual([]);
+  });
+
+  it('have the newest of equal log lines', () => {
+    const model = play(event(5), event(9), event(5), scene(), scene('posts', 1), again(5));
+    expect(model.marks[0]).toBe(model.log[2]?.event);
+  });
+
+  it('are on the timeline once', () => {
+    expect(play(event(5), again(5), again(5)).marks).toHaveLength(1);
+    const live = play(again(5), event(5), event(5));
+    expect(live.marks).toHaveLength(1);
+    expect(live.log.map(({ count }) => count)).toEqual([2]);
+    // Another kind is another event.
+    expect(play(event(5), event(5, 'goal')).marks).toHaveLength(2);
   });
 });
 

@@ -14,6 +14,7 @@ import {
   type StateMessage,
 } from '../net/protocol.gen';
 import type { Notice } from '../ui/NoticeBar';
+import { isSameEvent } from './eventStory';
 import { HAND_SILENT, type Place, PLACE_OF_COMMAND, placeOfError } from './places';
 import { restartText } from './restart';
 
@@ -185,12 +186,14 @@ function withMessage(model: Model, message: ServerMessage): Model {
     case 'event': {
       // A session event at tick 0 means a new setup: earlier marks are dropped.
       const before = message.kind === 'session' && message.tick === 0 ? [] : model.marks;
+      const isKnown = before.some((mark) => isSameEvent(mark, message));
+      // One object per event: the list of events finds its lines on the timeline by it.
+      const logged = message.again
+        ? model.log.findLast(({ event }) => event && isSameEvent(event, message))?.event
+        : undefined;
+      const marks = isKnown ? before : [...before, logged ?? message].slice(-MARKS);
+      const marked = { ...model, marks };
       // The log has the past of a run already.
-      const isKnown = before.some(
-        ({ tick, text }) => tick === message.tick && text === message.text,
-      );
-      if (message.again && isKnown) return model;
-      const marked = { ...model, marks: [...before, message].slice(-MARKS) };
       if (message.again) return marked;
       return withLine(marked, message.kind, message.text, message.sim_time_s, message);
     }

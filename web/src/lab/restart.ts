@@ -1,4 +1,4 @@
-// What the page says after a restart of the server.
+// What the page says when its session was closed and opened again, for example by a restart of the server.
 
 import type { Hello } from '../net/protocol.gen';
 
@@ -12,7 +12,7 @@ export function restartText(
   if (resumed_s !== null) {
     // A page that has just come needs to know only while nothing has happened since.
     if (before === undefined && sim_time_s !== resumed_s) return undefined;
-    return `The server was restarted. This session goes on at ${resumed_s.toFixed(1)} s, paused.`;
+    return `This session was interrupted. It goes on at ${resumed_s.toFixed(1)} s, paused.`;
   }
-  return before === undefined ? undefined : 'The server was restarted. This session started over.';
+  return before === undefined ? undefined : 'This session was interrupted. It started over.';
 }

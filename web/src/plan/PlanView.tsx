@@ -33,6 +33,8 @@ export interface SurfaceProps {
   readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
   readonly helpId: string;
+  /** The whole workspace is shown again when this changes. */
+  readonly whole?: Accessor<number>;
   /** Called with the view when it can be drawn, and with nothing when it closes. */
   readonly onPicture?: (picture: ViewPicture | undefined) => void;
 }
@@ -55,13 +57,8 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     const now = frame();
     return now && zoomedView(now, zoom());
   });
-  createEffect(
-    on(
-      () => lab.scene()?.map,
-      () => setZoom(WHOLE),
-      { defer: true },
-    ),
-  );
+  const map = createMemo(() => lab.scene()?.map);
+  createEffect(on([map, () => props.whole?.()], () => setZoom(WHOLE), { defer: true }));
   createEffect(() => {
     const now = view();
     interaction.setView(now && tableViewOf(now));

@@ -1,21 +1,25 @@
 // Wheel, two fingers, drag and keys zoom and move the plan view.
 
-import { distance, type Vec2 } from '../lab/geometry';
+import { onCleanup } from 'solid-js';
+import type { Vec2 } from '../lab/geometry';
 import type { Shortcut } from '../ui/shortcuts';
 import type { Hand } from './hand';
+import { Pressed } from './pressed';
 import { type Frame, WHOLE, type Zoom, panBy, zoomAt } from './zoom';
 
 /** Shown in the help. */
 export const ZOOM_SHORTCUTS: readonly Shortcut[] = [
-  { group: 'Workspace', keys: ['+', '-'], does: 'zoom the plan' },
+  {
+    group: 'Workspace',
+    keys: ['+', '-'],
+    does: 'zoom the plan, like the wheel (with Ctrl in a small window)',
+  },
   { group: 'Workspace', keys: ['Home'], does: 'show the whole plan' },
 ];
 
 /** Zoom per pixel of the wheel. */
 const WHEEL = 1.0015;
 const KEY = 1.25;
-/** A shorter movement of a finger may still be a tap. */
-const SLOP_PX = 8;
 
 export interface Zooming {
   readonly frame: () => Frame | undefined;
@@ -23,11 +27,23 @@ export interface Zooming {
   readonly setZoom: (zoom: Zoom) => void;
 }
 
+/** Whether the page itself is zoomed by two fingers. Rounding may leave a scale just above 1. */
+const isPageZoomed = (): boolean => (window.visualViewport?.scale ?? 1) > 1.01;
+
+/** Whether the page scrolls in this layout, so that a plain wheel belongs to it. See plan.css. */
+const doesPageScroll = (canvas: Element): boolean =>
+  getComputedStyle(canvas).getPropertyValue('--page-scrolls') !== '';
+
 /** Listens while the canvas exists, after the listeners of the hand. */
 export function attachZoom(canvas: HTMLCanvasElement, hand: Hand, zooming: Zooming): void {
-  const change = (next: (frame: Frame, zoom: Zoom) => Zoom): void => {
+  /** Returns whether it changed something. */
+  const change = (next: (frame: Frame, zoom: Zoom) => Zoom): boolean => {
     const frame = zooming.frame();
-    if (frame) zooming.setZoom(next(frame, zooming.zoom()));
+    if (!frame) return false;
+    const before = zooming.zoom();
+    const now = next(frame, before);
+    zooming.setZoom(now);
+    return now.factor !== before.factor;
   };
   const placeOf = (event: MouseEvent): Vec2 => {
     const box = canvas.getBoundingClientRect();
@@ -37,11 +53,13 @@ export function attachZoom(canvas: HTMLCanvasElement, hand: Hand, zooming: Zoomi
   canvas.addEventListener(
     'wheel',
     (event) => {
-      event.preventDefault();
+      if (!event.ctrlKey && doesPageScroll(canvas)) return;
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
-      change((frame, zoom) =>
+      const isZoomed = change((frame, zoom) =>
         zoomAt(frame, zoom, placeOf(event), WHEEL ** (-event.deltaY * lines)),
       );
+      // Otherwise it scrolls the page. With Ctrl it would zoom the page, which is wanted only to get back.
+      if (isZoomed || (event.ctrlKey && !isPageZoomed())) event.preventDefault();
     },
     { passive: false },
   );
@@ -55,35 +73,39 @@ export function attachZoom(canvas: HTMLCanvasElement, hand: Hand, zooming: Zoomi
     event.preventDefault();
   });
 
-  /** The pressed pointers, and where they are. */
-  const pointers = new Map<number, Vec2>();
-  let moved_px = 0;
+  const pressed = new Pressed();
   canvas.addEventListener('pointerdown', (event) => {
-    pointers.set(event.pointerId, placeOf(event));
-    moved_px = 0;
+    if (event.button !== 0) return;
+    // Its release is noticed outside, too.
+    canvas.setPointerCapture(event.pointerId);
     // Two fingers zoom, so the first one was neither a tap nor a drag.
-    if (pointers.size === 2) hand.release('second finger');
+    if (pressed.press(event.pointerId, placeOf(event))) hand.release('second finger');
   });
   canvas.addEventListener('pointermove', (event) => {
-    const before = pointers.get(event.pointerId);
-    if (!before || event.buttons === 0) return;
-    const now = placeOf(event);
-    pointers.set(event.pointerId, now);
-    const [other] = [...pointers].filter(([id]) => id !== event.pointerId);
-    if (other) {
-      const at = other[1];
-      const by = distance(now, at) / Math.max(1, distance(before, at));
-      change((frame, zoom) => zoomAt(frame, zoom, at, by));
+    if (event.buttons === 0) {
+      pressed.forget(event.pointerId);
       return;
     }
-    moved_px += distance(before, now);
-    const isHeld = hand.drag().kind !== 'idle';
-    if (isHeld || moved_px < SLOP_PX) return;
-    change((frame, zoom) => panBy(frame, zoom, [now[0] - before[0], now[1] - before[1]]));
+    const gesture = pressed.move(event.pointerId, placeOf(event));
+    if (gesture?.type === 'zoom') {
+      change((frame, zoom) => zoomAt(frame, zoom, gesture.at, gesture.by));
+    } else if (gesture && hand.drag().kind === 'idle') {
+      change((frame, zoom) => panBy(frame, zoom, gesture.by));
+    }
   });
   const forget = (event: PointerEvent): void => {
-    pointers.delete(event.pointerId);
+    pressed.forget(event.pointerId);
   };
   canvas.addEventListener('pointerup', forget);
   canvas.addEventListener('pointercancel', forget);
+  canvas.addEventListener('lostpointercapture', forget);
+
+  // While the page is zoomed, two fingers zoom the page, so that the user can get back.
+  const page = window.visualViewport;
+  const yieldToPage = (): void => {
+    canvas.style.touchAction = isPageZoomed() ? 'pinch-zoom' : '';
+  };
+  yieldToPage();
+  page?.addEventListener('resize', yieldToPage);
+  onCleanup(() => page?.removeEventListener('resize', yieldToPage));
 }

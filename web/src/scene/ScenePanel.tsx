@@ -6,6 +6,7 @@ import {
   createEffect,
   createMemo,
   createSignal,
+  on,
   onCleanup,
   untrack,
   type JSX,
@@ -37,7 +38,12 @@ async function loadObjects(layers: readonly (MapLayer & InScene)[]): Promise<Loa
 }
 
 export function ScenePanel(
-  props: SurfaceProps & { layers: readonly LiveLayer<MapLayer & InScene>[]; onPlan: () => void },
+  props: SurfaceProps & {
+    layers: readonly LiveLayer<MapLayer & InScene>[];
+    onPlan: () => void;
+    /** Called when the view cannot be shown. */
+    onProblem?: () => void;
+  },
 ): JSX.Element {
   const { lab, interaction, layers, palette } = props;
   const { hand, reachPx, focused, cursor } = interaction;
@@ -83,6 +89,7 @@ export function ScenePanel(
     });
     open(canvas).catch((reason: unknown) => {
       setProblem(reason instanceof Error ? reason.message : String(reason));
+      props.onProblem?.();
     });
   };
   onCleanup(() => {
@@ -105,6 +112,13 @@ export function ScenePanel(
     props.onPicture?.({ size: size(), draw });
   });
   onCleanup(() => props.onPicture?.(undefined));
+  createEffect(
+    on(
+      () => props.whole?.(),
+      () => drawing()?.goTo('Home'),
+      { defer: true },
+    ),
+  );
   createEffect(() => {
     drawing()?.recolor(palette());
   });

@@ -1,6 +1,11 @@
-// The user's choices in the browser's storage. If storage is forbidden, choices last as long as the page.
+// The user's choices in the browser's storage. If storage is forbidden or full, choices last as long as the page.
+
+/** Choices that could not be stored. */
+const unstored = new Map<string, string>();
 
 export function recall(key: string): string | null {
+  const choice = unstored.get(key);
+  if (choice !== undefined) return choice;
   try {
     return localStorage.getItem(`ferry.${key}`);
   } catch {
@@ -11,8 +16,9 @@ export function recall(key: string): string | null {
 export function remember(key: string, value: string): void {
   try {
     localStorage.setItem(`ferry.${key}`, value);
+    unstored.delete(key);
   } catch {
-    // See above.
+    unstored.set(key, value);
   }
 }
 

@@ -1,59 +1,125 @@
 // The demonstration: runs the programme, shows its captions, and gives way to a visitor.
 
-import { Show, createEffect, createSignal, onCleanup, onMount, untrack, type JSX } from 'solid-js';
+import {
+  Show,
+  createEffect,
+  createSignal,
+  on,
+  onCleanup,
+  onMount,
+  untrack,
+  type JSX,
+} from 'solid-js';
 import { experimentFrom, loadMessage } from '../../lab/experimentLink';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
-import type { Session, Trial } from '../../lab/slices';
-import { PROGRAMME, SILENCE_MS, afterCue, isOver, nextCue, startOf, turned } from './programme';
+import { PlaceNotice } from '../../lab/PlaceNotice';
+import type { Notices, Session, Trial } from '../../lab/slices';
+import { openPage } from '../../net/access';
+import type { SceneMessage } from '../../net/protocol.gen';
+import {
+  PROGRAMME,
+  SILENCE_MS,
+  afterCue,
+  homeOf,
+  isOver,
+  isVisitorKey,
+  nextCue,
+  startOf,
+  turned,
+} from './programme';
 import './demo.css';
 
 const TICK_MS = 250;
-/** After the session has ended or the server has gone, the page is loaded again. */
+/** Interval of attempts to load the page again when it cannot go on. */
 const RELOAD_MS = 10_000;
-const VISITOR = 'You are in control: drag the bead, touch a place to set a goal.';
+const VISITED = 'You are in control: drag the bead, touch a place to set a goal.';
+const WATCHING = 'Another screen runs this demonstration.';
+const WAITING = 'One moment, please.';
 
-export function Demo(props: { lab: Session & Trial; children: JSX.Element }): JSX.Element {
+/** Not changed by a correction of the computer's clock. */
+const nowMs = (): number => performance.now();
+
+export function Demo(props: {
+  lab: Session & Trial & Notices;
+  /** A part begins: the view returns to what it shows at first. */
+  onBegin: () => void;
+  children: JSX.Element;
+}): JSX.Element {
   const { lab } = props;
-  const [place, setPlace] = createSignal(startOf(0, Date.now()));
+  const home = homeOf(window.location.hash);
+  const [place, setPlace] = createSignal(startOf(0, nowMs()));
   /** When a visitor last touched the screen; undefined while the programme runs. */
   const [touched_ms, setTouched] = createSignal<number>();
-  /** Number of the trial of the present part; undefined until the server has set it up. */
-  let trial: number | undefined;
-  let isSetUp = false;
-  let broken_ms: number | undefined;
+  /** Number of the trial that the present part replaces; undefined until the part is set up. */
+  let replaced: number | undefined;
+  /** Number of the trial of the present part, when its scene has come. */
+  let shown: number | undefined;
+  /** The scene of a connection that was lost. The next connection sends another one. */
+  let stale: SceneMessage | undefined;
+  let hasAsked = false;
+  let reload_ms: number | undefined;
+
+  const isLive = (): boolean => lab.connection().kind === 'live';
+  /** The session or this page is over: only a new page goes on. */
+  const isDone = (): boolean => lab.ended() !== undefined || lab.connection().kind === 'outdated';
+
+  // After lost control or a lost connection the part begins again.
+  createEffect(() => {
+    if (!isLive()) {
+      stale = untrack(lab.scene);
+      hasAsked = false;
+    }
+    if (!lab.canOperate()) {
+      replaced = undefined;
+      setTouched(undefined);
+    }
+  });
 
   const setUp = (): void => {
     const scene = lab.scene();
     const part = PROGRAMME[place().part];
-    if (!scene || !part || !lab.canOperate()) return;
+    if (!scene || scene === stale || !part) return;
     const read = experimentFrom(part.link, scene);
     if (read.kind !== 'experiment')
       throw new Error(`the programme has a broken link: ${part.link}`);
-    trial = scene.trial;
-    isSetUp = true;
+    replaced = scene.trial;
+    shown = undefined;
     lab.send(loadMessage(read.experiment, scene.defaults));
     lab.send({ type: 'set_speed', factor: part.speed });
     lab.send({ type: 'run' });
   };
   const begin = (part: number): void => {
-    setPlace(startOf(part, Date.now()));
+    setPlace(startOf(part, nowMs()));
     setTouched(undefined);
-    isSetUp = false;
+    replaced = undefined;
+    props.onBegin();
     setUp();
   };
 
+  const reload = async (): Promise<void> => {
+    reload_ms = Infinity;
+    // The browser's own page for a missing server would stay.
+    const { isOpen } = await openPage(window.location.pathname);
+    if (isOpen) window.location.reload();
+    reload_ms = nowMs() + RELOAD_MS;
+  };
+  const takeFreeControl = (): void => {
+    const isFree = lab.hello()?.operator_present === false;
+    if (isFree) lab.send({ type: 'take_control' });
+    // Another browser was faster. The request would take control from it when it sends nothing for a time.
+    else if (hasAsked) lab.send({ type: 'release_control' });
+    hasAsked = isFree;
+  };
   const tick = (): void => {
-    const now = Date.now();
-    const isLive = lab.connection().kind === 'live' && lab.ended() === undefined;
-    broken_ms = isLive ? undefined : (broken_ms ?? now);
-    if (broken_ms !== undefined && now - broken_ms > RELOAD_MS) {
-      // An ended session starts over when its page is loaded.
-      window.location.reload();
+    const now = nowMs();
+    if (isDone()) {
+      reload_ms ??= now + RELOAD_MS;
+      if (now >= reload_ms) void reload();
       return;
     }
-    if (!isLive) return;
+    if (!isLive()) return;
     if (!lab.canOperate()) {
-      lab.send({ type: 'take_control' });
+      takeFreeControl();
       return;
     }
     const touched = touched_ms();
@@ -62,51 +128,70 @@ export function Demo(props: { lab: Session & Trial; children: JSX.Element }): JS
       return;
     }
     setPlace(turned(place(), now));
-    if (!isSetUp) setUp();
+    if (replaced === undefined) begin(place().part);
     else if (isOver(place(), now)) begin(place().part + 1);
   };
 
-  createEffect(() => {
-    const [state, scene] = [lab.state(), lab.scene()];
-    if (!state || !scene || touched_ms() !== undefined || scene.trial === trial || !isSetUp) return;
-    untrack(() => {
-      const cue = nextCue(place(), state);
-      if (!cue) return;
-      setPlace(afterCue(place(), cue));
-      if (cue.command) lab.send(cue.command);
-    });
-  });
+  createEffect(
+    on(lab.state, (state) => {
+      const trial = lab.scene()?.trial;
+      if (!state || touched_ms() !== undefined) return;
+      if (replaced === undefined || trial === replaced) return;
+      if (trial !== shown) {
+        // This state may be the last one of the trial before.
+        shown = trial;
+        return;
+      }
+      const index = nextCue(place(), state);
+      if (index === undefined) return;
+      const command = PROGRAMME[place().part]?.cues[index]?.command;
+      setPlace(afterCue(place(), index));
+      if (command) lab.send(command);
+    }),
+  );
 
   onMount(() => {
     const timer = setInterval(tick, TICK_MS);
-    const onTouch = (event: Event): void => {
-      if (event instanceof KeyboardEvent && event.key === 'Escape') {
-        window.location.assign('/');
-        return;
-      }
-      setTouched(Date.now());
+    const listening = new AbortController();
+    const listen = <K extends keyof WindowEventMap>(
+      type: K,
+      listener: (event: WindowEventMap[K]) => void,
+    ): void => {
+      const { signal } = listening;
+      window.addEventListener(type, listener, { capture: true, passive: true, signal });
+    };
+    const touch = (): void => {
+      if (!lab.canOperate()) return;
+      setTouched(nowMs());
       if (!lab.state()?.running) lab.send({ type: 'run' });
     };
-    const onMove = (event: PointerEvent): void => {
+    listen('pointerdown', touch);
+    listen('wheel', touch);
+    listen('pointermove', (event) => {
       // A drag that goes on is no silence.
-      if (event.buttons !== 0) setTouched(Date.now());
-    };
-    window.addEventListener('pointerdown', onTouch, true);
-    window.addEventListener('pointermove', onMove, true);
-    window.addEventListener('keydown', onTouch, true);
+      if (event.buttons !== 0) touch();
+    });
+    listen('keydown', (event) => {
+      if (event.key === 'Escape') window.location.assign(home);
+      else if (isVisitorKey(event)) touch();
+    });
     onCleanup(() => {
       clearInterval(timer);
-      window.removeEventListener('pointerdown', onTouch, true);
-      window.removeEventListener('pointermove', onMove, true);
-      window.removeEventListener('keydown', onTouch, true);
+      listening.abort();
     });
   });
 
-  const caption = (): string => (touched_ms() === undefined ? place().caption : VISITOR);
+  const caption = (): string => {
+    if (lab.canOperate()) return touched_ms() === undefined ? place().caption : VISITED;
+    if (isDone() || lab.connection().kind === 'lost') return WAITING;
+    return lab.hello()?.operator_present ? WATCHING : '';
+  };
   return (
     <main class="demo" data-part={place().part}>
       <h1 class="visually-hidden">Demonstration</h1>
-      <div class="demo-stage">{props.children}</div>
+      <div class="demo-stage" inert={!lab.canOperate()}>
+        {props.children}
+      </div>
       <Show when={lab.state()}>
         {(state) => (
           <p class="demo-mode" data-mode={state().mode}>
@@ -114,10 +199,14 @@ export function Demo(props: { lab: Session & Trial; children: JSX.Element }): JS
           </p>
         )}
       </Show>
+      <PlaceNotice lab={lab} place="workspace" />
       <p class="demo-caption" role="status">
         {caption()}
       </p>
       <p class="demo-safety">Simulation, not safety-rated</p>
+      <a class="demo-leave" href={home}>
+        Leave
+      </a>
     </main>
   );
 }

@@ -1,13 +1,16 @@
 import { describe, expect, it } from 'vitest';
 import { experimentFrom } from '../../lab/experimentLink';
 import { sceneOf, stateAt } from '../../lab/testing';
+import type { StateMessage } from '../../net/protocol.gen';
 import {
   PART_MS,
   PROGRAMME,
   READ_MS,
   REST_MS,
   afterCue,
+  homeOf,
   isOver,
+  isVisitorKey,
   nextCue,
   startOf,
   turned,
@@ -24,22 +27,31 @@ describe('the programme', () => {
   it('follows its cues in order', () => {
     let place = startOf(0, 0);
     expect(place.caption).toBe(PROGRAMME[0]?.title);
-    expect(nextCue(place, stateAt(1))).toBeUndefined();
-    const carrying = stateAt(2, { phase: 'transporting', mode: 2, leg_steps: 80 });
     const captions: string[] = [];
     let now_ms = 0;
-    for (const state of [
-      carrying,
-      carrying,
-      carrying,
-      stateAt(3, { phase: 'approaching', mode: 1 }),
-      carrying,
-      stateAt(4, { deliveries: 1 }),
-    ]) {
+    const see = (state: StateMessage): void => {
       const cue = nextCue(place, state);
-      if (!cue) break;
+      if (cue === undefined) return;
       place = turned(afterCue(place, cue), (now_ms += READ_MS));
       captions.push(place.caption);
+    };
+    const first = { phase: 'transporting', mode: 2 };
+    const pulled = { ...first, disturbances: 1 };
+    for (const state of [
+      // The first fetch is not one of a lost bead.
+      stateAt(1, { phase: 'approaching' }),
+      stateAt(2, first),
+      stateAt(3, { ...first, leg_steps: 18 }),
+      stateAt(4, { ...first, leg_steps: 45 }),
+      stateAt(5, { ...first, leg_steps: 60 }),
+      // The loss is noticed later.
+      stateAt(6, { ...pulled, leg_steps: 61 }),
+      stateAt(7, { phase: 'approaching', leg_steps: 61, disturbances: 1 }),
+      stateAt(8, { ...pulled, leg_steps: 1 }),
+      stateAt(9, { ...pulled, leg_steps: 70 }),
+      stateAt(10, { ...pulled, phase: 'delivered', deliveries: 1 }),
+    ]) {
+      see(state);
     }
     expect(captions).toEqual(PROGRAMME[0]?.cues.map(({ caption }) => caption));
     expect(captions.at(-1)).toBe('Delivered.');
@@ -47,15 +59,33 @@ describe('the programme', () => {
     expect(isOver(place, now_ms + 1 + REST_MS)).toBe(true);
   });
 
+  it('goes on after a missed cue', () => {
+    const pulled = afterCue(startOf(0, 0), 2);
+    const carrying = stateAt(1, {
+      phase: 'transporting',
+      mode: 2,
+      leg_steps: 9,
+      disturbances: 1,
+    });
+    expect(nextCue(pulled, carrying), 'a fetch that no state showed').toBe(4);
+    const delivered = stateAt(2, { phase: 'delivered', mode: 2, deliveries: 1 });
+    for (const place of [startOf(0, 0), pulled]) {
+      const cue = nextCue(place, delivered);
+      expect(cue).toBe(5);
+      const last = turned(afterCue(place, cue ?? NaN), READ_MS);
+      expect(isOver(turned(last, 2 * READ_MS), 2 * READ_MS + REST_MS + 1)).toBe(true);
+    }
+  });
+
   it('leaves each caption its time', () => {
-    const cue = { when: () => true, caption: 'one' };
-    let place = afterCue(afterCue(startOf(0, 0), cue), { ...cue, caption: 'two' });
+    const [one, two] = PROGRAMME[0]?.cues ?? [];
+    let place = afterCue(afterCue(startOf(0, 0), 0), 1);
     expect(turned(place, READ_MS - 1).caption).toBe(PROGRAMME[0]?.title);
     place = turned(place, READ_MS);
-    expect(place.caption).toBe('one');
+    expect(place.caption).toBe(one?.caption);
     place = turned(place, READ_MS + 1);
-    expect(place.caption).toBe('one');
-    expect(turned(place, 2 * READ_MS).caption).toBe('two');
+    expect(place.caption).toBe(one?.caption);
+    expect(turned(place, 2 * READ_MS).caption).toBe(two?.caption);
   });
 
   it('leaves a part that does not get on', () => {
@@ -65,5 +95,42 @@ describe('the programme', () => {
 
   it('begins again after the last part', () => {
     expect(startOf(PROGRAMME.length, 0).part).toBe(0);
+  });
+});
+
+describe('the page', () => {
+  const NO_MODIFIER = { ctrlKey: false, altKey: false, metaKey: false };
+
+  it.each(['a', ' ', 'ä', 'Enter', 'Tab', 'ArrowLeft', 'PageUp'])(
+    'takes “%s” for a visitor',
+    (key) => {
+      expect(isVisitorKey({ ...NO_MODIFIER, key })).toBe(true);
+    },
+  );
+
+  it.each(['F11', 'F5', 'Shift', 'Control', 'Alt', 'Meta', 'CapsLock', 'AudioVolumeUp', 'Escape'])(
+    'takes “%s” for no visitor',
+    (key) => {
+      expect(isVisitorKey({ ...NO_MODIFIER, key })).toBe(false);
+    },
+  );
+
+  it('takes shortcuts of the browser for no visitor', () => {
+    expect(isVisitorKey({ ...NO_MODIFIER, key: 'r', ctrlKey: true })).toBe(false);
+    expect(isVisitorKey({ ...NO_MODIFIER, key: 'Tab', altKey: true })).toBe(false);
+    expect(isVisitorKey({ ...NO_MODIFIER, key: 'h', metaKey: true })).toBe(false);
+  });
+
+  it.each([
+    ['', '/'],
+    ['#/', '/'],
+    ['#/s/anna', '/s/anna'],
+    ['#/s/main', '/'],
+    ['#//evil.example', '/'],
+    ['#/s/anna/../..', '/'],
+    ['#https://evil.example/s/anna', '/'],
+    ['#javascript:alert(1)', '/'],
+  ])('with “%s” returns to %s', (hash, home) => {
+    expect(homeOf(hash)).toBe(home);
   });
 });

@@ -1,9 +1,11 @@
 // The programme of the demonstration: experiments with captions, one after the other. Pure.
 
 import type { ClientMessage, StateMessage } from '../../net/protocol.gen';
+import { MAIN, sessionOf } from '../../net/session';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
 export interface Cue {
+  /** Holds in no state before its turn, so that a cue after a missed one can follow at once. */
   readonly when: (state: StateMessage) => boolean;
   readonly caption: string;
   readonly command?: ClientMessage;
@@ -17,9 +19,14 @@ export interface Part {
   readonly cues: readonly Cue[];
 }
 
-const isFetching = ({ mode, phase }: StateMessage): boolean =>
-  mode === 1 && phase === 'approaching';
-const isCarrying = ({ phase }: StateMessage): boolean => phase === 'transporting';
+/** Only after the bead was pulled away: each part begins with a fetch, too. */
+const isFetching = ({ mode, phase, disturbances }: StateMessage): boolean =>
+  disturbances > 0 && mode === 1 && phase === 'approaching';
+/** In a new leg: the leg in which the bead was pulled away has `steps` steps or more. */
+const carriesOn =
+  (steps: number) =>
+  ({ phase, disturbances, leg_steps }: StateMessage): boolean =>
+    disturbances > 0 && phase === 'transporting' && leg_steps < steps;
 const isDelivered = ({ deliveries }: StateMessage): boolean => deliveries > 0;
 const after =
   (steps: number) =>
@@ -37,7 +44,7 @@ function disturbed(carries: string, steps: number, pull: ClientMessage): readonl
     { when: after(0.75 * steps), caption: 'Watch: the bead will be pulled away.' },
     { when: after(steps), caption: 'The bead is pulled away.', command: pull },
     { when: isFetching, caption: 'Lost. The arm flies straight to the bead.' },
-    { when: isCarrying, caption: 'Fetched. It carries on.' },
+    { when: carriesOn(steps), caption: 'Fetched. It carries on.' },
     { when: isDelivered, caption: 'Delivered.' },
   ];
 }
@@ -97,7 +104,7 @@ export const SILENCE_MS = 60_000;
 
 export interface Place {
   readonly part: number;
-  /** Number of cues that have happened. */
+  /** Number of cues that have happened or were missed. */
   readonly cues: number;
   readonly caption: string;
   /** Captions of cues that have happened, and that wait for the present one to be read. */
@@ -113,14 +120,16 @@ export function startOf(part: number, now_ms: number): Place {
   return { part: index, cues: 0, caption, waiting: [], began_ms: now_ms, shown_ms: now_ms };
 }
 
-/** The next cue, if the state fits it. */
-export function nextCue({ part, cues }: Place, state: StateMessage): Cue | undefined {
-  const cue = PROGRAMME[part]?.cues[cues];
-  return cue?.when(state) ? cue : undefined;
+/** Number of the first cue from the next one on that fits the state, if any. */
+export function nextCue({ part, cues }: Place, state: StateMessage): number | undefined {
+  const all = PROGRAMME[part]?.cues ?? [];
+  const index = all.findIndex(({ when }, index) => index >= cues && when(state));
+  return index < 0 ? undefined : index;
 }
 
-export function afterCue(place: Place, { caption }: Cue): Place {
-  return { ...place, cues: place.cues + 1, waiting: [...place.waiting, caption] };
+export function afterCue(place: Place, index: number): Place {
+  const caption = PROGRAMME[place.part]?.cues[index]?.caption ?? '';
+  return { ...place, cues: index + 1, waiting: [...place.waiting, caption] };
 }
 
 /** Shows the next waiting caption when the present one has had its time. */
@@ -134,4 +143,18 @@ export function turned(place: Place, now_ms: number): Place {
 export function isOver(place: Place, now_ms: number): boolean {
   const isDone = place.cues === PROGRAMME[place.part]?.cues.length && place.waiting.length === 0;
   return (isDone && now_ms - place.shown_ms > REST_MS) || now_ms - place.began_ms > PART_MS;
+}
+
+/** Whether a key is that of a visitor, and not one that the screen or the browser is operated with. */
+export function isVisitorKey(
+  event: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'altKey' | 'metaKey'>,
+): boolean {
+  if (event.ctrlKey || event.altKey || event.metaKey) return false;
+  return /^(.|Arrow(Left|Right|Up|Down)|Enter|Tab|Home|PageUp|PageDown)$/u.test(event.key);
+}
+
+/** The page to return to: that of the session whose path is after `#`, otherwise of the main session. */
+export function homeOf(hash: string): string {
+  const session = sessionOf({ pathname: hash.slice(1) });
+  return session === MAIN ? '/' : `/s/${session}`;
 }

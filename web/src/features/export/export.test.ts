@@ -1,7 +1,12 @@
-import { expect, it } from 'vitest';
+import { afterEach, expect, it, vi } from 'vitest';
 import { stateAt } from '../../lab/testing';
 import { caption, fileName } from './picture';
-import { videoEnding, videoType } from './video';
+import { record, videoEnding, videoType } from './video';
+
+afterEach(() => {
+  vi.unstubAllGlobals();
+  vi.useRealTimers();
+});
 
 const GOAL: [number, number, number] = [0.1, -0.3, 0];
 const at = (change: Parameters<typeof stateAt>[1]) =>
@@ -13,12 +18,18 @@ it('names a file by map, controller and time of the trial', () => {
 });
 
 it.each([
-  [{ phase: 'transporting' }, 'colon · RL · t = 12.3 s · goal not reached'],
-  [{ phase: 'settling' }, 'colon · RL · t = 12.3 s · goal reached'],
-  [{ phase: 'delivered' }, 'colon · RL · t = 12.3 s · delivered'],
-  [{ phase: 'holding', goal_m: null }, 'colon · RL · t = 12.3 s · no goal'],
-])('the caption of %j', (change, words) => {
-  expect(caption('colon', at(change))).toBe(words);
+  [{ phase: 'transporting' }, 'on the way'],
+  [{ phase: 'approaching' }, 'on the way'],
+  [{ phase: 'settling' }, 'goal reached'],
+  [{ phase: 'delivered' }, 'delivered'],
+  [{ phase: 'stopped: 150 steps without reaching the goal' }, 'not reached'],
+  [{ phase: 'stopped: 600 steps without delivering' }, 'not reached'],
+  [{ phase: 'stopped: the goal is walled off' }, 'not reached'],
+  [{ phase: 'stopped: reached, but the bead did not follow within 5 s' }, 'reached, not delivered'],
+  [{ phase: 'lifted off' }, 'lifted off'],
+  [{ phase: 'holding', goal_m: null }, 'no goal'],
+])('the caption of %j ends with “%s”', (change, words) => {
+  expect(caption('colon', at(change))).toBe(`colon · RL · t = 12.3 s · ${words}`);
 });
 
 it.each([
@@ -35,4 +46,30 @@ it.each([
 it('records nothing without a recorder or a known type', () => {
   expect(videoType(undefined)).toBeUndefined();
   expect(videoType({ isTypeSupported: () => false })).toBeUndefined();
+});
+
+it.each(['made', 'started'])('leaves nothing behind if the recorder cannot be %s', (step) => {
+  vi.useFakeTimers();
+  vi.stubGlobal('cancelAnimationFrame', () => undefined);
+  vi.stubGlobal(
+    'MediaRecorder',
+    class extends EventTarget {
+      constructor() {
+        super();
+        if (step === 'made') throw new Error('made');
+      }
+      start(): void {
+        throw new Error('started');
+      }
+    },
+  );
+  const stop = vi.fn();
+  const canvas = { captureStream: () => ({ getTracks: () => [{ stop }] }) };
+  const onEnd = vi.fn();
+  expect(() =>
+    record(canvas as unknown as HTMLCanvasElement, 'video/webm', () => undefined, onEnd),
+  ).toThrow(step);
+  expect(stop).toHaveBeenCalledOnce();
+  expect(vi.getTimerCount()).toBe(0);
+  expect(onEnd, 'the error is thrown').not.toHaveBeenCalled();
 });

@@ -18,9 +18,13 @@ export function fileName(map: string, { controller, sim_time_s }: Moment, ending
 }
 
 function outcome({ goal_m, phase }: Moment): string {
+  if (phase === 'lifted off') return phase;
   if (!goal_m) return 'no goal';
-  if (phase === 'delivered') return 'delivered';
-  return phase === 'settling' ? 'goal reached' : 'goal not reached';
+  if (phase === 'delivered') return phase;
+  // The bead still follows.
+  if (phase === 'settling') return 'goal reached';
+  if (phase.startsWith('stopped: reached')) return 'reached, not delivered';
+  return phase.startsWith('stopped') ? 'not reached' : 'on the way';
 }
 
 export function caption(map: string, moment: Moment): string {

@@ -40,11 +40,15 @@ export function record(
   onEnd: (video: Blob | Error) => void,
 ): Recording {
   const stream = canvas.captureStream(FRAMES_PER_S);
-  const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: BITS_PER_S });
-  const parts: Blob[] = [];
   const started_ms = performance.now();
+  let limit: ReturnType<typeof setTimeout> | undefined;
   let frame = 0;
   let drawn_ms = -Infinity;
+  const end = (): void => {
+    clearTimeout(limit);
+    cancelAnimationFrame(frame);
+    for (const track of stream.getTracks()) track.stop();
+  };
   const next = (): void => {
     const now_ms = performance.now();
     if (now_ms - drawn_ms > FRAME_MS) {
@@ -53,24 +57,29 @@ export function record(
     }
     frame = requestAnimationFrame(next);
   };
-  const stop = (): void => {
-    if (recorder.state !== 'inactive') recorder.stop();
-  };
-  // A hidden page draws no frames, but the time passes.
-  const limit = setTimeout(stop, 1000 * VIDEO_LIMIT_S);
-  let failure: Error | undefined;
-  recorder.addEventListener('error', () => {
-    failure = new Error('The browser could not record the video.');
-    stop();
-  });
-  recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
-  recorder.addEventListener('stop', () => {
-    clearTimeout(limit);
-    cancelAnimationFrame(frame);
-    for (const track of stream.getTracks()) track.stop();
-    onEnd(failure ?? new Blob(parts, { type: recorder.mimeType }));
-  });
-  recorder.start();
-  next();
-  return { stop };
+  try {
+    const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: BITS_PER_S });
+    const parts: Blob[] = [];
+    let failure: Error | undefined;
+    const stop = (): void => {
+      if (recorder.state !== 'inactive') recorder.stop();
+    };
+    recorder.addEventListener('error', () => {
+      failure = new Error('The browser could not record the video.');
+      stop();
+    });
+    recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
+    recorder.addEventListener('stop', () => {
+      end();
+      onEnd(failure ?? new Blob(parts, { type: recorder.mimeType }));
+    });
+    recorder.start();
+    // A hidden page draws no frames, but the time passes.
+    limit = setTimeout(stop, 1000 * VIDEO_LIMIT_S);
+    next();
+    return { stop };
+  } catch (reason) {
+    end();
+    throw reason;
+  }
 }

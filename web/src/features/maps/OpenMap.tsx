@@ -1,49 +1,20 @@
 // Loads a map from a file on the user's computer.
 
-import { For, Show, createSignal, type JSX } from 'solid-js';
-import { loadMap } from '../../lab/loadMap';
-import { onFileDrop } from '../../ui/fileDrop';
-import { addMap, isOutOfReach, reportWords } from './maps';
-import type { MapReport } from '../../net/protocol.gen';
-import type { Notices, Session, Trial } from '../../lab/slices';
+import { For, Show, type JSX } from 'solid-js';
+import type { Session } from '../../lab/slices';
+import { isOutOfReach, reportWords } from './maps';
+import type { MapOpener } from './opener';
 import './maps.css';
 
-interface Added {
-  readonly file: File;
-  readonly report: MapReport;
-}
-
-export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element {
-  const { lab } = props;
+export function OpenMap(props: { lab: Session; opener: MapOpener }): JSX.Element {
+  const { lab, opener } = props;
   let input!: HTMLInputElement;
-  const [busy, setBusy] = createSignal(false);
-  /** What the server says about the new map, until it is dismissed or another map is chosen. */
-  const [added, setAdded] = createSignal<Added>();
-  const shown = (): Added | undefined => {
-    const now = added();
-    // A map that is out of reach may not have been loaded.
-    const stays = now && (isOutOfReach(now.report) || now.report.name === lab.scene()?.map);
-    return stays ? now : undefined;
-  };
-  const send = async (file: File, fit = false): Promise<void> => {
-    setBusy(true);
-    try {
-      const report = await addMap(file, fit);
-      setAdded({ file, report });
-      loadMap(lab, report.name);
-    } catch (reason) {
-      lab.notify('playback', reason instanceof Error ? reason.message : String(reason));
-    }
-    setBusy(false);
-  };
-  onFileDrop(/\.svg$/i, (file) => {
-    if (lab.canOperate() && !busy()) void send(file);
-  });
+  const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <div class="open-map">
       <button
         type="button"
-        disabled={!lab.canOperate() || busy()}
+        disabled={isOff()}
         // On a small screen only the first word is visible.
         aria-label="Open map…"
         title="Your own map: an SVG drawing in millimetres, at most 1 MiB"
@@ -61,12 +32,12 @@ export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element 
         hidden
         onChange={() => {
           const file = input.files?.[0];
-          if (file) void send(file);
+          if (file) void opener.open(file);
           // The same file may be chosen again after it was corrected.
           input.value = '';
         }}
       />
-      <Show when={shown()}>
+      <Show when={opener.added()}>
         {(now) => (
           <div class="map-report" role="status">
             <header>
@@ -75,7 +46,9 @@ export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element 
                 type="button"
                 class="bare"
                 aria-label="Dismiss the report"
-                onClick={() => setAdded(undefined)}
+                onClick={() => {
+                  opener.dismiss();
+                }}
               >
                 ×
               </button>
@@ -86,8 +59,8 @@ export function OpenMap(props: { lab: Session & Trial & Notices }): JSX.Element 
                 type="button"
                 class="small primary"
                 title="Adds the drawing again, in the middle of the arm's reach, and smaller if it is too large"
-                disabled={!lab.canOperate() || busy()}
-                onClick={() => void send(now().file, true)}
+                disabled={isOff()}
+                onClick={() => void opener.open(now().file, true)}
               >
                 Move into reach
               </button>

@@ -3,6 +3,7 @@
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { clock } from '../../ui/format';
 import { loadMap } from '../../lab/loadMap';
+import { runOrPause } from './run';
 import { speedName, SPEEDS, ticksToControlStep } from './steps';
 import { Achieved } from './Achieved';
 import { PlaceNotice } from '../../lab/PlaceNotice';
@@ -14,15 +15,10 @@ import './PlaybackBar.css';
 /** One second of ticks. */
 const MANY_TICKS = 125;
 const SEED_LIMIT = 2 ** 32;
-const NO_GOAL = 'No goal is set: choose a free place in the workspace.';
 
 function RunButtons(props: { lab: Session & Trial & Notices }): JSX.Element {
   const { lab } = props;
   const running = (): boolean => lab.state()?.running ?? false;
-  const toggle = (): void => {
-    lab.send({ type: running() ? 'pause' : 'run' });
-    if (!running() && !lab.state()?.goal_m) lab.notify('workspace', NO_GOAL);
-  };
   return (
     <div class="buttons">
       <button
@@ -30,7 +26,9 @@ function RunButtons(props: { lab: Session & Trial & Notices }): JSX.Element {
         class="primary run"
         disabled={!lab.canOperate()}
         title="Space"
-        onClick={toggle}
+        onClick={() => {
+          runOrPause(lab);
+        }}
       >
         {running() ? 'Pause' : 'Run'}
       </button>

@@ -1,8 +1,9 @@
 import type { FeatureShortcuts } from '../../lab/shortcuts';
 import { nextSpeed, ticksToControlStep } from './steps';
-import type { Session, Trial } from '../../lab/slices';
+import { runOrPause } from './run';
+import type { Notices, Session, Trial } from '../../lab/slices';
 
-export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) => {
+export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial & Notices> = (lab, operate) => {
   const shiftSpeed = (direction: 1 | -1) =>
     operate(() => {
       const target = lab.state()?.speed_target ?? 1;
@@ -19,7 +20,7 @@ export const TIME_SHORTCUTS: FeatureShortcuts<Session & Trial> = (lab, operate) 
       keys: [' '],
       does: 'run or pause',
       run: operate(() => {
-        lab.send({ type: lab.state()?.running ? 'pause' : 'run' });
+        runOrPause(lab);
       }),
     },
     { group: 'Time', keys: ['.'], does: 'step by one tick of 8 ms', run: step(() => 1) },

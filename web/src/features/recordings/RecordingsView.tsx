@@ -16,13 +16,13 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
   const [refusal, setRefusal] = createSignal<string>();
   let rows: HTMLTableSectionElement | undefined;
   let refresher!: HTMLButtonElement;
-  const allRows = (): HTMLTableRowElement[] => (rows?.isConnected ? [...rows.rows] : []);
+  const rowOf = (id: string): HTMLTableRowElement | undefined =>
+    [...(rows?.rows ?? [])].find((row) => row.dataset.recording === id);
   const close = (): void => {
     const id = open()?.id;
     setOpen(undefined);
     // The Close button is removed with its focus: give the focus back.
-    const row = allRows().find((row) => row.dataset.recording === id);
-    row?.querySelector('button')?.focus();
+    if (id !== undefined) rowOf(id)?.querySelector('button')?.focus();
   };
   /** True if it was done. */
   const attempt = async (change: Promise<void>): Promise<boolean> => {
@@ -36,14 +36,16 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
     }
   };
   const discardAt = async (id: string): Promise<boolean> => {
-    const index = list()?.findIndex((file) => file.id === id) ?? 0;
-    const isDone = await attempt(discard(id));
+    const row = rowOf(id);
+    const hasFocus = row?.contains(document.activeElement) ?? false;
+    const next = row?.nextElementSibling ?? row?.previousElementSibling;
+    const passFocus = (): void => {
+      if (!hasFocus) return;
+      const button = next?.isConnected ? next.querySelector('button') : undefined;
+      (button ?? refresher).focus();
+    };
+    const isDone = await attempt(discard(id, passFocus));
     if (isDone && open()?.id === id) setOpen(undefined);
-    // The row is removed with the focus: the next row gets it.
-    if (isDone && document.activeElement === document.body) {
-      const row = allRows().at(index) ?? allRows().at(-1);
-      (row?.querySelector('button') ?? refresher).focus();
-    }
     return isDone;
   };
   const newest = (id: string): RecordingFile | undefined => list()?.find((file) => file.id === id);

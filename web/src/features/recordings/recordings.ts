@@ -60,8 +60,11 @@ export interface Recordings {
   readonly refresh: () => void;
   /** Gives a recording a title; an empty one removes it. Throws an error with the message to show. */
   readonly rename: (id: string, title: string) => Promise<void>;
-  /** Deletes a recording. Throws an error with the message to show. */
-  readonly discard: (id: string) => Promise<void>;
+  /**
+   * Deletes a recording. Throws an error with the message to show. `beforeRemoval` is called when the server has deleted
+   * it, before it leaves the list.
+   */
+  readonly discard: (id: string, beforeRemoval: () => void) => Promise<void>;
 }
 
 /** The list, polled while the page is visible. */
@@ -97,8 +100,9 @@ export function createRecordings(): Recordings {
     const renamed = await patch<RecordingFile>(address(id), JSON.stringify(body));
     change((list) => list.map((file) => (file.id === id ? renamed : file)));
   };
-  const discard = async (id: string): Promise<void> => {
+  const discard = async (id: string, beforeRemoval: () => void): Promise<void> => {
     await remove(address(id));
+    if (!closed) beforeRemoval();
     change((list) => list.filter((file) => file.id !== id));
   };
   const whileVisible = (): void => {

@@ -33,10 +33,10 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
     { equals: (a, b) => JSON.stringify(a) === JSON.stringify(b) },
   );
   createEffect(
-    on(shown, (now, before) => {
-      // A viewer only watches, and the first state is not a change.
-      if (!now || !before || !lab.canOperate()) return;
-      const after = doneAfter(done(), now, before);
+    on([shown, lab.canOperate], ([now, canOperate], before) => {
+      // A viewer only watches.
+      if (!now || !canOperate) return;
+      const after = doneAfter(done(), now, before?.[0] ?? now);
       if (after.size > done().size) store(after);
     }),
   );

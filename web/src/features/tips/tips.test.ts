@@ -20,6 +20,11 @@ describe('tips', () => {
     expect([...doneAfter(new Set(), { ...BEFORE, ...change }, BEFORE)]).toEqual([id]);
   });
 
+  it('are done by what is so at the first moment, but goal and controller have to change', () => {
+    const first: Shown = { ...BEFORE, running: true, goal: '0.1,-0.3', scene: true };
+    expect([...doneAfter(new Set(), first, first)]).toEqual(['run', 'scene']);
+  });
+
   it('are not done by a removed goal', () => {
     expect(doneAfter(new Set(), BEFORE, { ...BEFORE, goal: '0.1,-0.3' }).size).toBe(0);
   });

@@ -22,7 +22,7 @@ const DONE: Readonly<Record<TipId, (now: Shown, before: Shown) => boolean>> = {
   scene: (now) => now.scene,
 };
 
-/** The tips that are done after a change. */
+/** The tips that are done after a change. At the first moment `before` is `now`: what already is counts as done. */
 export function doneAfter(done: ReadonlySet<TipId>, now: Shown, before: Shown): Set<TipId> {
   return new Set(TIP_IDS.filter((id) => done.has(id) || DONE[id](now, before)));
 }

@@ -6,7 +6,7 @@ import { get } from '../../net/requests';
 import { centimetres, clock } from '../../ui/format';
 import type { EventMessage, MomentMessage } from '../../net/protocol.gen';
 import { sessionPath } from '../../net/session';
-import { eventTitle, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
+import { eventTitle, isSameEvent, marginOf, sentence, whatItSaw } from '../../lab/eventStory';
 import { causeOfEvent } from '../../lab/failure';
 import type { Events, OpenTab, Session, Trial } from '../../lab/slices';
 import './why.css';
@@ -50,9 +50,6 @@ function Story(props: {
   );
 }
 
-const isSame = (a: EventMessage, b: EventMessage): boolean =>
-  a.tick === b.tick && a.kind === b.kind && a.text === b.text;
-
 function Card(props: {
   lab: Session & Trial & Events & OpenTab;
   event: EventMessage;
@@ -64,7 +61,7 @@ function Card(props: {
   const place = createMemo(() => {
     const at = lab.marks().indexOf(props.event);
     // After a new connection the server sends the events again.
-    return at >= 0 ? at : lab.marks().findIndex((one) => isSame(one, props.event));
+    return at >= 0 ? at : lab.marks().findIndex((one) => isSameEvent(one, props.event));
   });
   const isPast = (): boolean => place() < 0;
   const beside = (step: number): EventMessage | undefined => lab.marks()[place() + step];
