@@ -146,6 +146,10 @@ impl Trial {
             Input::Place { x_m, y_m } => self.place(Point2::new(*x_m, *y_m))?,
             Input::Release => self.release(),
             Input::SelectController(name) => {
+                if *name != self.state.controller {
+                    let text = format!("controller: {}", name.as_str());
+                    self.events.push(Event::new(self.state.world.tick, EventKind::Session, text));
+                }
                 self.state.controller = *name;
                 self.state.controller_state.carrier = Carrier::new(*name, self.scenario.seed);
             }

@@ -144,7 +144,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
 
   // One controller alone, from the moment shown.
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
-  await lab.button('Compare from here').click();
+  await lab.page.getByRole('button', { name: /^Compare (from here|since)/ }).click();
   await expect(rows).toHaveCount(2, { timeout: COMPUTED_MS });
   await lab.button('Clear ghosts').click();
 });

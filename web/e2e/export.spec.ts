@@ -22,7 +22,9 @@ async function saved(lab: Lab, button: string) {
   const downloading = lab.page.waitForEvent('download');
   await box(lab).getByRole('button', { name: button }).click();
   const download = await downloading;
-  return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+  const name = download.suggestedFilename();
+  await expect(box(lab).getByRole('status')).toHaveText(`Saved as ${name}.`);
+  return { name, bytes: await readFile(await download.path()) };
 }
 
 interface Pixels {

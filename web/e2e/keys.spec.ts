@@ -45,7 +45,7 @@ test('runs shortcuts anywhere, except while typing and in a dialog', async ({ la
   const larger = lab.button('Larger');
   await larger.focus();
   await keyboard.press('?');
-  const help = page.getByRole('dialog', { name: 'Keyboard' });
+  const help = page.getByRole('dialog', { name: 'Help' });
   await expect(help.getByText(WORKSPACE_KEYS)).toBeVisible();
   await keyboard.press('r');
   await keyboard.press('Escape');
@@ -58,13 +58,13 @@ test('runs shortcuts anywhere, except while typing and in a dialog', async ({ la
   await until('the start', () => lab.state.tick === 0);
 
   // Shortcuts can be switched off.
-  await lab.button('Keyboard shortcuts').click();
+  await lab.button('Help').click();
   await help.getByRole('checkbox').uncheck();
   await keyboard.press('Escape');
   await keyboard.press('.');
   await lab.button('Step').click();
   await until('one tick only', () => lab.state.tick === 1);
-  await lab.button('Keyboard shortcuts').click();
+  await lab.button('Help').click();
   await help.getByRole('checkbox').check();
   await help.getByRole('button', { name: 'Close' }).click();
 });

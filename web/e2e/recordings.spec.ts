@@ -30,6 +30,7 @@ test('lists recordings, and downloads their files', async ({ lab, session }) => 
   await lab.view('Recordings').click();
   const row = lab.page.getByRole('row').filter({ hasText: session.name }).first();
   await expect(row).toContainText('recording now');
+  await expect(row).toContainText('this session');
   await expect(row).toContainText(/\d+[.,]?\d* [kM]B/);
   await expect(row).toContainText(String(new Date().getFullYear()));
 

@@ -26,10 +26,13 @@ test('returns to what a rewind and a reset have left behind', async ({ lab }) =>
   await lab.reset();
   await until('two kept runs', () => lab.scene.kept_runs.length === before + 2);
 
+  const newest = must(lab.scene.kept_runs.at(-1), 'the newest kept run').number;
+  await expect(kept).toHaveAttribute('title', new RegExp(`^Run ${newest} was kept`));
   await kept.click();
+  await expect(kept).not.toHaveAttribute('title', /was kept/);
   const { number } = must(lab.scene.kept_runs[before], 'the first kept run');
   const run = page.getByRole('listitem').filter({ hasText: `Run ${number}` });
-  await expect(run).toContainText(/posts, Attractor, seed \d+, .*, delivered 1×/);
+  await expect(run).toContainText(/posts, seed \d+, .*, delivered 1×, last controller Attractor/);
   await run.getByRole('button').click();
   await until('the end of the first run', () => lab.state.tick === tick);
   expect(lab.state.world_hash).toBe(hash);

@@ -125,10 +125,10 @@ export const SCENE_VIEW: Section = {
     'button Side': { ...viewpoint('Home'), after: (lab) => lab.radio('Plan').check() },
     'checkbox /^These keys work everywhere/': {
       ...box,
-      ready: (lab) => lab.button('Keyboard shortcuts').click(),
+      ready: (lab) => lab.button('Help').click(),
       after: (lab) => lab.page.keyboard.press('Escape'),
     },
-    'button Keyboard shortcuts': {
+    'button Help': {
       see: dialogs,
       after: (lab) => lab.page.keyboard.press('Escape'),
     },

@@ -112,7 +112,7 @@ export const refusalsHelpAndRoles: Places = async function* (lab) {
   await lab.click(lab.wallPoint());
   await lab.notice('workspace').waitFor();
   yield { name: 'refusal', panel: page.locator('section.panel.workspace') };
-  await lab.button('Keyboard shortcuts').click();
+  await lab.button('Help').click();
   await page.getByRole('dialog').waitFor();
   yield { name: 'keyboard', panel: page.getByRole('dialog') };
   await page.keyboard.press('Escape');

@@ -11,7 +11,9 @@ import { takeControl } from '../lab/takeControl';
 import { TERMS } from '../lab/terms';
 import './Header.css';
 
-/** The phase can be longer than its place. */
+/** Without the reason of a stop, which is longer than the place. */
+const phaseName = (phase = '–'): string => phase.replace(/:.*/, '');
+
 function phaseHelp(phase: string | undefined): string | undefined {
   return phase === 'holding' ? TERMS.holding : phase && `${phase}. ${TERMS.phase}`;
 }
@@ -115,7 +117,7 @@ export function Header(props: HeaderProps): JSX.Element {
           data-phase={lab.state()?.phase}
           title={phaseHelp(lab.state()?.phase)}
         >
-          {lab.state()?.phase ?? '–'}
+          {phaseName(lab.state()?.phase)}
         </span>
       </div>
       <dl class="counters">

@@ -1,14 +1,35 @@
-// A dialog with all keys of the page, and a switch for single-character shortcuts.
+// A dialog that says what the page shows, with all keys and a switch for single-character shortcuts.
 
 import { For, createSignal, onCleanup, type JSX } from 'solid-js';
 import { pageShortcuts } from './pageShortcuts';
 import { attachShortcuts, keyName } from '../ui/shortcuts';
+import { CONTROLLERS, CONTROLLER_HELP } from '../lab/parameters';
 import { recall, remember } from '../ui/storage';
 import type { View } from './views';
 import type { Lab } from '../lab/slices';
 import './KeyboardHelp.css';
 
 const KEY = 'shortcuts';
+
+function WhatYouSee(): JSX.Element {
+  return (
+    <section class="what-you-see">
+      <h3>What you see</h3>
+      <p>
+        A magnet on a robot arm carries a 5 mm bead to the goal. Sub-controller 1 fetches a lost
+        bead. Sub-controller 2 carries it, and sees only the camera picture.
+      </p>
+      <p>
+        Drag the bead to disturb it. Compare shows the three controllers side by side. Lessons
+        explain.
+      </p>
+      <p>There are three sub-controllers 2:</p>
+      <ul>
+        <For each={CONTROLLERS}>{(name) => <li>{CONTROLLER_HELP[name]}</li>}</For>
+      </ul>
+    </section>
+  );
+}
 
 export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
   let dialog!: HTMLDialogElement;
@@ -28,8 +49,8 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
       <button
         type="button"
         class="small"
-        aria-label="Keyboard shortcuts"
-        title="Keyboard shortcuts (?)"
+        aria-label="Help"
+        title="Help and keyboard shortcuts (?)"
         onClick={open}
       >
         ?
@@ -37,7 +58,7 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
       <dialog
         ref={dialog}
         class="keyboard-help"
-        aria-labelledby="keyboard-title"
+        aria-labelledby="help-title"
         onClick={(event) => {
           // A click on the dialog element itself is a click beside its content.
           if (event.target === dialog) dialog.close();
@@ -45,11 +66,12 @@ export function KeyboardHelp(props: { lab: Lab; view: View }): JSX.Element {
       >
         <form method="dialog">
           <header>
-            <h2 id="keyboard-title">Keyboard</h2>
+            <h2 id="help-title">Help</h2>
             <button type="submit" class="small">
               Close
             </button>
           </header>
+          <WhatYouSee />
           <div class="key-groups">
             <For each={groups}>
               {(group) => (

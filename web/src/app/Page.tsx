@@ -87,7 +87,7 @@ export function Page(): JSX.Element {
           </main>
         </Match>
         <Match when={view() === 'recordings'}>
-          <RecordingsView theme={theme} />
+          <RecordingsView theme={theme} session={lab.session} />
         </Match>
         <Match when={view() === 'evaluate'}>
           <EvaluateView

@@ -128,7 +128,7 @@ export function WorkspacePanel(props: {
           </Show>
         </p>
         <Show when={mode() === 'plan'}>
-          <MarksLegend />
+          <MarksLegend isShown={(id) => lab.layers().has(id)} />
         </Show>
         <output class="readout" aria-live="off">
           <Show when={readout()} fallback="x –   y –">

@@ -18,6 +18,23 @@ const TITLES: Readonly<Record<EventKind, string>> = {
   session: 'Session',
 };
 
+/** Kinds of events with a mark on the timeline, the most important first. Other kinds have no mark. */
+export const EVENT_SYMBOLS: readonly (readonly [EventKind, string])[] = [
+  ['lift_off', '↥'],
+  ['stopped', '■'],
+  ['switch', '⇄'],
+  ['disturbance', '✱'],
+  ['delivered', '✓'],
+  ['refused', '⊘'],
+  ['goal', '◎'],
+  ['reached', '◌'],
+];
+
+/** The marks with their names, in one line. */
+export const SYMBOL_LEGEND = EVENT_SYMBOLS.map(
+  ([kind, symbol]) => `${symbol} ${TITLES[kind].toLowerCase()}`,
+).join(', ');
+
 /** Whether two messages are about the same event: the server sends events again. */
 export const isSameEvent = (a: EventMessage, b: EventMessage): boolean =>
   a.tick === b.tick && a.kind === b.kind && a.text === b.text;

@@ -57,7 +57,8 @@ function isForeign({ controller, map, trainedOn }: Attempt): boolean {
   return controller === 'rl' && trainedOn !== undefined && !trainedOn.includes(map);
 }
 
-function troubleWords(name: string, trouble: string): string {
+/** What keeps a controller from the goal, as a sentence. */
+export function troubleWords(name: string, trouble: string): string {
   if (trouble === 'no path found yet') return `${name} has found no path yet.`;
   if (trouble === 'walled off') return `${name} found no path: the goal is walled off.`;
   return `${name} is ${trouble}.`;

@@ -3,7 +3,9 @@
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
+import { attemptStart } from '../../lab/attemptStart';
 import { errors_m, lastTick } from '../../lab/comparison';
+import { isFailure } from '../../lab/failure';
 import { createPalette } from '../../ui/palette';
 import { CONTROLLERS, CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
@@ -11,13 +13,13 @@ import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps, TabPanel } from '../../lab/panel';
-import type { Compared, Notices, Session, Trial } from '../../lab/slices';
+import type { Compared, Events, Notices, Session, Trial } from '../../lab/slices';
 import './compare.css';
 
 const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
 const CM = 100;
 
-function Start(props: { lab: Session & Trial & Compared }): JSX.Element {
+function Start(props: { lab: Session & Trial & Events & Compared }): JSX.Element {
   const { lab } = props;
   const [chosen, setChosen] = createSignal<ReadonlySet<ControllerName>>(new Set(CONTROLLERS));
   const toggle = (name: ControllerName, on: boolean): void => {
@@ -25,6 +27,11 @@ function Start(props: { lab: Session & Trial & Compared }): JSX.Element {
     if (on) next.add(name);
     else next.delete(name);
     setChosen(next);
+  };
+  /** At the end of an attempt there is nothing left to compare. */
+  const isOver = (): boolean => {
+    const phase = lab.state()?.phase ?? '';
+    return phase === 'delivered' || isFailure(phase);
   };
   return (
     <div class="compare-start">
@@ -50,15 +57,15 @@ function Start(props: { lab: Session & Trial & Compared }): JSX.Element {
         type="button"
         class="small primary"
         disabled={!lab.canOperate() || chosen().size === 0}
-        title="Continues from this moment under each controller, without changing the session"
+        title={`Continues from ${isOver() ? 'the moment at which the goal was set' : 'this moment'} under each controller, without changing the session`}
         onClick={() => {
           const state = lab.state();
           if (!state) return;
           const controllers = CONTROLLERS.filter((name) => chosen().has(name));
-          lab.send({ type: 'fork', tick: state.tick, controllers });
+          lab.send({ type: 'fork', tick: isOver() ? attemptStart(lab) : state.tick, controllers });
         }}
       >
-        Compare from here
+        {isOver() ? 'Compare since the goal was set' : 'Compare from here'}
       </button>
       <span class="compare-of" role="status">
         <Show when={lab.comparison.shown()}>
@@ -239,7 +246,9 @@ function Errors(
   );
 }
 
-function ComparePanel(props: PanelProps<Session & Trial & Notices & Compared>): JSX.Element {
+function ComparePanel(
+  props: PanelProps<Session & Trial & Events & Notices & Compared>,
+): JSX.Element {
   const { lab } = props;
   const tick_s = (): number => lab.scene()?.tick_s ?? 0;
   return (
@@ -251,9 +260,9 @@ function ComparePanel(props: PanelProps<Session & Trial & Notices & Compared>): 
           when={lab.comparison.shown()}
           fallback={
             <p class="hint">
-              Continues from the shown moment under each controller, for up to 60 s, with the same
-              disturbances. Pause or rewind to just before a disturbance, then compare. The session
-              itself does not change.
+              Shows how the controllers differ: continues from the shown moment under each of them,
+              for up to 60 s, with the same disturbances. Pause or rewind to just before a
+              disturbance, then compare. The session itself does not change.
             </p>
           }
         >
@@ -261,6 +270,9 @@ function ComparePanel(props: PanelProps<Session & Trial & Notices & Compared>): 
             <>
               <div class="compare-scroll" tabindex="0" role="group" aria-label="Results">
                 <Results comparison={comparison()} tick_s={tick_s()} />
+                <p class="hint">
+                  Errors during transport. Goals and disturbances come again at their times.
+                </p>
               </div>
               <Player lab={lab} comparison={comparison()} tick_s={tick_s()} />
             </>

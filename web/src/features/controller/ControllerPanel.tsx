@@ -1,12 +1,14 @@
 // The active controller, its reasons, and its parameters.
 
 import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
-import type { ControllerName } from '../../net/protocol.gen';
+import { troubleWords } from '../../lab/failure';
+import { CONTROLLER_HELP, CONTROLLER_LABELS } from '../../lab/parameters';
+import type { ControllerName, StateMessage } from '../../net/protocol.gen';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
 import type { Notices, Session, Trial } from '../../lab/slices';
+import './ControllerPanel.css';
 
 function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }): JSX.Element {
   const { lab } = props;
@@ -19,7 +21,7 @@ function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }):
     }),
   );
   return (
-    <label>
+    <label title={CONTROLLER_HELP[props.name]}>
       <input
         ref={input}
         type="radio"
@@ -47,6 +49,19 @@ function ControllerChoice(props: {
   );
 }
 
+/** What the controller does, or what keeps it from the goal. */
+function About(props: { state: StateMessage }): JSX.Element {
+  const trouble = (): string | undefined => {
+    const { controller, trouble } = props.state;
+    return trouble === null ? undefined : troubleWords(CONTROLLER_LABELS[controller], trouble);
+  };
+  return (
+    <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
+      {trouble() ?? CONTROLLER_HELP[props.state.controller]}
+    </p>
+  );
+}
+
 /** The children show details of the active controller. */
 export function ControllerPanel(props: {
   lab: Session & Trial & Notices;
@@ -67,6 +82,7 @@ export function ControllerPanel(props: {
             <Show when={lab.state()}>
               {(state) => (
                 <>
+                  <About state={state()} />
                   <SwitchingLaw state={state()} scene={scene()} />
                   {props.children}
                 </>

@@ -26,6 +26,7 @@ import {
   nextCue,
   startOf,
   turned,
+  watchedCaption,
 } from './programme';
 import './demo.css';
 
@@ -33,7 +34,7 @@ const TICK_MS = 250;
 /** Interval of attempts to load the page again when it cannot go on. */
 const RELOAD_MS = 10_000;
 const VISITED = 'You are in control: drag the bead, touch a place to set a goal.';
-const WATCHING = 'Another screen runs this demonstration.';
+const WATCHING = 'Another screen runs this demonstration';
 const WAITING = 'One moment, please.';
 
 /** Not changed by a correction of the computer's clock. */
@@ -181,10 +182,13 @@ export function Demo(props: {
     });
   });
 
+  const isWatching = (): boolean =>
+    !lab.canOperate() && isLive() && lab.hello()?.operator_present === true;
   const caption = (): string => {
     if (lab.canOperate()) return touched_ms() === undefined ? place().caption : VISITED;
     if (isDone() || lab.connection().kind === 'lost') return WAITING;
-    return lab.hello()?.operator_present ? WATCHING : '';
+    const state = lab.state();
+    return isWatching() && state ? watchedCaption(state) : '';
   };
   return (
     <main class="demo" data-part={place().part}>
@@ -203,7 +207,9 @@ export function Demo(props: {
       <p class="demo-caption" role="status">
         {caption()}
       </p>
-      <p class="demo-safety">Simulation, not safety-rated</p>
+      <p class="demo-safety">
+        <Show when={isWatching()}>{WATCHING} · </Show>Simulation, not safety-rated
+      </p>
       <a class="demo-leave" href={home}>
         Leave
       </a>

@@ -1,5 +1,6 @@
 // The programme of the demonstration: experiments with captions, one after the other. Pure.
 
+import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { ClientMessage, StateMessage } from '../../net/protocol.gen';
 import { MAIN, sessionOf } from '../../net/session';
 
@@ -137,6 +138,14 @@ export function turned(place: Place, now_ms: number): Place {
   const [caption, ...waiting] = place.waiting;
   if (caption === undefined || now_ms - place.shown_ms < READ_MS) return place;
   return { ...place, caption, waiting, shown_ms: now_ms };
+}
+
+/** What a screen shows that only watches: another one runs the programme. */
+export function watchedCaption({ mode, phase, goal_m, controller }: StateMessage): string {
+  if (phase === 'delivered') return 'Delivered.';
+  if (mode === 1) return 'The arm flies to the bead.';
+  const name = CONTROLLER_LABELS[controller];
+  return goal_m ? `${name} carries the bead to its goal.` : 'No goal is set.';
 }
 
 /** Whether the part has come to its end, or to none. */

@@ -5,7 +5,7 @@ import { clock } from '../../ui/format';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { LogLine } from '../../lab/model';
 import type { EventMessage } from '../../net/protocol.gen';
-import { eventTitle } from '../../lab/eventStory';
+import { SYMBOL_LEGEND, eventTitle } from '../../lab/eventStory';
 import { CaseBar } from './CaseBar';
 import './events.css';
 
@@ -58,6 +58,9 @@ function EventsPanel(props: PanelProps): JSX.Element {
   });
   return (
     <div class="log">
+      <p class="hint log-legend">
+        Timeline: {SYMBOL_LEGEND}; a number: events in one mark. Click a mark or a time: why.
+      </p>
       <div
         ref={box}
         class="log-lines"
@@ -84,7 +87,7 @@ function EventsPanel(props: PanelProps): JSX.Element {
                       type="button"
                       class="link-like"
                       aria-label={`Why: ${eventTitle(event())}`}
-                      title="Why?"
+                      title="Why did this happen?"
                       tabindex={reached() === event() ? 0 : -1}
                       onClick={() => {
                         setCurrent(event());

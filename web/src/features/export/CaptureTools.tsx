@@ -7,6 +7,8 @@ import './export.css';
 
 export function CaptureTools(props: { capture: Capture }): JSX.Element {
   const { capture } = props;
+  // A message belongs to the popover that was open when the file was saved, or to the next one.
+  onCleanup(() => capture.forget());
   const isRecording = (): boolean => capture.recorded_s() !== undefined;
   return (
     <div class="capture" role="group" aria-label="Picture and video">
@@ -34,6 +36,9 @@ export function CaptureTools(props: { capture: Capture }): JSX.Element {
           </button>
         </Show>
       </div>
+      <p class="capture-done" role="status">
+        <Show when={capture.saved()}>{(name) => `Saved as ${name()}.`}</Show>
+      </p>
       <p class="hint">
         {capture.canRecord
           ? `Of the plan or the 3-D view, with map, controller and time below it. A video has at most ${VIDEO_LIMIT_S} s.`

@@ -17,6 +17,9 @@ export interface Capture {
   readonly canRecord: boolean;
   /** Whole seconds of the video that is being recorded; undefined if none is. */
   readonly recorded_s: Accessor<number | undefined>;
+  /** Name of the file that was saved last, until `forget`. */
+  readonly saved: Accessor<string | undefined>;
+  forget(): void;
   savePicture(): Promise<void>;
   startVideo(): void;
   stopVideo(): void;
@@ -29,10 +32,15 @@ export function createCapture(
 ): Capture {
   const type = ownVideoType();
   const [recorded_s, setRecorded] = createSignal<number>();
+  const [saved, setSaved] = createSignal<string>();
   let recording: Recording | undefined;
 
   const say = (reason: unknown): void => {
     lab.notify('workspace', reason instanceof Error ? reason.message : String(reason));
+  };
+  const save = (name: string, content: Blob): void => {
+    download(name, content);
+    setSaved(name);
   };
   /** Draws the view as it is now. */
   const fill = (sheet: HTMLCanvasElement, ratio: number): boolean =>
@@ -51,14 +59,17 @@ export function createCapture(
     isReady: () => view() !== undefined && lab.state() !== undefined,
     canRecord: type !== undefined,
     recorded_s,
+    saved,
+    forget: () => setSaved(undefined),
     async savePicture() {
       const now = untrack(view);
       if (!now) return;
       const ratio = Math.max(PICTURE_RATIO, window.devicePixelRatio);
       const sheet = createSheet(now, ratio);
       const name = nameOf('png');
+      setSaved(undefined);
       try {
-        if (fill(sheet, ratio)) download(name, await pngOfSheet(sheet));
+        if (fill(sheet, ratio)) save(name, await pngOfSheet(sheet));
       } catch (reason) {
         say(reason);
       }
@@ -72,6 +83,7 @@ export function createCapture(
         // The recorder needs a picture to begin with.
         fill(sheet, ratio);
         setRecorded(0);
+        setSaved(undefined);
         recording = record(
           sheet,
           type,
@@ -83,7 +95,7 @@ export function createCapture(
             recording = undefined;
             setRecorded(undefined);
             if (video instanceof Error) say(video);
-            else download(nameOf(videoEnding(type)), video);
+            else save(nameOf(videoEnding(type)), video);
           },
         );
       } catch (reason) {

@@ -1,6 +1,7 @@
 // Explains why a goal was not reached, and what to try. Over the lower edge of the workspace, where it moves nothing.
 
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { attemptStart } from '../../lab/attemptStart';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import {
   adviceOf,
@@ -25,11 +26,6 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
     const goal = lab.goal();
     if (goal) lab.send({ type: 'set_goal', x_m: goal[0], y_m: goal[1] });
     if (!lab.state()?.running) lab.send({ type: 'run' });
-  };
-  /** The moment at which the goal was set, or the oldest one that is kept. */
-  const start = (): number => {
-    const set = lab.marks().findLast(({ kind }) => kind === 'goal');
-    return Math.max(set?.tick ?? 0, lab.state()?.oldest_tick ?? 0);
   };
   return (
     <>
@@ -72,7 +68,7 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
               class="small"
               title="Continues from the moment at which the goal was set, under each controller"
               onClick={() => {
-                lab.send({ type: 'fork', tick: start() });
+                lab.send({ type: 'fork', tick: attemptStart(lab) });
                 lab.openTab('compare');
               }}
             >

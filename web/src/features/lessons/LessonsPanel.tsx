@@ -19,7 +19,7 @@ function LessonList(props: { store: Lessons }): JSX.Element {
   return (
     <>
       <p class="lessons-intro">
-        Each lesson has three steps: predict, run, explain.{' '}
+        In each lesson: predict, run one or two experiments, then read why.{' '}
         <span class="number">
           {done()} of {LESSONS.length} done.
         </span>

@@ -27,7 +27,7 @@ export const ATTRACTOR: Lesson = {
       speed: 2,
       layers: ['flow', 'sensed'],
       words: [
-        'The layer Attractor flow is switched on. The arrows show where the law leads from each place that the camera has seen.',
+        'Set it up switches on the layer Attractor flow. Its arrows show where the law leads from each place that the camera has seen.',
         'Press Run and wait until the tool stays in one place.',
       ],
       tasks: [
@@ -85,7 +85,7 @@ export const ERRT: Lesson = {
       speed: 4,
       layers: ['plan', 'obstacles', 'seen'],
       words: [
-        'The layers Plan, Obstacles and Seen so far are switched on. The camera has not shown the gray area yet. The plan goes straight through the gray area, and it changes when a wall appears.',
+        'Set it up switches on the layers Plan, Obstacles and Seen so far. Gray is the area that the camera has not shown yet. The plan goes straight through it, and changes when a wall appears.',
         'When the bead is delivered, press Send it back.',
       ],
       tasks: [
@@ -143,7 +143,7 @@ export const POLICY: Lesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'The dashed square around the tool is what the camera sees. On the left is the camera image, and below it both channels of the observation. On the right, four diagrams show the value that the policy gives to each possible step.',
+        'Set it up shows a dashed square around the tool: this is what the camera sees. Open the panel Camera: it shows the camera image and both channels of the observation. During the run, four diagrams on the right show the value that the policy gives to each possible step.',
       ],
       tasks: [RUNNING, DELIVERED],
       actions: [],
@@ -154,7 +154,7 @@ export const POLICY: Lesson = {
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'Only the camera has moved. Press Run and watch how the values of the four steps change.',
+        'Set it up moves only the camera, nothing else. Press Run and watch how the values of the four steps change.',
       ],
       tasks: [
         RUNNING,

@@ -26,7 +26,7 @@ export const MEET_THE_MAGNET: Lesson = {
       speed: 1,
       layers: ['capture', 'trail'],
       words: [
-        'The table is empty. The goal is 30 cm to the right. The layer Capture is switched on: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
+        'Set it up loads an empty table with the goal 30 cm to the right, and switches on the layer Capture: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
         'Press Run and look at e on the right: the distance between tool and bead.',
       ],
       tasks: [
@@ -75,7 +75,7 @@ export const LIFT_OFF: Lesson = {
       speed: 1,
       layers: ['capture'],
       words: [
-        'No goal is set, and the tool is above the bead. Press Run and lower the magnet step by step.',
+        'Set it up places the tool above the bead, without a goal. Press Run and lower the magnet step by step.',
         'Look at lift / weight on the right: at 1 the magnet lifts the whole weight of the bead.',
       ],
       tasks: [

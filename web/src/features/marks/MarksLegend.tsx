@@ -4,6 +4,8 @@ import { For, type JSX } from 'solid-js';
 import './marks.css';
 
 interface Mark {
+  /** Layer of the mark; without one it is always on the map. */
+  readonly layer?: string;
   readonly name: string;
   readonly help: string;
   readonly icon: () => JSX.Element;
@@ -45,12 +47,44 @@ const MARKS: readonly Mark[] = [
     help: 'A wall. The bead cannot pass, the magnet can.',
     icon: () => <rect class="wall" x="3" y="3" width="14" height="10" />,
   },
+  {
+    layer: 'capture',
+    name: 'reach of the pull',
+    help: 'Inside this circle the pull of the magnet moves the bead.',
+    icon: () => <circle class="reach" cx="10" cy="8" r="6.5" />,
+  },
+  {
+    layer: 'camera',
+    name: 'camera’s view',
+    help: 'What the camera on the arm sees.',
+    icon: () => <rect class="view" x="3" y="2" width="14" height="12" />,
+  },
+  {
+    layer: 'sensed',
+    name: 'walls in view',
+    help: 'Walls in the present camera picture.',
+    icon: () => <path class="sensed" d="M3 12h8V4h6" />,
+  },
+  {
+    layer: 'trail',
+    name: 'trails',
+    help: 'Where magnet and bead have been.',
+    icon: () => (
+      <>
+        <path class="tool-trail" d="M2 5h16" />
+        <path class="bead-trail" d="M2 11h16" />
+      </>
+    ),
+  },
 ];
 
-export function MarksLegend(): JSX.Element {
+/** `isShown` tells whether a layer is on the map. */
+export function MarksLegend(props: { isShown: (layer: string) => boolean }): JSX.Element {
+  const marks = (): readonly Mark[] =>
+    MARKS.filter(({ layer }) => layer === undefined || props.isShown(layer));
   return (
     <ul class="marks" aria-label="Marks on the map">
-      <For each={MARKS}>
+      <For each={marks()}>
         {({ name, help, icon }) => (
           <li title={help}>
             <svg viewBox="0 0 20 16" width="20" height="16" aria-hidden="true">

@@ -10,7 +10,7 @@ import {
   type JSX,
 } from 'solid-js';
 import { Limiter } from '../../net/limiter';
-import { clusters } from './eventMarks';
+import { clusters, markTitle } from './eventMarks';
 import type { EventMessage } from '../../net/protocol.gen';
 import type { Events } from '../../lab/slices';
 
@@ -81,7 +81,7 @@ export function EventMarks(props: { lab: Events; oldest: number; newest: number 
             style={{ left: `${cluster().px}px` }}
             tabindex={reached() === index ? 0 : -1}
             aria-label={cluster().name}
-            title={`${cluster().name}. Why?`}
+            title={markTitle(cluster().events)}
             aria-pressed={isOpen(cluster().events)}
             onClick={() => {
               setCurrent(cluster().first);

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { clusters } from './eventMarks';
+import { clusters, markTitle } from './eventMarks';
 import type { EventKind, EventMessage } from '../../net/protocol.gen';
 
 const at = (tick: number, kind: EventKind): EventMessage => ({
@@ -18,6 +18,14 @@ test('events that would overlap share a button with the name of the most importa
   ]);
   expect(found[0]?.name).toBe('Switch at 0.1 s: switch, and 2 more');
   expect(found[1]?.name).toBe('Delivered at 1.6 s: delivered');
+});
+
+test('a title names the events of a mark, but not hundreds of them', () => {
+  expect(markTitle([at(0, 'goal'), at(200, 'delivered')])).toBe(
+    'Goal at 0.0 s\nDelivered at 1.6 s\nClick: why',
+  );
+  const many = markTitle(Array.from({ length: 500 }, (_, tick) => at(tick, 'switch')));
+  expect(many.split('\n').slice(-2)).toEqual(['and 494 more', 'Click: why']);
 });
 
 test('buttons keep their distance with any number of events', () => {

@@ -1,20 +1,11 @@
 // Events on the timeline. Those that would overlap share a button. Pure.
 
-import type { EventKind, EventMessage } from '../../net/protocol.gen';
-import { eventTitle } from '../../lab/eventStory';
+import type { EventMessage } from '../../net/protocol.gen';
+import { EVENT_SYMBOLS, eventTitle } from '../../lab/eventStory';
 
-/** Kinds of events with a mark, the most important first. Other kinds have no mark. */
-const SYMBOLS: readonly (readonly [EventKind, string])[] = [
-  ['lift_off', '↥'],
-  ['stopped', '■'],
-  ['switch', '⇄'],
-  ['disturbance', '✱'],
-  ['delivered', '✓'],
-  ['refused', '⊘'],
-  ['goal', '◎'],
-  ['reached', '◌'],
-];
-const RANKS = new Map(SYMBOLS.map(([kind], rank) => [kind, rank]));
+/** A title names at most this many events. */
+const MAX_TITLES = 6;
+const RANKS = new Map(EVENT_SYMBOLS.map(([kind], rank) => [kind, rank]));
 
 export function isMarked(event: EventMessage): boolean {
   return RANKS.has(event.kind);
@@ -31,7 +22,7 @@ export interface Cluster {
 }
 
 function clusterOf(px: number, events: readonly EventMessage[], first: EventMessage): Cluster {
-  const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? SYMBOLS.length;
+  const rank = (event: EventMessage): number => RANKS.get(event.kind) ?? EVENT_SYMBOLS.length;
   for (const event of events) if (rank(event) < rank(first)) first = event;
   const others = events.length - 1;
   const more = others === 0 ? '' : `, and ${others} more`;
@@ -39,9 +30,16 @@ function clusterOf(px: number, events: readonly EventMessage[], first: EventMess
     px,
     events,
     first,
-    symbol: SYMBOLS[rank(first)]?.[1] ?? '',
+    symbol: EVENT_SYMBOLS[rank(first)]?.[1] ?? '',
     name: `${eventTitle(first)}: ${first.text}${more}`,
   };
+}
+
+/** What the tooltip of a mark says: its events, one a line. */
+export function markTitle(events: readonly EventMessage[]): string {
+  const lines = events.slice(0, MAX_TITLES).map(eventTitle);
+  const rest = events.length - lines.length;
+  return [...lines, ...(rest > 0 ? [`and ${rest} more`] : []), 'Click: why'].join('\n');
 }
 
 /** Events in order of time, in clusters at least `gapPx` apart. */

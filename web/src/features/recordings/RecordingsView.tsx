@@ -9,7 +9,11 @@ import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 import './recordings.css';
 
-export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
+export function RecordingsView(props: {
+  theme: Accessor<Theme>;
+  /** The session of the page. */
+  session: string;
+}): JSX.Element {
   const { list, error, refresh, rename, discard } = createRecordings();
   const [open, setOpen] = createSignal<RecordingFile>();
   /** Why the last change was refused. */
@@ -97,6 +101,7 @@ export function RecordingsView(props: { theme: Accessor<Theme> }): JSX.Element {
                       {(file) => (
                         <Row
                           file={file()}
+                          isOwn={file().session === props.session}
                           isOpen={open()?.id === id}
                           onOpen={() => setOpen(file())}
                           onRename={(title) => attempt(rename(id, title))}

@@ -7,6 +7,8 @@ import { type Ending, fileAddress, label, size, startedAt } from './recordings';
 
 interface RowProps {
   readonly file: RecordingFile;
+  /** Whether it is of the page's session. */
+  readonly isOwn: boolean;
   readonly isOpen: boolean;
   readonly onOpen: () => void;
   /** True if it was done. */
@@ -124,7 +126,7 @@ function Confirm(props: {
   );
 }
 
-function Facts(props: { file: RecordingFile }): JSX.Element {
+function Facts(props: { file: RecordingFile; isOwn: boolean }): JSX.Element {
   return (
     <span class="facts">
       <Show when={props.file.session}>
@@ -136,6 +138,9 @@ function Facts(props: { file: RecordingFile }): JSX.Element {
             <span>{startedAt(started()).day},</span> <span>{startedAt(started()).time}</span>
           </>
         )}
+      </Show>
+      <Show when={props.isOwn}>
+        <span class="own-session">this session</span>
       </Show>
       <Show when={props.file.live}>
         <span class="being-recorded">recording now</span>
@@ -177,7 +182,7 @@ export function Row(props: RowProps): JSX.Element {
             onCancel={endRenaming}
           />
         </Show>
-        <Facts file={props.file} />
+        <Facts file={props.file} isOwn={props.isOwn} />
       </th>
       <td class="number duration">
         <Show when={props.file.content} fallback="–">

@@ -1,9 +1,10 @@
 // The runs that rewinds, resets and other scenarios have left behind, and a way back to each.
 
-import { For, Show, createMemo, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import { createPopover } from '../../ui/popover';
 import { runWords } from './runs';
+import { seenOf } from './seen';
 import './runs.css';
 
 export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
@@ -16,13 +17,27 @@ export function KeptRuns(props: { lab: Session & Trial }): JSX.Element {
   );
   /** Newest first. */
   const runs = createMemo(() => [...(lab.scene()?.kept_runs ?? [])].reverse());
+  const [seen, setSeen] = seenOf(lab);
+  const newest = createMemo(() => runs()[0]?.number ?? 0);
+  createEffect(() => {
+    if (!lab.scene()) return;
+    // What was there when the page was opened is no news. A new session counts from 1 again.
+    const last = seen();
+    if (last === undefined || open() || newest() < last) setSeen(newest());
+  });
+  const isFresh = (): boolean => newest() > (seen() ?? newest());
   return (
     <div ref={box} class="runs" onFocusOut={onFocusOut}>
       <button
         ref={button}
         type="button"
         class="small"
-        title="What rewinds, resets and other experiments have left behind"
+        classList={{ fresh: isFresh() }}
+        title={
+          isFresh()
+            ? `Run ${newest()} was kept. Open the list to return to it.`
+            : 'What rewinds, resets and other experiments have left behind'
+        }
         aria-expanded={open()}
         aria-controls="kept-runs"
         disabled={runs().length === 0}

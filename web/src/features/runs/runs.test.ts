@@ -11,6 +11,6 @@ const RUN = {
 } as const;
 
 it('describes a kept run', () => {
-  expect(runWords(RUN)).toBe('colon, RL, seed 7, 1:32.0, not delivered');
+  expect(runWords(RUN)).toBe('colon, seed 7, 1:32.0, not delivered, last controller RL');
   expect(runWords({ ...RUN, deliveries: 1 })).toContain('delivered 1×');
 });

@@ -84,9 +84,12 @@ export function ShareButton(props: {
           </p>
           <p>
             The link contains the map, seed, start, goal, controller, changed parameters and
-            scripted disturbances. On a Ferry server it loads this experiment at its start.
+            scripted disturbances. On a Ferry server it loads this experiment.
           </p>
-          <p class="hint">It does not contain what you did by hand, such as drags and kicks.</p>
+          <p class="hint">
+            It begins at the start of this trial, with the last goal. It does not contain what you
+            did by hand, such as drags and kicks.
+          </p>
           {props.children}
         </div>
       </Show>

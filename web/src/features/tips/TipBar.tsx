@@ -1,4 +1,4 @@
-// The current tip, over the upper edge of the workspace, where it moves nothing.
+// The current tip, over the line below the workspace, where it moves and covers nothing of the map.
 
 import { Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
@@ -22,7 +22,7 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
       return (
         state && {
           running: state.running,
-          holding: state.hand_m !== null,
+          fetching: state.mode === 1 && state.disturbances > 0,
           goal: state.goal_m?.join() ?? '',
           controller: state.controller,
           scene: props.scene,

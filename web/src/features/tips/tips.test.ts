@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { type Shown, TIP_IDS, doneAfter, nextTip, tipsFrom } from './tips';
 
-const BEFORE: Shown = { running: false, holding: false, goal: '', controller: 'rl', scene: false };
+const BEFORE: Shown = { running: false, fetching: false, goal: '', controller: 'rl', scene: false };
 
 describe('tips', () => {
   it('come one at a time', () => {
@@ -12,7 +12,7 @@ describe('tips', () => {
 
   it.each([
     ['run', { running: true }],
-    ['drag', { holding: true }],
+    ['drag', { fetching: true }],
     ['goal', { goal: '0.1,-0.3' }],
     ['controller', { controller: 'errt' }],
     ['scene', { scene: true }],

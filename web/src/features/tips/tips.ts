@@ -6,8 +6,8 @@ export type TipId = (typeof TIP_IDS)[number];
 /** What the page shows at one moment. */
 export interface Shown {
   readonly running: boolean;
-  /** The hand holds the bead. */
-  readonly holding: boolean;
+  /** The arm flies to a bead that was disturbed. */
+  readonly fetching: boolean;
   readonly goal: string;
   readonly controller: string;
   /** The 3-D view. */
@@ -16,7 +16,7 @@ export interface Shown {
 
 const DONE: Readonly<Record<TipId, (now: Shown, before: Shown) => boolean>> = {
   run: (now) => now.running,
-  drag: (now) => now.holding,
+  drag: (now) => now.fetching,
   goal: (now, before) => now.goal !== '' && now.goal !== before.goal,
   controller: (now, before) => now.controller !== before.controller,
   scene: (now) => now.scene,
@@ -43,11 +43,11 @@ export function tipText(id: TipId, isTouch: boolean): string {
     case 'run':
       return 'Press Run, then drag the bead away.';
     case 'drag':
-      return 'Drag the bead away from the magnet. The arm fetches it.';
+      return 'Drag the bead out of the blue circle: the magnet loses it, and the arm fetches it.';
     case 'goal':
       return `${isTouch ? 'Tap' : 'Click'} a free place to set another goal.`;
     case 'controller':
-      return 'Choose another controller: RL, ERRT or Attractor.';
+      return 'Choose another controller. Or open Compare, which runs all three side by side.';
     case 'scene':
       return 'Choose 3-D to see the arm.';
   }
