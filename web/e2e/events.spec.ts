@@ -144,7 +144,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
 
   // One controller alone, from the moment shown.
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
-  await lab.page.getByRole('button', { name: /^Compare (from here|since)/ }).click();
+  await lab.button('Start comparison').click();
   await expect(rows).toHaveCount(2, { timeout: COMPUTED_MS });
   await lab.button('Clear ghosts').click();
 });
@@ -160,6 +160,6 @@ test('closes an explanation on reset, and refuses a comparison without a goal', 
   if (lab.state.goal_m) await lab.button('Clear goal').click();
   await until('no goal', () => !lab.state.goal_m);
   await lab.tab('Compare').click();
-  await lab.button('Compare from here').click();
+  await lab.button('Start comparison').click();
   must(await lab.notice('compare').innerText(), 'a refusal');
 });

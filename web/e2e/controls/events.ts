@@ -61,7 +61,7 @@ async function ensureGhosts(lab: Lab) {
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.3, 0.5)[0]);
   for (const name of ['RL', 'ERRT']) await lab.label(`Compare ${name}`).uncheck();
   lab.sent = {};
-  await lab.button('Compare from here').click();
+  await lab.button('Start comparison').click();
   await until('the request', () => lab.sent.fork);
   await ghostsComputed(lab);
 }
@@ -151,7 +151,7 @@ export const COMPARE: Section = {
     'checkbox Compare RL': { see: isChecked, isToggle: true },
     'checkbox Compare ERRT': { see: isChecked, isToggle: true },
     'checkbox Compare Attractor': { see: isChecked, isToggle: true },
-    'button Compare from here': {
+    'button Start comparison': {
       ...sends('fork', setNewGoal),
       // The goal of these ghosts is near. The rows below need ghosts with a longer path.
       after: async (lab) => {

@@ -12,12 +12,14 @@ import { createTheme } from '../ui/theme';
 import { MAP_LAYERS } from './layers';
 
 const HELP_ID = 'demo-help';
+/** Visitors see the bead for the first time, and it moves. */
+const GRAB_PX = 56;
 
 export function DemoPage(): JSX.Element {
   const { theme } = createTheme();
   const lab = createLab(window.location, MAP_LAYERS);
   const palette = createPalette(theme);
-  const interaction = createInteraction(lab);
+  const interaction = createInteraction(lab, GRAB_PX);
   const layers = createLayers(MAP_LAYERS, lab, palette);
   const [isFlat, setFlat] = createSignal(false);
   const toPlan = (): void => {
@@ -37,7 +39,7 @@ export function DemoPage(): JSX.Element {
       </p>
       <Show
         when={isFlat()}
-        fallback={<ScenePanel {...surface} onPlan={toPlan} onProblem={toPlan} />}
+        fallback={<ScenePanel {...surface} onPlan={toPlan} onProblem={toPlan} isFixed />}
       >
         <PlanView {...surface} />
       </Show>

@@ -39,6 +39,7 @@ export function ViewCanvas(props: {
       interaction.hand,
       interaction.view,
       interaction.setPointing,
+      interaction.grabPx,
     );
     const cursor = {
       at: interaction.cursor,

@@ -15,6 +15,8 @@ export interface Interaction {
   readonly hand: Hand;
   readonly picker: Picker;
   readonly setPointing: Setter<Pointing | undefined>;
+  /** Distance from the bead within which a press takes it; undefined for that of the pointer's kind. */
+  readonly grabPx: number | undefined;
   /** Radius of the ring around the bead if a press at the pointer would grab it. */
   readonly reachPx: Accessor<number | undefined>;
   readonly cursor: Accessor<Vec2 | undefined>;
@@ -29,7 +31,7 @@ export interface Interaction {
   leave(): void;
 }
 
-export function createInteraction(lab: Session & Trial & Notices): Interaction {
+export function createInteraction(lab: Session & Trial & Notices, grabPx?: number): Interaction {
   const [view, setView] = createSignal<TableView>();
   const [pointing, setPointing] = createSignal<Pointing>();
   const [cursor, setCursor] = createSignal<Vec2>();
@@ -56,6 +58,7 @@ export function createInteraction(lab: Session & Trial & Notices): Interaction {
     hand,
     picker,
     setPointing,
+    grabPx,
     reachPx,
     place,
     cursor,

@@ -43,6 +43,7 @@ export function attachPointer(
   hand: Hand,
   view: () => TableView | undefined,
   onPointing: (pointing: Pointing | undefined) => void,
+  grabPx?: number,
 ): () => void {
   const attached = new AbortController();
   const { signal } = attached;
@@ -52,7 +53,7 @@ export function attachPointer(
     const box = canvas.getBoundingClientRect();
     return {
       px: [event.clientX - box.left, event.clientY - box.top],
-      reachPx: isTouch(event) ? GRAB_TOUCH_PX : GRAB_MOUSE_PX,
+      reachPx: grabPx ?? (isTouch(event) ? GRAB_TOUCH_PX : GRAB_MOUSE_PX),
     };
   };
   const move = (): void => {

@@ -41,6 +41,8 @@ export function ScenePanel(
   props: SurfaceProps & {
     layers: readonly LiveLayer<MapLayer & InScene>[];
     onPlan: () => void;
+    /** The pointer does not turn the view. */
+    isFixed?: boolean;
     /** Called when the view cannot be shown. */
     onProblem?: () => void;
   },
@@ -157,7 +159,7 @@ export function ScenePanel(
     const drag = hand.drag();
     const holds =
       drag.kind === 'held' ? drag.by !== 'keyboard' : drag.kind === 'pressed' && drag.onBead;
-    drawing()?.setFree(!holds);
+    drawing()?.setFree(!holds && !props.isFixed);
   });
   const pull = createMemo(() => {
     const [scene, state] = [lab.scene(), lab.state()];

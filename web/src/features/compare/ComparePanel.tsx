@@ -65,7 +65,7 @@ function Start(props: { lab: Session & Trial & Events & Compared }): JSX.Element
           lab.send({ type: 'fork', tick: isOver() ? attemptStart(lab) : state.tick, controllers });
         }}
       >
-        {isOver() ? 'Compare since the goal was set' : 'Compare from here'}
+        Start comparison
       </button>
       <span class="compare-of" role="status">
         <Show when={lab.comparison.shown()}>

@@ -11,12 +11,12 @@ import {
   type JSX,
 } from 'solid-js';
 import { experimentFrom, loadMessage } from '../../lab/experimentLink';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { openPage } from '../../net/access';
 import type { SceneMessage } from '../../net/protocol.gen';
 import {
+  CARRIERS,
   PROGRAMME,
   SILENCE_MS,
   afterCue,
@@ -26,6 +26,7 @@ import {
   nextCue,
   startOf,
   turned,
+  visitorCaption,
   watchedCaption,
 } from './programme';
 import './demo.css';
@@ -33,7 +34,6 @@ import './demo.css';
 const TICK_MS = 250;
 /** Interval of attempts to load the page again when it cannot go on. */
 const RELOAD_MS = 10_000;
-const VISITED = 'You are in control: drag the bead, touch a place to set a goal.';
 const WATCHING = 'Another screen runs this demonstration';
 const WAITING = 'One moment, please.';
 
@@ -145,9 +145,11 @@ export function Demo(props: {
       }
       const index = nextCue(place(), state);
       if (index === undefined) return;
-      const command = PROGRAMME[place().part]?.cues[index]?.command;
+      const commands = PROGRAMME[place().part]?.cues[index]?.commands ?? [];
       setPlace(afterCue(place(), index));
-      if (command) lab.send(command);
+      commands.forEach((command) => {
+        lab.send(command);
+      });
     }),
   );
 
@@ -185,9 +187,11 @@ export function Demo(props: {
   const isWatching = (): boolean =>
     !lab.canOperate() && isLive() && lab.hello()?.operator_present === true;
   const caption = (): string => {
-    if (lab.canOperate()) return touched_ms() === undefined ? place().caption : VISITED;
-    if (isDone() || lab.connection().kind === 'lost') return WAITING;
     const state = lab.state();
+    if (lab.canOperate()) {
+      return touched_ms() === undefined || !state ? place().caption : visitorCaption(state);
+    }
+    if (isDone() || lab.connection().kind === 'lost') return WAITING;
     return isWatching() && state ? watchedCaption(state) : '';
   };
   return (
@@ -199,7 +203,7 @@ export function Demo(props: {
       <Show when={lab.state()}>
         {(state) => (
           <p class="demo-mode" data-mode={state().mode}>
-            {state().mode === 1 ? 'Fetch' : `Carry: ${CONTROLLER_LABELS[state().controller]}`}
+            {state().mode === 1 ? 'Fetch' : CARRIERS[state().controller]}
           </p>
         )}
       </Show>

@@ -14,6 +14,7 @@ import {
   nextCue,
   startOf,
   turned,
+  visitorCaption,
 } from './programme';
 
 const known = { ...sceneOf('colon'), maps: ['colon', 'posts'] };
@@ -42,7 +43,7 @@ describe('the programme', () => {
       stateAt(1, { phase: 'approaching' }),
       stateAt(2, first),
       stateAt(3, { ...first, leg_steps: 18 }),
-      stateAt(4, { ...first, leg_steps: 45 }),
+      stateAt(4, { ...first, leg_steps: 48 }),
       stateAt(5, { ...first, leg_steps: 60 }),
       // The loss is noticed later.
       stateAt(6, { ...pulled, leg_steps: 61 }),
@@ -67,25 +68,41 @@ describe('the programme', () => {
       leg_steps: 9,
       disturbances: 1,
     });
-    expect(nextCue(pulled, carrying), 'a fetch that no state showed').toBe(4);
+    expect(nextCue(pulled, carrying), 'a pull that was not carried out').toBe(3);
     const delivered = stateAt(2, { phase: 'delivered', mode: 2, deliveries: 1 });
     for (const place of [startOf(0, 0), pulled]) {
       const cue = nextCue(place, delivered);
-      expect(cue).toBe(5);
+      expect(cue).toBe(4);
       const last = turned(afterCue(place, cue ?? NaN), READ_MS);
       expect(isOver(turned(last, 2 * READ_MS), 2 * READ_MS + REST_MS + 1)).toBe(true);
     }
   });
 
-  it('leaves each caption its time', () => {
-    const [one, two] = PROGRAMME[0]?.cues ?? [];
-    let place = afterCue(afterCue(startOf(0, 0), 0), 1);
+  it('leaves each caption its time, then shows the newest one', () => {
+    const [one, two, three] = PROGRAMME[0]?.cues ?? [];
+    let place = afterCue(startOf(0, 0), 0);
     expect(turned(place, READ_MS - 1).caption).toBe(PROGRAMME[0]?.title);
     place = turned(place, READ_MS);
     expect(place.caption).toBe(one?.caption);
-    place = turned(place, READ_MS + 1);
+    place = turned(afterCue(afterCue(place, 1), 2), READ_MS + 1);
     expect(place.caption).toBe(one?.caption);
-    expect(turned(place, 2 * READ_MS).caption).toBe(two?.caption);
+    expect(two?.caption).not.toBe(three?.caption);
+    expect(turned(place, 2 * READ_MS).caption).toBe(three?.caption);
+  });
+
+  it('pulls no bead away that was delivered', () => {
+    const late = stateAt(1, { phase: 'settling', mode: 2, leg_steps: 90 });
+    expect(nextCue(startOf(0, 0), late)).toBeUndefined();
+  });
+
+  it.each([
+    [{ hand_m: [0, 0] }, 'Pull'],
+    [{ mode: 1 }, 'The bead is lost'],
+    [{ phase: 'delivered' }, 'Delivered'],
+    [{}, 'You are in control'],
+  ] as const)('tells a visitor what happens: %j', (change, words) => {
+    const state = stateAt(1, { mode: 2, phase: 'transporting', hand_m: null });
+    expect(visitorCaption({ ...state, ...change } as StateMessage)).toContain(words);
   });
 
   it('leaves a part that does not get on', () => {

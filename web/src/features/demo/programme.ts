@@ -1,7 +1,6 @@
 // The programme of the demonstration: experiments with captions, one after the other. Pure.
 
-import { CONTROLLER_LABELS } from '../../lab/parameters';
-import type { ClientMessage, StateMessage } from '../../net/protocol.gen';
+import type { ClientMessage, ControllerName, StateMessage } from '../../net/protocol.gen';
 import { MAIN, sessionOf } from '../../net/session';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
@@ -9,7 +8,7 @@ export interface Cue {
   /** Holds in no state before its turn, so that a cue after a missed one can follow at once. */
   readonly when: (state: StateMessage) => boolean;
   readonly caption: string;
-  readonly command?: ClientMessage;
+  readonly commands?: readonly ClientMessage[];
 }
 
 export interface Part {
@@ -20,32 +19,50 @@ export interface Part {
   readonly cues: readonly Cue[];
 }
 
-/** Only after the bead was pulled away: each part begins with a fetch, too. */
-const isFetching = ({ mode, phase, disturbances }: StateMessage): boolean =>
-  disturbances > 0 && mode === 1 && phase === 'approaching';
 /** In a new leg: the leg in which the bead was pulled away has `steps` steps or more. */
 const carriesOn =
   (steps: number) =>
   ({ phase, disturbances, leg_steps }: StateMessage): boolean =>
     disturbances > 0 && phase === 'transporting' && leg_steps < steps;
 const isDelivered = ({ deliveries }: StateMessage): boolean => deliveries > 0;
+/** Not at the end of the transport: a bead that was delivered is not pulled away. */
 const after =
   (steps: number) =>
-  ({ leg_steps }: StateMessage): boolean =>
-    leg_steps >= steps;
+  ({ phase, leg_steps }: StateMessage): boolean =>
+    phase === 'transporting' && leg_steps >= steps;
 const pullTo = (x_m: number, y_m: number): ClientMessage => ({
   type: 'disturb',
   disturbance: { displace: { x_m, y_m } },
 });
+const atSpeed = (factor: number): ClientMessage => ({ type: 'set_speed', factor });
+
+/** Slow enough to see and read what happens between the pull and the next transport. */
+const PULL_SPEED = 0.5;
 
 /** The bead is pulled away after some steps of a transport, fetched, and delivered. */
-function disturbed(carries: string, steps: number, pull: ClientMessage): readonly Cue[] {
+function disturbed(
+  carries: string,
+  speed: number,
+  steps: number,
+  pull: ClientMessage,
+): readonly Cue[] {
   return [
     { when: after(0.3 * steps), caption: carries },
-    { when: after(0.75 * steps), caption: 'Watch: the bead will be pulled away.' },
-    { when: after(steps), caption: 'The bead is pulled away.', command: pull },
-    { when: isFetching, caption: 'Lost. The arm flies straight to the bead.' },
-    { when: carriesOn(steps), caption: 'Fetched. It carries on.' },
+    {
+      when: after(0.8 * steps),
+      caption: 'Watch: the bead will be pulled away.',
+      commands: [atSpeed(1)],
+    },
+    {
+      when: after(steps),
+      caption: 'The bead is pulled away. The arm flies straight to it.',
+      commands: [atSpeed(PULL_SPEED), pull],
+    },
+    {
+      when: carriesOn(steps),
+      caption: 'Fetched. It carries on.',
+      commands: [atSpeed(speed)],
+    },
     { when: isDelivered, caption: 'Delivered.' },
   ];
 }
@@ -54,37 +71,40 @@ const COLON = '#v=1&map=colon&seed=1&start=0.19,-0.28';
 
 export const PROGRAMME: readonly Part[] = [
   {
-    title: 'A magnet carries a bead through a maze',
+    title: 'A magnet carries a bead through a maze.',
     link: `${COLON}&goal=-0.24,-0.27&controller=rl`,
     speed: 2,
     cues: disturbed(
-      'A neural network steers. It sees only the camera picture.',
+      'RL: a neural network steers. It sees only the camera picture.',
+      2,
       60,
       pullTo(0.19, -0.28),
     ),
   },
   {
-    title: 'The same maze, with a planner',
+    title: 'The same maze, with a planner.',
     link: `${COLON}&goal=-0.24,-0.27&controller=errt`,
     speed: 2,
     cues: disturbed(
-      'ERRT plans a path, and plans again at each new wall.',
+      'ERRT plans a whole path, and plans again at each new wall.',
+      2,
       60,
       pullTo(0.19, -0.28),
     ),
   },
   {
-    title: 'Other obstacles, another controller',
+    title: 'Other obstacles, another controller.',
     link: '#v=1&map=posts&controller=attractor&seed=1&start=-0.25,-0.37&goal=0.24,-0.36',
     speed: 1,
     cues: disturbed(
-      'Attractor dynamics bends the motion around the posts.',
+      'Attractor dynamics has no plan: the posts in view bend its motion.',
+      1,
       24,
       pullTo(-0.14, -0.5),
     ),
   },
   {
-    title: 'Your turn: touch the bead and drag it away',
+    title: 'Your turn: touch the bead and drag it away.',
     link: `${COLON}&goal=-0.19,-0.48&controller=rl`,
     speed: 1,
     cues: [
@@ -133,19 +153,33 @@ export function afterCue(place: Place, index: number): Place {
   return { ...place, cues: index + 1, waiting: [...place.waiting, caption] };
 }
 
-/** Shows the next waiting caption when the present one has had its time. */
+/** Shows the newest waiting caption when the present one has had its time: a caption is about what is seen now. */
 export function turned(place: Place, now_ms: number): Place {
-  const [caption, ...waiting] = place.waiting;
+  const caption = place.waiting.at(-1);
   if (caption === undefined || now_ms - place.shown_ms < READ_MS) return place;
-  return { ...place, caption, waiting, shown_ms: now_ms };
+  return { ...place, caption, waiting: [], shown_ms: now_ms };
 }
+
+/** Who carries the bead, for an audience. */
+export const CARRIERS: Readonly<Record<ControllerName, string>> = {
+  rl: 'RL, a neural network',
+  errt: 'ERRT, a planner',
+  attractor: 'Attractor dynamics',
+};
 
 /** What a screen shows that only watches: another one runs the programme. */
 export function watchedCaption({ mode, phase, goal_m, controller }: StateMessage): string {
   if (phase === 'delivered') return 'Delivered.';
   if (mode === 1) return 'The arm flies to the bead.';
-  const name = CONTROLLER_LABELS[controller];
-  return goal_m ? `${name} carries the bead to its goal.` : 'No goal is set.';
+  return goal_m ? `${CARRIERS[controller]}, carries the bead to its goal.` : 'No goal is set.';
+}
+
+/** What a visitor in control reads. */
+export function visitorCaption({ hand_m, mode, phase }: StateMessage): string {
+  if (hand_m) return 'Pull the bead far away, then let go.';
+  if (mode === 1) return 'The bead is lost. The arm flies straight to it.';
+  if (phase === 'delivered') return 'Delivered. Touch a place to set another goal.';
+  return 'You are in control: drag the bead, touch a place to set a goal.';
 }
 
 /** Whether the part has come to its end, or to none. */

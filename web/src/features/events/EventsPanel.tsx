@@ -27,9 +27,9 @@ function EventsPanel(props: PanelProps): JSX.Element {
   const { lab } = props;
   let box!: HTMLDivElement;
   let following = true;
-  /** The session can only rewind to ticks that the timeline still has. */
+  /** Only a moment on the timeline can be explained; an event of the session itself has no story. */
   const onTimeline = (event: EventMessage | undefined): EventMessage | undefined =>
-    event && lab.marks().includes(event) ? event : undefined;
+    event && event.kind !== 'session' && lab.marks().includes(event) ? event : undefined;
   const events = createMemo(() =>
     lab
       .log()
@@ -58,9 +58,6 @@ function EventsPanel(props: PanelProps): JSX.Element {
   });
   return (
     <div class="log">
-      <p class="hint log-legend">
-        Timeline: {SYMBOL_LEGEND}; a number: events in one mark. Click a mark or a time: why.
-      </p>
       <div
         ref={box}
         class="log-lines"
@@ -74,6 +71,9 @@ function EventsPanel(props: PanelProps): JSX.Element {
           following = box.scrollHeight - box.scrollTop - box.clientHeight < FOLLOW_PX;
         }}
       >
+        <p class="hint log-legend">
+          Timeline: {SYMBOL_LEGEND}; a number: events in one mark. Click a mark or a time: why.
+        </p>
         <Show when={lab.log().length === 0}>
           <p class="placeholder">No events yet.</p>
         </Show>
