@@ -46,6 +46,15 @@ impl ControllerName {
             Self::Attractor => "attractor",
         }
     }
+
+    /// The name in sentences.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Rl => "RL",
+            Self::Errt => "ERRT",
+            Self::Attractor => "Attractor",
+        }
+    }
 }
 
 impl std::str::FromStr for ControllerName {

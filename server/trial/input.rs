@@ -147,7 +147,7 @@ impl Trial {
             Input::Release => self.release(),
             Input::SelectController(name) => {
                 if *name != self.state.controller {
-                    let text = format!("controller: {}", name.as_str());
+                    let text = format!("controller: {}", name.label());
                     self.events.push(Event::new(self.state.world.tick, EventKind::Session, text));
                 }
                 self.state.controller = *name;

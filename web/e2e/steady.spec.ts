@@ -68,6 +68,8 @@ test('does not move while a session runs', async ({ page, session, openLab }) =>
   const other = await openLab();
   await other.button('Take control').click();
   await lab.page.getByTestId('asked').waitFor();
+  // Otherwise it gets control when this page sends nothing for 30 s.
+  await other.page.close();
   await lab.delivered(1);
   // Past 10 s, a minute and ten minutes of simulated time.
   await lab.speed('64');

@@ -41,12 +41,12 @@ test('shows one tip at a time, and none twice', async ({ page, session }) => {
   await isTip(page, /^Drag the bead/);
   // As far as the magnet does not reach.
   await lab.startDrag(must(lab.freePoints(lab.state.bead_m, 0.2, 0.35)[0], 'a place far away'));
-  await isTip(page, /^Click a free place/);
+  await isTip(page, /Click a free place/);
   await page.mouse.up();
   await lab.pause();
   await page.reload();
   await lab.live();
-  await isTip(page, /^Click a free place/);
+  await isTip(page, /Click a free place/);
   await lab.setGoal(freePointNearBead(lab));
   await isTip(page, /^Choose 3-D/);
   await lab.radio('3-D').check();

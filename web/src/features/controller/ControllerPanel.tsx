@@ -2,7 +2,7 @@
 
 import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { troubleWords } from '../../lab/failure';
-import { CONTROLLER_HELP, CONTROLLER_LABELS } from '../../lab/parameters';
+import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS } from '../../lab/parameters';
 import type { ControllerName, StateMessage } from '../../net/protocol.gen';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
@@ -56,9 +56,16 @@ function About(props: { state: StateMessage }): JSX.Element {
     return trouble === null ? undefined : troubleWords(CONTROLLER_LABELS[controller], trouble);
   };
   return (
-    <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
-      {trouble() ?? CONTROLLER_HELP[props.state.controller]}
-    </p>
+    <>
+      <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
+        {trouble() ?? CONTROLLER_HELP[props.state.controller]}
+      </p>
+      <div class="about-others">
+        <For each={CONTROLLERS.filter((name) => name !== props.state.controller)}>
+          {(name) => <p>{CONTROLLER_HELP[name]}</p>}
+        </For>
+      </div>
+    </>
   );
 }
 

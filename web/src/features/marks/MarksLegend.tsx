@@ -49,19 +49,19 @@ const MARKS: readonly Mark[] = [
   },
   {
     layer: 'capture',
-    name: 'reach of the pull',
+    name: 'pull',
     help: 'Inside this circle the pull of the magnet moves the bead.',
     icon: () => <circle class="reach" cx="10" cy="8" r="6.5" />,
   },
   {
     layer: 'camera',
-    name: 'camera’s view',
+    name: 'view',
     help: 'What the camera on the arm sees.',
     icon: () => <rect class="view" x="3" y="2" width="14" height="12" />,
   },
   {
     layer: 'sensed',
-    name: 'walls in view',
+    name: 'seen',
     help: 'Walls in the present camera picture.',
     icon: () => <path class="sensed" d="M3 12h8V4h6" />,
   },

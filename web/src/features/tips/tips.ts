@@ -43,9 +43,9 @@ export function tipText(id: TipId, isTouch: boolean): string {
     case 'run':
       return 'Press Run, then drag the bead away.';
     case 'drag':
-      return 'Drag the bead out of the blue circle: the magnet loses it, and the arm fetches it.';
+      return 'Drag the bead far out of the blue circle: the magnet loses it, and the arm fetches it.';
     case 'goal':
-      return `${isTouch ? 'Tap' : 'Click'} a free place to set another goal.`;
+      return `The arm fetches the lost bead. ${isTouch ? 'Tap' : 'Click'} a free place to set another goal.`;
     case 'controller':
       return 'Choose another controller. Or open Compare, which runs all three side by side.';
     case 'scene':
