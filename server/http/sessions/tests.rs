@@ -101,7 +101,10 @@ async fn a_session_goes_on_from_the_disk() {
     let partly = third.open("anna").await.unwrap();
     assert_eq!(partly.session.resumed_tick(), Some(100));
     let text = report(&partly.session);
-    assert!(text.contains("goes on") && text.contains("a saved trial could not be read: parameters: threshold_m is -1"), "{text}");
+    assert!(
+        text.contains("goes on") && text.contains("a saved trial could not be read: parameters: threshold_m is -1"),
+        "{text}"
+    );
     assert!(partly.session.watch().borrow().scenery.kept_runs.is_empty());
     let aside = folder.path().join("sessions/anna.ferry-unreadable");
     assert_eq!(std::fs::read(&aside).unwrap(), bytes);
