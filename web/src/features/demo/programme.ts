@@ -30,33 +30,28 @@ const after =
   (steps: number) =>
   ({ phase, leg_steps }: StateMessage): boolean =>
     phase === 'transporting' && leg_steps >= steps;
-const pullTo = (x_m: number, y_m: number): ClientMessage => ({
-  type: 'disturb',
-  disturbance: { displace: { x_m, y_m } },
-});
 const atSpeed = (factor: number): ClientMessage => ({ type: 'set_speed', factor });
 
-/** Slow enough to see and read what happens between the pull and the next transport. */
+/** Slow enough to see and read what happens between the warning and the next transport. */
 const PULL_SPEED = 0.5;
+/** Steps from the warning to the pull: four seconds at that speed. */
+const WARNING_STEPS = 8;
 
-/** The bead is pulled away after some steps of a transport, fetched, and delivered. */
-function disturbed(
-  carries: string,
-  speed: number,
-  steps: number,
-  pull: ClientMessage,
-): readonly Cue[] {
+/**
+ * The bead is pulled away after some steps of a transport, fetched, and delivered. The experiment's script pulls, so that
+ * it happens at its step, however late this page is.
+ */
+function disturbed(carries: string, speed: number, steps: number): readonly Cue[] {
   return [
     { when: after(0.3 * steps), caption: carries },
     {
-      when: after(0.8 * steps),
+      when: after(steps - WARNING_STEPS),
       caption: 'Watch: the bead will be pulled away.',
-      commands: [atSpeed(1)],
+      commands: [atSpeed(PULL_SPEED)],
     },
     {
-      when: after(steps),
+      when: ({ disturbances }) => disturbances > 0,
       caption: 'The bead is pulled away. The arm flies straight to it.',
-      commands: [atSpeed(PULL_SPEED), pull],
     },
     {
       when: carriesOn(steps),
@@ -68,40 +63,27 @@ function disturbed(
 }
 
 const COLON = '#v=1&map=colon&seed=1&start=0.19,-0.28';
+const pull = (x_m: number, y_m: number, step: number): string =>
+  `&script=displace:${x_m},${y_m}@step:${step}`;
 
 export const PROGRAMME: readonly Part[] = [
   {
     title: 'A magnet carries a bead through a maze.',
-    link: `${COLON}&goal=-0.24,-0.27&controller=rl`,
+    link: `${COLON}&goal=-0.24,-0.27&controller=rl${pull(0.19, -0.28, 60)}`,
     speed: 2,
-    cues: disturbed(
-      'RL: a neural network steers. It sees only the camera picture.',
-      2,
-      60,
-      pullTo(0.19, -0.28),
-    ),
+    cues: disturbed('RL: a neural network steers. It sees only the camera picture.', 2, 60),
   },
   {
     title: 'The same maze, with a planner.',
-    link: `${COLON}&goal=-0.24,-0.27&controller=errt`,
+    link: `${COLON}&goal=-0.24,-0.27&controller=errt${pull(0.19, -0.28, 60)}`,
     speed: 2,
-    cues: disturbed(
-      'ERRT plans a whole path, and plans again at each new wall.',
-      2,
-      60,
-      pullTo(0.19, -0.28),
-    ),
+    cues: disturbed('ERRT plans a whole path, and plans again at each new wall.', 2, 60),
   },
   {
     title: 'Other obstacles, another controller.',
-    link: '#v=1&map=posts&controller=attractor&seed=1&start=-0.25,-0.37&goal=0.24,-0.36',
+    link: `#v=1&map=posts&controller=attractor&seed=1&start=-0.25,-0.37&goal=0.24,-0.36${pull(-0.14, -0.5, 24)}`,
     speed: 1,
-    cues: disturbed(
-      'Attractor dynamics has no plan: the posts in view bend its motion.',
-      1,
-      24,
-      pullTo(-0.14, -0.5),
-    ),
+    cues: disturbed('Attractor dynamics has no plan: the posts in view bend its motion.', 1, 24),
   },
   {
     title: 'Your turn: touch the bead and drag it away.',
