@@ -18,7 +18,7 @@ export type MapReport = {
  */
 name: string, width_m: number, height_m: number, walls: number, 
 /**
- * Number of connected parts that a trial can use; the bead cannot pass between them.
+ * Number of connected parts; the bead cannot pass between them.
  */
 regions: number, 
 /**
