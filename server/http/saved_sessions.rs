@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::live::Hub;
-use super::sessions::MAIN;
 use crate::files::replace;
 use crate::scenario::ControllerName;
 use crate::session::{Opening, Saved, Session, View};
@@ -160,10 +159,8 @@ fn make_room(folder: &Path, open: &BTreeSet<String>) {
         .collect();
     files.sort();
     let surplus = (files.len() + 1).saturating_sub(MOST);
-    let is_needed = |path: &Path| {
-        path.file_stem().and_then(|name| name.to_str()).is_none_or(|name| name == MAIN || open.contains(name))
-    };
-    for (_, path) in files.into_iter().filter(|(_, path)| !is_needed(path)).take(surplus) {
+    let is_open = |path: &Path| path.file_stem().and_then(|name| name.to_str()).is_none_or(|name| open.contains(name));
+    for (_, path) in files.into_iter().filter(|(_, path)| !is_open(path)).take(surplus) {
         tracing::info!(path = %path.display(), "oldest saved session deleted: there are too many");
         let _ = std::fs::remove_file(path);
     }
@@ -178,12 +175,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(format!("{name}.{ENDING}"));
         let names = (0..MOST).map(|number| format!("s{number}"));
-        for (age, name) in std::iter::once(MAIN.to_owned()).chain(names).enumerate() {
+        for (age, name) in std::iter::once("main".to_owned()).chain(names).enumerate() {
             let file = std::fs::File::create(path(&name)).unwrap();
             file.set_modified(std::time::UNIX_EPOCH + Duration::from_secs(age as u64)).unwrap();
         }
         std::fs::write(folder.path().join("other.txt"), "").unwrap();
-        make_room(folder.path(), &BTreeSet::from(["s0".to_owned()]));
+        make_room(folder.path(), &["main", "s0"].map(str::to_owned).into());
         let exists = ["main", "s0", "s1", "s2", "s3"].map(|name| path(name).exists());
         assert_eq!(exists, [true, true, false, false, true]);
         assert!(folder.path().join("other.txt").exists());
