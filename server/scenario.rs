@@ -47,7 +47,7 @@ impl ControllerName {
         }
     }
 
-    /// The name in sentences.
+    /// The name in sentences, also on the page.
     pub fn label(self) -> &'static str {
         match self {
             Self::Rl => "RL",

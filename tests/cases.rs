@@ -49,13 +49,7 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.34})).await;
     browser.send(json!({"type": "step", "ticks": 200})).await;
     browser.send(json!({"type": "rewind", "tick": 0})).await;
-    browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
-    browser.send(json!({"type": "step", "ticks": 300})).await;
-    browser.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.45, "lift": true})).await;
-    browser.send(json!({"type": "step", "ticks": 100})).await;
-    browser.send(json!({"type": "release"})).await;
-    browser.send(json!({"type": "step", "ticks": 1})).await;
-    browser.until("401 ticks", |m| m["type"] == "state" && m["tick"] == 401).await;
+    drag(&mut browser).await;
     let (status, text) = lab.ask("GET", "/api/sessions/main/case.json", "").await;
     assert_eq!(status, 200, "{text}");
     let case: Case = serde_json::from_value(text.clone()).unwrap();
@@ -103,16 +97,21 @@ async fn a_drag_becomes_a_case_that_repeats_it() {
     assert!(String::from_utf8_lossy(&drawn.stdout).contains("delivered"));
 }
 
-/// A trial of 401 ticks with a drag, as a test case, and its last state.
-async fn dragged(lab: &Laboratory, browser: &mut Browser) -> (String, Value) {
-    browser.send(json!({"type": "load_scenario", "map": "posts", "start_m": [-0.25, -0.38], "seed": 5})).await;
+/// Goes on for 401 ticks with a drag. Returns the last state.
+async fn drag(browser: &mut Browser) -> Value {
     browser.send(json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33})).await;
     browser.send(json!({"type": "step", "ticks": 300})).await;
     browser.send(json!({"type": "drag", "x_m": 0.0, "y_m": -0.45, "lift": true})).await;
     browser.send(json!({"type": "step", "ticks": 100})).await;
     browser.send(json!({"type": "release"})).await;
     browser.send(json!({"type": "step", "ticks": 1})).await;
-    let end = browser.state("401 ticks", |m| m["tick"] == 401).await;
+    browser.state("401 ticks", |m| m["tick"] == 401).await
+}
+
+/// A trial of 401 ticks with a drag, as a test case, and its last state.
+async fn dragged(lab: &Laboratory, browser: &mut Browser) -> (String, Value) {
+    browser.send(json!({"type": "load_scenario", "map": "posts", "start_m": [-0.25, -0.38], "seed": 5})).await;
+    let end = drag(browser).await;
     let (status, text) = lab.ask_text("GET", "/api/sessions/main/case.json", "", &[]).await;
     assert_eq!(status, 200, "{text}");
     (text, end)

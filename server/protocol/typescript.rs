@@ -57,8 +57,17 @@ fn constants() -> String {
         constant("CAMERA_PX", VIEW_PX, "Width and height of the camera image."),
         constant("OBSERVATION_PX", OBSERVATION_SIZE_PX, "Width and height of the observation."),
         constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
+        controller_labels(),
     ]
     .join("\n")
+}
+
+fn controller_labels() -> String {
+    let lines = ControllerName::ALL.map(|name| format!("  {}: '{}',\n", name.as_str(), name.label()));
+    format!(
+        "/** Name of each controller in sentences. */\nexport const CONTROLLER_LABELS = {{\n{}}} as const;\n",
+        lines.concat()
+    )
 }
 
 fn constant(name: &str, value: impl std::fmt::Display, about: &str) -> String {

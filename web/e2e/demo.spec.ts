@@ -4,6 +4,7 @@ import type { Page } from '@playwright/test';
 import { Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { useSlowDisplay } from './support/display';
+import { endFirstSession } from './support/ended';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { must, until } from './support/wait';
@@ -181,29 +182,13 @@ test('waits for its server, and begins again', async ({ page, watch }) => {
   await begun(lab);
 });
 
-/** The test changes a message to report the end, because it cannot cause a fault of the server. */
 test('loads itself again after its session has ended', async ({ page }) => {
-  let connections = 0;
-  await page.routeWebSocket(/\/live$/, (socket) => {
-    connections += 1;
-    const isFirst = connections === 1;
-    const upstream = socket.connectToServer();
-    upstream.onMessage((text) => {
-      const message =
-        typeof text === 'string' ? (JSON.parse(text) as { type?: string }) : undefined;
-      if (!isFirst || message?.type !== 'state') {
-        socket.send(text);
-        return;
-      }
-      socket.send(JSON.stringify({ ...message, ended: 'the camera was lost' }));
-      void socket.close({ code: 1001, reason: 'the session has ended' });
-    });
-  });
+  const connections = await endFirstSession(page);
   await page.goto(`${server.url}/demo`);
   await expect(captionOf(page)).toHaveText(WAITING);
   await jump(page, SILENCE_MS);
   await expect(captionOf(page)).toHaveText(FIRST);
-  expect(connections).toBe(2);
+  expect(connections()).toBe(2);
 });
 
 test('returns to the session that it was opened from', async ({ page }) => {

@@ -2,6 +2,7 @@
 
 import { expect, test } from './fixtures';
 import { violations } from './support/axe';
+import { endFirstSession } from './support/ended';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
@@ -120,24 +121,8 @@ test('goes on where the server stopped, and says so', async ({ openLab, watch })
   }
 });
 
-/** The test changes a message to report the end, because it cannot cause a fault of the server. */
 test('shows why its session ended, and restarts it', async ({ page, session }) => {
-  let connections = 0;
-  await page.routeWebSocket(/\/live$/, (socket) => {
-    connections += 1;
-    const isFirst = connections === 1;
-    const server = socket.connectToServer();
-    server.onMessage((text) => {
-      const message =
-        typeof text === 'string' ? (JSON.parse(text) as { type?: string }) : undefined;
-      if (!isFirst || message?.type !== 'state') {
-        socket.send(text);
-        return;
-      }
-      socket.send(JSON.stringify({ ...message, ended: 'the camera was lost' }));
-      void socket.close({ code: 1001, reason: 'the session has ended' });
-    });
-  });
+  const connections = await endFirstSession(page);
   // The test advances the page's timers.
   await page.clock.install();
   await page.goto(session.url);
@@ -146,7 +131,7 @@ test('shows why its session ended, and restarts it', async ({ page, session }) =
   await expect(page.getByRole('button', { name: 'Run', exact: true })).toBeDisabled();
   // The page does not reopen an ended session by itself.
   await page.clock.runFor(10_000);
-  expect(connections).toBe(1);
+  expect(connections()).toBe(1);
   const restart = page.getByRole('button', { name: RESTART });
   await restart.click();
   await page.clock.runFor(1000);

@@ -1,14 +1,9 @@
 // The form's fields, from the server's table, and how their values are shown and stored.
 
 import { GROUPS as GENERATED } from '../net/parameters.gen';
-import type { ControllerName, Parameters } from '../net/protocol.gen';
+import { CONTROLLER_LABELS, type ControllerName, type Parameters } from '../net/protocol.gen';
 
-/** Sub-controllers 2 as the page names them. */
-export const CONTROLLER_LABELS: Readonly<Record<ControllerName, string>> = {
-  rl: 'RL',
-  errt: 'ERRT',
-  attractor: 'Attractor',
-};
+export { CONTROLLER_LABELS };
 
 /** What each controller does, one or two sentences. */
 export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {

@@ -74,3 +74,10 @@ export const OBSERVATION_PX = 84;
 
 /** Largest drawing of a map. */
 export const MAX_SVG_BYTES = 1048576;
+
+/** Name of each controller in sentences. */
+export const CONTROLLER_LABELS = {
+  rl: 'RL',
+  errt: 'ERRT',
+  attractor: 'Attractor',
+} as const;
