@@ -1,12 +1,12 @@
 # `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
 # `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses,
-# `make dist` writes an archive with the program.
+# `make dist` writes an archive with the program, `make results` runs the evaluations of docs/evaluation.md.
 # Each target first installs what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test dist soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist results soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description.
@@ -50,6 +50,11 @@ dist: system-run
 		{ echo "Ferry needs glibc $$glibc; Debian 12 has $(NEWEST_GLIBC)"; exit 1; }
 	tar -C $(DIST)/.. --owner=0 --group=0 --numeric-owner --sort=name -cf - $(notdir $(DIST)) | gzip -9n > $(DIST).tar.gz
 	@ls -l $(DIST).tar.gz
+
+# An hour or two on two cores. An interrupted run goes on.
+results: system-run
+	cargo build --release
+	python3 tests/results/tables.py
 
 # Its budgets are strict: run nothing else meanwhile. SOAK_MINUTES=4 is a shorter run.
 soak: system-test

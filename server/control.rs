@@ -2,6 +2,7 @@
 
 pub mod approach;
 pub mod limits;
+pub mod search;
 pub mod switching;
 pub mod transport;
 
@@ -58,6 +59,12 @@ pub enum Refusal {
     NoInverse(String),
     #[error("the step needs {speed_m_s:.3} m/s, the limit is {limit_m_s:.3}")]
     TooFast { speed_m_s: f64, limit_m_s: f64 },
+    /// No sample of the tracker has arrived for `tracker_timeout_s`.
+    #[error("tracker lost{}", if *is_searching { "; the camera does not show the bead where it was, the arm looks for it" } else { "" })]
+    TrackerLost {
+        /// The arm looks for the bead with the camera.
+        is_searching: bool,
+    },
     /// No policy is loaded, or its network failed.
     #[error("no policy: {0}")]
     Policy(String),
@@ -70,6 +77,9 @@ pub enum Refusal {
     /// The step leaves the camera's view, for example because the camera is mounted far to the side.
     #[error("the step to ({x_m:.3}, {y_m:.3}) m leaves the camera's view")]
     OutOfView { x_m: f64, y_m: f64 },
+    /// The image cannot show whether a wall is there.
+    #[error("the magnet hides the step to ({x_m:.3}, {y_m:.3}) from the camera")]
+    Hidden { x_m: f64, y_m: f64 },
     /// The obstacle test is positive somewhere on the step.
     #[error("the camera sees an obstacle on the step, at ({x_m:.3}, {y_m:.3}) m")]
     Obstacle {

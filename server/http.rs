@@ -15,6 +15,7 @@ mod refusals;
 mod routes;
 mod saved_sessions;
 mod sessions;
+mod site;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;

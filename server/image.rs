@@ -2,6 +2,8 @@
 
 mod pinhole;
 
+use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
 pub use pinhole::{CameraMount, Pinhole};
@@ -57,6 +59,17 @@ impl Picture {
             })
             .collect();
         GrayImage { width_px: self.width_px as usize, height_px: self.height_px as usize, pixels }
+    }
+
+    /// Adds noise of this standard deviation to the brightness of each pixel.
+    pub fn add_noise(&mut self, deviation_levels: f64, rng: &mut impl Rng) {
+        for pixel in self.rgba.chunks_exact_mut(4) {
+            let noise: f32 = rng.sample(StandardNormal);
+            let noise = (f64::from(noise) * deviation_levels).round() as i16;
+            for channel in &mut pixel[..3] {
+                *channel = (i16::from(*channel) + noise).clamp(0, 255) as u8;
+            }
+        }
     }
 
     /// Encodes the image as PNG.

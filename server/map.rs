@@ -136,6 +136,11 @@ impl Map {
         self.for_stage
     }
 
+    /// Whether the drawing is that of a shipped map, whatever the names.
+    pub fn is_drawn_like_shipped(&self, name: &str) -> bool {
+        Shipped::get(&format!("{name}.svg")).is_some_and(|file| *file.data == *self.svg.as_bytes())
+    }
+
     /// The text of the SVG file.
     pub fn svg(&self) -> &str {
         &self.svg

@@ -1,5 +1,6 @@
 //! Evaluation of camera frames: gray image, obstacle test, observation, obstacles near the tool.
 
+mod bead;
 mod dark;
 mod observation;
 mod obstacle_map;
@@ -11,9 +12,13 @@ mod table;
 #[cfg(test)]
 mod test_world;
 
-use crate::geometry::{Point2, Rect, Vector2};
-use crate::image::{CameraFrame, GrayImage};
+use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
+use crate::geometry::{Point2, Rect, Vector2};
+use crate::image::{CameraFrame, CameraMount, GrayImage};
+
+pub use bead::BeadView;
 pub use dark::{DarkPixels, OBSTACLE_LEVEL, PixelRect};
 pub use observation::{OBSERVATION_SIZE_PX, Observation};
 pub use obstacle_map::{Area, CellState, Change, ObstacleMap, Unknown};
@@ -26,6 +31,17 @@ pub use table::wall_spread;
 pub const TEST_PATCH_PX: i64 = 15;
 /// A mean below this is an obstacle (paper, §IV-A).
 pub const OBSTACLE_MEAN: f64 = 150.0;
+
+/// Gray levels of what hides the table: the magnet and the gripper (165). Floor and bead are 200 or lighter, walls 50 or
+/// darker. What is hidden is neither.
+pub const HIDING: RangeInclusive<u8> = 126..=189;
+
+/// Columns and rows of [`Percept::from_default_camera`], if it is not the image itself: whole multiples of the
+/// observation's.
+const WINDOW_PX: usize = 3 * OBSERVATION_SIZE_PX;
+/// Gray of a wall's top and of the floor in the controllers' view.
+const WALL_LEVEL: u8 = 43;
+const FLOOR_LEVEL: u8 = 240;
 
 /// Conversion between pixels and table points, for an image taken from straight above, +y up.
 ///
@@ -75,13 +91,17 @@ pub struct Percept {
     pub calibration: Calibration,
     /// Mean of the 15×15 pixels around the tool, which is at the image centre of the default camera.
     pub center_mean: f64,
+    /// Whether the magnet hides any pixel.
+    is_partly_hidden: bool,
 }
 
 impl Percept {
     /// Evaluates a frame that was taken with the tool at `tool_m`.
     pub fn of(frame: &CameraFrame, tool_m: Point2<f64>) -> Self {
         let (gray, calibration) = rectify::from_above(frame.picture.to_gray(), &frame.pinhole);
-        let mut percept = Self { gray, calibration, center_mean: 0.0 };
+        // Counting is faster than searching, because most images have no such pixel.
+        let is_partly_hidden = gray.pixels.iter().filter(|&level| HIDING.contains(level)).count() > 0;
+        let mut percept = Self { gray, calibration, center_mean: 0.0, is_partly_hidden };
         percept.center_mean = percept.patch_mean(tool_m);
         percept
     }
@@ -106,19 +126,83 @@ impl Percept {
         self.center_mean < OBSTACLE_MEAN
     }
 
-    /// Mean of the 15×15 pixels around a table point. Pixels out of view count as wall.
-    pub fn patch_mean(&self, point: Point2<f64>) -> f64 {
+    /// The pixels at or below a gray level that are not hidden by the magnet.
+    pub fn dark(&self, level: u8) -> DarkPixels {
+        DarkPixels::where_(&self.gray, |pixel| pixel <= level && !HIDING.contains(&pixel))
+    }
+
+    /// The pixels that the magnet hides; `None` if there are none.
+    pub fn hidden(&self) -> Option<DarkPixels> {
+        self.is_partly_hidden.then(|| DarkPixels::where_(&self.gray, |pixel| HIDING.contains(&pixel)))
+    }
+
+    /// Of the 15×15 pixels around a table point: the sum of those that the magnet does not hide, and the number of those
+    /// that it hides. Pixels out of view are black.
+    fn patch_sum(&self, point: Point2<f64>) -> (u64, i64) {
         let (column, row) = self.calibration.image_from_table(point);
         let half = TEST_PATCH_PX / 2;
         let (column, row) = (column.floor() as i64, row.floor() as i64);
         let size = self.gray.width_px as i64;
-        let mut sum = 0u64;
+        let (mut sum, mut hidden) = (0, 0);
         for r in (row - half).max(0)..=(row + half).min(size - 1) {
             for c in (column - half).max(0)..=(column + half).min(size - 1) {
-                sum += u64::from(self.gray.pixels[(r * size + c) as usize]);
+                let level = self.gray.pixels[(r * size + c) as usize];
+                let is_hidden = HIDING.contains(&level);
+                sum += if is_hidden { 0 } else { u64::from(level) };
+                hidden += i64::from(is_hidden);
             }
         }
-        sum as f64 / (TEST_PATCH_PX * TEST_PATCH_PX) as f64
+        (sum, hidden)
+    }
+
+    /// Mean of the 15×15 pixels around a table point. Pixels out of view count as wall. Those that the magnet hides do
+    /// not count; where it hides all of them, no wall is seen.
+    pub fn patch_mean(&self, point: Point2<f64>) -> f64 {
+        let (sum, hidden) = self.patch_sum(point);
+        let visible = TEST_PATCH_PX * TEST_PATCH_PX - hidden;
+        if visible > 0 { sum as f64 / visible as f64 } else { OBSTACLE_MEAN }
+    }
+
+    /// Whether the magnet hides more than half of the 15×15 pixels around a table point.
+    pub fn is_hidden(&self, point: Point2<f64>) -> bool {
+        self.is_partly_hidden && 2 * self.patch_sum(point).1 > TEST_PATCH_PX * TEST_PATCH_PX
+    }
+
+    /// The network's image: the camera's own, or the one that the default camera would take.
+    pub fn for_network(&self, is_corrected: bool, tool_m: Point2<f64>, known: &ObstacleMap) -> Cow<'_, GrayImage> {
+        if is_corrected { self.from_default_camera(tool_m, known) } else { Cow::Borrowed(&self.gray) }
+    }
+
+    /// The image that the default camera would take over a tool: [`CameraMount::default`]'s square of table, with the
+    /// tool in the middle. Policies are trained with that camera. What this camera does not see, or what the magnet
+    /// hides, comes from the obstacle map; a place that was never seen is shown as floor.
+    pub fn from_default_camera(&self, tool_m: Point2<f64>, known: &ObstacleMap) -> Cow<'_, GrayImage> {
+        let pinhole = CameraMount::default().over(tool_m);
+        let [_, _, height_m] = pinhole.position_m;
+        let side_m = 2.0 * height_m * pinhole.tangent();
+        let Calibration { center_m, m_per_px, size_px, .. } = self.calibration;
+        let is_default = (center_m - tool_m).norm() < 1e-9 && (m_per_px * size_px as f64 - side_m).abs() < 1e-6;
+        if is_default && !self.is_partly_hidden {
+            return Cow::Borrowed(&self.gray);
+        }
+        let m_per_px = side_m / WINDOW_PX as f64;
+        let window = Calibration { center_m: tool_m, m_per_px, size_px: WINDOW_PX, foot_m: tool_m };
+        let pixels = (0..WINDOW_PX * WINDOW_PX).map(|at| {
+            let (column_px, row_px) = ((at % WINDOW_PX) as f64 + 0.5, (at / WINDOW_PX) as f64 + 0.5);
+            let place = window.table_from_image(column_px, row_px);
+            self.level(place).filter(|level| !HIDING.contains(level)).unwrap_or_else(|| match known.state(place) {
+                CellState::Obstacle => WALL_LEVEL,
+                CellState::Free | CellState::Unknown => FLOOR_LEVEL,
+            })
+        });
+        Cow::Owned(GrayImage { width_px: WINDOW_PX, height_px: WINDOW_PX, pixels: pixels.collect() })
+    }
+
+    /// Gray level of a table point, if it is in view.
+    fn level(&self, place: Point2<f64>) -> Option<u8> {
+        let (column, row) = self.calibration.image_from_table(place);
+        let at = || self.gray.pixels[row as usize * self.gray.width_px + column as usize];
+        self.calibration.sees(place).then(at)
     }
 
     /// Whether a dark pixel is on the straight line between two places. Pixels out of view are ignored.
@@ -126,14 +210,12 @@ impl Percept {
         let count = ((to - from).norm() / (0.5 * self.calibration.m_per_px)).ceil().max(1.0) as usize;
         (0..=count).any(|i| {
             let place = from + (to - from) * (i as f64 / count as f64);
-            let (column, row) = self.calibration.image_from_table(place);
-            let at = row as usize * self.gray.width_px + column as usize;
-            self.calibration.sees(place) && self.gray.pixels[at] <= OBSTACLE_LEVEL
+            self.level(place).is_some_and(|level| level <= OBSTACLE_LEVEL)
         })
     }
 
     /// Distance from a table point to the nearest wall in view; `None` if it is more than `max_m`. Pixels out of view
-    /// count as wall.
+    /// count as wall, and those that the magnet hides do not.
     pub fn wall_distance_m(&self, point: Point2<f64>, max_m: f64) -> Option<f64> {
         let (column, row) = self.calibration.image_from_table(point);
         let (m_per_px, size) = (self.calibration.m_per_px, self.gray.width_px as i64);
@@ -144,7 +226,7 @@ impl Percept {
         for r in middle_row - reach..=middle_row + reach {
             for c in middle_column - reach..=middle_column + reach {
                 let seen = (0..size).contains(&r) && (0..size).contains(&c);
-                if seen && f64::from(self.gray.pixels[(r * size + c) as usize]) >= OBSTACLE_MEAN {
+                if seen && !is_wall(self.gray.pixels[(r * size + c) as usize]) {
                     continue;
                 }
                 let offset_m = Vector2::new(c as f64 + 0.5 - column, r as f64 + 0.5 - row).norm() * m_per_px;
@@ -177,6 +259,11 @@ impl Percept {
         }
         None
     }
+}
+
+/// Whether a pixel is dark, and not the magnet.
+fn is_wall(level: u8) -> bool {
+    f64::from(level) < OBSTACLE_MEAN && !HIDING.contains(&level)
 }
 
 #[cfg(test)]

@@ -73,7 +73,13 @@ impl Judgement {
 
     /// Actions, best first. Equal values keep the order of [`Action::ALL`].
     pub fn ranking(&self) -> [Action; 4] {
+        self.ranking_with([0.0; 4])
+    }
+
+    /// Actions, best first, by value minus a penalty for each.
+    pub fn ranking_with(&self, penalties: [f32; 4]) -> [Action; 4] {
         let values = self.values();
+        let values: [f32; 4] = std::array::from_fn(|action| values[action] - penalties[action]);
         let mut order = [0, 1, 2, 3];
         order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
         order.map(|index| Action::ALL[index])

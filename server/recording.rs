@@ -17,7 +17,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -56,6 +56,9 @@ pub enum RecordingError {
         /// Required space.
         min_mb: u64,
     },
+    /// A file that is being written is not in its folder any more.
+    #[error("recording: {path} was removed", path = path.display())]
+    Gone { path: PathBuf },
     /// Error of the input log.
     #[error("recording: {0}")]
     Log(#[from] LogError),
@@ -147,6 +150,8 @@ struct Sample {
 struct Shared {
     /// Why recording has stopped; set once.
     stopped: OnceLock<String>,
+    /// Why nothing is recorded at present.
+    interrupted: Mutex<Option<String>>,
     /// The part is old enough: the next one should begin.
     part_is_over: AtomicBool,
     /// Number of sights in the queue.
@@ -186,7 +191,7 @@ impl Recorder {
             .spawn(move || {
                 // A panic here stops the recording, visibly, but not the trial.
                 if catch_unwind(AssertUnwindSafe(|| write_all(keeper, &inbox, &seen))).is_err() {
-                    note(Err(trouble("the recording thread failed; see the server's log")), &seen);
+                    seen.stop(&trouble("the recording thread failed; see the server's log"));
                 }
             })
             .map_err(|error| RecordingError::Rerun(error.to_string()))?;
@@ -259,6 +264,9 @@ impl Sink for Recorder {
     }
 
     fn status(&self) -> String {
+        if let Some(reason) = self.shared.interruption() {
+            return reason;
+        }
         match (self.shared.stopped.get(), self.lost_ticks) {
             (Some(reason), _) => reason.clone(),
             (None, 0) => "recording".to_owned(),
@@ -298,7 +306,7 @@ fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
     loop {
         match inbox.recv_timeout(keeper.wait()) {
             Ok(message) => write(&mut keeper, message, shared),
-            Err(RecvTimeoutError::Timeout) => note(keeper.flush(), shared),
+            Err(RecvTimeoutError::Timeout) => attempt(&mut keeper, shared, Keeper::flush),
             Err(RecvTimeoutError::Disconnected) => break,
         }
         std::thread::sleep(GATHER);
@@ -309,7 +317,9 @@ fn write_all(mut keeper: Keeper, inbox: &Receiver<Message>, shared: &Shared) {
             shared.part_is_over.store(true, Ordering::Relaxed);
         }
     }
-    note(keeper.close(), shared);
+    if let Err(error) = keeper.close() {
+        shared.stop(&error);
+    }
 }
 
 fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {
@@ -319,16 +329,40 @@ fn write(keeper: &mut Keeper, message: Message, shared: &Shared) {
         shared.sights.fetch_sub(1, Ordering::Relaxed);
     }
     fault_point!("write");
-    if shared.stopped.get().is_none() {
-        note(keeper.write(message), shared);
+    attempt(keeper, shared, |keeper| keeper.write(message));
+}
+
+/// Writes. Nothing more is written after a failure, except that a session's recording goes on when its folder is back.
+fn attempt(keeper: &mut Keeper, shared: &Shared, act: impl FnOnce(&mut Keeper) -> Result<(), RecordingError>) {
+    if shared.stopped.get().is_some() {
+        return;
+    }
+    match act(keeper) {
+        Ok(()) if keeper.is_interrupted() => {}
+        Ok(()) => shared.interrupt(None),
+        Err(error @ RecordingError::Gone { .. }) if keeper.waits_for_folder() => {
+            tracing::warn!(%error, "recording interrupted");
+            keeper.interrupt();
+            shared.interrupt(Some(format!("interrupted: {error}; waiting for its folder")));
+        }
+        Err(error) => shared.stop(&error),
     }
 }
 
-/// Records the first failure; nothing more is written after it.
-fn note(done: Result<(), RecordingError>, shared: &Shared) {
-    if let Err(error) = done {
+impl Shared {
+    /// Records the first failure.
+    fn stop(&self, error: &RecordingError) {
         tracing::error!(%error, "recording stopped");
+        self.interrupt(None);
         // Set once.
-        let _ = shared.stopped.set(format!("stopped: {error}"));
+        let _ = self.stopped.set(format!("stopped: {error}"));
+    }
+
+    fn interrupt(&self, reason: Option<String>) {
+        *self.interrupted.lock().unwrap_or_else(PoisonError::into_inner) = reason;
+    }
+
+    fn interruption(&self) -> Option<String> {
+        self.interrupted.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }

@@ -5,6 +5,7 @@ mod link;
 mod parameters;
 mod random;
 mod shipped;
+mod streams;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +17,12 @@ pub use disturbance::{
     When,
 };
 pub use parameters::{
-    AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, RlPolicy, SetError, SwitchingLaw,
-    Unit,
+    AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind, RlPolicy,
+    SetError, SwitchingLaw, Unit,
 };
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};
+pub use streams::Stream;
 
 /// Sub-controller 2, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -6,11 +6,13 @@
 mod branch_point;
 #[cfg(test)]
 mod command_tests;
+mod idle;
 mod kept_runs;
 mod opened_case;
 mod pacing;
 mod recall;
 mod saved;
+mod stepping;
 mod timeline;
 mod trials;
 mod worker;
@@ -278,9 +280,14 @@ impl Session {
 
     /// Sends a command and waits for its answer. Needs a tokio runtime with time.
     pub async fn send(&self, command: Command) -> Result<(), CommandError> {
+        answer_of(self.begin(command)?).await
+    }
+
+    /// Sends a command; the answer comes later. That of a `Step` comes when its ticks are done.
+    pub fn begin(&self, command: Command) -> Result<oneshot::Receiver<Result<(), CommandError>>, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.enqueue(Request::Execute { command, answer })?;
-        answer_of(answered).await
+        Ok(answered)
     }
 
     /// A kept moment. The session does not change.

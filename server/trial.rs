@@ -4,6 +4,7 @@
 //! draws random numbers only from the generator in its state. The camera is passed in through [`ImageSource`], so
 //! recorded frames or recorded decisions can replace it.
 
+mod arena;
 mod case;
 mod decide;
 mod disturb;
@@ -23,31 +24,32 @@ mod tally;
 
 use std::sync::Arc;
 
-use crate::camera::{Camera, CameraError, Gpu, ImageSource, StaticScene, Subject, VIEW_PX};
-use crate::control::{approach, limits::Limits, step_is_due};
+use crate::camera::{CameraError, ImageSource, Subject};
+use crate::control::{approach, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
-use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
+use crate::image::CameraFrame;
+use crate::map::MapError;
 use crate::perception::Percept;
-use crate::plant::{Plant, Positioner, PositionerKind, TOOL_LENGTH_M};
-use crate::policy::{Policy, PolicyError};
-use crate::robot;
+use crate::plant::{Plant, PlantState, Positioner, PositionerKind};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{CLEARANCE_M, ParameterError, Parameters, RandomTrialError, RlPolicy, Scenario, start_point};
-use crate::tracking::TrackerParameters;
+use crate::scenario::{ParameterError, RandomTrialError, Scenario, Stream, start_point};
+use crate::tracking::{self, TrackerParameters};
 
+pub use arena::Arena;
 pub use case::{Case, CaseError, CaseOutcome, Expectation, Timed};
+pub(crate) use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
 pub use input::{Input, InputError};
 pub use log::{InputLog, LogError, LogWriter};
 pub use outcome::GOAL_RADIUS_M;
-pub use phase::{GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, SETTLE_S, StopReason};
+pub use phase::{LEGS_PER_GOAL, Phase, SETTLE_S, StopReason};
 pub use record::{Moment, Sight, TickRecord};
 pub use replay::{MakeCamera, ReplayError, Replayed, replay};
 pub use resume::StateError;
 pub use script::Script;
 pub use sink::{Beginning, Nowhere, Sink};
-pub use state::{ControllerState, Counters, Decision, Motion, TrialState, World, WorldHashes};
+pub use state::{ControllerState, Counters, Decision, Motion, Past, TrialState, World, WorldHashes};
 pub use tally::Tally;
 
 /// Why a trial could not be created or continued.
@@ -89,77 +91,6 @@ pub enum TrialError {
     /// A replay needs a decision at this tick, but the log does not contain it.
     #[error("log: no decision at tick {tick}")]
     MissingDecision { tick: u64 },
-}
-
-/// A map prepared for trials; many trials share one.
-#[derive(Clone, Debug)]
-pub struct Arena {
-    pub map: Map,
-    /// Free space with a clearance of [`CLEARANCE_M`] from walls.
-    pub space: FreeSpace,
-    /// A policy that replaces the shipped ones.
-    pub policy: Option<Arc<Policy>>,
-}
-
-impl Arena {
-    /// Opens a map by name or path.
-    pub fn open(name_or_path: &str) -> Result<Arc<Self>, MapError> {
-        Ok(Self::of(Map::open(name_or_path)?))
-    }
-
-    pub fn of(map: Map) -> Arc<Self> {
-        let space = FreeSpace::new(&map, CLEARANCE_M);
-        Arc::new(Self { map, space, policy: None })
-    }
-
-    /// The same arena with a policy that replaces the shipped ones.
-    pub fn with_policy(self: Arc<Self>, policy: Policy) -> Arc<Self> {
-        let mut arena = Arc::unwrap_or_clone(self);
-        arena.policy = Some(Arc::new(policy));
-        Arc::new(arena)
-    }
-
-    /// The policy in use: the arena's own, or else the requested shipped one.
-    pub fn policy(&self, asked: RlPolicy) -> Result<Arc<Policy>, PolicyError> {
-        if let Some(own) = &self.policy {
-            return Ok(own.clone());
-        }
-        let name = match asked {
-            RlPolicy::Auto if self.map.name() == "colon" => "colon",
-            RlPolicy::Colon => "colon",
-            RlPolicy::Auto | RlPolicy::General => "general",
-        };
-        Policy::shipped(name)
-    }
-
-    /// Share of the area where trials are set up that the tool reaches.
-    pub fn reached_share(&self) -> f64 {
-        let flange_m = Parameters::default().tool_height_m + TOOL_LENGTH_M;
-        let (PositionerKind::Arm, Some((min_m, max_m))) = (PositionerKind::of(&self.map), robot::reach(flange_m))
-        else {
-            return 1.0;
-        };
-        let cells: Vec<_> = self.space.cells().flatten().collect();
-        let reached = cells.iter().filter(|cell| (min_m..=max_m).contains(&cell.coords.norm())).count();
-        if cells.is_empty() { 1.0 } else { reached as f64 / cells.len() as f64 }
-    }
-
-    /// The final limiter for every step on this map.
-    pub fn limits(&self, parameters: &Parameters) -> Limits {
-        Limits {
-            workspace: *self.map.workspace(),
-            speed_m_s: parameters.transport_speed_m_s,
-            flight_speed_m_s: parameters.approach_speed_m_s,
-            tool_orientation: parameters.tool_orientation,
-        }
-    }
-
-    /// A camera that looks at this map.
-    pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
-        let map = &self.map;
-        let static_scene = StaticScene { workspace: map.workspace(), walls: map.walls(), wall_height_m: WALL_HEIGHT_M };
-        Camera::new(gpu.clone(), &static_scene, VIEW_PX)
-    }
 }
 
 /// Source of a control step's decision.
@@ -245,20 +176,39 @@ impl Trial {
         self.state.world.plant.positioner.tool_m()
     }
 
-    /// The scene that a camera would render now.
+    /// The scene that a camera without latency would render now.
     pub fn subject(&self) -> Subject {
+        let PlantState { positioner, bead, .. } = self.state.world.plant;
+        self.subject_at(Past { positioner, bead }, 0)
+    }
+
+    fn subject_at(&self, Past { positioner, bead }: Past, age_ticks: u64) -> Subject {
         let world = &self.state.world;
-        let tool = self.tool_m();
-        let bead = world.plant.bead;
+        let tool = positioner.tool_m();
         Subject {
-            tick: world.tick,
+            tick: world.tick - age_ticks,
             tool_m: tool.coords.into(),
             bead_m: [bead.position_m.x, bead.position_m.y, bead.height_m(tool)],
             goal_m: world.goal_m.map(|goal| [goal.x, goal.y]),
-            link_frames: world.plant.positioner.link_frames(),
+            link_frames: positioner.link_frames(),
             block_size_m: self.plant.block_size_m(),
             mount: world.parameters.camera_mount(),
         }
+    }
+
+    /// The image that the controllers get now, with the camera's latency and noise.
+    pub(crate) fn capture(&self, camera: &mut dyn ImageSource) -> Result<CameraFrame, CameraError> {
+        let world = &self.state.world;
+        let subject = match world.past.front() {
+            Some(&past) => self.subject_at(past, world.past.len() as u64),
+            None => self.subject(),
+        };
+        let mut frame = camera.capture(&subject)?;
+        let noise_levels = world.parameters.camera_noise_levels;
+        if noise_levels > 0.0 {
+            frame.picture.add_noise(noise_levels, &mut Stream::Camera(world.tick as u32).rng(self.scenario.seed));
+        }
+        Ok(frame)
     }
 
     /// Magnet's pull on the bead now.
@@ -277,9 +227,9 @@ impl Trial {
             let decided = match source {
                 Source::Camera(camera) => {
                     let tool_m = self.tool_m().xy();
-                    let frame = camera.capture(&self.subject())?;
+                    let frame = self.capture(camera)?;
                     let percept = Percept::of(&frame, tool_m);
-                    let decided = self.decide(&percept);
+                    let decided = self.decide(&frame, &percept);
                     seen = Some(record::Seen { frame, percept, tool_m });
                     decided
                 }
@@ -289,12 +239,14 @@ impl Trial {
             decision = Some(decided);
         }
         self.apply_scripted(None);
+        let before = Past { positioner: self.state.world.plant.positioner, bead: self.state.world.plant.bead };
         self.advance_reference();
         #[cfg(test)]
         if crate::faults::strikes("not a number") {
             self.state.world.plant.bead.position_m.x = f64::NAN;
         }
         self.check_finite(tick)?;
+        self.remember(before);
         self.sense();
         self.state.world.tick += 1;
         self.judge();
@@ -312,6 +264,7 @@ impl Trial {
                 let way: Vector2<f64> = step.target_m - here;
                 here + way.cap_magnitude(step.speed_m_s * SERVO_PERIOD_S)
             }
+            Motion::Track if world.tracker.is_lost(world.parameters.tracker_timeout_s) => here,
             Motion::Track => {
                 let speed = world.parameters.approach_speed_m_s;
                 let velocity = approach::velocity(here, &world.tracker.estimate(), speed);
@@ -341,13 +294,30 @@ impl Trial {
         Err(TrialError::NotFinite { tick, what })
     }
 
-    fn sense(&mut self) {
+    /// Keeps the states that a camera with latency will show.
+    fn remember(&mut self, before: Past) {
         let world = &mut self.state.world;
-        let parameters = TrackerParameters {
-            noise_m: world.parameters.tracker_noise_m,
-            latency_ticks: world.parameters.tracker_latency_ticks,
-            dropout: if world.tick < world.script.dropout_until { 1.0 } else { world.parameters.tracker_dropout },
+        world.past.push_back(before);
+        while world.past.len() > world.parameters.camera_latency_ticks as usize {
+            world.past.pop_front();
+        }
+    }
+
+    fn sense(&mut self) {
+        let tool_m = self.tool_m();
+        let World { plant, parameters, script, tracker, tick, .. } = &mut self.state.world;
+        let bead_m = plant.bead.position_m;
+        let bead_top_m = Point3::new(bead_m.x, bead_m.y, plant.bead.height_m(tool_m));
+        let is_hidden = *tick < script.dropout_until
+            || parameters.tracker_is_hidden_by_arm
+                && tracking::is_hidden(bead_top_m, tool_m, plant.positioner.link_frames().as_ref());
+        let quality = TrackerParameters {
+            noise_m: parameters.tracker_noise_m,
+            bias_m: Vector2::new(parameters.tracker_bias_x_m, parameters.tracker_bias_y_m),
+            drift_m: parameters.tracker_drift_m,
+            latency_ticks: parameters.tracker_latency_ticks,
+            dropout: parameters.tracker_dropout,
         };
-        world.tracker.sample(world.plant.bead.position_m, &parameters, &mut world.rng);
+        tracker.sample((!is_hidden).then_some(bead_m), &quality);
     }
 }

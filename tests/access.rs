@@ -175,6 +175,7 @@ async fn host_and_site_checks_cannot_be_bypassed() {
             assert_eq!(ask("GET /s/made-elsewhere", &format!("{from}Sec-Fetch-Mode: no-cors\r\n")), 403);
             let to = |dest| format!("{from}Sec-Fetch-Mode: navigate\r\nSec-Fetch-Dest: {dest}\r\n");
             assert_eq!(ask("GET /", &to("document")), 200, "a link");
+            assert_eq!(ask("GET /s/made-elsewhere", &to("document")), 403, "a link that would open a session");
             assert_eq!(ask("GET /s/made-elsewhere", &to("iframe")), 403, "a frame");
             assert_eq!(ask("POST /api/sessions", &format!("{from}Sec-Fetch-Mode: navigate\r\n")), 403, "a form");
         }
@@ -183,6 +184,29 @@ async fn host_and_site_checks_cannot_be_bypassed() {
     asked.await.unwrap();
     let (_, listed) = lab.ask("GET", "/api/sessions", "").await;
     assert_eq!(listed["sessions"].as_array().unwrap().len(), 1, "{listed}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_logout_ends_copies_of_the_cookie_and_no_other_login() {
+    let token = Token::generate().unwrap();
+    let lab = Laboratory::open_with(gpu(), Some(&token), |_| ()).await;
+    let address = lab.address;
+    let asked = tokio::task::spawn_blocking(move || {
+        let [one, other] = [(); 2].map(|()| cookie_of(address, &token));
+        let ask = |line: &str, cookie: &str| {
+            let request = format!(
+                "{line} HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nConnection: close\r\n\
+                 Cookie: {cookie}\r\nContent-Length: 0\r\n\r\n"
+            );
+            exchange(address, request.as_bytes()).0
+        };
+        assert_eq!(ask("GET /api/sessions", &one), 200);
+        assert_eq!(ask("POST /logout", &one), 204);
+        assert_eq!(ask("GET /api/sessions", &one), 401);
+        assert_eq!(ask("GET /api/sessions", &other), 200);
+    });
+    asked.await.unwrap();
     lab.close().await;
 }
 

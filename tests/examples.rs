@@ -6,8 +6,8 @@ use std::sync::Arc;
 use ferry::camera::Camera;
 use ferry::evaluate::{Episode, Trace, Venue, episode};
 use ferry::map::Map;
-use ferry::scenario::{ControllerName, Scenario, Shipped};
-use ferry::trial::{Arena, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
+use ferry::scenario::{AttractorLaw, ControllerName, Scenario, Shipped};
+use ferry::trial::{Arena, Moment, Nowhere, Phase, Source, StopReason, TickRecord, Trial};
 
 use crate::support::gpu;
 
@@ -36,6 +36,44 @@ fn the_papers_examples_end_at_their_goals() {
         assert!(episode.switches >= 2 * expected, "{name}: {} switches", episode.switches);
         assert!(episode.tally.mean_m() < 0.04, "{name}: {}", episode.tally.mean_m());
         assert!(figure.starts_with("<svg") && figure.contains("tracking error"), "{name}");
+    }
+}
+
+#[test]
+fn examples_1_and_2_end_at_their_goals_under_the_papers_law_too() {
+    for name in ["example-1", "example-2", "example-1-arm", "example-2-arm"] {
+        let mut scenario = Shipped::open(name).unwrap().scenario;
+        scenario.parameters.attractor_law = AttractorLaw::Literal;
+        let disturbed = !scenario.script.is_empty();
+        let arena = Arena::open(&scenario.map).unwrap();
+        let (episode, _) = run(scenario, &arena);
+        assert!(episode.delivered, "{name}: {}", episode.outcome);
+        assert_eq!(episode.disturbances, u32::from(disturbed), "{name}");
+        // Example 2: one fetch, by sub-controller 1.
+        assert_eq!(episode.switches, 2 * u32::from(disturbed), "{name}");
+    }
+}
+
+#[test]
+fn disturbances_come_at_the_steps_of_the_papers_figures() {
+    for (name, steps) in [("example-3-steps", &[72, 90][..]), ("example-rl-figure", &[29, 98, 154])] {
+        let scenario = Shipped::open(name).unwrap().scenario;
+        let arena = Arena::open(&scenario.map).unwrap();
+        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut trial = Trial::new(scenario, arena).unwrap();
+        let (mut struck, mut last) = (Vec::new(), None::<Moment>);
+        while last.as_ref().is_none_or(|moment| !moment.phase.is_final()) {
+            let moment = trial.tick(Source::Camera(&mut camera)).unwrap().moment;
+            if moment.counters.disturbances as usize > struck.len() {
+                let before = last.as_ref().unwrap();
+                assert_eq!(before.phase, Phase::Transporting, "{name}: only a carried bead is drawn away");
+                struck.push(moment.counters.goal_steps);
+            }
+            last = Some(moment);
+        }
+        let last = last.unwrap();
+        assert_eq!((struck.as_slice(), last.phase), (steps, Phase::Delivered), "{name}");
+        assert_eq!(last.counters.switches, 2 * steps.len() as u32, "{name}");
     }
 }
 

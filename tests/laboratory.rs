@@ -10,6 +10,22 @@ use tokio_tungstenite::tungstenite::Message;
 
 use crate::support::Laboratory;
 
+/// With a biased tracker, the switching law's distance differs from the true one. The state has both.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_state_has_the_true_distance_and_the_tracked_one() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let mut parameters = lab.default_parameters().await;
+    parameters["tracker_bias_x_m"] = json!(0.015);
+    parameters["tracker_noise_m"] = json!(0.0);
+    browser.send(json!({"type": "configure", "parameters": parameters})).await;
+    browser.send(json!({"type": "step", "ticks": 20})).await;
+    let state = browser.state("twenty ticks", |m| m["tick"] == 20).await;
+    let [truth, tracked] = ["tracking_error_m", "tracked_error_m"].map(|field| state[field].as_f64().unwrap());
+    assert!(truth < 1e-3 && (tracked - 0.015).abs() < 1e-3, "{state}");
+    lab.close().await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_goal_is_delivered_a_disturbance_fetched_and_a_refusal_changes_nothing() {
     let lab = Laboratory::open().await;

@@ -2,9 +2,10 @@
 
 use std::sync::atomic::AtomicBool;
 
-use ferry::evaluate::{Cell, Experiment, Venue, Watch, run, unrecorded};
+use ferry::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
+use ferry::map::Map;
 use ferry::policy::Policy;
-use ferry::scenario::{ControllerName, Parameters};
+use ferry::scenario::{ControllerName, Parameters, RlPolicy};
 use ferry::trial::Arena;
 
 use crate::support::{ferry, gpu};
@@ -24,6 +25,15 @@ fn every_shipped_policy_is_complete_and_has_a_manifest() {
 }
 
 #[test]
+fn auto_takes_the_policy_of_the_drawing_not_of_the_name() {
+    let drawn = |name: &str, like: &str| Arena::of(Map::from_svg(name, Map::shipped(like).unwrap().svg()).unwrap());
+    let auto = |arena: std::sync::Arc<Arena>| arena.policy(RlPolicy::Auto).unwrap().hash();
+    let shipped = |name: &str| Policy::shipped(name).unwrap().hash();
+    assert_eq!(auto(drawn("mine", "colon")), shipped("colon"));
+    assert_eq!(auto(drawn("colon", "posts")), shipped("general"));
+}
+
+#[test]
 fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
     let venue = Venue::of(Arena::open("colon").unwrap());
     for (disturbances, least) in [(0, 39), (3, 38)] {
@@ -34,6 +44,7 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
             episodes: 40,
             seed: 7,
             parameters: Parameters::default(),
+            manner: Manner::default(),
         };
         let watch = Watch { stop: &AtomicBool::new(false), progress: &|_, _| (), recorders: &unrecorded };
         let episodes = run(&[experiment], &gpu(), &watch).unwrap().remove(0);

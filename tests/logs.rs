@@ -173,3 +173,59 @@ fn without_room_a_recording_does_not_begin_and_says_why() {
     assert!(error.contains("MB left, the minimum is 17592186044415"), "{error}");
     assert!(archive.list().unwrap().is_empty());
 }
+
+/// Until a state that was published says so.
+fn wait_for(session: &Session, what: &str) {
+    let began = std::time::Instant::now();
+    while !session.watch().borrow().recording.starts_with(what) {
+        assert!(began.elapsed() < Duration::from_secs(30), "{:?}", session.watch().borrow().recording);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn a_recording_whose_folder_is_gone_says_so_and_goes_on_when_it_is_back() {
+    for (is_file, runs) in [(false, true), (true, true), (false, false)] {
+        let data = tempfile::tempdir().unwrap();
+        let folder = data.path().join("recordings");
+        let archive = Archive::new(folder.clone(), Retention::default());
+        let recorder = Recorder::in_archive(&archive, "main", Options::LIVE).unwrap();
+        let scenario = Scenario::idle("open", 1);
+        let session =
+            Session::start("main", scenario, Opening::Fresh, Arc::default(), gpu(), Box::new(recorder)).unwrap();
+        let runtime = clocked();
+        let obey = |command| runtime.block_on(session.send(command)).unwrap();
+        obey(if runs { Command::Run } else { Command::Step(100) });
+        wait_for(&session, "recording");
+        let away = data.path().join("away");
+        std::fs::rename(&folder, &away).unwrap();
+        if is_file {
+            std::fs::write(&folder, "not a folder").unwrap();
+        }
+        wait_for(&session, "interrupted: ");
+        let told = session.watch().borrow().recording.clone();
+        assert!(told.contains("was removed; waiting for its folder"), "{told}");
+        std::thread::sleep(Duration::from_millis(1500));
+        wait_for(&session, "interrupted: ");
+        if is_file {
+            std::fs::remove_file(&folder).unwrap();
+        }
+        std::fs::create_dir(&folder).unwrap();
+        if !runs {
+            // The next part begins with a tick.
+            std::thread::sleep(Duration::from_millis(1500));
+            obey(Command::Step(100));
+        }
+        wait_for(&session, "recording");
+        obey(Command::Step(200));
+        let last = session.watch().borrow().moment.tick;
+        drop(session);
+        let parts = logs(&folder);
+        assert_eq!(parts.len(), 1);
+        let mut ticks = Vec::new();
+        let found = replay(&InputLog::read(&parts[0]).unwrap(), None, &mut |record| ticks.push(record.tick)).unwrap();
+        assert!(found.resumed >= 1 && ticks.len() >= 100, "{found:?}");
+        assert_eq!(ticks.last(), Some(&last), "nothing is missing after the interruption");
+        assert!(InputLog::read(&logs(&away)[0]).is_ok(), "what was recorded before can still be read");
+    }
+}

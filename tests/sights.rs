@@ -75,7 +75,6 @@ async fn a_moved_camera_is_obeyed_shown_and_refused_when_absurd() {
     let mut moved = parameters.clone();
     moved["camera_offset_x_m"] = json!(0.05);
     moved["camera_tilt_x_rad"] = json!(-0.15);
-    moved["camera_sees_magnet"] = json!(true);
     browser.send(json!({"type": "configure", "parameters": moved})).await;
     let scene = browser.until("the new field of view", |m| m["type"] == "scene" && m["parameters"] == moved).await;
     let right = |corner: usize| scene["camera_sees_m"][corner][0].as_f64().unwrap();

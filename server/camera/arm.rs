@@ -60,6 +60,19 @@ fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
     }
 }
 
+/// What is below the flange, without the flange: the gripper or the stage's column, and the block.
+pub(super) fn tool_parts(subject: &Subject) -> Vec<Part> {
+    let mut parts = Vec::new();
+    match &subject.link_frames {
+        Some(frames) => gripper(&mut parts, subject, &frames[5]),
+        None => column(&mut parts, subject),
+    }
+    parts.push(block(subject));
+    // Equal solids that follow each other are drawn together.
+    parts.sort_by_key(|part| part.solid);
+    parts
+}
+
 pub(super) fn block(subject: &Subject) -> Part {
     let size = Vector3::from(subject.block_size_m);
     cuboid(Point3::from(subject.tool_m) + Vector3::z() * (0.5 * size.z), size, MAGNET)

@@ -17,8 +17,8 @@ pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
 
 /// One sample per pixel, so that no pixel is a mixture of wall and floor.
 const SAMPLES: u32 = 1;
-/// Static scene, bead, bead shadow, and the magnet if it is visible.
-const MAX_PARTS: u64 = 4;
+/// Static scene, bead, bead shadow, and magnet and gripper if they are visible.
+const MAX_PARTS: u64 = 3 + 16;
 
 /// Uniforms of `view.wgsl`, with the same layout.
 #[repr(C)]
@@ -57,8 +57,14 @@ impl ViewRenderer {
                 },
             );
             let bindings = bind(gpu, &pipeline, &[uniforms.as_entire_binding()]);
-            let meshes =
-                [static_scene::controllers_mesh(static_scene), shaded_bead(), mesh::unit_disc(24), mesh::unit_cube()];
+            let meshes = [
+                static_scene::controllers_mesh(static_scene),
+                shaded_bead(),
+                mesh::unit_disc(24),
+                mesh::unit_cube(),
+                mesh::unit_ring(8, 0.5),
+                mesh::unit_cylinder(24),
+            ];
             Self {
                 size_px,
                 pipeline,
@@ -118,7 +124,7 @@ fn parts(subject: &Subject) -> Vec<Part> {
         round(Solid::Sphere, bead_m, [255; 4]),
     ];
     if subject.mount.sees_magnet {
-        parts.push(Part { color: controllers::MAGNET, ..arm::block(subject) });
+        parts.extend(arm::tool_parts(subject).into_iter().map(|part| Part { color: controllers::MAGNET, ..part }));
     }
     parts
 }

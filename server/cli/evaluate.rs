@@ -11,7 +11,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::camera::Gpu;
 use crate::evaluate::{
-    Cell, Comparison, Episode, EvaluateError, Experiment, Failure, PairedMean, Report, Row, Venue, Watch, run, run_one,
+    Cell, Comparison, Episode, EvaluateError, Experiment, Failure, Manner, PairedMean, Report, Row, Venue, Watch, run,
+    run_one,
 };
 use crate::policy::Policy;
 use crate::recording::Recorder;
@@ -41,6 +42,12 @@ pub struct Arguments {
     /// Set a parameter, for example attractor_law=literal; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Disturb with a hand that draws the bead through free space at 0.2 m/s, instead of lifting it
+    #[arg(long)]
+    by_hand: bool,
+    /// Start with the tool at least 15 cm from the bead, instead of above it
+    #[arg(long)]
+    tool_apart: bool,
     /// A policy's file, instead of the shipped ones
     #[arg(long)]
     policy: Option<PathBuf>,
@@ -84,9 +91,29 @@ pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     println!("seed {}, rendered by {}", report.seed, report.adapter);
+    if let Some(changes) = report.rows.first().map(|row| row.changes.join(", ")).filter(|changes| !changes.is_empty()) {
+        println!("parameters other than the default: {changes}");
+    }
+    if arguments.by_hand {
+        println!("disturbed by a hand that draws the bead through free space");
+    }
+    if arguments.tool_apart {
+        println!("at the start the tool is at least 15 cm from the bead");
+    }
     println!("{}", rows_table(&report.rows));
+    for row in report.rows.iter().filter(|row| row.beyond_steps > 0) {
+        let Row { controller, map, disturbances, beyond_steps, episodes, .. } = row;
+        println!(
+            "{controller} on {map}, {disturbances} disturbances: {beyond_steps} of {episodes} goals are farther than \
+             step_limit allows"
+        );
+    }
     if !report.comparisons.is_empty() {
-        println!("\npaired differences, first minus second, with 95 % intervals");
+        println!(
+            "\npaired differences, first minus second, with 95 % intervals; steps, error and path where both delivered, \
+             and steps over all trials with the interval corrected for {} comparisons",
+            report.comparisons.len()
+        );
         println!("{}", comparisons_table(&report.comparisons));
     }
     print_failures(&report.failures, &arguments.page);
@@ -114,6 +141,7 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
                 episodes: arguments.episodes,
                 seed: arguments.seed,
                 parameters: parameters.clone(),
+                manner: Manner { by_hand: arguments.by_hand, tool_apart: arguments.tool_apart },
             }));
         }
     }
@@ -208,6 +236,7 @@ fn rows_table(rows: &[Row]) -> Table {
         "path/shortest",
         "steps",
         "switches",
+        "trained here",
         "ms/step p50 p99",
     ];
     let mut table = table(&head, 2);
@@ -227,6 +256,7 @@ fn rows_table(rows: &[Row]) -> Table {
             row.path_ratio_mean.map_or("-".to_owned(), |ratio| format!("{ratio:.3}")),
             format!("{:.1}", row.steps_mean),
             format!("{:.2}", row.switches_mean),
+            row.trained_on_map.map_or("-", |trained| if trained { "yes" } else { "no" }).to_owned(),
             format!("{:.1} {:.1}", row.decision_ms_p50, row.decision_ms_p99),
         ]);
     }
@@ -243,6 +273,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
         "steps",
         "error mm",
         "path/shortest",
+        "steps of all",
     ];
     let mut table = table(&head, 2);
     let signed = |mean: f64, [low, high]: [f64; 2], scale: f64, digits: usize| {
@@ -262,6 +293,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
             paired(one.steps, 1.0, 1),
             paired(one.tracking_error_mean_m, 1e3, 1),
             paired(one.path_ratio, 1.0, 3),
+            one.steps_of_all.map_or("-".to_owned(), |all| signed(all.mean, all.interval_corrected, 1.0, 1)),
         ]);
     }
     table

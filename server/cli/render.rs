@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Use this sub-controller 2 instead of the scenario's
     #[arg(long, requires = "scenario")]
     controller: Option<ControllerName>,
-    /// Set a parameter of the scenario, for example attractor_law=literal; may be repeated
+    /// Set a parameter, for example attractor_law=literal; may be repeated
     #[arg(long, requires = "scenario", value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// The controllers' view, the whole scene, or the workspace from above
@@ -93,7 +93,7 @@ fn trajectory(name: &str, arguments: &Arguments) -> anyhow::Result<ExitCode> {
 
 fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let arena = Arena::open(&arguments.map)?;
-    let parameters = Parameters::default();
+    let parameters = Parameters::default().with(&arguments.set).context("--set")?;
     let tool_m = Point3::new(at.x, at.y, parameters.tool_height_m);
     let home = Positioner::home(PositionerKind::of(&arena.map), tool_m);
     let limits = arena.limits(&parameters);

@@ -127,6 +127,13 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
     {
         tracing::warn!(%error, "the browser could not be opened");
     }
+    // Without a handler, a write beyond the limit of a file's size would end the process. Now the write fails, and is
+    // treated like a full disk.
+    #[cfg(unix)]
+    let _file_size_signal = {
+        use tokio::signal::unix::{SignalKind, signal};
+        signal(SignalKind::from_raw(rustix::process::Signal::XFSZ.as_raw()))?
+    };
     tokio::spawn(async move {
         stop_requested().await;
         // The server may already have ended.

@@ -94,6 +94,9 @@ impl Limits {
         if !(percept.calibration.sees(from) && percept.calibration.sees(step.target_m)) {
             return Err(Refusal::OutOfView { x_m: step.target_m.x, y_m: step.target_m.y });
         }
+        if percept.is_hidden(from) || percept.is_hidden(step.target_m) {
+            return Err(Refusal::Hidden { x_m: step.target_m.x, y_m: step.target_m.y });
+        }
         match percept.obstacle_on_step(from, step.target_m) {
             Some(place) => Err(Refusal::Obstacle { x_m: place.x, y_m: place.y }),
             None => Ok(()),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::statistics::{PairedCounts, mean95};
+use super::statistics::{LEVEL, PairedCounts, corrected_level, mean};
 use super::{Cell, Episode};
 
 /// Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
@@ -28,12 +28,18 @@ pub struct Comparison {
     pub delivered_difference: f64,
     /// Its 95 % interval (Newcombe 1998, method 10).
     pub delivered_difference95: [f64; 2],
+    /// The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+    pub delivered_difference_corrected: [f64; 2],
     /// Control steps of the first minus those of the second, where both delivered.
     pub steps: Option<PairedMean>,
     /// The same for the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: Option<PairedMean>,
     /// The same for path ÷ shortest path.
     pub path_ratio: Option<PairedMean>,
+    /// Control steps over all trials. One that was not delivered counts with all steps that its legs may take.
+    pub steps_of_all: Option<PairedMean>,
+    /// Path ÷ shortest path over all trials. One that was not delivered counts with the path of all these steps.
+    pub path_ratio_of_all: Option<PairedMean>,
 }
 
 /// A mean difference.
@@ -42,11 +48,13 @@ pub struct PairedMean {
     pub mean: f64,
     /// Its 95 % interval (Student's t).
     pub interval95: [f64; 2],
+    /// The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+    pub interval_corrected: [f64; 2],
 }
 
 impl Comparison {
-    /// Compares two rows with the same trials.
-    fn of(first: (&Cell, &[Episode]), second: (&Cell, &[Episode])) -> Self {
+    /// Compares two rows with the same trials; `level` is that of the corrected intervals.
+    fn of(first: (&Cell, &[Episode]), second: (&Cell, &[Episode]), level: f64) -> Self {
         let pairs: Vec<(&Episode, &Episode)> = first.1.iter().zip(second.1).collect();
         let count = |wanted: [bool; 2]| {
             pairs.iter().filter(|(one, other)| [one.delivered, other.delivered] == wanted).count() as u32
@@ -57,12 +65,16 @@ impl Comparison {
             second: count([false, true]),
             neither: count([false, false]),
         };
-        let (delivered_difference, delivered_difference95) = counts.difference95();
-        let paired = |value: &dyn Fn(&Episode) -> Option<f64>| {
-            let both = pairs.iter().filter(|(one, other)| one.delivered && other.delivered);
-            let differences: Vec<f64> = both.filter_map(|(one, other)| Some(value(one)? - value(other)?)).collect();
-            mean95(&differences).map(|(mean, interval95)| PairedMean { mean, interval95 })
+        let (delivered_difference, delivered_difference95) = counts.difference(LEVEL);
+        let over = |is_counted: &dyn Fn(&Episode) -> bool, value: &dyn Fn(&Episode) -> Option<f64>| {
+            let counted = pairs.iter().filter(|(one, other)| is_counted(one) && is_counted(other));
+            let differences: Vec<f64> = counted.filter_map(|(one, other)| Some(value(one)? - value(other)?)).collect();
+            let (mean, interval95) = mean(&differences, LEVEL)?;
+            let (_, interval_corrected) = super::statistics::mean(&differences, level)?;
+            Some(PairedMean { mean, interval95, interval_corrected })
         };
+        let paired = |value: &dyn Fn(&Episode) -> Option<f64>| over(&|episode| episode.delivered, value);
+        let of_all = |value: &dyn Fn(&Episode) -> Option<f64>| over(&|_| true, value);
         Self {
             map: first.0.map.clone(),
             disturbances: first.0.disturbances,
@@ -75,23 +87,28 @@ impl Comparison {
             neither: counts.neither,
             delivered_difference,
             delivered_difference95,
+            delivered_difference_corrected: counts.difference(level).1,
             steps: paired(&|episode| Some(f64::from(episode.steps))),
             tracking_error_mean_m: paired(&|episode| Some(episode.tally.mean_m())),
             path_ratio: paired(&|episode| episode.path_ratio),
+            steps_of_all: of_all(&|episode| Some(f64::from(episode.steps_or_limit()))),
+            path_ratio_of_all: of_all(&|episode| episode.path_ratio_or_limit()),
         }
     }
 
     /// Compares every pair of controllers with the same map and disturbances, in the order of the rows.
     pub fn all(rows: &[(&Cell, &[Episode])]) -> Vec<Self> {
-        let mut made = Vec::new();
+        let alike = |first: &(&Cell, &[Episode]), second: &(&Cell, &[Episode])| {
+            second.0.map == first.0.map
+                && second.0.disturbances == first.0.disturbances
+                && second.0.controller != first.0.controller
+        };
+        let mut pairs = Vec::new();
         for (place, &first) in rows.iter().enumerate() {
-            let alike = |second: &&(&Cell, &[Episode])| {
-                second.0.map == first.0.map
-                    && second.0.disturbances == first.0.disturbances
-                    && second.0.controller != first.0.controller
-            };
-            made.extend(rows[place + 1..].iter().filter(alike).map(|&second| Self::of(first, second)));
+            pairs
+                .extend(rows[place + 1..].iter().filter(|second| alike(&first, second)).map(|&second| (first, second)));
         }
-        made
+        let level = corrected_level(pairs.len());
+        pairs.into_iter().map(|(first, second)| Self::of(first, second, level)).collect()
     }
 }

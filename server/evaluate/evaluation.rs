@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, MutexGuard, PoisonError};
 use std::time::Instant;
 
-use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Row, Venue};
+use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::map::Map;
 use crate::scenario::Parameters;
 
@@ -161,6 +161,7 @@ impl Evaluation {
             episodes: self.query.episodes,
             seed: self.query.seed,
             parameters: Parameters::default(),
+            manner: Manner::default(),
         }
     }
 

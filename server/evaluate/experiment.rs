@@ -8,14 +8,18 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::Cell;
-use super::course::Course;
+use super::course::{Course, shortest_m};
 use super::figure::Trace;
+use super::manner::Manner;
 use crate::camera::{Camera, CameraError, Gpu, ImageSource, Subject};
+use crate::control::CONTROL_PERIOD_S;
 use crate::image::CameraFrame;
 use crate::map::{FreeSpace, MapError};
 use crate::plant::BEAD_RADIUS_M;
-use crate::scenario::{Parameters, Scenario};
-use crate::trial::{Arena, Beginning, Nowhere, Phase, Sink, Source, Tally, TickRecord, Trial, TrialError};
+use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::trial::{
+    Arena, Beginning, GOAL_RADIUS_M, LEGS_PER_GOAL, Nowhere, Phase, Sink, Source, Tally, TickRecord, TrialError,
+};
 
 /// A map prepared for many trials.
 pub struct Venue {
@@ -55,6 +59,7 @@ pub struct Experiment {
     pub seed: u64,
     /// Parameters of all trials.
     pub parameters: Parameters,
+    pub manner: Manner,
 }
 
 impl Experiment {
@@ -80,6 +85,7 @@ pub struct Episode {
     /// Index of the trial.
     pub index: u32,
     pub scenario: Scenario,
+    pub manner: Manner,
     /// Whether the tool came within 2 cm of the goal: the paper's success.
     pub reached: bool,
     /// Whether the bead came within 2 cm of the goal.
@@ -93,6 +99,10 @@ pub struct Episode {
     pub tally: Tally,
     /// Path of the tool divided by the shortest path, if the trial delivered.
     pub path_ratio: Option<f64>,
+    /// Length of the shortest path of the bead from start to goal, if there is one.
+    pub shortest_m: Option<f64>,
+    /// Whether the policy was trained on this map; `None` for controllers without a policy.
+    pub trained_on_map: Option<bool>,
     /// Control steps.
     pub steps: u32,
     /// Switches of the active sub-controller.
@@ -103,6 +113,38 @@ pub struct Episode {
     pub decision_s: Vec<f64>,
     /// The trajectory for the figure; only for a row's first trial.
     pub trace: Option<Box<Trace>>,
+}
+
+impl Episode {
+    /// Length of a control step at full speed.
+    fn step_m(&self) -> f64 {
+        self.scenario.parameters.transport_speed_m_s * CONTROL_PERIOD_S
+    }
+
+    /// Control steps that its transports may take: one after the start, and one after each disturbance.
+    fn limit(&self) -> u32 {
+        self.scenario.parameters.step_limit * (self.scenario.disturbances + 1).min(LEGS_PER_GOAL)
+    }
+
+    /// Whether no transport of `step_limit` steps can reach the goal from the start, even on the shortest path.
+    pub(super) fn is_beyond_steps(&self) -> bool {
+        let most_m = f64::from(self.scenario.parameters.step_limit) * self.step_m() + GOAL_RADIUS_M;
+        self.shortest_m.is_some_and(|shortest_m| shortest_m > most_m)
+    }
+
+    /// Control steps; without a delivery, all that its transports may take.
+    pub(super) fn steps_or_limit(&self) -> u32 {
+        if self.delivered { self.steps } else { self.steps.max(self.limit()) }
+    }
+
+    /// Path ÷ shortest path; without a delivery, the path of all steps that its transports may take.
+    pub(super) fn path_ratio_or_limit(&self) -> Option<f64> {
+        if self.delivered {
+            return self.path_ratio;
+        }
+        let shortest_m = self.shortest_m.filter(|&shortest_m| shortest_m > 0.0)?;
+        Some(f64::from(self.limit()) * self.step_m() / shortest_m)
+    }
 }
 
 /// Why an experiment could not run.
@@ -176,11 +218,24 @@ pub fn episode(
     sink: &mut dyn Sink,
     watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
 ) -> Result<Episode, EvaluateError> {
-    let mut trial = Trial::new(scenario.clone(), venue.arena.clone())?;
+    episode_in(Manner::default(), scenario, venue, camera, sink, watch)
+}
+
+/// [`episode`], run in a manner.
+pub fn episode_in(
+    manner: Manner,
+    scenario: Scenario,
+    venue: &Venue,
+    camera: &mut dyn ImageSource,
+    sink: &mut dyn Sink,
+    watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
+) -> Result<Episode, EvaluateError> {
+    let (mut trial, mut person) = manner.begin(&scenario, &venue.arena)?;
     sink.begin(&trial, Beginning::SetUp);
     let (mut tally, mut course, mut decision_s) = (Tally::default(), Course::default(), Vec::new());
     loop {
         let mut noting = Noting { camera, was_used: false };
+        person.act(&mut trial)?;
         let started = Instant::now();
         let record = trial.tick(Source::Camera(&mut noting))?;
         if noting.was_used {
@@ -205,12 +260,20 @@ pub fn episode(
             trouble: trial.state().controller_state.carrier.trouble().map(|trouble| trouble.to_string()),
             refusal: moment.refusal.clone(),
             tally,
+            shortest_m: scenario
+                .start_m
+                .zip(scenario.goal_m)
+                .and_then(|(start, goal)| shortest_m(&venue.room, start, goal)),
+            trained_on_map: (scenario.controller == ControllerName::Rl)
+                .then(|| venue.arena.is_trained_on(scenario.parameters.rl_policy)),
             path_ratio: scenario.goal_m.filter(|_| delivered).and_then(|goal| course.ratio(&venue.room, goal)),
             steps: counters.steps,
             switches: counters.switches,
-            disturbances: counters.disturbances,
+            // Putting the bead down apart from the tool was counted as one.
+            disturbances: counters.disturbances - u32::from(manner.tool_apart),
             decision_s,
             trace: None,
+            manner,
             scenario,
         });
     }
@@ -262,7 +325,7 @@ pub fn run_one(
     let mut trace = (index == 0).then(|| Box::new(Trace::of(&venue.arena.map, &scenario)));
     let mut camera = venue.camera(gpu)?;
     let mut sink = (watch.recorders)(experiment, index)?;
-    let ran = episode(scenario, venue, &mut camera, &mut *sink, &mut |record| {
+    let ran = episode_in(experiment.manner, scenario, venue, &mut camera, &mut *sink, &mut |record| {
         if let Some(trace) = &mut trace {
             trace.add(record);
         }

@@ -7,7 +7,7 @@ use crate::scenario::ControllerName;
 pub const CELL_LIMIT: usize = 24;
 /// Trials per cell.
 const EPISODES: std::ops::RangeInclusive<u32> = 1..=1000;
-/// Scripted disturbances per trial. With more, few trials end within their 600 steps.
+/// Scripted disturbances per trial. With more, few trials end within their steps.
 pub const DISTURBANCES: std::ops::RangeInclusive<u32> = 0..=10;
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the

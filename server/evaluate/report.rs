@@ -96,6 +96,11 @@ struct CsvRow<'a> {
     steps_mean: f64,
     switches_mean: f64,
     disturbances_struck: u32,
+    changes: String,
+    trained_on_map: Option<bool>,
+    beyond_steps: u32,
+    by_hand: bool,
+    tool_apart: bool,
     decision_ms_p50: f64,
     decision_ms_p99: f64,
 }
@@ -122,6 +127,11 @@ impl<'a> From<&'a Row> for CsvRow<'a> {
             steps_mean: row.steps_mean,
             switches_mean: row.switches_mean,
             disturbances_struck: row.disturbances_struck,
+            changes: row.changes.join(" "),
+            trained_on_map: row.trained_on_map,
+            beyond_steps: row.beyond_steps,
+            by_hand: row.by_hand,
+            tool_apart: row.tool_apart,
             decision_ms_p50: row.decision_ms_p50,
             decision_ms_p99: row.decision_ms_p99,
         }

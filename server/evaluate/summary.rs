@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::statistics::wilson95;
-use super::{Cell, Episode};
+use super::{Cell, Episode, Manner};
 use crate::geometry::Point2;
 
 /// One row of the table.
@@ -40,6 +40,21 @@ pub struct Row {
     pub switches_mean: f64,
     /// Disturbances applied in all trials together.
     pub disturbances_struck: u32,
+    /// Parameters that differ from the default, each as `NAME=VALUE`: shield, visit penalty, camera and all others.
+    #[serde(default)]
+    pub changes: Vec<String>,
+    /// Whether the policy was trained on this map; `null` for controllers without a policy.
+    #[serde(default)]
+    pub trained_on_map: Option<bool>,
+    /// Trials whose goal no transport of `step_limit` steps can reach.
+    #[serde(default)]
+    pub beyond_steps: u32,
+    /// Whether a hand draws the bead away through free space; otherwise it is lifted.
+    #[serde(default)]
+    pub by_hand: bool,
+    /// Whether the tool starts at least 15 cm from the bead; otherwise above it.
+    #[serde(default)]
+    pub tool_apart: bool,
     /// Median duration of a control step in milliseconds, including the camera.
     pub decision_ms_p50: f64,
     pub decision_ms_p99: f64,
@@ -74,6 +89,11 @@ impl Row {
             steps_mean: mean(&|e| f64::from(e.steps)),
             switches_mean: mean(&|e| f64::from(e.switches)),
             disturbances_struck: episodes.iter().map(|e| e.disturbances).sum(),
+            changes: episodes.first().map(|episode| episode.scenario.parameters.changes()).unwrap_or_default(),
+            trained_on_map: episodes.first().and_then(|episode| episode.trained_on_map),
+            beyond_steps: total(&Episode::is_beyond_steps),
+            by_hand: episodes.first().is_some_and(|episode| episode.manner.by_hand),
+            tool_apart: episodes.first().is_some_and(|episode| episode.manner.tool_apart),
             decision_ms_p50: quantile_ms(0.5),
             decision_ms_p99: quantile_ms(0.99),
         }
@@ -136,7 +156,8 @@ impl Failure {
             refusal: episode.refusal.clone(),
             steps: episode.steps,
             disturbances_struck: episode.disturbances,
-            link: episode.scenario.link(),
+            // A link cannot hold what a person does.
+            link: episode.scenario.link().filter(|_| episode.manner == Manner::default()),
         })
     }
 

@@ -17,15 +17,16 @@ use axum::response::{IntoResponse, Response};
 
 use super::Server;
 use super::problem::Problem;
+use super::site::comes_from_another_site;
 
 use origins::Origins;
 pub use origins::{Origin, OriginError};
-use rates::{Client, Rates, TooOften};
+pub use rates::Client;
+use rates::{Rates, TooOften};
 pub use token::{Token, TokenError};
 
 const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; \
                       form-action 'none'; object-src 'none'";
-const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 const FETCH_MODE: HeaderName = HeaderName::from_static("sec-fetch-mode");
 const FETCH_DEST: HeaderName = HeaderName::from_static("sec-fetch-dest");
 
@@ -58,6 +59,7 @@ pub struct Access {
     cookie_key: Option<cookie::Key>,
     origins: Origins,
     rates: Rates,
+    logged_out: login::LoggedOut,
 }
 
 impl Access {
@@ -90,7 +92,13 @@ impl Access {
             all.extend(format!("http://localhost:{}", address.port()).parse::<Origin>());
         }
         let cookie_key = token.as_ref().map(Token::cookie_key);
-        Ok(Self { token, cookie_key, origins: Origins::new(&all), rates: Rates::default() })
+        Ok(Self {
+            token,
+            cookie_key,
+            origins: Origins::new(&all),
+            rates: Rates::default(),
+            logged_out: login::LoggedOut::default(),
+        })
     }
 
     /// Forgets clients without recent requests.
@@ -109,7 +117,7 @@ impl Access {
             (None, _) => (by_address, true),
             (Some(token), Some(presented)) if token.matches(presented) => (by_address, true),
             (Some(_), Some(_)) => return Err(self.wrong_token(&by_address)),
-            (Some(_), None) => match self.cookie_key.as_ref().and_then(|key| login::valid_login(headers, key)) {
+            (Some(_), None) => match self.login(headers) {
                 // A browser adds the cookie to every request, whatever site made it. The origin names that site.
                 Some(_) if origin.is_none() && changes_something(request) => {
                     let detail = "a request with the cookie needs the header Origin; programs send the token instead, \
@@ -126,6 +134,12 @@ impl Access {
         }
         let detail = "the token is missing: log in at /login, or send the token as Authorization: Bearer";
         Err(Problem::new(StatusCode::UNAUTHORIZED, "no_token", detail).field("Authorization"))
+    }
+
+    /// The number of the request's login, if it has a valid one.
+    fn login(&self, headers: &HeaderMap) -> Option<String> {
+        let login = login::valid_login(headers, self.cookie_key.as_ref()?)?;
+        (!self.logged_out.contains(&login)).then_some(login)
     }
 
     /// A request must have exactly one Host, and it must be allowed. The host in the request line must be allowed, too.
@@ -189,10 +203,9 @@ fn is_public(path: &str) -> bool {
 /// Browsers report the source of a request in `Sec-Fetch-Site`, even without Origin. Another site may only link here.
 fn check_site(headers: &HeaderMap, method: &Method) -> Result<(), Problem> {
     let value_of = |name: &HeaderName| headers.get(name).and_then(|value| value.to_str().ok());
-    let is_foreign = matches!(value_of(&FETCH_SITE), Some("cross-site" | "same-site"));
     // A frame also navigates, and would open a session.
     let is_link = value_of(&FETCH_MODE) == Some("navigate") && value_of(&FETCH_DEST) == Some("document");
-    if !is_foreign || is_link && *method == Method::GET {
+    if !comes_from_another_site(headers) || is_link && *method == Method::GET {
         return Ok(());
     }
     let detail = "the request comes from another site's page; another site may only link here";

@@ -10,6 +10,7 @@ use axum::response::{IntoResponse, Response};
 use super::Server;
 use super::problem::Problem;
 use super::sessions::{DEMO, MAIN};
+use super::site::comes_from_another_site;
 
 /// Content security policy of the viewer's page: it may compile WebAssembly, and our own page may frame it.
 const VIEWER_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; \
@@ -31,6 +32,12 @@ pub async fn named_session(
     Path(name): Path<String>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
+    if server.sessions.find(&name).is_none() && comes_from_another_site(&headers) {
+        let detail = format!(
+            "session {name:?} is not open, and a link from another site does not open one: enter this address yourself"
+        );
+        return Err(Problem::new(StatusCode::FORBIDDEN, "foreign_site", detail).field("Sec-Fetch-Site"));
+    }
     server.sessions.open(&name).await?;
     Ok(send("index.html", &headers))
 }

@@ -117,7 +117,36 @@ async fn a_session_ends_during_a_long_step_command() {
     let began = std::time::Instant::now();
     tokio::task::spawn_blocking(move || session.close()).await.unwrap();
     assert!(began.elapsed() < Duration::from_millis(500), "it took {:?}", began.elapsed());
-    answer.await.unwrap().unwrap();
+    assert!(matches!(answer.await.unwrap(), Err(CommandError::Ended)));
+}
+
+/// During a long step, requests are answered and states are published; later commands wait, and a pause ends it.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_long_step_is_interruptible_and_keeps_the_order_of_commands() {
+    let session = start("slices", ControllerName::Attractor, Box::new(Nowhere::default()));
+    let tick = || session.watch().borrow().moment.tick;
+    let long = session.begin(Command::Step(12_500)).unwrap();
+    let goal = session.begin(Command::Input(Input::SetGoal { x_m: 0.1, y_m: -0.5 })).unwrap();
+    let mut ticks = Vec::new();
+    while ticks.len() < 3 {
+        let began = std::time::Instant::now();
+        session.saved().await.unwrap();
+        assert!(began.elapsed() < Duration::from_secs(1), "it took {:?}", began.elapsed());
+        let now = tick();
+        if ticks.last() != Some(&now) {
+            ticks.push(now);
+        }
+        assert_eq!(session.watch().borrow().moment.goal_m, None, "the goal waits for the end of the step");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+    session.send(Command::Pause).await.unwrap();
+    long.await.unwrap().unwrap();
+    goal.await.unwrap().unwrap();
+    let stopped = tick();
+    assert!(ticks[2] <= stopped && stopped < 12_500, "{ticks:?}, then {stopped}");
+    assert!(session.watch().borrow().moment.goal_m.is_some());
+    session.send(Command::Step(7)).await.unwrap();
+    assert_eq!(tick(), stopped + 7);
 }
 
 fn server(data: &std::path::Path) -> Arc<Server> {

@@ -14,11 +14,12 @@ use axum::extract::State;
 use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
-use futures_util::SinkExt;
+use futures_util::stream::FuturesUnordered;
+use futures_util::{SinkExt, StreamExt};
 use governor::clock::{Clock, DefaultClock};
 use governor::{DefaultDirectRateLimiter, Quota, RateLimiter};
 use tokio::sync::broadcast::error::RecvError;
-use tokio::sync::watch;
+use tokio::sync::{oneshot, watch};
 use tokio::time::Instant;
 
 use self::hand::Hand;
@@ -108,6 +109,8 @@ struct Connection {
     messages: DefaultDirectRateLimiter,
     /// When a browser sends too much, nothing is read before this time.
     read_after: Instant,
+    /// Answers of `step` commands. The connection does not wait for them: it goes on sending states, and reads `pause`.
+    stepping: FuturesUnordered<oneshot::Receiver<Result<(), CommandError>>>,
 }
 
 /// Versions of the newest messages that this browser has received.
@@ -124,7 +127,8 @@ impl Connection {
         let now = Instant::now();
         let messages = RateLimiter::direct(Quota::per_second(MESSAGES_PER_S).allow_burst(MESSAGES_BURST));
         let hand = Hand::new(seat.own, hub.clone());
-        Self { seat, hub, socket, hand, received: now, pinged: now, messages, read_after: now }
+        let stepping = FuturesUnordered::new();
+        Self { seat, hub, socket, hand, received: now, pinged: now, messages, read_after: now, stepping }
     }
 
     async fn serve(mut self, stopping: watch::Receiver<bool>) {
@@ -187,6 +191,9 @@ impl Connection {
                     if !self.receive(message).await? {
                         return Ok(());
                     }
+                }
+                Some(Ok(Err(error))) = self.stepping.next() => {
+                    self.send_message(&ServerMessage::Error(ErrorMessage::from(&error))).await?;
                 }
                 () = hand.silenced.notified() => {
                     let message = format!("no message from the page that holds the bead for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
@@ -322,11 +329,11 @@ impl Connection {
                 let case = Box::new(Case::from_json(case.as_bytes()).map_err(CommandError::from)?);
                 self.hub.session.send(Command::Open(case)).await?;
             }
-            message => {
-                if let Some(command) = message.command() {
-                    self.hub.session.send(command).await?;
-                }
-            }
+            message => match message.command() {
+                Some(command @ Command::Step(_)) => self.stepping.push(self.hub.session.begin(command)?),
+                Some(command) => self.hub.session.send(command).await?,
+                None => {}
+            },
         }
         self.hand.commanded(holds);
         Ok(())

@@ -4,10 +4,10 @@
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use super::recipe::Recipe;
+use super::recipe::{EPISODE_STEPS, Recipe};
 use super::terrain::{GOAL_JITTER_M, Terrain, UNREACHABLE};
 use crate::geometry::{Point2, Vector2};
-use crate::trial::{GOAL_RADIUS_M, LEG_STEP_LIMIT};
+use crate::trial::GOAL_RADIUS_M;
 
 /// A place anywhere in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -76,7 +76,7 @@ pub enum Ending {
     Reached,
     /// The obstacle test is positive, a wall is too close, or there are no joint angles.
     Collided,
-    /// More than 150 steps.
+    /// Not within the recipe's number of steps.
     TimedOut,
 }
 
@@ -124,7 +124,7 @@ impl Episode {
         let ending = match to {
             None => Some(Ending::Collided),
             Some(_) if outcome.terminal => Some(Ending::Reached),
-            Some(_) if self.steps >= LEG_STEP_LIMIT => Some(Ending::TimedOut),
+            Some(_) if self.steps >= EPISODE_STEPS => Some(Ending::TimedOut),
             Some(_) => None,
         };
         if let Some(to) = to {

@@ -9,12 +9,11 @@ use serde::{Deserialize, Serialize};
 use super::adam::Adam;
 use super::environment::{Ending, Goal};
 use super::loss::{huber_mean, quantile_huber};
-use super::recipe::Recipe;
+use super::recipe::{EPISODE_STEPS, Recipe};
 use super::replay::{Replay, Transition};
 use super::terrain::{Terrain, views};
 use crate::perception::OBSERVATION_SIZE_PX;
 use crate::policy::{Architecture, Fusion, Network, Noise, TensorSpec, acting_fractions, images};
-use crate::trial::LEG_STEP_LIMIT;
 
 /// All weights, in the order of [`Architecture::tensors`].
 pub type Weights = Vec<Vec<f32>>;
@@ -358,7 +357,7 @@ impl<'a> Learner<'a> {
         }
         if kind < recipe.uniform_goals + recipe.future_goals {
             let later: Vec<u16> =
-                replay.following(index, LEG_STEP_LIMIT as usize).filter_map(|transition| transition.next).collect();
+                replay.following(index, EPISODE_STEPS as usize).filter_map(|transition| transition.next).collect();
             if !later.is_empty() {
                 let cell = later[rng.random_range(0..later.len())];
                 return (Goal::in_cell(cell, rng), false);

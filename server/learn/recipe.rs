@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::policy::{Architecture, Fusion};
 
+/// Steps of an episode (paper, §IV-A).
+pub const EPISODE_STEPS: u32 = 150;
+
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Recipe {

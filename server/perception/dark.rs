@@ -35,6 +35,11 @@ pub struct DarkPixels {
 impl DarkPixels {
     /// The pixels of `gray` at or below `threshold`.
     pub fn of(gray: &GrayImage, threshold: u8) -> Self {
+        Self::where_(gray, |level| level <= threshold)
+    }
+
+    /// The pixels of `gray` that count as dark.
+    pub fn where_(gray: &GrayImage, is_dark: impl Fn(u8) -> bool) -> Self {
         let (width_px, height_px) = (gray.width_px, gray.height_px);
         let stride = width_px + 1;
         let mut sums = vec![0; stride * (height_px + 1)];
@@ -44,7 +49,7 @@ impl DarkPixels {
                 let above = &above[stride * row + 1..];
                 let mut in_row = 0;
                 for ((sum, above), &level) in below[1..stride].iter_mut().zip(above).zip(pixels) {
-                    in_row += u32::from(level <= threshold);
+                    in_row += u32::from(is_dark(level));
                     *sum = above + in_row;
                 }
             }

@@ -144,9 +144,24 @@ impl ObstacleMap {
     /// The pixels may be those of the image, or blocks of a quadtree ([`super::Quadtree::dark_pixels`]). Blocks move
     /// with the camera, so the additional area that they darken varies.
     pub fn update(&mut self, dark: &DarkPixels, calibration: &Calibration, spread: f64) -> Change {
-        let view = View::of(self, dark, calibration, spread);
+        self.update_around(dark, None, calibration, spread)
+    }
+
+    /// The same for an image in which something hides the table. A cell of which more than a quarter is hidden stays
+    /// unchanged.
+    pub fn update_around(
+        &mut self,
+        dark: &DarkPixels,
+        hidden: Option<&DarkPixels>,
+        calibration: &Calibration,
+        spread: f64,
+    ) -> Change {
+        let view = View::of(self, dark, hidden, calibration, spread);
         let (mut appeared, mut cleared, mut first_seen) = (Vec::new(), Vec::new(), Vec::new());
         for (column, row) in view.cells() {
+            if hidden.is_some_and(|hidden| view.is_hidden(column, row, hidden)) {
+                continue;
+            }
             let was_obstacle = self.cells.obstacle.get(column, row);
             match (was_obstacle, view.is_dark(column, row)) {
                 (false, true) => appeared.push((column, row)),

@@ -1,7 +1,7 @@
 //! Obstacles near the tool, as the attractor senses them: the nearest part of each obstacle, at most 2 cm high and wide
 //! (paper, Example 1).
 
-use super::{CellState, OBSTACLE_MEAN, ObstacleMap, Percept};
+use super::{CellState, ObstacleMap, Percept};
 use crate::geometry::{Point2, Vector2};
 
 /// Pixels per cell of the mask; 0.83 mm on the table with the default camera.
@@ -42,7 +42,7 @@ impl ObstacleMask {
                 let (row, column) = (cell / columns * CELL_PX, cell % columns * CELL_PX);
                 (row..row + CELL_PX).any(|r| {
                     let start = r * gray.width_px + column;
-                    gray.pixels[start..start + CELL_PX].iter().any(|&level| f64::from(level) < OBSTACLE_MEAN)
+                    gray.pixels[start..start + CELL_PX].iter().any(|&level| super::is_wall(level))
                 })
             })
             .collect();

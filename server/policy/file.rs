@@ -1,6 +1,6 @@
 //! The file of a policy: safetensors with the manifest in the metadata.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -19,6 +19,8 @@ const KEY: &str = "ferry";
 const VERSION: u32 = 1;
 /// Size limit of a policy's file.
 const MAX_BYTES: u64 = 16 << 20;
+/// Largest weight; those of shipped policies are below 10.
+const WEIGHT_MOST: f32 = 1e4;
 /// Size limit of the header; shipped policies have 3 KiB.
 const MAX_HEADER_BYTES: u64 = 64 << 10;
 
@@ -100,9 +102,12 @@ pub enum PolicyError {
     /// A tensor that the network does not have.
     #[error("policy: tensor {name:?} is not part of the network")]
     Stray { name: String },
-    /// A number in a tensor is not finite.
-    #[error("policy: tensor {name:?} contains {value}")]
-    NotFinite { name: String, value: f32 },
+    /// A number in a tensor is not finite, or so large that sums of it would not be.
+    #[error("policy: tensor {name:?} contains {value}, it must be -{WEIGHT_MOST} to {WEIGHT_MOST}")]
+    Weight { name: String, value: f32 },
+    /// The header names a tensor more than once.
+    #[error("policy: tensor {name:?} is in the file twice")]
+    Twice { name: String },
     /// The network returned an error.
     #[error("policy: {0}")]
     Network(#[from] candle_core::Error),
@@ -156,6 +161,9 @@ impl Policy {
         if header > MAX_HEADER_BYTES {
             return Err(PolicyError::Header { bytes: header });
         }
+        if let Some(name) = twice(bytes, header as usize) {
+            return Err(PolicyError::Twice { name });
+        }
         let file = SafeTensors::deserialize(bytes)?;
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
         let text = metadata.metadata().as_ref().and_then(|entries| entries.get(KEY));
@@ -204,6 +212,30 @@ impl Policy {
     }
 }
 
+/// A name that is in the header twice: the library would take the last one. Other faults of the header are its.
+fn twice(bytes: &[u8], header: usize) -> Option<String> {
+    struct Names;
+    impl<'de> serde::de::Visitor<'de> for Names {
+        type Value = Option<String>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("a header")
+        }
+
+        fn visit_map<A: serde::de::MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let (mut known, mut twice) = (HashSet::new(), None);
+            while let Some((name, _)) = map.next_entry::<String, serde::de::IgnoredAny>()? {
+                if !known.insert(name.clone()) {
+                    twice = Some(name);
+                }
+            }
+            Ok(twice)
+        }
+    }
+    let text = bytes.get(8..header.checked_add(8)?)?;
+    serde::Deserializer::deserialize_map(&mut serde_json::Deserializer::from_slice(text), Names).ok().flatten()
+}
+
 /// One weight of the file, checked.
 fn read(file: &SafeTensors<'_>, spec: &TensorSpec) -> Result<Tensor, PolicyError> {
     let name = spec.name.clone();
@@ -213,8 +245,8 @@ fn read(file: &SafeTensors<'_>, spec: &TensorSpec) -> Result<Tensor, PolicyError
         return Err(PolicyError::Shape { name, found, needed: spec.shape.clone() });
     }
     let values: Vec<f32> = view.data().chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-    if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
-        return Err(PolicyError::NotFinite { name, value });
+    if let Some(&value) = values.iter().find(|value| value.is_nan() || value.abs() > WEIGHT_MOST) {
+        return Err(PolicyError::Weight { name, value });
     }
     Ok(Tensor::from_vec(values, spec.shape.clone(), &Device::Cpu)?)
 }

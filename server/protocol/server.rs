@@ -239,8 +239,11 @@ pub struct StateMessage {
     pub tracking_error_x_m: f64,
     /// Tool minus bead, y.
     pub tracking_error_y_m: f64,
-    /// Norm of the tracking error.
+    /// Norm of the tracking error: the true distance between tool and bead in the plane.
     pub tracking_error_m: f64,
+    /// Distance between the tool and the tracked bead in the plane: e of the switching law, as it would be now.
+    #[serde(default)]
+    pub tracked_error_m: f64,
     /// Distance from the tool to the goal.
     pub goal_distance_m: Option<f64>,
     /// Horizontal pull of the magnet on the bead.
@@ -354,6 +357,7 @@ impl From<&View> for StateMessage {
             tracking_error_x_m: error.x,
             tracking_error_y_m: error.y,
             tracking_error_m: error.norm(),
+            tracked_error_m: (m.tool_m.xy() - m.tracked_m).norm(),
             goal_distance_m: m.goal_m.map(|goal| (m.tool_m.xy() - goal).norm()),
             pull_n: m.load.lateral_n.norm(),
             lift_ratio: m.load.lift_ratio(),

@@ -15,7 +15,7 @@ const FLUSH_EVERY: Duration = Duration::from_millis(200);
 /// Entries per frame; at full speed many arrive within the flush interval.
 const FRAME_ENTRIES: usize = 512;
 /// Interval of the checks of the disk; even at full speed, far less than the required free space is written in between.
-const CHECK_EVERY: Duration = Duration::from_secs(1);
+const CHECK_EVERY: Duration = Duration::from_millis(300);
 
 /// Folder and names of the parts.
 pub(super) enum Naming {
@@ -79,6 +79,8 @@ struct Part {
     since: Instant,
     /// Whether the end of the part was already reported.
     reported_over: bool,
+    /// The two files.
+    paths: [PathBuf; 2],
     /// Released after the files are closed.
     claim: Claim,
 }
@@ -88,10 +90,10 @@ impl Part {
         check_room(naming.folder(), options)?;
         let (folder, claim) = (naming.folder(), naming.claim()?);
         let id = &claim.id;
-        let path = folder.join(format!("{id}.ferry"));
-        let file = File::create(&path).map_err(|error| RecordingError::Io { path, error })?;
-        let path = folder.join(format!("{id}.rrd"));
-        let writer = Writer::create(&path, recording.unwrap_or(id), id, options.image_every)?;
+        let paths = ["ferry", "rrd"].map(|ending| folder.join(format!("{id}.{ending}")));
+        let [log, view] = &paths;
+        let file = File::create(log).map_err(|error| RecordingError::Io { path: log.clone(), error })?;
+        let writer = Writer::create(view, recording.unwrap_or(id), id, options.image_every)?;
         Ok(Self {
             writer,
             log: LogWriter::new(file)?,
@@ -99,8 +101,15 @@ impl Part {
             reported_failure: false,
             since: Instant::now(),
             reported_over: false,
+            paths,
             claim,
         })
+    }
+
+    /// Fails if a user has removed a file, or its folder: what is written then would be lost.
+    fn check(&self) -> Result<(), RecordingError> {
+        let gone = self.paths.iter().find(|path| !path.is_file());
+        gone.map_or(Ok(()), |path| Err(RecordingError::Gone { path: path.clone() }))
     }
 
     /// Writes what the part contains, if that has changed. A failure does not stop the recording, which is complete
@@ -125,7 +134,8 @@ impl Part {
 pub(super) struct Keeper {
     naming: Naming,
     options: Options,
-    part: Part,
+    /// `None` while the folder is gone.
+    part: Option<Part>,
     /// The first part's name: Rerun treats parts with the same name as one recording.
     recording: String,
     timeline: TimelinePosition,
@@ -143,7 +153,7 @@ impl Keeper {
             recording: part.claim.id.clone(),
             naming,
             options,
-            part,
+            part: Some(part),
             timeline: TimelinePosition::default(),
             waiting: Vec::new(),
             waiting_since: now,
@@ -151,36 +161,57 @@ impl Keeper {
         })
     }
 
-    /// Time until the next flush, if no message arrives.
+    /// Time until the next flush, if no message arrives. The files are checked meanwhile, too.
     pub(super) fn wait(&self) -> Duration {
         let entries = match self.waiting.is_empty() {
-            true => Duration::from_secs(3600),
+            true => CHECK_EVERY,
             false => FLUSH_EVERY.saturating_sub(self.waiting_since.elapsed()),
         };
-        entries.min(self.part.notes.wait())
+        self.part.as_ref().map_or(CHECK_EVERY, |part| entries.min(part.notes.wait()))
     }
 
     fn is_over(&self) -> bool {
-        self.part.since.elapsed() >= self.options.part
+        self.part.as_ref().is_none_or(|part| part.since.elapsed() >= self.options.part)
     }
 
-    /// True once per part, when it is old enough. The next part begins with the trial's next beginning.
+    /// True once per part, when it is old enough, and while the folder of a lost part is back. The next part begins with
+    /// the trial's next beginning.
     pub(super) fn wants_next(&mut self) -> bool {
-        self.is_over() && !std::mem::replace(&mut self.part.reported_over, true)
+        let is_over = self.is_over();
+        match &mut self.part {
+            Some(part) => is_over && !std::mem::replace(&mut part.reported_over, true),
+            None => self.naming.folder().is_dir(),
+        }
+    }
+
+    /// Whether a recording whose files are gone goes on later. That of an episode would be incomplete.
+    pub(super) fn waits_for_folder(&self) -> bool {
+        matches!(self.naming, Naming::Archive { .. })
+    }
+
+    pub(super) fn is_interrupted(&self) -> bool {
+        self.part.is_none()
+    }
+
+    /// Gives up the part, whose files are gone.
+    pub(super) fn interrupt(&mut self) {
+        self.part = None;
+        self.waiting.clear();
     }
 
     pub(super) fn write(&mut self, message: Message) -> Result<(), RecordingError> {
-        match message {
-            Message::Begin(opening) => self.begin(*opening)?,
-            Message::Tick(tick) => {
+        match (message, &mut self.part) {
+            (Message::Begin(opening), _) => self.begin(*opening)?,
+            (_, None) => return Ok(()),
+            (Message::Tick(tick), Some(part)) => {
                 self.timeline.advance();
-                self.part.notes.tick(tick.sample.as_ref());
+                part.notes.tick(tick.sample.as_ref());
                 if let Some(sample) = &tick.sample {
-                    self.part.writer.sample(sample, &mut self.timeline)?;
+                    part.writer.sample(sample, &mut self.timeline)?;
                 }
                 self.push(Entry::Tick(tick.logged));
             }
-            Message::Note(event) => self.part.writer.event(&event)?,
+            (Message::Note(event), Some(part)) => part.writer.event(&event)?,
         }
         if self.waiting.len() >= FRAME_ENTRIES || self.waiting_since.elapsed() >= FLUSH_EVERY {
             self.flush()?;
@@ -192,11 +223,13 @@ impl Keeper {
         if self.is_over() {
             self.flush()?;
             let next = Part::create(&self.naming, Some(&self.recording), &self.options)?;
-            let over = std::mem::replace(&mut self.part, next);
-            over.close()?;
+            if let Some(over) = self.part.replace(next) {
+                over.close()?;
+            }
         }
-        self.part.notes.begin(&opening);
-        self.part.writer.begin(&opening, &mut self.timeline)?;
+        let Some(part) = &mut self.part else { return Ok(()) };
+        part.notes.begin(&opening);
+        part.writer.begin(&opening, &mut self.timeline)?;
         self.push(Entry::Begin(Box::new(opening.logged)));
         Ok(())
     }
@@ -208,27 +241,29 @@ impl Keeper {
         self.waiting.push(entry);
     }
 
-    /// Writes waiting entries and what the part contains; Rerun writes its data by itself. Checks the free space of the
-    /// disk.
+    /// Writes waiting entries and what the part contains; Rerun writes its data by itself. Checks the files and the free
+    /// space of the disk.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
+        let Some(part) = &mut self.part else { return Ok(()) };
         if self.checked.elapsed() >= CHECK_EVERY {
             self.checked = Instant::now();
+            part.check()?;
             check_room(self.naming.folder(), &self.options)?;
-            self.part.writer.check()?;
+            part.writer.check()?;
         }
-        self.part.writer.flush()?;
+        part.writer.flush()?;
         if !self.waiting.is_empty() {
-            self.part.log.append(std::mem::take(&mut self.waiting))?;
+            part.log.append(std::mem::take(&mut self.waiting))?;
         }
-        if self.part.notes.wait().is_zero() {
-            self.part.describe();
+        if part.notes.wait().is_zero() {
+            part.describe();
         }
         Ok(())
     }
 
     pub(super) fn close(mut self) -> Result<(), RecordingError> {
         let flushed = self.flush();
-        flushed.and(self.part.close())
+        flushed.and(self.part.map_or(Ok(()), Part::close))
     }
 }
 

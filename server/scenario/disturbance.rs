@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// Maximum number of disturbances in a script.
 pub const SCRIPT_LIMIT: usize = 64;
-/// Last control step of a goal at which a disturbance can be applied: the step limit of a goal.
-pub const MOST_STEPS: u32 = 600;
+/// Last control step of a goal at which a disturbance can be applied: a goal's steps at the largest `step_limit`.
+pub const MOST_STEPS: u32 = 20_000;
 /// Largest kick: a resting bead gets a speed of about 4 m/s.
 pub const MOST_IMPULSE_N_S: f64 = 2e-3;
 /// Largest push: about twice the bead's weight.
@@ -32,7 +32,7 @@ pub enum Disturbance {
 pub enum When {
     /// Before this tick.
     Tick(u64),
-    /// At this control step, 1 to 600, of the first goal that reaches it.
+    /// At this control step, 1 to 20,000, of the first goal that reaches it.
     Step(u32),
     /// When the bead's x passes this one, in either direction.
     #[serde(rename = "passes_x_m")]

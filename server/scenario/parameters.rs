@@ -1,6 +1,7 @@
 //! All parameters that the operator can change, with their ranges.
 
 mod descriptor;
+mod presets;
 mod set;
 mod table;
 
@@ -10,6 +11,7 @@ use crate::image::CameraMount;
 use crate::plant::PlantParameters;
 
 pub use descriptor::{Bound, Group, Kind, Number, Parameter, Unit};
+pub use presets::{Preset, PresetKind};
 pub use set::SetError;
 pub use table::Parameters;
 

@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{ControllerName, Parameters, Scenario};
+use super::{ControllerName, Parameters, Scenario, Stream};
 use crate::geometry::Point2;
 use crate::map::{FreeSpace, Map};
 
@@ -33,7 +33,7 @@ pub fn start_point(
     seed: u64,
     is_reached: &dyn Fn(Point2<f64>) -> bool,
 ) -> Result<Point2<f64>, RandomTrialError> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut rng = Stream::Start.rng(seed);
     let mut drawn = (0..DRAWS).map_while(|_| space.sample(map, None, &mut rng));
     drawn.find(|&point| is_reached(point)).ok_or_else(|| RandomTrialError { map: map.name().to_owned() })
 }

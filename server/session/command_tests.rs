@@ -293,6 +293,10 @@ fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
                 known = Some(after);
             }
         }
+        while worker.stepping > 0 {
+            worker.stepping -= 1;
+            worker.tick().unwrap();
+        }
         assert!(worker.broken.is_none(), "{told} broke it: {:?}", worker.broken);
         watch.check(&worker);
         if worker.running && rng.random_bool(0.5) {

@@ -4,6 +4,8 @@ use std::time::{Duration, Instant};
 
 use crate::robot::ur5::SERVO_PERIOD_S;
 
+/// How often a paused session looks at its recording.
+pub const LOOK_EVERY: Duration = Duration::from_millis(300);
 /// Minimum speed, simulated seconds per second.
 pub const SPEED_MIN: f64 = 0.125;
 /// Maximum requested speed; the achieved speed may be lower.

@@ -1,17 +1,18 @@
 //! The session's thread.
 
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use tokio::sync::{broadcast, watch};
+use tokio::sync::{broadcast, oneshot, watch};
 
 use super::kept_runs::KeptRuns;
-use super::pacing::{Pace, SPEED_MAX, SPEED_MIN};
+use super::pacing::{LOOK_EVERY, Pace, SPEED_MAX, SPEED_MIN};
 use super::timeline::Timeline;
-use super::{Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
+use super::{COMMAND_QUEUE, Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
@@ -22,7 +23,7 @@ use crate::trial::{Arena, Beginning, Event, Input, InputError, Sight, Sink, Sour
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
 /// Maximum waiting time of commands while ticks are always due.
-const DRAIN_EVERY: Duration = Duration::from_millis(4);
+pub(super) const DRAIN_EVERY: Duration = Duration::from_millis(4);
 
 /// Creates a camera for an arena.
 pub(super) type MakeCamera<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
@@ -54,6 +55,12 @@ pub(super) struct Worker<E> {
     pub(super) hand_is_stale: bool,
     pace: Pace,
     pub(super) journal: Arc<Vec<Event>>,
+    /// Ticks that are left of a `Step`. They run in slices, between which requests are answered.
+    pub(super) stepping: u32,
+    /// Who waits for the end of the `Step`.
+    pub(super) stepped: Option<oneshot::Sender<Result<(), CommandError>>>,
+    /// Commands that came during a `Step` and wait for its end.
+    pub(super) deferred: VecDeque<Request>,
     /// The session ends while a command is carried out.
     pub(super) broken: Option<TrialError>,
     /// The session ends; no further work is started.
@@ -93,6 +100,9 @@ impl<E: ImageSource> Worker<E> {
             hand_is_stale: false,
             pace,
             journal: Arc::default(),
+            stepping: 0,
+            stepped: None,
+            deferred: VecDeque::new(),
             broken: None,
             interrupted: Arc::default(),
         })
@@ -136,11 +146,16 @@ impl<E: ImageSource> Worker<E> {
         let mut publish_at = Instant::now();
         loop {
             let now = Instant::now();
-            let wait = if self.running { self.pace.wait(now) } else { Duration::from_secs(3600) };
+            let steps = self.stepping > 0 || self.stepped.is_some() || !self.deferred.is_empty();
+            let wait = match (steps, self.running) {
+                (true, _) => Duration::ZERO,
+                (false, true) => self.pace.wait(now),
+                (false, false) => LOOK_EVERY,
+            };
             if wait > Duration::ZERO {
                 match inbox.recv_timeout(wait) {
                     Ok(request) => self.answer(request, publish)?,
-                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Timeout) => self.look_at_recording(publish),
                     Err(RecvTimeoutError::Disconnected) => return Ok(()),
                 }
                 continue;
@@ -150,7 +165,8 @@ impl<E: ImageSource> Worker<E> {
                 self.tick()?;
                 self.pace.ticked(Instant::now());
             }
-            loop {
+            self.step_on(burst, publish)?;
+            while self.deferred.len() < COMMAND_QUEUE {
                 match inbox.try_recv() {
                     Ok(request) => self.answer(request, publish)?,
                     Err(std::sync::mpsc::TryRecvError::Empty) => break,
@@ -166,9 +182,13 @@ impl<E: ImageSource> Worker<E> {
         }
     }
 
-    /// Runs a request and sends its answer; the answer is dropped when the caller no longer waits.
-    fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
+    /// Runs a request and sends its answer; the answer is dropped when the caller no longer waits. During a `Step`, a
+    /// command waits for its end, so that commands that follow each other are carried out in order; `Pause` ends it.
+    pub(super) fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
         match request {
+            Request::Execute { command, answer } if self.stepping > 0 && command != Command::Pause => {
+                self.deferred.push_back(Request::Execute { command, answer });
+            }
             Request::Execute { command, answer } => {
                 let result = self.obey(command);
                 if let Some(fault) = self.broken.take() {
@@ -176,6 +196,10 @@ impl<E: ImageSource> Worker<E> {
                     return Err(fault);
                 }
                 self.announce();
+                if result.is_ok() && self.stepping > 0 {
+                    self.stepped = Some(answer);
+                    return Ok(());
+                }
                 publish.send_replace(Arc::new(self.view()));
                 let _ = answer.send(result);
             }
@@ -202,22 +226,17 @@ impl<E: ImageSource> Worker<E> {
                 self.running = true;
                 self.pace.restart(Instant::now());
             }
-            Command::Pause => self.running = false,
+            Command::Pause => {
+                self.running = false;
+                self.stepping = 0;
+            }
             Command::Step(ticks) => {
                 if !(1..=STEP_MAX).contains(&ticks) {
                     let allowed = format!("1 to {STEP_MAX}");
                     return Err(CommandError::Range { field: "ticks", value: f64::from(ticks), allowed });
                 }
                 self.running = false;
-                for _ in 0..ticks {
-                    if self.interrupted.load(Ordering::Relaxed) {
-                        break;
-                    }
-                    if let Err(error) = self.tick() {
-                        self.broken = Some(error);
-                        break;
-                    }
-                }
+                self.stepping = ticks;
             }
             Command::SetSpeed(factor) => {
                 if !(SPEED_MIN..=SPEED_MAX).contains(&factor) {
@@ -335,7 +354,7 @@ impl<E: ImageSource> Worker<E> {
     }
 
     /// Sends events of inputs at once if no tick will carry them.
-    fn announce(&mut self) {
+    pub(super) fn announce(&mut self) {
         if self.running {
             return;
         }

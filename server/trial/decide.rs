@@ -1,31 +1,43 @@
 //! A control step: the controllers decide, and the trial carries the decision out.
 
 use super::outcome::GOAL_RADIUS_M;
-use super::phase::{GOAL_STEP_LIMIT, LEG_STEP_LIMIT, Phase, StopReason};
-use super::{ControllerState, Decision, Event, EventKind, Motion, Trial, World};
+use super::phase::{LEGS_PER_GOAL, Phase, StopReason};
+use super::{ControllerState, Decision, Event, EventKind, Motion, Trial, TrialState, World};
+use crate::control::search::{Look, Search, SearchInput};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::{Point2, Point3, Vector2};
+use crate::image::CameraFrame;
 use crate::map::WALL_HEIGHT_M;
-use crate::perception::{DarkPixels, Percept, wall_spread};
+use crate::perception::{BeadView, Percept, wall_spread};
 
 impl Trial {
-    /// Decides from a frame. Changes only the controller state; [`Self::carry_out`] changes the world.
-    pub(super) fn decide(&mut self, percept: &Percept) -> Decision {
-        let world = &self.state.world;
-        let controller_state = &mut self.state.controller_state;
-        controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
-        let dark = DarkPixels::of(&percept.gray, world.parameters.obstacle_level);
-        let spread = wall_spread(world.parameters.camera_height_m, WALL_HEIGHT_M);
-        controller_state.known.update(&dark, &percept.calibration, spread);
+    /// Decides from a frame and its percept. Changes only the controller state; [`Self::carry_out`] changes the world.
+    ///
+    /// The phase is the referee's: [`Self::judge`] knows where the bead is. Controllers learn from it only that they must
+    /// stop: the bead hangs on the magnet, or a limit was exceeded.
+    pub(super) fn decide(&mut self, frame: &CameraFrame, percept: &Percept) -> Decision {
         let tool = self.tool_m();
+        let TrialState { world, controller_state, .. } = &mut self.state;
+        controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
+        let (dark, hidden) = (percept.dark(world.parameters.obstacle_level), percept.hidden());
+        let spread = wall_spread(world.parameters.camera_height_m, WALL_HEIGHT_M);
+        controller_state.known.update_around(&dark, hidden.as_ref(), &percept.calibration, spread);
         let bead = world.tracker.estimate().position_m;
+        let is_stopped = matches!(
+            world.phase,
+            Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps { .. } | StopReason::TrackerLost)
+        );
+        if world.tracker.is_lost(world.parameters.tracker_timeout_s) {
+            return self.look_for_bead(frame, percept, is_stopped);
+        }
+        controller_state.search = Search::default();
         let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters, || {
             percept.wall_between(tool.xy(), bead)
         });
         let hold = Decision { switching, motion: Motion::Hold, refusal: None };
-        if world.plant.bead.lifted_off || world.phase == Phase::Stopped(StopReason::GoalSteps) {
+        if is_stopped {
             return hold;
         }
         if switching.mode == Mode::Approach {
@@ -66,6 +78,37 @@ impl Trial {
         }
     }
 
+    /// Without the tracker the active sub-controller stays, and the arm holds or looks for the bead.
+    fn look_for_bead(&mut self, frame: &CameraFrame, percept: &Percept, is_stopped: bool) -> Decision {
+        let tool = self.tool_m();
+        let TrialState { world, controller_state, .. } = &mut self.state;
+        let search = &mut controller_state.search;
+        let tracked_m = world.tracker.estimate().position_m;
+        let parameters = &world.parameters;
+        let look = search.next_step(
+            &SearchInput {
+                view: BeadView::of(frame, percept, search.last_m(tracked_m)),
+                calibration: &percept.calibration,
+                tool_m: tool.xy(),
+                tracked_m,
+                threshold_m: parameters.threshold_m,
+                fetch_radius_m: parameters.fetch_radius_m,
+                speed_m_s: parameters.approach_speed_m_s,
+            },
+            |place| {
+                let limits = self.arena.limits(parameters);
+                limits.position(Point3::new(place.x, place.y, tool.z), &world.reference).is_ok()
+            },
+        );
+        let motion = match look {
+            Look::Go(step) if !is_stopped => Motion::Segment(step),
+            _ => Motion::Hold,
+        };
+        let is_searching = motion != Motion::Hold || search.has_begun() && !is_stopped;
+        let switching = switching::Decision { switched: false, ..world.switching };
+        Decision { switching, motion, refusal: Some(Refusal::TrackerLost { is_searching }) }
+    }
+
     /// Carries out a decision: switches, counts, starts the motion and applies due disturbances.
     pub(super) fn carry_out(&mut self, decision: &Decision) {
         let tick = self.state.world.tick;
@@ -78,9 +121,16 @@ impl Trial {
         }
         if let Some(refusal) = &decision.refusal {
             // Reported once, not at each step of a long hold.
-            if self.state.world.refusal.is_none() {
+            let before = &self.state.world.refusal;
+            let begins_search =
+                matches!(refusal, Refusal::TrackerLost { is_searching: true }) && before.as_ref() != Some(refusal);
+            if begins_search {
+                self.events.push(Event::new(tick, EventKind::Refused, refusal.to_string()));
+            } else if before.is_none() {
                 self.events.push(Event::new(tick, EventKind::Refused, format!("the arm holds: {refusal}")));
             }
+        } else if matches!(self.state.world.refusal, Some(Refusal::TrackerLost { .. })) {
+            self.events.push(Event::new(tick, EventKind::Session, "the tracker reports the bead again"));
         }
         let fetched = switching.switched && switching.mode == Mode::Transport;
         if fetched {
@@ -99,30 +149,42 @@ impl Trial {
         self.count();
     }
 
+    /// Counts the control step, or stops the trial if no step is left. A step without the tracker has its own count.
     fn count(&mut self) {
-        let world = &mut self.state.world;
-        let active = world.goal_m.is_some() && matches!(world.phase, Phase::Approaching | Phase::Transporting);
-        if !active {
+        let World { counters, phase, refusal, goal_m, parameters, .. } = &mut self.state.world;
+        let is_active = goal_m.is_some() && matches!(phase, Phase::Approaching | Phase::Transporting);
+        let limit = parameters.step_limit;
+        let goal_limit = LEGS_PER_GOAL * limit;
+        if let (Some(Refusal::TrackerLost { .. }), Some(_)) = (&refusal, &goal_m) {
+            if !matches!(phase, Phase::Delivered | Phase::LiftedOff | Phase::Stopped(_)) {
+                counters.held_steps += 1;
+                if counters.held_steps > goal_limit {
+                    self.stop(StopReason::TrackerLost);
+                }
+            }
             return;
         }
-        world.counters.steps += 1;
-        world.counters.goal_steps += 1;
-        if world.phase == Phase::Transporting {
-            world.counters.leg_steps += 1;
-            if world.script.at_leg_step == Some(world.counters.leg_steps) {
-                self.apply_random();
-            }
+        if !is_active {
+            return;
         }
-        let step = self.state.world.counters.goal_steps;
+        let is_transport = *phase == Phase::Transporting;
+        if is_transport && *refusal == Some(Refusal::WalledOff) {
+            return self.stop(StopReason::WalledOff);
+        }
+        if is_transport && counters.leg_steps >= limit {
+            return self.stop(StopReason::LegSteps { limit });
+        }
+        if counters.goal_steps >= goal_limit {
+            return self.stop(StopReason::GoalSteps { limit: goal_limit });
+        }
+        counters.steps += 1;
+        counters.goal_steps += 1;
+        counters.leg_steps += u32::from(is_transport);
+        let (step, leg_step) = (counters.goal_steps, counters.leg_steps);
+        if is_transport && self.state.world.script.at_leg_step == Some(leg_step) {
+            self.apply_random();
+        }
         self.apply_scripted(Some(step));
-        let World { counters, phase, refusal, .. } = &self.state.world;
-        if *phase == Phase::Transporting && *refusal == Some(Refusal::WalledOff) {
-            self.stop(StopReason::WalledOff);
-        } else if *phase == Phase::Transporting && counters.leg_steps > LEG_STEP_LIMIT {
-            self.stop(StopReason::LegSteps);
-        } else if counters.goal_steps > GOAL_STEP_LIMIT {
-            self.stop(StopReason::GoalSteps);
-        }
     }
 }
 

@@ -113,7 +113,8 @@ impl Trial {
         world.script.remaining = world.script.remaining.saturating_sub(1);
         world.script.struck += 1;
         let (map, space) = (&self.arena.map, &self.arena.space);
-        match far_point(map, space, world.plant.bead.position_m, &mut rng) {
+        let bead_m = world.plant.bead.position_m;
+        match far_point(map, space, space.component_at(bead_m), bead_m, &mut rng) {
             Some(to) => self.apply_disturbance(&Disturbance::Displace { x_m: to.x, y_m: to.y }),
             None => {
                 let text = "no disturbance: no free place is far enough from the bead";
@@ -123,8 +124,14 @@ impl Trial {
     }
 }
 
-fn far_point(map: &Map, space: &FreeSpace, from: Point2<f64>, rng: &mut ChaCha8Rng) -> Option<Point2<f64>> {
-    let component = space.component_at(from);
+/// A random free place, in a component or anywhere, that is far from another place.
+pub fn far_point(
+    map: &Map,
+    space: &FreeSpace,
+    component: Option<u32>,
+    from: Point2<f64>,
+    rng: &mut ChaCha8Rng,
+) -> Option<Point2<f64>> {
     let is_far = |to: &Point2<f64>| (to - from).norm() >= LEAST_DISPLACEMENT_M;
     (0..1000).find_map(|_| space.sample(map, component, rng).filter(is_far))
 }

@@ -176,6 +176,7 @@ impl Trial {
         world.goal_m = Some(goal);
         world.reached_tick = None;
         world.counters.goal_steps = 0;
+        world.counters.held_steps = 0;
         if !matches!(world.phase, Phase::LiftedOff | Phase::Approaching) {
             world.phase = Phase::Transporting;
         }

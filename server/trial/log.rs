@@ -1,9 +1,11 @@
 //! The input log (`.ferry`): inputs, decisions and hashes of trials, enough to run them again.
 //!
 //! A file is `ferrylog`, the format's version (32 bits, little-endian), and frames. A frame is its payload's length (32
-//! bits), a check of that length (32 bits), the payload, and the payload's hash (64 bits). A payload is deflated (RFC
-//! 1951) and contains CBOR items (RFC 8949), each an [`Entry`] with its fields' names. Hashes are XXH3, each seeded
-//! with the previous one. This distinguishes a truncated file from an edited one, and detects a missing frame.
+//! bits), a check of that length (32 bits), the payload, the payload's hash (64 bits), and a seal: the byte at which the
+//! frame ends (64 bits) and a check of it (64 bits). A payload is deflated (RFC 1951) and contains CBOR items (RFC 8949),
+//! each an [`Entry`] with its fields' names. Hashes are XXH3, each seeded with the previous one. This distinguishes a
+//! truncated file from an edited one, and detects a missing frame. A seal does not depend on the frames before it: when a
+//! part of the file is missing, the seals after the gap still tell where they should be.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -17,9 +19,11 @@ use super::entry::{Entry, LoggedBeginning, LoggedMap};
 use crate::files::{ReadError, read_at_most};
 
 /// Format version. Increase it when an older reader would misread a file.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 const MAGIC: &[u8; 8] = b"ferrylog";
 const FRAME_HEAD: usize = 8;
+/// Bytes of a seal.
+const SEAL: usize = 16;
 /// Maximum file size. A session starts a new file every ten minutes; at 64× speed it reaches a third of this.
 const BYTES_MOST: u64 = 1 << 30;
 /// Maximum unpacked size of all frames together, as protection against compressed bombs.
@@ -72,6 +76,8 @@ pub enum LogError {
 pub struct LogWriter<W> {
     out: W,
     hash: u64,
+    /// Bytes written so far.
+    length: u64,
     /// The map of the previous beginning.
     map: Option<LoggedMap>,
 }
@@ -81,7 +87,7 @@ impl<W: Write> LogWriter<W> {
     pub fn new(mut out: W) -> Result<Self, LogError> {
         out.write_all(MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
-        Ok(Self { out, hash: u64::from(VERSION), map: None })
+        Ok(Self { out, hash: u64::from(VERSION), length: (MAGIC.len() + size_of_val(&VERSION)) as u64, map: None })
     }
 
     /// Writes entries as one frame, with a single write.
@@ -95,12 +101,14 @@ impl<W: Write> LogWriter<W> {
         }
         let payload = payload.finish()?;
         let length = (payload.len() as u32).to_le_bytes();
-        let mut frame = Vec::with_capacity(payload.len() + 16);
+        let mut frame = Vec::with_capacity(FRAME_HEAD + payload.len() + size_of::<u64>() + SEAL);
         frame.extend(length);
         frame.extend(length_check(length, self.hash));
         self.hash = xxh3_64_with_seed(&payload, self.hash);
         frame.extend(payload);
         frame.extend(self.hash.to_le_bytes());
+        self.length += (frame.len() + SEAL) as u64;
+        frame.extend(seal(self.length));
         self.out.write_all(&frame)?;
         Ok(self.out.flush()?)
     }
@@ -116,6 +124,21 @@ impl<W: Write> LogWriter<W> {
 
 fn length_check(length: [u8; 4], seed: u64) -> [u8; 4] {
     (xxh3_64_with_seed(&length, seed) as u32).to_le_bytes()
+}
+
+/// States that a frame ends at byte `end`.
+fn seal(end: u64) -> [u8; SEAL] {
+    let end = end.to_le_bytes();
+    let mut seal = [0; SEAL];
+    seal[..8].copy_from_slice(&end);
+    seal[8..].copy_from_slice(&xxh3_64_with_seed(&end, u64::from_le_bytes(*MAGIC)).to_le_bytes());
+    seal
+}
+
+/// Where a frame ended when it was written, from a seal at the beginning of `bytes`.
+fn sealed_end(bytes: &[u8]) -> Option<u64> {
+    let end = u64::from_le_bytes(*bytes.first_chunk()?);
+    bytes.starts_with(&seal(end)).then_some(end)
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -154,14 +177,18 @@ impl InputLog {
         }
         let (mut entries, mut hash) = (Vec::new(), u64::from(VERSION));
         let mut left = most;
-        while let Some((payload, next_hash, after)) =
-            whole_frame(rest, hash).map_err(|what| damaged(bytes.len() - rest.len(), &entries, what))?
-        {
+        loop {
             let byte = bytes.len() - rest.len();
+            let frame = whole_frame(rest, hash, byte).map_err(|what| damaged(byte, &entries, what))?;
+            let Some((payload, next_hash, after)) = frame else { break };
             let unpacked = unpack(payload, left).map_err(|error| damaged(byte, &entries, &error.to_string()))?;
             left = left.checked_sub(unpacked.len() as u64).ok_or(LogError::TooLong { byte, most })?;
             read_entries(&unpacked, &mut entries).map_err(|what| damaged(byte, &entries, &what))?;
             (hash, rest) = (next_hash, after);
+        }
+        // An incomplete frame at the end has no seal. One that has, ended elsewhere when it was written.
+        if rest.windows(SEAL).any(|bytes| sealed_end(bytes).is_some()) {
+            return Err(damaged(bytes.len() - rest.len(), &entries, "a part of the file is missing, but not its end"));
         }
         if entries.is_empty() {
             return Err(LogError::Empty);
@@ -178,7 +205,8 @@ fn damaged(byte: usize, entries: &[Entry], what: &str) -> LogError {
 /// The payload, its hash, and the remaining bytes; `None` if the frame is truncated.
 type Frame<'a> = (&'a [u8], u64, &'a [u8]);
 
-fn whole_frame(bytes: &[u8], hash: u64) -> Result<Option<Frame<'_>>, &'static str> {
+/// Reads the frame at byte `at` of the file.
+fn whole_frame(bytes: &[u8], hash: u64, at: usize) -> Result<Option<Frame<'_>>, &'static str> {
     let Some((&head, rest)) = bytes.split_first_chunk::<FRAME_HEAD>() else { return Ok(None) };
     let [a, b, c, d, check @ ..] = head;
     let length = [a, b, c, d];
@@ -187,9 +215,13 @@ fn whole_frame(bytes: &[u8], hash: u64) -> Result<Option<Frame<'_>>, &'static st
     }
     let Some((payload, rest)) = rest.split_at_checked(u32::from_le_bytes(length) as usize) else { return Ok(None) };
     let Some((&written, rest)) = rest.split_first_chunk() else { return Ok(None) };
+    let Some((written_seal, rest)) = rest.split_at_checked(SEAL) else { return Ok(None) };
     let hash = xxh3_64_with_seed(payload, hash);
     if hash != u64::from_le_bytes(written) {
         return Err("its hash");
+    }
+    if sealed_end(written_seal) != Some((at + bytes.len() - rest.len()) as u64) {
+        return Err("its seal");
     }
     Ok(Some((payload, hash, rest)))
 }
@@ -273,6 +305,23 @@ mod tests {
     }
 
     #[test]
+    fn a_log_that_was_cut_in_its_middle_and_glued_is_told_from_one_that_ends_early() {
+        let (bytes, ends, _) = written();
+        let (mut misread, mut read) = (Vec::new(), 0);
+        for from in 12..bytes.len() {
+            // Every frame's end, its seal, its payload, and the next frame's head are met.
+            for to in from + 1..=bytes.len() - SEAL {
+                let glued = [&bytes[..from], &bytes[to..]].concat();
+                if !matches!(InputLog::read(&glued), Err(LogError::Damaged { .. })) {
+                    misread.push((from, to));
+                }
+                read += 1;
+            }
+        }
+        assert!(misread.is_empty() && read > 10_000, "{misread:?} of {read}; frames end at {ends:?}");
+    }
+
+    #[test]
     fn rejects_any_edited_bit_with_its_offset() {
         let (bytes, ends, _) = written();
         for at in 0..bytes.len() {
@@ -297,7 +346,7 @@ mod tests {
     #[test]
     fn rejects_a_small_file_that_unpacks_to_a_huge_one() {
         let (bytes, ends, _) = written();
-        let whole = unpack(&bytes[12 + FRAME_HEAD..ends[0] - 8], 1 << 20).unwrap().len() as u64;
+        let whole = unpack(&bytes[12 + FRAME_HEAD..ends[0] - SEAL - 8], 1 << 20).unwrap().len() as u64;
         let error = InputLog::read_at_most(&bytes, whole).unwrap_err();
         assert!(matches!(error, LogError::TooLong { byte, most } if (byte, most) == (ends[0], whole)), "{error}");
         // Unpacking stops one byte above the limit.
@@ -322,9 +371,9 @@ mod tests {
         let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();
         assert!(matches!(InputLog::read(&without), Err(LogError::Damaged { ticks: 1, .. })));
         let mut newer = bytes.clone();
-        newer[8] = 6;
+        newer[8] = 7;
         let error = InputLog::read(&newer).unwrap_err().to_string();
-        assert!(error.contains("version 6") && error.contains("reads version 5"), "{error}");
+        assert!(error.contains("version 7") && error.contains("reads version 6"), "{error}");
         let error = InputLog::read(b"RRF2 and so on").unwrap_err().to_string();
         assert!(error.contains("RRF2"), "{error}");
     }

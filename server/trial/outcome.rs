@@ -1,6 +1,7 @@
 //! Progress of the task, and when it ends.
 
 use super::{Event, EventKind, Motion, Phase, SETTLE_S, StopReason, Trial};
+use crate::control::Refusal;
 use crate::control::switching::Mode;
 use crate::robot::ur5::SERVO_PERIOD_S;
 
@@ -31,8 +32,13 @@ impl Trial {
         match world.phase {
             // Pulled off the goal, but not so far that a fetch is needed: the magnet pulls it back.
             Phase::Delivered if left_m > LEFT_RADIUS_M => world.phase = Phase::Settling { since_tick: tick },
-            // Time during which a hand holds the bead does not count.
-            Phase::Settling { .. } if world.plant.hand.is_some() => world.phase = Phase::Settling { since_tick: tick },
+            // Time during which a hand holds the bead, or the tracker is lost and the arm holds, does not count.
+            Phase::Settling { .. }
+                if left_m > GOAL_RADIUS_M && matches!(world.refusal, Some(Refusal::TrackerLost { .. }))
+                    || world.plant.hand.is_some() =>
+            {
+                world.phase = Phase::Settling { since_tick: tick };
+            }
             Phase::Settling { .. } | Phase::Stopped(StopReason::Settle)
                 if left_m <= GOAL_RADIUS_M && world.plant.hand.is_none() =>
             {
@@ -76,7 +82,10 @@ impl Trial {
         let world = &mut self.state.world;
         let tick = world.tick;
         // Only a new goal, a reset or a hand ends these phases.
-        if matches!(world.phase, Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps)) {
+        if matches!(
+            world.phase,
+            Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps { .. } | StopReason::TrackerLost)
+        ) {
             return;
         }
         match (mode, world.goal_m) {

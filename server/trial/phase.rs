@@ -4,10 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// The bead may take this long to follow after the tool has reached the goal.
 pub const SETTLE_S: f64 = 5.0;
-/// Control steps per transport leg; each fetch begins a new leg.
-pub const LEG_STEP_LIMIT: u32 = 150;
-/// Control steps per goal.
-pub const GOAL_STEP_LIMIT: u32 = 600;
+/// A goal may take this many times the steps of a leg. The same limit holds for the steps without the tracker.
+pub const LEGS_PER_GOAL: u32 = 4;
 
 /// Progress of the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,10 +32,12 @@ pub enum Phase {
 /// The limit that stopped a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StopReason {
-    /// [`LEG_STEP_LIMIT`].
-    LegSteps,
-    /// [`GOAL_STEP_LIMIT`].
-    GoalSteps,
+    /// The parameter `step_limit`, per leg; each fetch begins a new leg.
+    LegSteps { limit: u32 },
+    /// [`LEGS_PER_GOAL`] times `step_limit`, per goal.
+    GoalSteps { limit: u32 },
+    /// The tracker was lost for too long.
+    TrackerLost,
     /// [`SETTLE_S`]: reached, but not delivered.
     Settle,
     /// No path leads to the goal.
@@ -46,18 +46,24 @@ pub enum StopReason {
 
 impl std::fmt::Display for Phase {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
+        let text = match self {
             Self::Holding => "holding",
             Self::Approaching => "approaching",
             Self::Transporting => "transporting",
             Self::Settling { .. } => "settling",
             Self::Delivered => "delivered",
             Self::LiftedOff => "lifted off",
-            Self::Stopped(StopReason::LegSteps) => "stopped: 150 steps without reaching the goal",
-            Self::Stopped(StopReason::GoalSteps) => "stopped: 600 steps without delivering",
+            Self::Stopped(StopReason::LegSteps { limit }) => {
+                return write!(f, "stopped: {limit} steps without reaching the goal");
+            }
+            Self::Stopped(StopReason::GoalSteps { limit }) => {
+                return write!(f, "stopped: {limit} steps without delivering");
+            }
+            Self::Stopped(StopReason::TrackerLost) => "stopped: the tracker was lost for too long",
             Self::Stopped(StopReason::Settle) => "stopped: reached, but the bead did not follow within 5 s",
             Self::Stopped(StopReason::WalledOff) => "stopped: the goal is walled off",
-        })
+        };
+        f.write_str(text)
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Sight {
     pub known: ObstacleMap,
     /// Parameters of the image's blocks.
     pub quadtree: QuadtreeParameters,
+    /// Whether the network gets the image that the default camera would take.
+    pub corrects_image: bool,
     /// Sub-controller 2 after its decision.
     pub carrier: Carrier,
 }
@@ -37,7 +39,8 @@ pub struct Sight {
 impl Sight {
     /// The network's observation.
     pub fn observation(&self) -> Observation {
-        Observation::new(&self.percept.gray, self.goal_m, self.tool_m, self.known.workspace())
+        let gray = self.percept.for_network(self.corrects_image, self.tool_m, &self.known);
+        Observation::new(&gray, self.goal_m, self.tool_m, self.known.workspace())
     }
 
     /// The blocks of the image.
@@ -158,7 +161,7 @@ impl Trial {
 
     /// The current observation, outside of control steps. The trial does not change.
     pub fn observe(&self, camera: &mut dyn ImageSource) -> Result<Sight, CameraError> {
-        let frame = camera.capture(&self.subject())?;
+        let frame = self.capture(camera)?;
         let percept = Percept::of(&frame, self.tool_m().xy());
         Ok(self.sight(Arc::new(frame), percept, self.tool_m().xy()))
     }
@@ -175,6 +178,7 @@ impl Trial {
                 threshold: world.parameters.obstacle_level,
                 smallest_px: world.parameters.smallest_block_px as usize,
             },
+            corrects_image: world.parameters.rl_corrects_image,
             carrier: controller_state.carrier.clone(),
         }
     }

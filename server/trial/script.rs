@@ -1,11 +1,11 @@
 //! The disturbances of a trial: those that are pending, and those that last.
 
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
-use crate::scenario::Scripted;
+use crate::scenario::{Scripted, Stream};
 
 /// Disturbances that are pending, and those that last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,10 +36,11 @@ pub(super) enum Draw {
 impl Script {
     /// A generator for each displacement, so that every controller gets the same ones, whatever else was drawn.
     pub(super) fn draws(&self, seed: u64, draw: Draw) -> ChaCha8Rng {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        // The trial's own generator has stream 0.
-        rng.set_stream(1 + 2 * u64::from(self.struck) + draw as u64);
-        rng
+        let stream = match draw {
+            Draw::Step => Stream::DisturbanceStep(self.struck),
+            Draw::Place => Stream::DisturbancePlace(self.struck),
+        };
+        stream.rng(seed)
     }
 
     /// Draws the step at which the next displacement is applied, for a leg of at least `least_steps` steps.

@@ -1,21 +1,22 @@
 //! The complete state of a trial, in two parts. The *world* is reproduced by a replay from logged decisions. The
 //! *controller state* ([`ControllerState`]) is reproduced only if the decisions are made again from camera frames.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use std::collections::VecDeque;
+
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::phase::Phase;
 use super::script::Script;
+use crate::control::search::Search;
 use crate::control::switching::{self, Mode};
 use crate::control::transport::Carrier;
 use crate::control::{Refusal, TargetStep};
 use crate::geometry::Rect;
 use crate::geometry::{Point2, Point3};
 use crate::perception::ObstacleMap;
-use crate::plant::{PlantState, Positioner};
-use crate::scenario::{ControllerName, Parameters, Scenario};
+use crate::plant::{Bead, PlantState, Positioner};
+use crate::scenario::{ControllerName, Parameters, Scenario, Stream};
 use crate::tracking::Tracker;
 
 /// What the tool's reference does until the next control step.
@@ -48,6 +49,8 @@ pub struct Counters {
     pub goal_steps: u32,
     /// Control steps of sub-controller 2 since the last fetch or goal.
     pub leg_steps: u32,
+    /// Control steps since the goal was placed during which the tracker was lost. The other counters leave them out.
+    pub held_steps: u32,
     /// Switches of the active sub-controller.
     pub switches: u32,
     /// Goals delivered.
@@ -68,8 +71,8 @@ pub struct World {
     pub plant: PlantState,
     /// Optical tracker.
     pub tracker: Tracker,
-    /// Generator of all random numbers of the trial.
-    pub rng: ChaCha8Rng,
+    /// The latest states of the plant, newest last, for a camera with latency.
+    pub past: VecDeque<Past>,
     /// Target of the tool point.
     pub reference_m: Point3<f64>,
     /// The positioner at that point.
@@ -98,6 +101,15 @@ pub struct ControllerState {
     pub seen: u64,
     /// The obstacle map accumulated so far.
     pub known: ObstacleMap,
+    /// The search for the bead while the tracker is lost.
+    pub search: Search,
+}
+
+/// What a camera with latency shows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Past {
+    pub positioner: Positioner,
+    pub bead: Bead,
 }
 
 /// A whole trial at one tick.
@@ -121,7 +133,7 @@ impl World {
         "hand",
         "drift",
         "tracker",
-        "random generator",
+        "past",
         "reference place",
         "reference",
         "motion",
@@ -141,7 +153,7 @@ impl World {
             goal_m,
             plant: PlantState { positioner, bead, hand, drift_n },
             tracker,
-            rng,
+            past,
             reference_m,
             reference,
             motion,
@@ -161,7 +173,7 @@ impl World {
             hash(hand),
             hash(drift_n),
             hash(tracker),
-            hash(rng),
+            hash(past),
             hash(reference_m),
             hash(reference),
             hash(motion),
@@ -200,8 +212,8 @@ impl TrialState {
                 parameters: scenario.parameters.clone(),
                 goal_m: None,
                 plant: PlantState::at_rest(positioner, start),
-                tracker: Tracker::at(start),
-                rng: ChaCha8Rng::seed_from_u64(scenario.seed),
+                tracker: Tracker::at(start, Stream::Tracker.rng(scenario.seed)),
+                past: VecDeque::new(),
                 reference_m: tool_m,
                 reference: positioner,
                 motion: Motion::Hold,
@@ -221,6 +233,7 @@ impl TrialState {
                 carrier: Carrier::new(scenario.controller, scenario.seed),
                 seen: 0,
                 known: ObstacleMap::new(*workspace),
+                search: Search::default(),
             },
         }
     }

@@ -190,10 +190,33 @@ async fn stalled(ferry: &Ferry, over: Duration) -> (f64, f64, f64) {
     (rss_with - rss_before, p99_before, p99_with)
 }
 
-/// Milliseconds from a goal's sending to the state that shows it, of all sessions at once.
-async fn inputs(ferry: &Ferry) -> Vec<f64> {
+/// A session that steps, compares and goes back without pause.
+async fn restless(mut socket: Socket) {
+    let mut ticks = 0_u64;
+    loop {
+        ticks += 1;
+        for command in [
+            json!({"type": "step", "ticks": 12_500}),
+            json!({"type": "fork", "tick": 0}),
+            json!({"type": "rewind", "tick": ticks % 32}),
+        ] {
+            tell(&mut socket, command).await;
+            let pause = tokio::time::sleep(Duration::from_millis(150));
+            tokio::pin!(pause);
+            loop {
+                tokio::select! {
+                    () = &mut pause => break,
+                    message = socket.next() => drop(message.unwrap().unwrap()),
+                }
+            }
+        }
+    }
+}
+
+/// Milliseconds from a goal's sending to the state that shows it, of this many sessions at once.
+async fn inputs(ferry: &Ferry, count: usize) -> Vec<f64> {
     let mut sessions = Vec::new();
-    for number in 0..SESSIONS {
+    for number in 0..count {
         sessions.push(run(ferry, &format!("load-{number}")).await);
     }
     tokio::time::sleep(SETTLE).await;
@@ -249,9 +272,21 @@ async fn main() -> ExitCode {
         failed |= over;
         println!("{}  {what}: {value:.3} {unit}, at most {most}", if over { "FAIL" } else { "ok  " });
     };
-    let took_ms = inputs(&ferry).await;
+    let took_ms = inputs(&ferry, SESSIONS).await;
     println!("input to state, {SESSIONS} sessions: p50 {:.1} ms", quantile(took_ms.clone(), 0.5));
     judge("input to state on the wire, p99", quantile(took_ms, 0.99), MOST_INPUT_MS, "ms");
+    drop(ferry);
+
+    let ferry = Ferry::start();
+    let neighbour = tokio::spawn(restless(run(&ferry, "restless").await));
+    let took_ms = inputs(&ferry, 1).await;
+    assert!(!neighbour.is_finished(), "the restless session ended");
+    neighbour.abort();
+    println!(
+        "input to state beside a session that steps, compares and goes back: p50 {:.1} ms",
+        quantile(took_ms.clone(), 0.5)
+    );
+    judge("input to state beside that session, p99", quantile(took_ms, 0.99), MOST_INPUT_MS, "ms");
     drop(ferry);
 
     let ferry = Ferry::start();

@@ -175,6 +175,6 @@ fn headers() -> Vec<Vec<u8>> {
     let names = Policy::shipped_names();
     names
         .iter()
-        .flat_map(|name| [0.0_f32, 1e-3, 1e30].map(|w| [header(name), w.to_le_bytes().to_vec()].concat()))
+        .flat_map(|name| [0.0_f32, 1e-3, 1e3].map(|w| [header(name), w.to_le_bytes().to_vec()].concat()))
         .collect()
 }

@@ -142,10 +142,12 @@ pub fn framed(payload: &[u8]) -> Vec<u8> {
     let mut packed = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::none());
     packed.write_all(payload).unwrap();
     let packed = packed.finish().unwrap();
-    let (version, length) = (5_u32, (packed.len() as u32).to_le_bytes());
+    let (version, length) = (6_u32, (packed.len() as u32).to_le_bytes());
     let check = (xxh3_64_with_seed(&length, u64::from(version)) as u32).to_le_bytes();
     let hash = xxh3_64_with_seed(&packed, u64::from(version)).to_le_bytes();
-    [b"ferrylog", &version.to_le_bytes()[..], &length, &check, &packed, &hash].concat()
+    let end = (12 + 8 + packed.len() as u64 + 8 + 16).to_le_bytes();
+    let seal = xxh3_64_with_seed(&end, u64::from_le_bytes(*b"ferrylog")).to_le_bytes();
+    [b"ferrylog", &version.to_le_bytes()[..], &length, &check, &packed, &hash, &end, &seal].concat()
 }
 
 /// The bytes are a file's beginning; its weights all have the same four bytes, the last of the input.

@@ -142,10 +142,16 @@ impl Attractor {
     }
 
     /// Follows the flow at the servo rate for one control period.
-    fn flow(&mut self, input: &TransportInput<'_>) -> Point2<f64> {
+    ///
+    /// The literal law senses the image's obstacles again from each place. A step is about as long as the sensed part is
+    /// wide: without this, the flow would bend into the wall behind the end of that part.
+    fn flow(&mut self, input: &TransportInput<'_>, mask: &ObstacleMask) -> Point2<f64> {
         let ticks = (CONTROL_PERIOD_S / SERVO_PERIOD_S).round() as usize;
         let mut point = input.tool_m;
-        for _ in 0..ticks {
+        for tick in 0..ticks {
+            if input.parameters.attractor_law == AttractorLaw::Literal && tick > 0 {
+                self.sense(mask, point, input.parameters);
+            }
             point += self.velocity(point, input.goal_m, input.parameters) * SERVO_PERIOD_S;
         }
         // The straight segment must not be longer than the speed limit allows.
@@ -190,7 +196,7 @@ impl Transport for Attractor {
             Standstill::Still => Trouble::Saddle,
             Standstill::Around => Trouble::Circling,
         });
-        let mut target_m = self.flow(input);
+        let mut target_m = self.flow(input, &mask);
         if parameters.attractor_law == AttractorLaw::Improved {
             let reach_m = parameters.transport_speed_m_s * CONTROL_PERIOD_S;
             let blocked = input.percept.obstacle_on_step(input.tool_m, target_m).is_some();
@@ -202,7 +208,7 @@ impl Transport for Attractor {
                 target_m = input.tool_m + direction * reach_m;
             } else if let (true, Some(side)) = (blocked, self.contour) {
                 self.contour = Some(side.opposite());
-                target_m = self.flow(input);
+                target_m = self.flow(input, &mask);
             }
         }
         let speed_m_s = (target_m - input.tool_m).norm() / CONTROL_PERIOD_S;

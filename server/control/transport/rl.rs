@@ -4,6 +4,8 @@
 //! keeps training's distance from walls, and then from cell to cell. Between two cells the network does not run: a slow
 //! tool needs several control steps for one action.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::progress::{Progress, Standstill};
@@ -51,6 +53,8 @@ pub struct Rl {
     cell: Option<Cell>,
     /// The network's result for the last image that it evaluated, and the action taken.
     judged: Option<(Judgement, Action)>,
+    /// How often the tool chose an action over each cell on this leg.
+    visits: BTreeMap<Cell, u32>,
     progress: Progress,
 }
 
@@ -58,6 +62,15 @@ impl Rl {
     /// The network's result for the last image that it evaluated, and the action taken.
     pub fn judged(&self) -> Option<&(Judgement, Action)> {
         self.judged.as_ref()
+    }
+
+    /// Actions, best first, by the network's value minus the penalty for earlier visits of the cell ahead. A cell that
+    /// the tool comes back to gets worse each time, so that going to and fro ends, as in learning real-time A*
+    /// (Korf 1990, Artificial Intelligence 42, 189–211).
+    fn ranking(&self, judgement: &Judgement, input: &TransportInput<'_>, here: Cell) -> [Action; 4] {
+        let penalty = input.parameters.rl_visit_penalty as f32;
+        let visits = Action::ALL.map(|action| self.visits.get(&beside(here, action)).copied().unwrap_or_default());
+        judgement.ranking_with(visits.map(|count| penalty * count as f32))
     }
 
     /// The nearest cell that keeps the clearance with no obstacle before it; if none keeps the clearance, the cell with
@@ -147,9 +160,11 @@ impl Transport for Rl {
             }
         };
         let percept = input.percept;
-        let observation = Observation::new(&percept.gray, Some(input.goal_m), input.tool_m, &lattice.workspace);
+        let gray = percept.for_network(input.parameters.rl_corrects_image, input.tool_m, input.known);
+        let observation = Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace);
         let judgement = policy.judge(&observation).map_err(|error| Refusal::Policy(error.to_string()))?;
-        let action = choose(&lattice, input, policy, judgement.ranking(), here);
+        *self.visits.entry(here).or_default() += 1;
+        let action = choose(&lattice, input, policy, self.ranking(&judgement, input, here), here);
         self.judged = Some((judgement, action));
         let cell = beside(here, action);
         let step = Self::toward(&lattice, input, cell);

@@ -74,6 +74,15 @@ fn subject(row: &Row) -> String {
 
 fn rows(report: &Report) -> Markup {
     html! {
+        @if let Some(changes) = report.rows.first().map(|row| &row.changes).filter(|changes| !changes.is_empty()) {
+            p { "Parameters other than the default: " (changes.join(", ")) }
+        }
+        @for row in report.rows.iter().filter(|row| row.trained_on_map == Some(false)) {
+            p { (subject(row)) ": the policy was not trained on this map." }
+        }
+        @for row in report.rows.iter().filter(|row| row.beyond_steps > 0) {
+            p { (subject(row)) ": " (row.beyond_steps) " goals are farther than step_limit allows." }
+        }
         div.scroll { table {
             thead { tr {
                 th scope="col" { "Controller" } th.text scope="col" { "Map" } th scope="col" { "Disturbances" }

@@ -1,7 +1,8 @@
 //! Login: the browser exchanges the token once for a cookie that scripts cannot read and other sites cannot use.
 
+use std::collections::VecDeque;
 use std::net::SocketAddr;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use axum::extract::{ConnectInfo, State};
@@ -19,6 +20,8 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, TooMany};
 
 const NAME: &str = "ferry";
+/// Number of ended logins that are remembered.
+const LOGGED_OUT_MOST: usize = 1000;
 /// Duration of a login: sixty days.
 const LASTS: Duration = Duration::from_secs(60 * 24 * 3600);
 
@@ -72,9 +75,32 @@ pub async fn login(
     Ok(set(cookie.build(), key))
 }
 
-/// Deletes the cookie in this browser.
-#[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "The cookie is deleted.")))]
-pub async fn logout() -> Response {
+/// Logins that were ended, until the server stops. The oldest are forgotten first.
+#[derive(Default)]
+pub struct LoggedOut(Mutex<VecDeque<String>>);
+
+impl LoggedOut {
+    pub fn contains(&self, login: &str) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().any(|ended| ended == login)
+    }
+
+    fn add(&self, login: String) {
+        let mut ended = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if !ended.contains(&login) {
+            ended.push_back(login);
+        }
+        if ended.len() > LOGGED_OUT_MOST {
+            ended.pop_front();
+        }
+    }
+}
+
+/// Ends the login, also for copies of its cookie, and deletes the cookie in this browser.
+#[utoipa::path(post, path = "/logout", tag = "access", responses((status = 204, description = "The login has ended.")))]
+pub async fn logout(State(server): State<Arc<Server>>, headers: HeaderMap) -> Response {
+    if let Some(login) = server.access.login(&headers) {
+        server.access.logged_out.add(login);
+    }
     let expired = Cookie::build((NAME, "")).http_only(true).same_site(SameSite::Strict).path("/");
     (StatusCode::NO_CONTENT, [(header::SET_COOKIE, expired.removal().build().to_string())]).into_response()
 }

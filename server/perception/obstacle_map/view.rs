@@ -46,7 +46,14 @@ pub(super) struct View {
 }
 
 impl View {
-    pub fn of(map: &ObstacleMap, dark: &DarkPixels, calibration: &Calibration, spread: f64) -> Self {
+    /// `hidden` are the pixels that show neither wall nor floor.
+    pub fn of(
+        map: &ObstacleMap,
+        dark: &DarkPixels,
+        hidden: Option<&DarkPixels>,
+        calibration: &Calibration,
+        spread: f64,
+    ) -> Self {
         let (columns, rows) = map.shape();
         let column_px = |i: usize| calibration.image_from_table(Point2::new(map.column_edge_m(i), 0.0)).0;
         let row_px = |i: usize| calibration.image_from_table(Point2::new(0.0, map.row_edge_m(i))).1;
@@ -54,7 +61,7 @@ impl View {
         let across = Spread { times: spread, foot_px: foot_px.0, size_px: dark.width_px() };
         let down = Spread { times: spread, foot_px: foot_px.1, size_px: dark.height_px() };
         Self {
-            standing: standing(dark, &across, &down),
+            standing: standing(dark, hidden, &across, &down),
             columns: Axis::of(columns, &across, |i| [column_px(i), column_px(i + 1)]),
             rows: Axis::of(rows, &down, |i| [row_px(i + 1), row_px(i)]),
         }
@@ -77,6 +84,12 @@ impl View {
     pub fn is_near_dark(&self, column: usize, row: usize) -> bool {
         let ((_, across), (_, down)) = self.seen(column, row);
         self.standing.between(across, down) > 0
+    }
+
+    /// Whether more than a quarter of a cell is hidden.
+    pub fn is_hidden(&self, column: usize, row: usize, hidden: &DarkPixels) -> bool {
+        let ((across, _), (down, _)) = self.seen(column, row);
+        4 * hidden.between(across, down) > (across[1] - across[0]) * (down[1] - down[0])
     }
 
     fn seen(&self, column: usize, row: usize) -> ((Span, Span), (Span, Span)) {
@@ -111,8 +124,8 @@ fn middles([low_px, high_px]: [f64; 2], margin_px: f64, size_px: usize) -> Span 
 }
 
 /// The dark pixels where a wall is possible: its top would darken the spread image of the place, for which the four
-/// surrounding pixels are tested. Places whose spread image is out of view are unchanged.
-fn standing(dark: &DarkPixels, across: &Spread, down: &Spread) -> DarkPixels {
+/// surrounding pixels are tested; they may also be hidden. Places whose spread image is out of view are unchanged.
+fn standing(dark: &DarkPixels, hidden: Option<&DarkPixels>, across: &Spread, down: &Spread) -> DarkPixels {
     let (width_px, height_px) = (dark.width_px(), dark.height_px());
     if across.times == 1.0 || width_px < 2 || height_px < 2 {
         return dark.clone();
@@ -123,9 +136,13 @@ fn standing(dark: &DarkPixels, across: &Spread, down: &Spread) -> DarkPixels {
     };
     let (lefts, tops) = (tops(across), tops(down));
     let flags = dark.flags();
+    let mut may_be_dark = flags.clone();
+    if let Some(hidden) = hidden {
+        may_be_dark.iter_mut().zip(hidden.flags()).for_each(|(flag, is_hidden)| *flag |= is_hidden);
+    }
     // Dark here or to the right; the last column is not used.
     let mut pairs = Vec::with_capacity(flags.len());
-    pairs.extend(flags.windows(2).map(|pair| pair[0] | pair[1]));
+    pairs.extend(may_be_dark.windows(2).map(|pair| pair[0] | pair[1]));
     pairs.push(0);
     let mut pixels = Vec::with_capacity(flags.len());
     for (flags, top) in flags.chunks_exact(width_px).zip(tops) {

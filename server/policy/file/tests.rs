@@ -130,10 +130,11 @@ fn refuses_a_tensor_that_does_not_fit_and_names_it() {
     let no_duel = manifest(Architecture { dueling: false, ..plain().architecture });
     assert!(refusal(&file_of(&no_duel, &kept())).contains("\"value."));
 
-    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 3e38, -1.1e4] {
         let mut tensors = kept();
         *tensors[5].1.last_mut().unwrap() = value;
-        let expected = format!("policy: tensor {:?} contains {value}", tensors[5].0.name);
+        let name = &tensors[5].0.name;
+        let expected = format!("policy: tensor {name:?} contains {value}, it must be -10000 to 10000");
         assert_eq!(refusal(&file_of(&plain(), &tensors)), expected);
     }
 
@@ -143,6 +144,21 @@ fn refuses_a_tensor_that_does_not_fit_and_names_it() {
     let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&plain()).unwrap())]);
     let text = refusal(&safetensors::serialize([("trunk.patches.weight", integers)], Some(metadata)).unwrap());
     assert!(text.contains("\"trunk.patches.weight\" is [49, 32] of I32"), "{text}");
+}
+
+#[test]
+fn refuses_a_tensor_that_is_in_the_header_twice() {
+    let bytes = file_of(&plain(), &kept());
+    let header = u64::from_le_bytes(*bytes.first_chunk().unwrap()) as usize;
+    let text = std::str::from_utf8(&bytes[8..8 + header]).unwrap();
+    // The same place again, so that only the name is wrong.
+    let name = "\"trunk.patches.bias\":";
+    let begin = text.find(name).unwrap();
+    let entry = &text[begin..begin + text[begin..].find('}').unwrap() + 1];
+    let doubled = text.replacen(entry, &format!("{entry},{entry}"), 1);
+    let length = (doubled.len() as u64).to_le_bytes();
+    let found = refusal(&[&length[..], doubled.as_bytes(), &bytes[8 + header..]].concat());
+    assert_eq!(found, "policy: tensor \"trunk.patches.bias\" is in the file twice");
 }
 
 #[test]

@@ -56,6 +56,21 @@ pub struct Row {
     pub switches_mean: f64,
     /// Disturbances applied in all trials together.
     pub disturbances_struck: u32,
+    /// Parameters that differ from the default, each as `NAME=VALUE`: shield, visit penalty, camera and all others.
+    #[serde(default)]
+    pub changes: Vec<String>,
+    /// Whether the policy was trained on this map; `null` for controllers without a policy.
+    #[serde(default)]
+    pub trained_on_map: Option<bool>,
+    /// Trials whose goal no transport of `step_limit` steps can reach.
+    #[serde(default)]
+    pub beyond_steps: u32,
+    /// Whether a hand draws the bead away through free space; otherwise it is lifted.
+    #[serde(default)]
+    pub by_hand: bool,
+    /// Whether the tool starts at least 15 cm from the bead; otherwise above it.
+    #[serde(default)]
+    pub tool_apart: bool,
     /// Median duration of a control step in milliseconds, including the camera.
     pub decision_ms_p50: f64,
     pub decision_ms_p99: f64,
@@ -86,12 +101,19 @@ pub struct Comparison {
     /// Its 95 % interval (Newcombe 1998, method 10).
     #[schema(value_type = Numbers2)]
     pub delivered_difference95: [f64; 2],
+    /// The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+    #[schema(value_type = Numbers2)]
+    pub delivered_difference_corrected: [f64; 2],
     /// Control steps of the first minus those of the second, where both delivered.
     pub steps: Option<evaluate::PairedMean>,
     /// The same for the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: Option<evaluate::PairedMean>,
     /// The same for path ÷ shortest path.
     pub path_ratio: Option<evaluate::PairedMean>,
+    /// Control steps over all trials. One that was not delivered counts with all steps that its legs may take.
+    pub steps_of_all: Option<evaluate::PairedMean>,
+    /// Path ÷ shortest path over all trials. One that was not delivered counts with the path of all these steps.
+    pub path_ratio_of_all: Option<evaluate::PairedMean>,
 }
 
 /// A mean difference.
@@ -102,6 +124,9 @@ pub struct PairedMean {
     /// Its 95 % interval (Student's t).
     #[schema(value_type = Numbers2)]
     pub interval95: [f64; 2],
+    /// The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+    #[schema(value_type = Numbers2)]
+    pub interval_corrected: [f64; 2],
 }
 
 /// A trial that did not deliver, with everything needed to repeat it.

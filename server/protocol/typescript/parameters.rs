@@ -5,7 +5,7 @@ use ts_rs::Config;
 
 use super::{declaration, keep};
 use crate::plant::{BlockOrientation, ToolOrientation};
-use crate::scenario::{Bound, Group, Kind, Parameter, Parameters};
+use crate::scenario::{Bound, Group, Kind, Parameter, Parameters, Preset};
 
 fn members(group: Group) -> impl Iterator<Item = &'static Parameter> {
     Parameters::ALL.iter().filter(move |parameter| parameter.group == group)
@@ -46,7 +46,7 @@ fn field(parameter: &Parameter) -> String {
             "choice"
         }
     };
-    format!("      {{\n        kind: '{kind}', {},\n        help: {},\n      }},\n", properties.join(", "), json!(help))
+    format!("      {{ kind: '{kind}', {}, help: {} }},\n", properties.join(", "), json!(help))
 }
 
 fn group(group: Group) -> String {
@@ -67,13 +67,26 @@ fn the_pages_form_is_generated_from_the_table() {
         declaration::<Parameters>(config),
     ];
     let groups: String = Group::ALL.into_iter().map(group).collect();
+    let presets: String = Preset::ALL.iter().map(preset).collect();
     let text = format!(
         "// Generated from server/scenario/parameters/table.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews \
          it.\n\n{}\n/** The form's fields. Ranges and steps are in the shown unit: shown value = stored value × scale. \
-         */\nexport const GROUPS = [\n{groups}] as const;\n",
+         */\nexport const GROUPS = [\n{groups}] as const;\n\n\
+         /** Named sets of parameters. */\nexport const PRESETS: readonly {{ readonly kind: string; readonly label: string; readonly help: string; \
+         readonly values: Partial<Parameters> }}[] = [\n{presets}];\n",
         types.join("\n"),
     );
     keep("web/src/net/parameters.gen.ts", &text);
+}
+
+fn preset(preset: &Preset) -> String {
+    let values = Parameters::default().with(&preset.changes()).expect("presets are valid: a test checks them");
+    let values = serde_json::to_value(values).expect("plain data serialises");
+    let names = preset.changes().into_iter().map(|change| change.split('=').next().unwrap_or_default().to_owned());
+    let settings: Vec<String> = names.map(|name| property(&name, values[&name].clone())).collect();
+    let head = [("kind", preset.kind.label()), ("label", preset.label), ("help", preset.help)];
+    let head = head.map(|(name, text)| property(name, text)).join(", ");
+    format!("  {{ {head}, values: {{ {} }} }},\n", settings.join(", "))
 }
 
 fn row(parameter: &Parameter, defaults: &Value) -> String {
@@ -103,6 +116,19 @@ fn the_table_of_the_documentation_is_generated() {
             group.title()
         );
         text.extend(members(group).map(|parameter| row(parameter, &defaults)));
+    }
+    text += "\n## Presets\n\n`--set preset=NAME` sets several parameters; later changes replace its own.\n\n\
+             | name | on the page | what it is | parameters |\n|---|---|---|---|\n";
+    for preset in Preset::ALL {
+        let changes = preset.changes();
+        text += &format!(
+            "| `{}` | {}: {} | {} | {} |\n",
+            preset.name,
+            preset.kind.label(),
+            preset.label,
+            preset.help,
+            changes.join(", ")
+        );
     }
     keep("docs/parameters.md", &text);
 }

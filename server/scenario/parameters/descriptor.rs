@@ -109,6 +109,10 @@ pub const MM_S: Unit = Unit::new("m/s", "mm/s", 1000.0);
 pub const DEGREES: Unit = Unit::new("rad", "°", 180.0 / PI);
 /// Viscous drag.
 pub const MN_S_M: Unit = Unit::new("N·s/m", "mN·s/m", 1000.0);
+/// A time.
+pub const S: Unit = Unit::new("s", "s", 1.0);
+/// Gray levels, 0 to 255.
+pub const LEVELS: Unit = Unit::new("levels", "levels", 1.0);
 /// Pixels of the camera image.
 pub const PX: Unit = Unit::new("px", "px", 1.0);
 /// Ticks of 8 ms.
@@ -199,7 +203,7 @@ impl Group {
             Self::Errt => "ERRT",
             Self::Attractor => "Attractor dynamics",
             Self::Switching => "Switching",
-            Self::Speeds => "Speeds",
+            Self::Speeds => "Speeds and steps",
             Self::Camera => "Camera",
             Self::MagnetAndBead => "Magnet and bead",
             Self::Tracker => "Tracker",

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::descriptor::Kind;
+use super::presets::{Preset, text};
 use super::{ParameterError, Parameters};
 
 /// Names at least this similar to an unknown one are suggested, from 0 to 1.
@@ -27,6 +28,9 @@ pub enum SetError {
         text: String,
         allowed: String,
     },
+    /// No preset has this name.
+    #[error("there is no preset {name:?}; there are {}", Preset::ALL.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", "))]
+    Preset { name: String },
     /// Outside its range.
     #[error(transparent)]
     Range(#[from] ParameterError),
@@ -36,18 +40,45 @@ pub enum SetError {
 }
 
 impl Parameters {
-    /// These parameters with changes, each as `NAME=VALUE`. A later change replaces an earlier one.
+    /// These parameters with changes, each as `NAME=VALUE` or `preset=NAME`. A later change replaces an earlier one.
     pub fn with(&self, changes: &[String]) -> Result<Self, SetError> {
         let mut values = serde_json::to_value(self)?;
         for change in changes {
-            let (name, text) = change.split_once('=').ok_or_else(|| SetError::Form(change.clone()))?;
-            let (field, value) = parsed(name, text)?;
-            values[field] = value;
+            let (name, text) = split(change)?;
+            if name == "preset" {
+                let preset = Preset::named(text).ok_or_else(|| SetError::Preset { name: text.to_owned() })?;
+                for change in preset.changes() {
+                    set(&mut values, &change)?;
+                }
+            } else {
+                set(&mut values, change)?;
+            }
         }
         let parameters: Self = serde_json::from_value(values)?;
         parameters.check()?;
         Ok(parameters)
     }
+}
+
+impl Parameters {
+    /// What differs from the defaults, each as `NAME=VALUE`; [`Self::with`] makes these parameters from them.
+    pub fn changes(&self) -> Vec<String> {
+        // Plain data always serialises.
+        let [own, defaults] = [self, &Self::default()].map(|one| serde_json::to_value(one).unwrap_or_default());
+        let names = Self::ALL.iter().map(|parameter| parameter.name);
+        names.filter(|name| own[*name] != defaults[*name]).map(|name| format!("{name}={}", text(&own[name]))).collect()
+    }
+}
+
+fn split(change: &str) -> Result<(&str, &str), SetError> {
+    change.split_once('=').ok_or_else(|| SetError::Form(change.to_owned()))
+}
+
+fn set(values: &mut Value, change: &str) -> Result<(), SetError> {
+    let (name, text) = split(change)?;
+    let (field, value) = parsed(name, text)?;
+    values[field] = value;
+    Ok(())
 }
 
 fn parsed(name: &str, text: &str) -> Result<(&'static str, Value), SetError> {

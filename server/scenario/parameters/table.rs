@@ -7,7 +7,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::descriptor::{
-    Bound, CM, DEGREES, Group, Kind, MM, MM_S, MN_S_M, PERCENT, PLAIN, PX, Parameter, TICKS, bounded, number, whole,
+    Bound, CM, DEGREES, Group, Kind, LEVELS, MM, MM_S, MN_S_M, PERCENT, PLAIN, PX, Parameter, S, TICKS, bounded,
+    number, whole,
 };
 use super::{AttractorLaw, RlPolicy, SwitchingLaw};
 use crate::image::CameraMount;
@@ -121,6 +122,10 @@ parameters! {
         camera_sees_magnet: bool = CameraMount::default().sees_magnet, Kind::Flag,
             "Magnet in the picture", "Whether the magnet is in the image, as with a real camera. \
                                       What it hides is not observed.";
+        camera_noise_levels: f64 = 0.0, number(LEVELS, [0.0, 40.0], 0.5),
+            "Image noise σ", "Standard deviation of the brightness of each pixel.";
+        camera_latency_ticks: u32 = 0, whole(TICKS, [0.0, 50.0], 1.0),
+            "Image latency", "Age of the image at a control step, in ticks of 8 ms. Its place is known.";
         obstacle_level: u8 = 125, whole(PLAIN, [50.0, 199.0], 1.0),
             "Obstacle level", "Gray at or below this is an obstacle, for blocks and map. \
                                Walls are 50 or darker, floor is 200 or lighter.";
@@ -142,6 +147,9 @@ parameters! {
             "Approach", "Speed of the tool while it goes to the bead.";
         transport_speed_m_s: f64 = 0.04, number(MM_S, [0.01, 0.079], 1.0),
             "Transport", "Speed of the tool while it carries the bead.";
+        step_limit: u32 = 150, whole(PLAIN, [10.0, 5000.0], 10.0),
+            "Step limit", "Control steps that a transport may take after a fetch. \
+                           A goal may take four times as many. The paper has 150.";
     }
     Tracker {
         tracker_noise_m: f64 = 0.001, number(MM, [0.0, 0.01], 0.1),
@@ -150,6 +158,17 @@ parameters! {
             "Latency", "Age of the tracked position, in ticks of 8 ms.";
         tracker_dropout: f64 = 0.0, number(PERCENT, [0.0, 0.9], 1.0),
             "Dropout", "Share of lost samples.";
+        tracker_bias_x_m: f64 = 0.0, number(MM, [-0.02, 0.02], 0.5),
+            "Bias x", "Constant error of the tracked position, along x.";
+        tracker_bias_y_m: f64 = 0.0, number(MM, [-0.02, 0.02], 0.5),
+            "Bias y", "Constant error of the tracked position, along y.";
+        tracker_drift_m: f64 = 0.0, number(MM, [0.0, 0.02], 0.5),
+            "Drift σ", "Standard deviation of an error that changes within about ten seconds.";
+        tracker_is_hidden_by_arm: bool = false, Kind::Flag,
+            "Hidden by the arm", "Whether the tracker loses the bead while the arm is between them. \
+                                  The tracker looks from the right side of the table.";
+        tracker_timeout_s: f64 = 0.2, number(S, [0.05, 10.0], 0.05),
+            "Timeout", "When no sample has arrived for this long, the arm holds. Latency does not count.";
     }
     Rl {
         rl_policy: RlPolicy = RlPolicy::Auto,
@@ -158,6 +177,12 @@ parameters! {
         rl_shield: bool = true, Kind::Flag,
             "Shield", "Replaces a best step that comes near a visible wall by the next best. \
                        Without it, such a step is refused and the arm holds.";
+        rl_visit_penalty: f64 = 0.1, number(PLAIN, [0.0, 1.0], 0.01),
+            "Visit penalty", "Subtracted from the value of a step for each earlier visit of its cell since the last \
+                              fetch or goal. It ends going to and fro. 0 is the paper.";
+        rl_corrects_image: bool = true, Kind::Flag,
+            "Corrected image", "The network gets the square of table around the tool, as in training, wherever the camera \
+                                is. Without it, it gets the camera's own image.";
     }
     Errt {
         errt_goal_probability: f64 = 0.1, number(PERCENT, [0.0, 0.9], 1.0),

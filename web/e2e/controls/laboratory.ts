@@ -188,6 +188,14 @@ const EXPERIMENTS: Section = {
       elsewhere: 'opens an uploaded map, and delivers the bead on it',
     },
     'button Restore defaults': RESTORE,
+    'combobox Sensors': {
+      see: (lab) => lab.scene.parameters.tracker_dropout,
+      after: (lab) => lab.restoreDefaults(),
+    },
+    'combobox Camera mount': {
+      see: (lab) => lab.scene.parameters.camera_sees_magnet,
+      after: (lab) => lab.restoreDefaults(),
+    },
     'combobox Preset': { see: trial },
   },
 };

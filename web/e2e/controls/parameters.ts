@@ -29,7 +29,12 @@ const GROUPS: readonly Group[] = [
   {
     name: 'RL',
     controller: 'RL',
-    fields: { Policy: choice('rl_policy'), Shield: flag('rl_shield') },
+    fields: {
+      Policy: choice('rl_policy'),
+      Shield: flag('rl_shield'),
+      'Visit penalty': number('rl_visit_penalty'),
+      'Corrected image': flag('rl_corrects_image'),
+    },
   },
   {
     name: 'ERRT',
@@ -67,8 +72,12 @@ const GROUPS: readonly Group[] = [
     },
   },
   {
-    name: 'Speeds',
-    fields: { Approach: number('approach_speed_m_s'), Transport: number('transport_speed_m_s') },
+    name: 'Speeds and steps',
+    fields: {
+      Approach: number('approach_speed_m_s'),
+      Transport: number('transport_speed_m_s'),
+      'Step limit': number('step_limit'),
+    },
   },
   {
     name: 'Camera',
@@ -80,6 +89,8 @@ const GROUPS: readonly Group[] = [
       'Tilt x': number('camera_tilt_x_rad'),
       'Tilt y': number('camera_tilt_y_rad'),
       'Magnet in the picture': flag('camera_sees_magnet'),
+      'Image noise σ': number('camera_noise_levels'),
+      'Image latency': number('camera_latency_ticks'),
       'Obstacle level': number('obstacle_level'),
       'Smallest block': number('smallest_block_px'),
     },
@@ -102,6 +113,11 @@ const GROUPS: readonly Group[] = [
       'Noise σ': number('tracker_noise_m'),
       Latency: number('tracker_latency_ticks'),
       Dropout: number('tracker_dropout'),
+      'Bias x': number('tracker_bias_x_m'),
+      'Bias y': number('tracker_bias_y_m'),
+      'Drift σ': number('tracker_drift_m'),
+      'Hidden by the arm': flag('tracker_is_hidden_by_arm'),
+      Timeout: number('tracker_timeout_s'),
     },
   },
 ];

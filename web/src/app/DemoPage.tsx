@@ -39,7 +39,7 @@ export function DemoPage(): JSX.Element {
       </p>
       <Show
         when={isFlat()}
-        fallback={<ScenePanel {...surface} onPlan={toPlan} onProblem={toPlan} isFixed />}
+        fallback={<ScenePanel {...surface} onPlan={toPlan} onProblem={toPlan} isFixed isBold />}
       >
         <PlanView {...surface} />
       </Show>

@@ -65,6 +65,12 @@ interface HeaderProps {
   readonly onView: (view: View) => void;
 }
 
+/** Whether everything is recorded. The title has the whole status. */
+function recordingState(status: string): 'on' | 'gaps' | 'off' {
+  if (status === 'recording') return 'on';
+  return status.startsWith('recording') ? 'gaps' : 'off';
+}
+
 export function Header(props: HeaderProps): JSX.Element {
   const { lab } = props;
   return (
@@ -96,11 +102,14 @@ export function Header(props: HeaderProps): JSX.Element {
           {(state) => (
             <span
               class="recording"
-              data-recording={state().recording === 'recording' ? 'on' : 'off'}
+              data-recording={recordingState(state().recording)}
               data-testid="recording"
               title={`${state().recording}; rendered by ${lab.hello()?.adapter ?? 'an unknown adapter'}`}
             >
-              {state().recording === 'recording' ? 'rec' : state().recording}
+              rec
+              <Show when={recordingState(state().recording) !== 'on'}>
+                <span class="visually-hidden">: {state().recording}</span>
+              </Show>
             </span>
           )}
         </Show>

@@ -91,6 +91,12 @@ describe.each(CONTROLLERS)('%s fails', (controller, name) => {
         false,
       ],
       [WALLED_OFF, `${name} found no path: the goal is walled off.`, 'Choose another goal.', false],
+      [
+        'stopped: the tracker was lost for too long',
+        'The tracker was lost for too long.',
+        'Choose another goal when the tracker reports the bead again.',
+        false,
+      ],
       ['lifted off', 'The magnet lifted the bead off the table.', undefined, true],
     ])('with the end “%s”', (end, cause, advice, reset) => {
       expect(causeOf(attempt(end))).toBe(cause);

@@ -28,6 +28,7 @@ export interface Failed extends Attempt {
 
 const LIFTED_OFF = 'lifted off';
 const REACHED = 'stopped: reached';
+const TRACKER_LOST = 'stopped: the tracker was lost for too long';
 const WALLED_OFF = 'stopped: the goal is walled off';
 const STEP_LIMIT = /^stopped: (\d+) steps/;
 
@@ -72,6 +73,7 @@ export function causeOf(attempt: Attempt): string {
   // What troubled the controller before is over.
   if (end.startsWith(REACHED)) return `${end.replace(REACHED, 'The tool reached the goal')}.`;
   if (end === WALLED_OFF) return troubleWords(name, 'walled off');
+  if (end === TRACKER_LOST) return 'The tracker was lost for too long.';
   const sentences =
     trouble === null ? [`${name} ${end}.`] : [troubleWords(name, trouble), `It ${end}.`];
   if (isForeign(attempt)) sentences.push('It was not trained on this map.');
@@ -106,5 +108,6 @@ export const needsReset = ({ end }: Attempt): boolean => end === LIFTED_OFF;
 /** What the operator can do in the workspace, where no button can help. */
 export function adviceOf({ end }: Attempt): string | undefined {
   if (end.startsWith(REACHED)) return 'Choose another goal, or drag the bead to this one.';
+  if (end === TRACKER_LOST) return 'Choose another goal when the tracker reports the bead again.';
   return end === WALLED_OFF ? 'Choose another goal.' : undefined;
 }

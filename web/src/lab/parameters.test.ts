@@ -1,8 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import {
   FIELDS as fields,
+  PRESET_KINDS,
   digits,
   type NumberField,
+  presetOf,
   shownMost,
   shownValue,
   storedValue,
@@ -66,4 +68,17 @@ describe('the form', () => {
     expect(follow({ errt_goal_probability: 0.75 }).errt_waypoint_probability).toBe(0.25);
     expect(follow({ errt_goal_probability: 0.3 })).toEqual({ errt_goal_probability: 0.3 });
   });
+});
+
+it('names the preset whose values the parameters have', () => {
+  const { defaults } = sceneOf('posts');
+  const [sensors, mounts] = PRESET_KINDS;
+  if (!sensors || !mounts) throw new Error('there are two kinds');
+  const names = (parameters: typeof defaults): (string | undefined)[] =>
+    [sensors, mounts].map((kind) => kind.presets[presetOf(kind, parameters)]?.label);
+  expect(names(defaults)).toEqual(['Laboratory', 'Ideal']);
+  const poor = { ...defaults, friction: 0.3, ...sensors.presets[1]?.values };
+  expect(names(poor)).toEqual(['Poor sensors', 'Ideal']);
+  expect(names({ ...poor, ...mounts.presets[1]?.values })).toEqual(['Poor sensors', 'Realistic']);
+  expect(names({ ...poor, tracker_dropout: 0.05 })).toEqual([undefined, 'Ideal']);
 });

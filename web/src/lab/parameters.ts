@@ -1,6 +1,6 @@
 // The form's fields, from the server's table, and how their values are shown and stored.
 
-import { GROUPS as GENERATED } from '../net/parameters.gen';
+import { GROUPS as GENERATED, PRESETS } from '../net/parameters.gen';
 import { CONTROLLER_LABELS, type ControllerName, type Parameters } from '../net/protocol.gen';
 
 export { CONTROLLER_LABELS };
@@ -69,7 +69,24 @@ export interface Group {
 
 export const GROUPS: readonly Group[] = GENERATED;
 
+export interface PresetKind {
+  readonly label: string;
+  readonly presets: typeof PRESETS;
+}
+
 export const FIELDS: readonly Field[] = GROUPS.flatMap((group) => group.fields);
+
+/** What presets choose between, with the presets of each. */
+export const PRESET_KINDS: readonly PresetKind[] = [
+  ...new Set(PRESETS.map(({ kind }) => kind)),
+].map((label) => ({ label, presets: PRESETS.filter(({ kind }) => kind === label) }));
+
+/** Index of the preset whose values these are; -1 if they are those of none. */
+export function presetOf({ presets }: PresetKind, parameters: Parameters): number {
+  const isThis = ({ values }: (typeof PRESETS)[number]): boolean =>
+    Object.entries(values).every(([name, value]) => parameters[name as keyof Parameters] === value);
+  return presets.findIndex(isThis);
+}
 
 /** Least and greatest value in the stored unit. */
 export function storedRange(name: NumberName): readonly [number, number] {

@@ -40,7 +40,7 @@ export const OBSTACLE_MEAN = 150;
 export const SCRIPT_LIMIT = 64;
 
 /** Last control step at which a scripted disturbance may begin. */
-export const MOST_STEPS = 600;
+export const MOST_STEPS = 20000;
 
 /** Strongest kick. */
 export const MOST_IMPULSE_N_S = 0.002;

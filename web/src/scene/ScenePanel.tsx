@@ -43,6 +43,8 @@ export function ScenePanel(
     onPlan: () => void;
     /** The pointer does not turn the view. */
     isFixed?: boolean;
+    /** Bead, trails and goal can be recognised from far away. */
+    isBold?: boolean;
     /** Called when the view cannot be shown. */
     onProblem?: () => void;
   },
@@ -64,7 +66,9 @@ export function ScenePanel(
     });
     if (isGone) return;
     try {
-      setDrawing(new SceneView(canvas, untrack(palette), inScene, interaction.setView));
+      setDrawing(
+        new SceneView(canvas, untrack(palette), inScene, interaction.setView, props.isBold),
+      );
     } catch (reason) {
       if (!(reason instanceof NoWebGl)) throw reason;
       throw new Error(

@@ -76,7 +76,6 @@ export class SceneView {
   private now: Now | undefined;
   private view: TableView | undefined;
   private frame: number | undefined;
-  private height_px = 1;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -84,6 +83,7 @@ export class SceneView {
     private readonly layers: readonly LoadedLayer[],
     /** Called when the view of the table has changed. */
     private readonly onView: (view: TableView) => void,
+    isBold = false,
   ) {
     // Requested here, because the library logs an error if there is no context.
     const context = canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
@@ -93,7 +93,7 @@ export class SceneView {
     this.renderer.localClippingEnabled = true;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
-    this.paints = new Paints(palette);
+    this.paints = new Paints(palette, isBold);
     this.arm = new Arm(this.paints);
     this.arm.group.visible = false;
     this.world.add(new HemisphereLight(SKY, BELOW, SKY_STRENGTH), this.light, this.light.target);
@@ -113,7 +113,7 @@ export class SceneView {
 
   resize(width_px: number, height_px: number): void {
     if (width_px === 0 || height_px === 0) return;
-    this.height_px = height_px;
+    this.paints.fit(height_px);
     this.renderer.setSize(width_px, height_px, false);
     this.orbit.resize(width_px, height_px);
     this.updateView();
@@ -282,7 +282,7 @@ export class SceneView {
     const ratio = Math.min(MAX_PIXEL_RATIO, wishedRatio);
     if (renderer.getPixelRatio() !== ratio) renderer.setPixelRatio(ratio);
     this.paints.fade(HIDING, orbit.hiding());
-    setting.bead.fit(orbit.camera, this.height_px);
+    setting.bead.fit(orbit.camera);
     renderer.render(this.world, orbit.camera);
     this.showState(now.state);
   }

@@ -66,7 +66,7 @@ export class Bead {
   private readonly v = new Vector3();
 
   constructor(
-    paints: Paints,
+    private readonly paints: Paints,
     palette: Palette,
     private readonly radius_m: number,
   ) {
@@ -121,8 +121,9 @@ export class Bead {
   }
 
   /** Sets the sizes that are given in screen pixels. */
-  fit(camera: PerspectiveCamera, heightPx: number): void {
-    const perPx = (2 * Math.tan((camera.fov * Math.PI) / 360)) / heightPx;
+  fit(camera: PerspectiveCamera): void {
+    const { height_px, markScale } = this.paints;
+    const perPx = (2 * markScale * Math.tan((camera.fov * Math.PI) / 360)) / height_px;
     // Sprites without size attenuation are sized for the distance 1.
     this.halo.scale.setScalar(2 * HALO_PX * perPx);
     const depth_m = this.along.copy(this.at).applyMatrix4(camera.matrixWorldInverse).z;

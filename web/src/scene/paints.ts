@@ -26,11 +26,16 @@ const GLOSS = { shininess: 36, specular: 0x2a2a2a };
 /** Share of the own colour that glowing objects emit. */
 const GLOW = 0.45;
 
+/** In a higher view, bold marks are larger than usual. */
+const BOLD_HEIGHT_PX = 250;
+
 type Colored = Material & { readonly color: Color };
 
 interface Paint {
   readonly name: PaintName;
   readonly material: Colored;
+  /** Of a stroke, before scaling. */
+  readonly width_px?: number;
 }
 
 export interface Sheet {
@@ -47,6 +52,8 @@ export interface Stroke extends Sheet {
 
 export class Paints {
   private readonly paints = new Map<string, Paint>();
+  /** Of the view. */
+  height_px = 1;
   /** Clipping planes at the four sides of the workspace. */
   private readonly borders = [
     new Plane(new Vector3(1, 0, 0)),
@@ -55,7 +62,21 @@ export class Paints {
     new Plane(new Vector3(0, -1, 0)),
   ] as const;
 
-  constructor(private palette: Palette) {}
+  constructor(
+    private palette: Palette,
+    /** Marks can be recognised from far away. */
+    private readonly isBold: boolean,
+  ) {}
+
+  /** Factor on all sizes in pixels. */
+  get markScale(): number {
+    return this.isBold ? Math.max(1, this.height_px / BOLD_HEIGHT_PX) : 1;
+  }
+
+  fit(height_px: number): void {
+    this.height_px = height_px;
+    for (const paint of this.paints.values()) this.apply(paint);
+  }
 
   /** For static parts, lit. */
   lit(name: PaintName): MeshPhongMaterial {
@@ -87,12 +108,8 @@ export class Paints {
 
   stroke(name: PaintName, stroke: Stroke): LineMaterial {
     const make = (): LineMaterial =>
-      new LineMaterial({
-        linewidth: stroke.width_px,
-        clipping: stroke.clipped ?? false,
-        ...this.sheet(stroke),
-      });
-    return this.shared(`stroke ${name} ${JSON.stringify(stroke)}`, name, make);
+      new LineMaterial({ clipping: stroke.clipped ?? false, ...this.sheet(stroke) });
+    return this.shared(`stroke ${name} ${JSON.stringify(stroke)}`, name, make, stroke.width_px);
   }
 
   /** Sets the opacity of `over(name)`, from 0 to 1. */
@@ -134,19 +151,27 @@ export class Paints {
     };
   }
 
-  private shared<M extends Colored>(key: string, name: PaintName, make: () => M): M {
+  private shared<M extends Colored>(
+    key: string,
+    name: PaintName,
+    make: () => M,
+    width_px?: number,
+  ): M {
     const known = this.paints.get(key);
     // The key names the kind.
     if (known) return known.material as M;
     const material = make();
-    const paint = { name, material };
+    const paint = { name, material, ...(width_px !== undefined && { width_px }) };
     this.apply(paint);
     this.paints.set(key, paint);
     return material;
   }
 
-  private apply({ name, material }: Paint): void {
+  private apply({ name, material, width_px }: Paint): void {
     material.color.set(this.palette[name]);
+    if (material instanceof LineMaterial && width_px !== undefined) {
+      material.linewidth = width_px * this.markScale;
+    }
     if (material instanceof MeshPhongMaterial && material.emissiveIntensity === GLOW) {
       material.emissive.copy(material.color);
     }

@@ -1,6 +1,6 @@
 //! The search, and the state that one search leaves to the next.
 
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -11,6 +11,7 @@ use super::obstacles::Obstacles;
 use super::path::Path;
 use super::tree::Tree;
 use crate::geometry::{Point2, Rect};
+use crate::scenario::Stream;
 
 /// Share of a step that is tried from the root if a whole step is not clear: a start beside a wall may have no room for
 /// more.
@@ -143,7 +144,7 @@ impl Planner {
     /// A planner without waypoints or tree.
     pub fn new(seed: u64) -> Self {
         Self {
-            rng: ChaCha8Rng::seed_from_u64(seed),
+            rng: Stream::Planner.rng(seed),
             cache: Cache::default(),
             beta: 0.0,
             last: None,

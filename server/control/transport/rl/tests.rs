@@ -109,6 +109,26 @@ fn the_shield_takes_the_next_best_action_and_without_it_the_step_enters_the_wall
 }
 
 #[test]
+fn a_penalty_for_visits_ends_going_to_and_fro() {
+    // Two cells whose best actions lead to each other, and a second best action that leads away.
+    let (right, left) = (wanting([1.0, 0.0, 0.95, 0.0]), wanting([0.0, 1.0, 0.95, 0.0]));
+    let beside = HERE + Vector2::new(0.01, 0.0);
+    let targets = |parameters: &Parameters| {
+        let mut rl = Rl::default();
+        let there = step(&mut rl, &right, HERE, parameters, |_| false);
+        assert!(near(there, beside));
+        let back = step(&mut rl, &left, beside, parameters, |_| false);
+        rl.start_leg();
+        (back, step(&mut rl, &left, beside, parameters, |_| false))
+    };
+    let (second, after_a_new_leg) = targets(&Parameters::default());
+    assert!(near(second, beside + Vector2::new(0.0, 0.01)), "{second}");
+    assert!(near(after_a_new_leg, HERE), "a new leg begins without visits");
+    let paper = Parameters { rl_visit_penalty: 0.0, ..Parameters::default() };
+    assert!(near(targets(&paper).0, HERE));
+}
+
+#[test]
 fn after_a_refused_step_the_next_image_is_judged_from_the_same_cell() {
     let policy = wanting([1.0, 0.0, 0.5, 0.2]);
     let bare = Parameters { rl_shield: false, ..Parameters::default() };

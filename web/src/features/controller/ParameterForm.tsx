@@ -1,7 +1,7 @@
 // The form of the parameters. Each edit sends all parameters; the form shows the server's values.
 
-import { For, Index, Show, createMemo, type JSX } from 'solid-js';
-import { GROUPS, type Group } from '../../lab/parameters';
+import { For, Index, Show, createMemo, createUniqueId, type JSX } from 'solid-js';
+import { GROUPS, PRESET_KINDS, presetOf, type Group, type PresetKind } from '../../lab/parameters';
 import type { SceneMessage } from '../../net/protocol.gen';
 import { createForm, FieldRow, type Form } from '../../lab/ParameterField';
 import type { Session, Trial } from '../../lab/slices';
@@ -25,6 +25,46 @@ function GroupBox(props: { form: Form; group: Group }): JSX.Element {
       </summary>
       <Index each={group.fields}>{(field) => <FieldRow form={form} field={field()} />}</Index>
     </details>
+  );
+}
+
+function Presets(props: { form: Form; kind: PresetKind }): JSX.Element {
+  const { form } = props;
+  const presets = (): PresetKind['presets'] => props.kind.presets;
+  const id = createUniqueId();
+  const index = (): number => presetOf(props.kind, form.values());
+  return (
+    <div class="row presets">
+      <label
+        for={id}
+        title={presets()
+          .map((one) => `${one.label}: ${one.help}`)
+          .join('\n')}
+      >
+        {props.kind.label}
+      </label>
+      <select
+        id={id}
+        title={presets()[index()]?.help}
+        disabled={form.disabled()}
+        onChange={(event) => {
+          form.edit(presets()[Number(event.currentTarget.value)]?.values ?? {});
+        }}
+      >
+        <Show when={index() < 0}>
+          <option value={-1} selected>
+            Changed by hand
+          </option>
+        </Show>
+        <For each={presets()}>
+          {({ label }, at) => (
+            <option value={at()} selected={at() === index()}>
+              {label}
+            </option>
+          )}
+        </For>
+      </select>
+    </div>
   );
 }
 
@@ -64,6 +104,7 @@ export function ParameterForm(props: { lab: Session & Trial; scene: SceneMessage
       </div>
       <div id="parameter-groups" hidden={!fold.isOpen()}>
         <Show when={fold.isOpen()}>
+          <For each={PRESET_KINDS}>{(kind) => <Presets form={form} kind={kind} />}</For>
           <For each={groups()}>{(group) => <GroupBox form={form} group={group} />}</For>
         </Show>
       </div>

@@ -158,7 +158,7 @@ function Gauge(props: Props): JSX.Element {
       <path
         class="needle"
         data-mode={props.state.mode}
-        d={`M${at(props.state.tracking_error_m)} 8l-5-8h10zM${at(props.state.tracking_error_m)} 14l-5 8h10z`}
+        d={`M${at(props.state.tracked_error_m)} 8l-5-8h10zM${at(props.state.tracked_error_m)} 14l-5 8h10z`}
       />
     </svg>
   );
@@ -185,7 +185,7 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
       />
       <Gauge state={props.state} parameters={props.scene.parameters} />
       <dl class="margins">
-        <Fact name="e" value={centimetres(props.state.tracking_error_m)} />
+        <Fact name="e" value={centimetres(props.state.tracked_error_m)} />
         <Fact name="T" value={centimetres(props.scene.parameters.threshold_m)} />
         <Fact
           name="lift / weight"

@@ -50,6 +50,11 @@ export const ROW: Row = {
   steps_mean: 62.5,
   switches_mean: 6.1,
   disturbances_struck: 88,
+  changes: [],
+  trained_on_map: null,
+  beyond_steps: 0,
+  by_hand: false,
+  tool_apart: false,
   decision_ms_p50: 2.26,
   decision_ms_p99: 7.5,
 };

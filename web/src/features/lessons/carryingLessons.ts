@@ -130,7 +130,7 @@ export const POLICY: Lesson = {
   aim: 'Find out what a trained policy uses to find its path.',
   minutes: 4,
   question:
-    'The policy gets an image of 20 × 20 cm of the table around the tool, and two positions: of the goal and of the tool. With this input it delivers the bead. Now the camera is moved 3 cm to the side, so the same walls appear a little shifted in the image. What happens?',
+    'The policy gets an image of 20 × 20 cm of the table around the tool, and two positions: of the goal and of the tool. With this input it delivers the bead. Now the camera is moved 3 cm to the side, and its image is not corrected for that, so the same walls appear a little shifted. What happens?',
   choices: [
     { id: 'same', text: 'It still delivers the bead' },
     { id: 'longer', text: 'It delivers the bead on a longer path' },
@@ -150,11 +150,11 @@ export const POLICY: Lesson = {
     },
     {
       title: 'The camera moved by 3 cm',
-      link: `#v=1&map=colon&controller=rl&${THERE}&camera_offset_x_m=0.03`,
+      link: `#v=1&map=colon&controller=rl&${THERE}&camera_offset_x_m=0.03&rl_corrects_image=false`,
       speed: 4,
       layers: ['camera', 'trail'],
       words: [
-        'Set it up moves only the camera, nothing else. Press Run and watch how the values of the four steps change.',
+        'Set it up moves the camera and switches Corrected image off. Press Run and watch how the values of the four steps change.',
       ],
       tasks: [
         RUNNING,
@@ -184,7 +184,7 @@ export const POLICY: Lesson = {
   why: [
     'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down a low value and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the highest value, and the policy always chooses it.',
     'The shield knows the position of the camera. It refuses that step and takes the next best one, to the left or to the right, so the tool moves to and fro. With the shield off, the arm does not move.',
-    'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with.',
+    'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with. With Corrected image on, Ferry moves the image to where it was in training, and the policy delivers the bead too.',
     'The policy also needs a map that it was trained on. On colon-folds, which was not in its training, it rarely arrives; ERRT nearly always does.',
   ],
   paper:

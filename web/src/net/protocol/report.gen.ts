@@ -63,6 +63,26 @@ steps_mean: number, switches_mean: number,
  */
 disturbances_struck: number, 
 /**
+ * Parameters that differ from the default, each as `NAME=VALUE`: shield, visit penalty, camera and all others.
+ */
+changes: Array<string>, 
+/**
+ * Whether the policy was trained on this map; `null` for controllers without a policy.
+ */
+trained_on_map: boolean | null, 
+/**
+ * Trials whose goal no transport of `step_limit` steps can reach.
+ */
+beyond_steps: number, 
+/**
+ * Whether a hand draws the bead away through free space; otherwise it is lifted.
+ */
+by_hand: boolean, 
+/**
+ * Whether the tool starts at least 15 cm from the bead; otherwise above it.
+ */
+tool_apart: boolean, 
+/**
  * Median duration of a control step in milliseconds, including the camera.
  */
 decision_ms_p50: number, decision_ms_p99: number, };
@@ -74,7 +94,11 @@ export type PairedMean = { mean: number,
 /**
  * Its 95 % interval (Student's t).
  */
-interval95: [number, number], };
+interval95: [number, number], 
+/**
+ * The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+ */
+interval_corrected: [number, number], };
 
 /**
  * Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
@@ -117,6 +141,10 @@ delivered_difference: number,
  */
 delivered_difference95: [number, number], 
 /**
+ * The interval at the level that is corrected for the number of comparisons in the report (Bonferroni).
+ */
+delivered_difference_corrected: [number, number], 
+/**
  * Control steps of the first minus those of the second, where both delivered.
  */
 steps: PairedMean | null, 
@@ -127,7 +155,15 @@ tracking_error_mean_m: PairedMean | null,
 /**
  * The same for path ÷ shortest path.
  */
-path_ratio: PairedMean | null, };
+path_ratio: PairedMean | null, 
+/**
+ * Control steps over all trials. One that was not delivered counts with all steps that its legs may take.
+ */
+steps_of_all: PairedMean | null, 
+/**
+ * Path ÷ shortest path over all trials. One that was not delivered counts with the path of all these steps.
+ */
+path_ratio_of_all: PairedMean | null, };
 
 /**
  * A trial that did not deliver. Its seed, start and goal, with map, controller and disturbances of its cell, set it

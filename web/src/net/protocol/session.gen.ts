@@ -197,9 +197,13 @@ tracking_error_x_m: number,
  */
 tracking_error_y_m: number, 
 /**
- * Norm of the tracking error.
+ * Norm of the tracking error: the true distance between tool and bead in the plane.
  */
 tracking_error_m: number, 
+/**
+ * Distance between the tool and the tracked bead in the plane: e of the switching law, as it would be now.
+ */
+tracked_error_m: number, 
 /**
  * Distance from the tool to the goal.
  */
