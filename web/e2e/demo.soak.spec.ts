@@ -4,6 +4,7 @@
 import { join } from 'node:path';
 import { PROGRAMME } from '../src/features/demo/programme';
 import { Lab, expect, test } from './fixtures';
+import { useSlowDisplay } from './support/display';
 import { type Memory, OUTPUT, growth, memoryOf, memoryWords, writeReport } from './support/growth';
 import { Meter } from './support/meter';
 import { Server } from './support/server';
@@ -43,6 +44,7 @@ test('runs its programme again and again', async ({ page, watch }) => {
       caption = text;
     });
     await page.addInitScript(tellCaptions);
+    await useSlowDisplay(page);
     await page.goto(`${server.url}/demo`);
     await until('the first state', () => lab.isComplete);
 
