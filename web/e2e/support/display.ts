@@ -2,6 +2,7 @@
 
 import type { Page } from '@playwright/test';
 
+/** 25 frames per second. */
 const FRAME_MS = 40;
 
 /** Runs in the page before its scripts. */
@@ -37,5 +38,6 @@ function slowDown(frame_ms: number) {
   };
 }
 
-/** Makes a page draw at most 25 frames per second: without a graphics card, drawing is most of the work. */
-export const useSlowDisplay = (page: Page) => page.addInitScript(slowDown, FRAME_MS);
+/** Makes a page draw less often: without a graphics card, drawing is most of the work. */
+export const useSlowDisplay = (page: Page, frame_ms = FRAME_MS) =>
+  page.addInitScript(slowDown, frame_ms);
