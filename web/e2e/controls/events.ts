@@ -4,9 +4,9 @@ import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
 import {
   ensureGoal,
-  ensureHistory,
   ensureNoGoal,
   ensurePaused,
+  ensureRunning,
   open,
 } from '../support/preconditions';
 import { must, until } from '../support/wait';
@@ -119,9 +119,13 @@ export const SHARE: Section = {
 export const EVENTS: Section = {
   name: 'events',
   ready: async (lab) => {
-    // Each goal is an event. The explained event needs one before and one after it.
-    for (let i = 0; i < 2; i++) await setNewGoal(lab);
-    await ensureHistory(lab);
+    // The explained event needs one before and one after it: a goal, its reaching and its delivery.
+    await setNewGoal(lab);
+    await lab.speed('8');
+    await ensureRunning(lab);
+    await lab.delivered(1);
+    await ensurePaused(lab);
+    await lab.speed('1');
     await lab.tab('Events').click();
   },
   rows: {
