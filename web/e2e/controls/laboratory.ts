@@ -196,6 +196,10 @@ const EXPERIMENTS: Section = {
       see: (lab) => lab.scene.parameters.camera_sees_magnet,
       after: (lab) => lab.restoreDefaults(),
     },
+    'combobox Robot': {
+      see: (lab) => lab.scene.parameters.friction,
+      after: (lab) => lab.restoreDefaults(),
+    },
     'combobox Preset': { see: trial },
   },
 };
