@@ -3,7 +3,7 @@
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
-import { attemptStart } from '../../lab/attemptStart';
+import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { errors_m, lastTick } from '../../lab/comparison';
 import { isFailure } from '../../lab/failure';
 import { createPalette } from '../../ui/palette';
@@ -33,6 +33,13 @@ function Start(props: { lab: Session & Trial & Events & Compared }): JSX.Element
     const phase = lab.state()?.phase ?? '';
     return phase === 'delivered' || isFailure(phase);
   };
+  /** Where the branches begin. */
+  const from = (): number | undefined => (isOver() ? attemptStart(lab) : lab.state()?.tick);
+  const title = (): string => {
+    if (from() === undefined) return START_NOT_KEPT;
+    const moment = isOver() ? 'the moment at which the goal was set' : 'this moment';
+    return `Continues from ${moment} under each controller, without changing the session`;
+  };
   return (
     <div class="compare-start">
       <fieldset>
@@ -56,13 +63,13 @@ function Start(props: { lab: Session & Trial & Events & Compared }): JSX.Element
       <button
         type="button"
         class="small primary"
-        disabled={!lab.canOperate() || chosen().size === 0}
-        title={`Continues from ${isOver() ? 'the moment at which the goal was set' : 'this moment'} under each controller, without changing the session`}
+        disabled={!lab.canOperate() || chosen().size === 0 || from() === undefined}
+        title={title()}
         onClick={() => {
-          const state = lab.state();
-          if (!state) return;
+          const tick = from();
+          if (tick === undefined) return;
           const controllers = CONTROLLERS.filter((name) => chosen().has(name));
-          lab.send({ type: 'fork', tick: isOver() ? attemptStart(lab) : state.tick, controllers });
+          lab.send({ type: 'fork', tick, controllers });
         }}
       >
         Start comparison

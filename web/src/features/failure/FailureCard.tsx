@@ -1,7 +1,7 @@
 // Explains why a goal was not reached, and what to try. Over the lower edge of the workspace, where it moves nothing.
 
 import { Show, createMemo, createSignal, type JSX } from 'solid-js';
-import { attemptStart } from '../../lab/attemptStart';
+import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import {
   adviceOf,
@@ -66,9 +66,16 @@ function Offers(props: { lab: FailureLab; attempt: Attempt }): JSX.Element {
             <button
               type="button"
               class="small"
-              title="Continues from the moment at which the goal was set, under each controller"
+              disabled={attemptStart(lab) === undefined}
+              title={
+                attemptStart(lab) === undefined
+                  ? START_NOT_KEPT
+                  : 'Continues from the moment at which the goal was set, under each controller'
+              }
               onClick={() => {
-                lab.send({ type: 'fork', tick: attemptStart(lab) });
+                const tick = attemptStart(lab);
+                if (tick === undefined) return;
+                lab.send({ type: 'fork', tick });
                 lab.openTab('compare');
               }}
             >
