@@ -83,6 +83,12 @@ test('refuses a goal in a wall with a notice, and keeps the old goal', async ({ 
   await lab.click(lab.wallPoint());
   await lab.notice('workspace').waitFor();
   expect(await lab.point('goal')).toEqual(goal);
+
+  lab.sent = {};
+  const { x_min_m, y_min_m } = lab.scene.workspace;
+  await lab.click([x_min_m - 0.01, y_min_m + 0.1]);
+  await lab.drawn();
+  expect(lab.sent.set_goal, 'a click beside the table').toBeUndefined();
 });
 
 test('places a goal, runs, drags the bead and pauses by keyboard', async ({ lab }) => {

@@ -37,8 +37,15 @@ export function createInteraction(lab: Session & Trial & Notices, grabPx?: numbe
   const [cursor, setCursor] = createSignal<Vec2>();
   const [focused, setFocused] = createSignal(false);
   const picker = createPicker();
+  const isOnTable = ([x_m, y_m]: Vec2): boolean => {
+    const workspace = lab.scene()?.workspace;
+    if (!workspace) return false;
+    const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
+    return x_m >= x_min_m && x_m <= x_max_m && y_m >= y_min_m && y_m <= y_max_m;
+  };
   const place = (at: Vec2): void => {
-    if (picker.offer(at) || !hand.mayAct()) return;
+    // Beside the table, a click means nothing.
+    if (picker.offer(at) || !isOnTable(at) || !hand.mayAct()) return;
     lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
   };
   const hand = createHand(lab, place);
