@@ -8,7 +8,7 @@ use anyhow::{Context, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::learn::sweep::{STEP_M, Sweep};
-use crate::learn::{Curve, Marks, Recipe, State, Terrain};
+use crate::learn::{Curve, GoalSet, Marks, Recipe, State, Terrain};
 use crate::trial::Arena;
 
 const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
@@ -137,8 +137,14 @@ fn round(
     );
     for (name, group) in [("trained on", terrains), ("unseen    ", unseen)] {
         for terrain in group {
-            let marks = state.examine(std::slice::from_ref(terrain), arguments.episodes, EXAMINATION_SEED)?;
-            println!("{name}  {}: {}", terrain.name(), describe(&marks));
+            let examine =
+                |goals| state.examine(std::slice::from_ref(terrain), goals, arguments.episodes, EXAMINATION_SEED);
+            println!("{name}  {}: {}", terrain.name(), describe(&examine(GoalSet::All)?));
+            let held_out = recipe.held_out_goals;
+            let goals = GoalSet::HeldOut { held_out };
+            if held_out > 0.0 && goals.has_episode(terrain) {
+                println!("{name}  {}, goals held out: {}", terrain.name(), describe(&examine(goals)?));
+            }
         }
     }
     println!("policy      {}", out.display());

@@ -4,10 +4,14 @@
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
+use super::goals::GoalSet;
 use super::recipe::{EPISODE_STEPS, Recipe};
 use super::terrain::{GOAL_JITTER_M, Terrain, UNREACHABLE};
 use crate::geometry::{Point2, Vector2};
 use crate::trial::GOAL_RADIUS_M;
+
+/// Draws of a goal. From a cell that no goal can be reached from, all are in vain.
+const DRAWS: u32 = 100_000;
 
 /// A place anywhere in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,14 +28,15 @@ impl Goal {
         Self { cell, offset: [draw(), draw()] }
     }
 
-    /// A random place that can be reached from a cell.
-    pub fn anywhere(terrain: &Terrain, from: u16, rng: &mut impl Rng) -> Self {
-        loop {
+    /// A random place that can be reached from a cell; `None` if many draws find none.
+    pub fn anywhere(terrain: &Terrain, goals: GoalSet, from: u16, rng: &mut impl Rng) -> Option<Self> {
+        for _ in 0..DRAWS {
             let cell = rng.random_range(0..terrain.cells()) as u16;
-            if terrain.distance(from, cell) != UNREACHABLE {
-                return Self::in_cell(cell, rng);
+            if terrain.distance(from, cell) != UNREACHABLE && goals.has(terrain, cell) {
+                return Some(Self::in_cell(cell, rng));
             }
         }
+        None
     }
 
     /// Position on the table.
@@ -95,13 +100,13 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// A random start, and a random goal that is not reached yet.
-    pub fn start(terrains: &[Terrain], rng: &mut impl Rng) -> Self {
+    /// A random start, and a random goal that is not reached yet. Each terrain must have one ([`GoalSet::has_episode`]).
+    pub fn start(terrains: &[Terrain], goals: GoalSet, rng: &mut impl Rng) -> Self {
         let index = rng.random_range(0..terrains.len());
         let terrain = &terrains[index];
         loop {
             let cell = rng.random_range(0..terrain.cells()) as u16;
-            let goal = Goal::anywhere(terrain, cell, rng);
+            let Some(goal) = Goal::anywhere(terrain, goals, cell, rng) else { continue };
             if !goal.is_reached_from(terrain, cell) {
                 return Self { terrain: index as u8, cell, goal, steps: 0, total: 0.0 };
             }
@@ -193,8 +198,25 @@ mod tests {
         let terrains = [two_rooms()];
         let mut rng = ChaCha8Rng::seed_from_u64(3);
         for _ in 0..500 {
-            let episode = Episode::start(&terrains, &mut rng);
+            let episode = Episode::start(&terrains, GoalSet::All, &mut rng);
             assert!(!episode.goal.is_reached_from(&terrains[0], episode.cell));
         }
+    }
+
+    #[test]
+    fn goals_are_trained_or_held_out() {
+        let terrains = [two_rooms()];
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        let held_out = 0.5;
+        let [trained, kept] = [GoalSet::Trained { held_out }, GoalSet::HeldOut { held_out }].map(|goals| {
+            assert!(goals.has_episode(&terrains[0]));
+            let drawn = (0..500).map(|_| Episode::start(&terrains, goals, &mut rng).goal.cell);
+            drawn.collect::<std::collections::BTreeSet<u16>>()
+        });
+        assert!(
+            trained.is_disjoint(&kept) && trained.len() + kept.len() == terrains[0].cells(),
+            "{trained:?} {kept:?}"
+        );
+        assert!(!GoalSet::HeldOut { held_out: 0.0 }.has_episode(&terrains[0]));
     }
 }

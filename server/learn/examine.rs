@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::environment::{Ending, Episode};
+use super::goals::GoalSet;
 use super::learner::{best, features_of, features_of_all};
 use super::recipe::Recipe;
 use super::terrain::{Terrain, views};
@@ -44,11 +45,18 @@ impl Marks {
 pub type Act<'a> = dyn FnMut(&[(u8, u16)], &[[f32; 4]]) -> Result<Vec<u32>> + 'a;
 
 /// Examines a function that chooses actions. Steps follow the terrains' tables.
-pub fn examine_by(recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u64, act: &mut Act<'_>) -> Result<Marks> {
+pub fn examine_by(
+    recipe: &Recipe,
+    terrains: &[Terrain],
+    goals: GoalSet,
+    episodes: u32,
+    seed: u64,
+    act: &mut Act<'_>,
+) -> Result<Marks> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
     let mut marks = Marks { episodes, ..Marks::default() };
-    let mut left: Vec<Episode> = (0..episodes).map(|_| Episode::start(terrains, &mut rng)).collect();
+    let mut left: Vec<Episode> = (0..episodes).map(|_| Episode::start(terrains, goals, &mut rng)).collect();
     while !left.is_empty() {
         let together = left.len().min(TOGETHER);
         let mut running: Vec<(Episode, Episode)> = left.drain(..together).map(|episode| (episode, episode)).collect();
@@ -77,14 +85,21 @@ pub fn examine_by(recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u6
 }
 
 /// Examines a network, greedy and without noise.
-pub fn examine(network: &Network, recipe: &Recipe, terrains: &[Terrain], episodes: u32, seed: u64) -> Result<Marks> {
+pub fn examine(
+    network: &Network,
+    recipe: &Recipe,
+    terrains: &[Terrain],
+    goals: GoalSet,
+    episodes: u32,
+    seed: u64,
+) -> Result<Marks> {
     let cache: Vec<Tensor> = match network.architecture().fusion {
         Fusion::Late => {
             terrains.iter().map(|terrain| features_of_all(network, &terrain.images())).collect::<Result<_>>()?
         }
         Fusion::Early => Vec::new(),
     };
-    examine_by(recipe, terrains, episodes, seed, &mut |cells, places| {
+    examine_by(recipe, terrains, goals, episodes, seed, &mut |cells, places| {
         let batch = cells.len();
         let features = match network.architecture().fusion {
             Fusion::Early => features_of(network, &views(terrains, cells), places)?,

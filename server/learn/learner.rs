@@ -352,12 +352,15 @@ impl<'a> Learner<'a> {
         let first = replay.get(index);
         let rng = &mut self.memory.rng;
         let kind: f64 = rng.random();
-        if kind < recipe.uniform_goals {
-            return (Goal::anywhere(terrain, first.cell, rng), false);
+        let goals = recipe.trained_goals();
+        if kind < recipe.uniform_goals
+            && let Some(goal) = Goal::anywhere(terrain, goals, first.cell, rng)
+        {
+            return (goal, false);
         }
         if kind < recipe.uniform_goals + recipe.future_goals {
-            let later: Vec<u16> =
-                replay.following(index, EPISODE_STEPS as usize).filter_map(|transition| transition.next).collect();
+            let later = replay.following(index, EPISODE_STEPS as usize).filter_map(|transition| transition.next);
+            let later: Vec<u16> = later.filter(|&cell| goals.has(terrain, cell)).collect();
             if !later.is_empty() {
                 let cell = later[rng.random_range(0..later.len())];
                 return (Goal::in_cell(cell, rng), false);

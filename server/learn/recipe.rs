@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::goals::GoalSet;
 use crate::policy::{Architecture, Fusion};
 
 /// Steps of an episode (paper, §IV-A).
@@ -39,6 +40,8 @@ pub struct Recipe {
     pub uniform_goals: f64,
     /// Share of these goals that the episode reached later (Andrychowicz et al. 2017).
     pub future_goals: f64,
+    /// Share of the map, in squares of 4 cm, in which no goal is trained. The last examination has goals there, too.
+    pub held_out_goals: f64,
     /// Share of random actions, in addition to the noisy layers.
     pub exploration: f64,
     /// Decay of the averaged weights, which are evaluated and shipped; 0 disables averaging.
@@ -84,6 +87,7 @@ impl Default for Recipe {
             goals: 16,
             uniform_goals: 0.5,
             future_goals: 0.1,
+            held_out_goals: 0.0,
             exploration: 0.05,
             averaging: 0.998,
             fractions: 8,
@@ -135,6 +139,11 @@ impl Recipe {
         }
     }
 
+    /// The goals that are trained.
+    pub fn trained_goals(&self) -> GoalSet {
+        if self.held_out_goals > 0.0 { GoalSet::Trained { held_out: self.held_out_goals } } else { GoalSet::All }
+    }
+
     /// Checks every range; the error names the first wrong field.
     ///
     /// # Errors
@@ -154,6 +163,7 @@ impl Recipe {
             ("goals", self.goals as f64, 1.0, max_goals),
             ("uniform_goals", self.uniform_goals, 0.0, 1.0),
             ("future_goals", self.future_goals, 0.0, 1.0 - self.uniform_goals),
+            ("held_out_goals", self.held_out_goals, 0.0, 0.5),
             ("exploration", self.exploration, 0.0, 1.0),
             ("averaging", self.averaging, 0.0, 0.999_99),
             ("fractions", self.fractions as f64, 1.0, 64.0),

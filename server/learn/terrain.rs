@@ -75,17 +75,17 @@ impl Terrain {
             next,
             images: free.iter().flat_map(|&cell| sweep.image(cell)).copied().collect(),
         };
-        if terrain.has_path() { Ok(terrain) } else { Err(refusal()) }
+        if terrain.has_path(|_| true) { Ok(terrain) } else { Err(refusal()) }
     }
 
-    /// Whether a path exists between two cells whose goal is not already reached at the start; without one, no episode
+    /// Whether a path exists to one of these cells from another that has not reached it already; without one, no episode
     /// could begin.
-    fn has_path(&self) -> bool {
+    pub fn has_path(&self, is_goal: impl Fn(u16) -> bool) -> bool {
         let cells = 0..self.cells() as u16;
         let leads = |from: u16, to: u16| {
             self.distance(from, to) != UNREACHABLE && (self.center_m(from) - self.center_m(to)).norm() > GOAL_RADIUS_M
         };
-        cells.clone().any(|from| cells.clone().any(|to| leads(from, to)))
+        cells.clone().filter(|&to| is_goal(to)).any(|to| cells.clone().any(|from| leads(from, to)))
     }
 
     pub fn name(&self) -> &str {

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::environment::{Ending, Episode};
 use super::examine::{Marks, examine};
+use super::goals::GoalSet;
 use super::learner::{Learner, Memory, Weights, network};
 use super::recipe::{Recipe, RecipeError};
 use super::replay::{Replay, Transition};
@@ -24,7 +25,7 @@ const EXAMINED_EVERY: u64 = 1000;
 /// Episodes of a small examination.
 const EXAMINED_EPISODES: u32 = 200;
 /// Version of the checkpoint's layout.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Why a run cannot start or continue.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +33,9 @@ pub enum TrainingError {
     /// A number of the recipe is out of range.
     #[error("recipe: {0}")]
     Recipe(#[from] RecipeError),
+    /// A map has no goals to train, or none that is held out.
+    #[error("recipe: held_out_goals is {held_out}; map {map:?} then has no goals to train, or none that is held out")]
+    NoGoals { map: String, held_out: f64 },
     /// The network failed.
     #[error("training: {0}")]
     Network(#[from] candle_core::Error),
@@ -136,8 +140,16 @@ impl State {
     /// [`TrainingError::Recipe`].
     pub fn new(recipe: Recipe, seed: u64, terrains: &[Terrain]) -> Result<Self, TrainingError> {
         recipe.check()?;
+        let goals = recipe.trained_goals();
+        let held_out = recipe.held_out_goals;
+        for terrain in terrains {
+            let lacks = |goals: GoalSet| !goals.has_episode(terrain);
+            if lacks(goals) || (held_out > 0.0 && lacks(GoalSet::HeldOut { held_out })) {
+                return Err(TrainingError::NoGoals { map: terrain.name().to_owned(), held_out });
+            }
+        }
         let mut memory = Memory::new(&recipe, seed);
-        let lanes = (0..recipe.lanes).map(|_| Episode::start(terrains, &mut memory.rng)).collect();
+        let lanes = (0..recipe.lanes).map(|_| Episode::start(terrains, goals, &mut memory.rng)).collect();
         Ok(Self {
             seed,
             maps: maps(terrains),
@@ -217,7 +229,7 @@ impl State {
                 self.point.reached += u32::from(ending == Ending::Reached);
                 self.point.collided += u32::from(ending == Ending::Collided);
                 self.episodes += 1;
-                *lane = Episode::start(terrains, rng);
+                *lane = Episode::start(terrains, self.recipe.trained_goals(), rng);
             }
         }
         self.steps += self.lanes.len() as u64;
@@ -227,7 +239,7 @@ impl State {
     fn end_point(&mut self, terrains: &[Terrain]) -> Result<(), TrainingError> {
         let update = self.memory.updates;
         let examined = match update.is_multiple_of(EXAMINED_EVERY) {
-            true => Some(self.examine(terrains, EXAMINED_EPISODES, self.seed)?),
+            true => Some(self.examine(terrains, GoalSet::All, EXAMINED_EPISODES, self.seed)?),
             false => None,
         };
         let (steps, episodes) = (self.steps, self.episodes);
@@ -239,9 +251,15 @@ impl State {
     ///
     /// # Errors
     /// [`TrainingError::Network`].
-    pub fn examine(&self, terrains: &[Terrain], episodes: u32, seed: u64) -> Result<Marks, TrainingError> {
+    pub fn examine(
+        &self,
+        terrains: &[Terrain],
+        goals: GoalSet,
+        episodes: u32,
+        seed: u64,
+    ) -> Result<Marks, TrainingError> {
         let network = network(self.recipe.architecture, self.weights())?;
-        Ok(examine(&network, &self.recipe, terrains, episodes, seed)?)
+        Ok(examine(&network, &self.recipe, terrains, goals, episodes, seed)?)
     }
 
     /// The bytes of the current policy. `revision` is the git revision of the training program.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::learn::environment::Episode;
+use crate::learn::goals::GoalSet;
 use crate::learn::terrain::tests::two_rooms;
 
 /// A recipe whose returns are exact in binary.
@@ -146,7 +147,7 @@ fn shaped_rewards_sum_to_the_difference_of_the_distances() {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
     let mut reached = 0;
     for _ in 0..200 {
-        let mut episode = Episode::start(&terrains, &mut rng);
+        let mut episode = Episode::start(&terrains, GoalSet::All, &mut rng);
         let (first, goal) = (episode.cell, episode.goal);
         let mut path = Vec::new();
         while path.len() < 20 {
