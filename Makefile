@@ -1,12 +1,13 @@
 # `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
 # `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses,
-# `make dist` writes an archive with the program, `make results` runs the evaluations of docs/evaluation.md.
+# `make dist` writes an archive with the program, `make results` runs the evaluations of docs/evaluation.md,
+# `make ablations` trains the policies of docs/ablations.md.
 # Each target first installs what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test dist results soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist results ablations soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description.
@@ -55,6 +56,11 @@ dist: system-run
 results: system-run
 	cargo build --release
 	python3 tests/results/tables.py
+
+# Two to three hours of one core. An interrupted run goes on.
+ablations: system-run
+	cargo build --release
+	python3 tests/results/ablations.py
 
 # Its budgets are strict: run nothing else meanwhile. SOAK_MINUTES=4 is a shorter run.
 soak: system-test

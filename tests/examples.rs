@@ -81,17 +81,17 @@ fn disturbances_come_at_the_steps_of_the_papers_figures() {
 fn the_papers_robot_has_errors_near_the_papers() {
     let parameters = Parameters::default().with(&["preset=paper".to_owned()]).unwrap();
     let arena = Arena::open("colon").unwrap();
-    let (mut mean_x_m, mut max_x_m) = (0.0, 0.0_f64);
+    let (mut mean_x_m, mut largest_x_m) = (0.0, 0.0);
     for index in 0..6 {
         let random = Scenario::random(&arena.map, "colon", &arena.space, ControllerName::Rl, 0, 41, index).unwrap();
         let (episode, _) = run(Scenario { parameters: parameters.clone(), ..random }, &arena);
         assert!(episode.delivered, "{index}: {}", episode.outcome);
         mean_x_m += episode.tally.mean_axes_m()[0] / 6.0;
-        max_x_m = max_x_m.max(episode.tally.max_m()[0]);
+        largest_x_m += episode.tally.max_m()[0] / 6.0;
     }
-    // Table of the paper: .02 and .08 m.
+    // Means over the trials; the paper has .02 and .08 m (§V).
     assert!((0.015..0.03).contains(&mean_x_m), "{mean_x_m} m");
-    assert!((0.05..0.1).contains(&max_x_m), "{max_x_m} m");
+    assert!((0.045..0.09).contains(&largest_x_m), "{largest_x_m} m");
 }
 
 /// A room with a goal behind walls; one wall may have a distant door.

@@ -4,9 +4,12 @@ use std::sync::atomic::AtomicBool;
 
 use ferry::evaluate::{Cell, Experiment, Manner, Venue, Watch, run, unrecorded};
 use ferry::map::Map;
+use ferry::perception::{Observation, Percept};
 use ferry::policy::Policy;
-use ferry::scenario::{ControllerName, Parameters, RlPolicy};
-use ferry::trial::Arena;
+use ferry::scenario::{ControllerName, Parameters, RlPolicy, Scenario};
+use ferry::trial::{Arena, Trial};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::support::{ferry, gpu};
 
@@ -52,6 +55,37 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
         assert!(delivered >= least, "{delivered} of 40 with {disturbances} disturbances");
         let struck: u32 = episodes.iter().map(|episode| episode.disturbances).sum();
         assert!(struck >= disturbances * 35, "{struck}");
+    }
+}
+
+/// Training's images have no bead.
+#[test]
+fn the_bead_in_the_picture_changes_few_decisions() {
+    const PLACES: usize = 300;
+    for (map, name) in [("colon", "colon"), ("posts", "general")] {
+        let (arena, policy) = (Arena::open(map).unwrap(), Policy::shipped(name).unwrap());
+        let mut camera = arena.camera(&gpu()).unwrap();
+        let mut rng = ChaCha8Rng::seed_from_u64(8);
+        let mut alike = 0;
+        for _ in 0..PLACES {
+            let mut place = || arena.space.sample(&arena.map, None, &mut rng).unwrap();
+            let (tool_m, goal_m) = (place(), place());
+            let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle(map, 1) };
+            let mut subject = Trial::new(scenario, arena.clone()).unwrap().subject();
+            // As far behind the tool as in transport, or out of the picture.
+            let [x_m, y_m, z_m] = subject.bead_m;
+            let angle_rad = rng.random_range(0.0..std::f64::consts::TAU);
+            let trailing_m = [x_m + 0.014 * angle_rad.cos(), y_m + 0.014 * angle_rad.sin(), z_m];
+            let actions = [trailing_m, [9.0, 9.0, z_m]].map(|bead_m| {
+                subject.bead_m = bead_m;
+                let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
+                let seen = Observation::new(&percept.gray, Some(goal_m), tool_m, arena.map.workspace());
+                policy.judge(&seen).unwrap().ranking()[0]
+            });
+            alike += usize::from(actions[0] == actions[1]);
+        }
+        println!("{map}: the bead changes {} of {PLACES} decisions", PLACES - alike);
+        assert!(alike * 100 >= PLACES * 97, "{map}: {alike} of {PLACES}");
     }
 }
 

@@ -1,7 +1,8 @@
 """Runs the evaluations of docs/evaluation.md and writes that page: `make results`.
 
 The seed is the first eight hexadecimal digits of the evaluated commit, so it is not chosen. Each evaluation is kept as
-JSON in target/results; a run that was interrupted goes on with the evaluations that are missing.
+JSON in tests/results/reports; a run that was interrupted goes on with the evaluations that are missing.
+`FERRY_COMMIT` names the commit of such a run when HEAD has moved on.
 """
 
 import json
@@ -47,7 +48,7 @@ def revision():
 
 def evaluated(name, trials, options, commit):
     """The report of an evaluation, run now if it is not kept."""
-    kept = ROOT / "target/results" / commit / f"{name}.json"
+    kept = ROOT / "tests/results/reports" / commit / f"{name}.json"
     if not kept.exists():
         print(f"{name}: {trials} trials per row", file=sys.stderr, flush=True)
         command = [FERRY, "evaluate", *options, "--episodes", str(trials), "--seed", str(int(commit, 16)), "--json"]
@@ -80,7 +81,7 @@ def settings(row):
 
 def rows(report):
     yield ("| controller | map | trained there | disturbances | settings | delivered | 95 % Wilson | reached | mean error; x, y "
-           "| largest error x, y | path ratio | steps |")
+           "| largest error x, y (mean over trials) | path ratio | steps |")
     yield "|---|---|---|---|---|---|---|---|---|---|---|---|"
     for row in report["rows"]:
         trained = {None: "–", True: "yes", False: "no"}[row["trained_on_map"]]
