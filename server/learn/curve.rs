@@ -86,7 +86,7 @@ impl Curve {
     }
 }
 
-/// A line with a band: update, mean, deviation.
+/// A line with a band over the episodes, as in the paper's figure: mean number of episodes, mean, deviation.
 fn band(curves: &[Curve], get: impl Fn(&Point) -> Spread) -> Vec<(f64, f64, f64)> {
     let count = curves.iter().map(|curve| curve.points.len()).min().unwrap_or(0);
     let at = |index: usize| {
@@ -98,7 +98,8 @@ fn band(curves: &[Curve], get: impl Fn(&Point) -> Spread) -> Vec<(f64, f64, f64)
             [only] => get(&only.points[index]).deviation().unwrap_or(0.0),
             _ => variance.sqrt(),
         };
-        (!values.is_empty()).then(|| (curves[0].points[index].update as f64, mean, deviation))
+        let episodes: u64 = curves.iter().map(|curve| curve.points[index].episodes).sum();
+        (!values.is_empty()).then(|| (episodes as f64 / curves.len() as f64, mean, deviation))
     };
     (0..count).filter_map(at).collect()
 }
@@ -129,9 +130,9 @@ fn draw(curves: &[Curve], text: &mut String) -> Result<(), Box<dyn std::error::E
             .x_label_area_size(32)
             .y_label_area_size(56)
             .build_cartesian_2d(0.0..max_x, low - margin..high + margin)?;
-        let whole = |update: &f64| format!("{update:.0}");
+        let whole = |episodes: &f64| format!("{episodes:.0}");
         let mut mesh = chart.configure_mesh();
-        mesh.light_line_style(WHITE).x_label_formatter(&whole).x_desc("updates").y_desc(title).draw()?;
+        mesh.light_line_style(WHITE).x_label_formatter(&whole).x_desc("episodes").y_desc(title).draw()?;
         let upper = line.iter().map(|&(x, mean, deviation)| (x, mean + deviation));
         let lower = line.iter().rev().map(|&(x, mean, deviation)| (x, mean - deviation));
         chart.draw_series(std::iter::once(Polygon::new(upper.chain(lower).collect::<Vec<_>>(), color.mix(0.25))))?;
