@@ -2,6 +2,7 @@
 
 mod evaluate;
 mod map;
+mod maps;
 mod render;
 mod replay;
 mod serve;
@@ -40,6 +41,9 @@ enum Command {
     Render(render::Arguments),
     /// Check a map and print its properties
     Map(map::Arguments),
+    /// Generate mazes
+    #[command(subcommand)]
+    Maps(maps::Command),
     /// Run an input log again and compare every hash
     Replay(replay::Arguments),
     /// Take a camera image of a map every centimetre, for training
@@ -65,6 +69,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
+        Command::Maps(command) => maps::run(&command),
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Token => {

@@ -3,6 +3,7 @@
 //! A [`Map`] is geometry only. Controllers have no access to it; they only see camera images.
 
 mod library;
+mod maze;
 mod outline;
 mod report;
 mod space;
@@ -20,6 +21,7 @@ use crate::geometry::{Point2, Polygon, Rect, Vector2};
 use outline::Outline;
 
 pub use library::{ADDED_MAPS, Library, is_added};
+pub use maze::{Maze, MazeError, MazeFamily};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
 pub use summary::{Narrow, Summary};

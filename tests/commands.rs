@@ -170,6 +170,29 @@ fn map_describes_a_drawing_and_names_what_it_refuses() {
 }
 
 #[test]
+fn maps_writes_mazes_that_map_accepts() {
+    let folder = tempfile::tempdir().unwrap();
+    let generate = |family: &str| {
+        ferry(&["maps", "generate", "--family", family, "--seed", "3", "--count", "2", "--out"])
+            .arg(folder.path().join("mazes"))
+            .output()
+            .unwrap()
+    };
+    let output = generate("spirals");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for name in ["spirals-3", "spirals-4"] {
+        let path = folder.path().join("mazes").join(name).with_extension("svg");
+        assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("{name}.svg  ")));
+        let described = ferry(&["map"]).arg(&path).output().unwrap();
+        let text = String::from_utf8_lossy(&described.stdout).into_owned();
+        assert!(text.contains("in 1 connected part(s)") && text.contains("100 % of the free area"), "{text}");
+    }
+    let refused = generate("ruins");
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success() && message.contains("\"ruins\"; there are tubes, trees"), "{message}");
+}
+
+#[test]
 fn errors_are_one_sentence_with_a_remedy() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let address = taken.local_addr().unwrap().to_string();
