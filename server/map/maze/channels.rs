@@ -20,6 +20,7 @@ const FOLDS_MM: [f64; 2] = [50.0, 140.0];
 /// A fold leaves at least this share of the channel open, and never less than this.
 const OPEN_SHARE: f64 = 0.55;
 const OPEN_MM: f64 = 32.0;
+const BEYOND_MM: f64 = 1.0;
 /// Corners are cut this many times.
 const ROUNDINGS: usize = 3;
 
@@ -159,8 +160,10 @@ pub fn spiral(width_mm: f64, rng: &mut ChaCha8Rng) -> Ink {
     let wall_mm = between(WALLS_MM[0], 0.5 * WALLS_MM[1], rng);
     let pitch_mm = width_mm + wall_mm;
     let [x, y, width, height] = PAGE_MM;
-    let (mut left, mut right) = (x + 0.5 * width_mm, x + width - 0.5 * width_mm);
-    let (mut top, mut bottom) = (y + 0.5 * width_mm, y + height - 0.5 * width_mm);
+    // Cut a little beyond the border, so that no outline touches it.
+    let inset_mm = 0.5 * width_mm - BEYOND_MM;
+    let (mut left, mut right) = (x + inset_mm, x + width - inset_mm);
+    let (mut top, mut bottom) = (y + inset_mm, y + height - inset_mm);
     let mut line = vec![Point::new(left, top)];
     loop {
         line.push(Point::new(right, top));
