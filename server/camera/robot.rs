@@ -3,12 +3,8 @@
 //! The housings between the joint frames follow the real arm, whose upper arm and forearm run beside the joints'
 //! common plane.
 
-use crate::robot::ur5::{A2_M, A3_M, D1_M, D4_M, D5_M, D6_M};
+use crate::robot::ur5::{A2_M, A3_M, D1_M, D4_M, D5_M, D6_M, FOREARM_ASIDE_M, UPPER_ARM_ASIDE_M};
 
-/// Offset of the upper arm's centre line from the plane of the joint frames, along the shoulder's axis.
-const UPPER_ARM_ASIDE_M: f64 = 0.1358;
-/// The same offset for the forearm.
-const FOREARM_ASIDE_M: f64 = 0.0165;
 /// Radii of the housings around the joints. The shoulder's value holds for the first two joints.
 const SHOULDER_RADIUS_M: f64 = 0.060;
 const ELBOW_RADIUS_M: f64 = 0.051;

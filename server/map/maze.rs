@@ -50,11 +50,6 @@ impl MazeFamily {
         }
     }
 
-    /// Whether policies may be trained on this family; the others are kept for testing.
-    pub fn is_for_training(self) -> bool {
-        matches!(self, Self::Tubes | Self::Trees | Self::Stones)
-    }
-
     fn draw(self, width_mm: f64, rng: &mut ChaCha8Rng) -> Ink {
         match self {
             Self::Tubes => channels::tube(width_mm, rng),

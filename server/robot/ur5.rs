@@ -17,6 +17,10 @@ pub const D4_M: f64 = 0.10915;
 pub const D5_M: f64 = 0.09465;
 /// Wrist 3 to the flange, m.
 pub const D6_M: f64 = 0.0823;
+/// Offset of the upper arm's centre line from the plane of the joint frames, along the shoulder's axis.
+pub const UPPER_ARM_ASIDE_M: f64 = 0.1358;
+/// The same offset for the forearm.
+pub const FOREARM_ASIDE_M: f64 = 0.0165;
 
 /// One row of the Denavit-Hartenberg table, in the classic (distal) convention: the next frame is
 /// reached by Rz(θ)·Tz(d)·Tx(a)·Rx(α).

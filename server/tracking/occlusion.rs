@@ -1,13 +1,10 @@
 //! What hides the bead from the optical tracker: the arm, between the two.
 
 use crate::geometry::{Isometry3, Point3, Vector3};
-use crate::robot::ur5::{A2_M, A3_M};
+use crate::robot::ur5::{A2_M, A3_M, FOREARM_ASIDE_M, UPPER_ARM_ASIDE_M};
 
 /// Where the tracker is, in `base`: beside the table, above head height of a seated user.
 pub const TRACKER_M: [f64; 3] = [0.9, -0.1, 0.9];
-/// The limbs run beside the joint frames, along their z.
-const UPPER_ARM_ASIDE_M: f64 = 0.1358;
-const FOREARM_ASIDE_M: f64 = 0.0165;
 const UPPER_ARM_RADIUS_M: f64 = 0.05;
 const FOREARM_RADIUS_M: f64 = 0.042;
 const WRIST_RADIUS_M: f64 = 0.04;
