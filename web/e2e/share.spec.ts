@@ -12,6 +12,8 @@ const fieldOf = (lab: Lab) => lab.page.getByLabel('Link to this experiment');
 const questionOf = (lab: Lab) => lab.page.getByRole('alert', { name: 'Link' });
 
 async function sharedLink(lab: Lab) {
+  // The link is of the experiment that the page shows.
+  await lab.drawn();
   await lab.button('Share').click();
   const link = await fieldOf(lab).inputValue();
   await lab.page.keyboard.press('Escape');
