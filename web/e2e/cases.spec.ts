@@ -18,9 +18,13 @@ interface Case {
 
 async function steps(lab: Lab, count: number) {
   for (let i = 0; i < count; i++) {
+    // The page counts the ticks of a step from the tick that it shows.
+    await lab.drawn();
     const { tick } = lab.state;
+    delete lab.sent.step;
     await lab.button('Step ¼ s').click();
-    await until('a control step', () => lab.state.tick > tick);
+    const { ticks } = await until('a step', () => lab.sent.step);
+    await until('its end', () => lab.state.tick === tick + ticks);
   }
   return lab.state;
 }

@@ -52,8 +52,13 @@ test('draws the whole course long after the delivery', async ({ lab }) => {
   // A point of the course, away from bead and goal.
   const middle: [number, number] = [(start[0] + end[0]) / 2, (start[1] + end[1]) / 2];
   const pixels = () => lab.pixelsAround(start, middle);
-  await lab.drawn();
-  const withTrail = await pixels();
+  let withTrail = await pixels();
+  await until('a picture at rest', async () => {
+    const before = withTrail;
+    await lab.drawn();
+    withTrail = await pixels();
+    return withTrail === before;
+  });
   await lab.layer('Trails', false);
   await until('no trail', async () => (await pixels()) !== withTrail);
   await lab.layer('Trails');
@@ -108,6 +113,7 @@ test('the settings of a lesson end with it', async ({ lab }) => {
   await lab.page.getByRole('tabpanel').getByRole('button', { name: 'Next' }).click();
   await lab.button('Set it up').click();
   await until('its law', () => lab.scene.parameters.switching_law === 'literal');
+  await lab.drawn();
   await lab.page.getByRole('button', { name: 'All lessons' }).click();
   await until('the defaults', () => lab.scene.parameters.switching_law === 'hysteresis');
   expect(lab.scene.parameters).toEqual(lab.scene.defaults);

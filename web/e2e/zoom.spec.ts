@@ -4,7 +4,10 @@ import { type Lab, expect, test } from './fixtures';
 import { distance } from './support/table';
 import { until } from './support/wait';
 
-const scaleOf = async (lab: Lab) => Number(await lab.canvas.getAttribute('data-px-per-m'));
+async function scaleOf(lab: Lab) {
+  await expect(lab.canvas).toHaveAttribute('data-px-per-m');
+  return Number(await lab.canvas.getAttribute('data-px-per-m'));
+}
 
 test('zooms at the pointer, moves the plan, and still sets goals', async ({ lab }) => {
   const { mouse } = lab.page;

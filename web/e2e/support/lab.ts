@@ -238,6 +238,8 @@ export class Lab extends Messages {
   }
 
   async restoreDefaults() {
+    // The page restores what it shows as changed.
+    await this.drawn();
     await this.button('Restore defaults').click();
     await until('the defaults', () => {
       const { defaults, parameters } = this.scene;
