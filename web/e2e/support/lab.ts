@@ -168,10 +168,17 @@ export class Lab extends Messages {
     await this.page.mouse.click(...(await this.px(point)));
   }
 
+  /** Waits for a message of the server, and until the page shows it: what is done next relies on the page. */
+  private async shown<T>(what: string, probe: () => T | Promise<T>) {
+    const value = await until(what, probe);
+    await this.drawn();
+    return value;
+  }
+
   /** Clicks a free point and waits until it is the goal. */
   async setGoal(goal: PointLike) {
     await this.click(goal);
-    return until('the goal', () => {
+    return this.shown('the goal', () => {
       const set = this.state.goal_m;
       return set && distance(set, goal) < 0.005 && set;
     });
@@ -180,7 +187,7 @@ export class Lab extends Messages {
   async map(name: string) {
     if (this.scene.map === name) return;
     await this.label('Map').selectOption(name);
-    await until(`map ${name}`, () => this.scene.map === name);
+    await this.shown(`map ${name}`, () => this.scene.map === name);
   }
 
   async reset({ speed = '1', map = 'posts' } = {}) {
@@ -199,7 +206,7 @@ export class Lab extends Messages {
 
   async controller(name: ControllerLabel) {
     await this.radio(name).check();
-    await until(name, () => this.state.controller === name.toLowerCase());
+    await this.shown(name, () => this.state.controller === name.toLowerCase());
   }
 
   /** Waits for delivery number `count` since the reset. */
@@ -218,7 +225,7 @@ export class Lab extends Messages {
 
   async pause() {
     await this.button('Pause').click();
-    await until('paused', () => !this.state.running);
+    await this.shown('paused', () => !this.state.running);
   }
 
   /** Waits until the session has run for `ticks` more ticks. */
