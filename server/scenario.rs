@@ -34,11 +34,14 @@ pub enum ControllerName {
     Errt,
     /// Attractor dynamics (paper, §IV-B).
     Attractor,
+    /// The shortest path over what the camera has observed: a reference for evaluations, not from the paper.
+    Replanner,
 }
 
 impl ControllerName {
-    /// All controllers.
-    pub const ALL: [Self; 3] = [Self::Rl, Self::Errt, Self::Attractor];
+    pub const ALL: [Self; 4] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner];
+    /// Those of the paper, which the page offers.
+    pub const OFFERED: [Self; 3] = [Self::Rl, Self::Errt, Self::Attractor];
 
     /// The name in files and commands.
     pub fn as_str(self) -> &'static str {
@@ -46,6 +49,7 @@ impl ControllerName {
             Self::Rl => "rl",
             Self::Errt => "errt",
             Self::Attractor => "attractor",
+            Self::Replanner => "replanner",
         }
     }
 
@@ -55,6 +59,7 @@ impl ControllerName {
             Self::Rl => "RL",
             Self::Errt => "ERRT",
             Self::Attractor => "Attractor",
+            Self::Replanner => "Replanner",
         }
     }
 }

@@ -2,7 +2,9 @@
 
 pub mod attractor;
 pub mod errt;
+pub mod planning;
 mod progress;
+pub mod replanner;
 pub mod rl;
 
 use serde::{Deserialize, Serialize};
@@ -76,6 +78,7 @@ pub enum Carrier {
     Rl(Box<rl::Rl>),
     Errt(Box<errt::Errt>),
     Attractor(attractor::Attractor),
+    Replanner(replanner::Replanner),
 }
 
 impl Carrier {
@@ -85,6 +88,7 @@ impl Carrier {
             ControllerName::Rl => Self::Rl(Box::default()),
             ControllerName::Errt => Self::Errt(Box::new(errt::Errt::new(seed))),
             ControllerName::Attractor => Self::Attractor(attractor::Attractor::default()),
+            ControllerName::Replanner => Self::Replanner(replanner::Replanner::default()),
         }
     }
 
@@ -94,6 +98,7 @@ impl Carrier {
             Self::Rl(rl) => rl.trouble(),
             Self::Errt(errt) => errt.trouble(),
             Self::Attractor(attractor) => attractor.trouble(),
+            Self::Replanner(replanner) => replanner.trouble(),
         }
     }
 
@@ -102,6 +107,7 @@ impl Carrier {
             Self::Rl(rl) => rl.as_mut(),
             Self::Errt(errt) => errt.as_mut(),
             Self::Attractor(attractor) => attractor,
+            Self::Replanner(replanner) => replanner,
         }
     }
 }

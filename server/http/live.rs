@@ -321,7 +321,7 @@ impl Connection {
         };
         match message {
             ClientMessage::Compare { tick, controllers } => {
-                let mut asked = ControllerName::ALL.to_vec();
+                let mut asked = ControllerName::OFFERED.to_vec();
                 asked.retain(|name| controllers.is_empty() || controllers.contains(name));
                 self.hub.compare(tick, asked).await?;
             }

@@ -304,7 +304,7 @@ impl From<&Scenery> for SceneMessage {
             maps: scenery.known_maps.names(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
-            controllers: ControllerName::ALL.to_vec(),
+            controllers: ControllerName::OFFERED.to_vec(),
             workspace: *map.workspace(),
             walls: map.walls().to_vec(),
             seed: scenery.scenario.seed,

@@ -65,8 +65,10 @@ fn constants() -> String {
 fn controller_labels() -> String {
     let lines = ControllerName::ALL.map(|name| format!("  {}: '{}',\n", name.as_str(), name.label()));
     format!(
-        "/** Name of each controller in sentences. */\nexport const CONTROLLER_LABELS = {{\n{}}} as const;\n",
-        lines.concat()
+        "/** Name of each controller in sentences. */\nexport const CONTROLLER_LABELS = {{\n{}}} as const;\n\n\
+         /** Controllers that the page offers. */\nexport const CONTROLLERS = [{}] as const;\n",
+        lines.concat(),
+        ControllerName::OFFERED.map(|name| format!("'{}'", name.as_str())).join(", ")
     )
 }
 

@@ -58,7 +58,7 @@ impl Trial {
             let parameters = &world.parameters;
             let policy = match carrier {
                 Carrier::Rl(_) => Some(self.arena.policy(parameters.rl_policy)),
-                Carrier::Errt(_) | Carrier::Attractor(_) => None,
+                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
             };
             match policy.transpose() {
                 Ok(policy) => {

@@ -4,7 +4,8 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::Criterion;
-use ferry::control::transport::errt::{Obstacles, Planner, PlannerParameters, Progress};
+use ferry::control::transport::errt::{Planner, PlannerParameters, Progress};
+use ferry::control::transport::planning::Obstacles;
 use ferry::geometry::Point2;
 use ferry::image::GrayImage;
 use ferry::map::{FreeSpace, Map};

@@ -7,7 +7,7 @@
 //! minimises distance + β · cost from the root ([`Tree::nearest`]). β adapts between 0 and its upper limit.
 //!
 //! Not from the publication: obstacles are rectangles with a clearance, which is smaller near an end that is close to a
-//! wall ([`Clearance`]). A flood fill decides beforehand whether a path exists and which clearance it can keep. The
+//! wall ([`super::planning::Clearance`]). A flood fill decides beforehand whether a path exists and which clearance it can keep. The
 //! straight line from start to goal is tried first. The cache starts with empty slots, not with random states. Samples
 //! are drawn where the clearance is kept. β also falls while a search takes long. Found paths are shortened. Each has a
 //! parameter or a reason where it is defined.
@@ -17,57 +17,27 @@
 //! even with all unobserved places free stays walled off.
 
 mod cache;
-mod clearance;
-mod obstacles;
-mod path;
 mod planner;
-mod reach;
-mod segment;
 #[cfg(test)]
 mod tests;
 mod tree;
 
-pub use clearance::{Clearance, End};
-pub use obstacles::Obstacles;
-pub use path::Path;
 pub use planner::{Planner, PlannerParameters, Progress};
 pub use tree::Tree;
 
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
+use super::planning::{Followed, LEAST_CLEARANCE_M, Latest, OFF_PATH_M, Obstacles, Path};
 use super::{Transport, TransportInput, Trouble};
-use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
+use crate::control::{Refusal, TargetStep};
 use crate::geometry::Point2;
 use crate::perception::{CellState, ObstacleMap};
 use crate::scenario::Parameters;
 
 /// Maximum number of edges of a tree that are shown. More could not be distinguished.
 pub const MOST_EDGES: usize = 4000;
-/// A tool farther from its path than this has left it: the bead was fetched somewhere else.
-const OFF_PATH_M: f64 = 0.01;
-/// A path may lose this much clearance before another is planned: one cell of the map, when more of a wall is observed.
-const TOLERANCE_M: f64 = 0.002;
 /// Spacing at which a path is checked for unobserved places.
 const SAMPLE_M: f64 = 0.005;
-
-/// The obstacles of the last map version. Not part of the controller state, because the map determines it. A clone is
-/// empty: snapshots are many, and this is half a megabyte.
-#[derive(Debug, Default)]
-struct Made(Option<Arc<Obstacles>>);
-
-impl Clone for Made {
-    fn clone(&self) -> Self {
-        Self(None)
-    }
-}
-
-impl PartialEq for Made {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
 
 /// The requested path, and the results so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,16 +50,6 @@ struct Task {
     best: Option<(Path, f64)>,
 }
 
-/// A path and the tool's position along it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Followed {
-    #[serde(rename = "way")]
-    path: Path,
-    along_m: f64,
-    /// Allowed distance of the tool; larger at first if the tool starts over a wall.
-    off_m: f64,
-}
-
 /// The transport and its memory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errt {
@@ -100,12 +60,12 @@ pub struct Errt {
     /// Paths planned since the trial began.
     plans: u32,
     #[serde(skip)]
-    made: Made,
+    latest: Latest,
 }
 
 impl Errt {
     pub fn new(seed: u64) -> Self {
-        Self { planner: Planner::new(seed), task: None, followed: None, plans: 0, made: Made::default() }
+        Self { planner: Planner::new(seed), task: None, followed: None, plans: 0, latest: Latest::default() }
     }
 
     pub fn planner(&self) -> &Planner {
@@ -119,36 +79,12 @@ impl Errt {
 
     /// The path that is followed.
     pub fn path(&self) -> Option<&Path> {
-        self.followed.as_ref().map(|followed| &followed.path)
+        self.followed.as_ref().map(Followed::path)
     }
 
     /// Paths planned since the trial began.
     pub fn plans(&self) -> u32 {
         self.plans
-    }
-
-    /// The obstacles of a map, rebuilt when it has changed.
-    fn obstacles(&mut self, known: &ObstacleMap, clearance_m: f64) -> Arc<Obstacles> {
-        let fits = |made: &&Arc<Obstacles>| made.version() == known.version() && made.most_clearance_m() == clearance_m;
-        match self.made.0.as_ref().filter(fits) {
-            Some(made) => made.clone(),
-            None => self.made.0.insert(Arc::new(Obstacles::of(known, clearance_m))).clone(),
-        }
-    }
-
-    /// Drops a path that leads to another goal, that the tool has left, or that a new obstacle crosses.
-    fn check_path(&mut self, obstacles: &Obstacles, tool_m: Point2<f64>, goal_m: Point2<f64>) {
-        let is_good = |Followed { path, along_m, off_m }: &mut Followed| {
-            let (place_m, is_off_m) = path.nearest(tool_m, *along_m);
-            if place_m > *along_m {
-                *off_m = OFF_PATH_M;
-            }
-            *along_m = place_m;
-            path.goal() == goal_m && is_off_m <= *off_m && path.is_clear_from(*along_m, obstacles, TOLERANCE_M)
-        };
-        if !self.followed.as_mut().is_some_and(is_good) {
-            self.followed = None;
-        }
     }
 
     /// Continues the search, or restarts it if the goal has changed, until enough paths are found for comparison or no
@@ -201,8 +137,7 @@ impl Errt {
             Some((path, _)) => {
                 self.plans += 1;
                 self.planner.remember(&path);
-                let off_m = OFF_PATH_M.max((path.points[0] - input.tool_m).norm());
-                self.followed = Some(Followed { path, along_m: 0.0, off_m });
+                self.followed = Some(Followed::new(path, input.tool_m));
                 Ok(())
             }
             None => {
@@ -231,7 +166,7 @@ fn planner_parameters(parameters: &Parameters) -> PlannerParameters {
         beta_most: parameters.errt_beta_most,
         step_m: parameters.errt_step_m,
         clearance_m: parameters.errt_clearance_m,
-        least_clearance_m: parameters.errt_clearance_m.min(PlannerParameters::default().least_clearance_m),
+        least_clearance_m: parameters.errt_clearance_m.min(LEAST_CLEARANCE_M),
         shortcuts: PlannerParameters::default().shortcuts.filter(|_| parameters.errt_shortcut),
         ..PlannerParameters::default()
     }
@@ -243,21 +178,13 @@ impl Transport for Errt {
     }
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
-        let obstacles = self.obstacles(input.known, input.parameters.errt_clearance_m);
-        self.check_path(&obstacles, input.tool_m, input.goal_m);
-        if self.followed.is_none() {
+        let obstacles = self.latest.of(input.known, input.parameters.errt_clearance_m);
+        if !self.followed.as_mut().is_some_and(|path| path.goes_on(&obstacles, input.tool_m, input.goal_m)) {
+            self.followed = None;
             self.plan(&obstacles, input)?;
         }
-        let reach_m = input.parameters.transport_speed_m_s * CONTROL_PERIOD_S;
-        let Some(Followed { path, along_m, .. }) = &self.followed else {
-            return Err(Refusal::Searching { attempts: 0 });
-        };
-        // If the tool is off the path, its distance to the path counts too.
-        let off_m = (path.at(*along_m) - input.tool_m).norm();
-        let ahead_m = path.at(*along_m + (reach_m - off_m).max(0.0));
-        let target_m = input.tool_m + (ahead_m - input.tool_m).cap_magnitude(reach_m);
-        let speed_m_s = (target_m - input.tool_m).norm() / CONTROL_PERIOD_S;
-        Ok(TargetStep { target_m, speed_m_s: speed_m_s.min(input.parameters.transport_speed_m_s) })
+        let Some(followed) = &self.followed else { return Err(Refusal::Searching { attempts: 0 }) };
+        Ok(followed.next_step(input.tool_m, input.parameters.transport_speed_m_s))
     }
 
     fn trouble(&self) -> Option<Trouble> {

@@ -71,6 +71,8 @@ pub enum ControllerName {
     Errt,
     /// Attractor dynamics (paper, §IV-B).
     Attractor,
+    /// The shortest path over what the camera has observed: a reference for evaluations, not from the paper.
+    Replanner,
 }
 
 #[derive(Serialize, Deserialize, TS, ToSchema)]

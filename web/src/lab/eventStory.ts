@@ -87,6 +87,8 @@ function transport(moment: MomentMessage): string {
         ? `${name} followed a path of ${corners} points around the obstacles seen so far.`
         : `${name} had no path yet.`;
     }
+    case 'replanner':
+      return `${name} followed the shortest path around the obstacles seen so far.`;
     case 'rl': {
       const judged = overlay.judgement;
       const action = judged && ACTIONS[judged.taken];

@@ -1,9 +1,14 @@
 // The form's fields, from the server's table, and how their values are shown and stored.
 
 import { GROUPS as GENERATED, PRESETS } from '../net/parameters.gen';
-import { CONTROLLER_LABELS, type ControllerName, type Parameters } from '../net/protocol.gen';
+import {
+  CONTROLLER_LABELS,
+  CONTROLLERS,
+  type ControllerName,
+  type Parameters,
+} from '../net/protocol.gen';
 
-export { CONTROLLER_LABELS };
+export { CONTROLLER_LABELS, CONTROLLERS };
 
 /** What each controller does, one or two sentences. */
 export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
@@ -11,9 +16,9 @@ export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
   errt: 'ERRT: a path planner. It plans a whole path around the walls that it has seen, and plans again at each new one.',
   attractor:
     'Attractor: no plan. It heads for the goal, and walls in view bend its motion. It can get stuck.',
+  replanner:
+    'Replanner: the shortest path around the walls that it has seen, found anew at each new one. A reference for evaluations.',
 };
-
-export const CONTROLLERS = Object.keys(CONTROLLER_LABELS) as readonly ControllerName[];
 
 export type NumberName = {
   [K in keyof Parameters]: Parameters[K] extends number ? K : never;

@@ -80,4 +80,8 @@ export const CONTROLLER_LABELS = {
   rl: 'RL',
   errt: 'ERRT',
   attractor: 'Attractor',
+  replanner: 'Replanner',
 } as const;
+
+/** Controllers that the page offers. */
+export const CONTROLLERS = ['rl', 'errt', 'attractor'] as const;

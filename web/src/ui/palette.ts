@@ -33,6 +33,7 @@ const NAMES = [
   'rl',
   'errt',
   'attractor',
+  'replanner',
   'table',
   'arm',
   'arm-lid',

@@ -6,10 +6,8 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::cache::Cache;
-use super::clearance::Clearance;
-use super::obstacles::Obstacles;
-use super::path::Path;
 use super::tree::Tree;
+use crate::control::transport::planning::{Clearance, LEAST_CLEARANCE_M, Obstacles, Path};
 use crate::geometry::{Point2, Rect};
 use crate::scenario::Stream;
 
@@ -65,7 +63,7 @@ impl Default for PlannerParameters {
             sample_where_clear: true,
             shortcuts: Some(200),
             clearance_m: 0.012,
-            least_clearance_m: 0.006,
+            least_clearance_m: LEAST_CLEARANCE_M,
             most_attempts: 20_000,
         }
     }

@@ -1,113 +1,13 @@
-use std::collections::VecDeque;
-
-use parry2d_f64::math::{Pose, Vector};
-use parry2d_f64::query;
-use parry2d_f64::shape::{Cuboid, Segment};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::clearance::{Clearance, End};
-use super::obstacles::Obstacles;
-use super::path::Path;
 use super::planner::{Planner, PlannerParameters, Progress};
 use super::tree::Tree;
+use crate::control::transport::planning::test_space::*;
+use crate::control::transport::planning::{Clearance, Obstacles, Path};
 use crate::geometry::{Point2, Rect};
-use crate::image::GrayImage;
 use crate::map::{FreeSpace, Map};
-use crate::perception::{Calibration, DarkPixels, OBSTACLE_LEVEL, ObstacleMap};
-
-const CLEARANCE_M: f64 = 0.012;
-const LEAST_M: f64 = 0.006;
-/// Upper bound of the errors of GJK and of the half-millimetre pieces near an end.
-const TOLERANCE_M: f64 = 1e-6 + 0.000125;
-
-/// Lets a map observe its whole workspace at once, in `per_cell` pixels per cell.
-fn look(map: &mut ObstacleMap, per_cell: f64, is_wall: impl Fn(Point2<f64>) -> bool) {
-    let workspace = *map.workspace();
-    let m_per_px = map.cell_m().min() / per_cell;
-    let size_px = (workspace.size_m().max() / m_per_px).round() as usize + 2;
-    let center_m = workspace.center_m();
-    let calibration = Calibration { center_m, m_per_px, size_px, foot_m: center_m };
-    let point = |i: usize| calibration.table_from_image((i % size_px) as f64 + 0.5, (i / size_px) as f64 + 0.5);
-    let pixels = (0..size_px * size_px).map(|i| if is_wall(point(i)) { 20 } else { 230 }).collect();
-    let dark = DarkPixels::of(&GrayImage { width_px: size_px, height_px: size_px, pixels }, OBSTACLE_LEVEL);
-    map.update(&dark, &calibration, 1.0);
-}
-
-fn seen(workspace: Rect, per_cell: f64, is_wall: impl Fn(Point2<f64>) -> bool) -> ObstacleMap {
-    let mut map = ObstacleMap::new(workspace);
-    look(&mut map, per_cell, is_wall);
-    map
-}
-
-fn shipped(name: &str) -> (Map, Obstacles) {
-    let map = Map::shipped(name).unwrap();
-    let obstacles = Obstacles::of(&seen(*map.workspace(), 5.0, |p| !map.is_free(p)), CLEARANCE_M);
-    (map, obstacles)
-}
-
-const SMALL: Rect = Rect { x_min_m: -0.08, x_max_m: 0.04, y_min_m: -0.5, y_max_m: -0.42 };
-
-prop_compose! {
-    /// A small workspace with walls that consist of whole cells.
-    fn small_maps()(
-        walls in prop::collection::vec((0u32..60, 0u32..40, 1u32..25, 1u32..10, any::<bool>()), 0..9),
-    ) -> ObstacleMap {
-        let is_wall = |p: Point2<f64>| {
-            let [column, row] = [p.x - SMALL.x_min_m, p.y - SMALL.y_min_m].map(|m| (m / 0.002) as u32);
-            walls.iter().any(|&(left, low, long, thick, is_upright)| {
-                let (wide, high) = if is_upright { (thick, long) } else { (long, thick) };
-                (left..left + wide).contains(&column) && (low..low + high).contains(&row)
-            })
-        };
-        seen(SMALL, 1.0, is_wall)
-    }
-}
-
-prop_compose! {
-    /// A point on a lattice of 1 mm.
-    fn places()(column in 0u32..=120, row in 0u32..=80) -> Point2<f64> {
-        lattice_point(column, row)
-    }
-}
-
-fn lattice_point(column: u32, row: u32) -> Point2<f64> {
-    Point2::new(SMALL.x_min_m + 0.001 * f64::from(column), SMALL.y_min_m + 0.001 * f64::from(row))
-}
-
-fn no_ends(asked_m: f64) -> Clearance {
-    Clearance { asked_m, ends: [End { point: Point2::origin(), distance_m: 1.0 }; 2] }
-}
-
-/// Distance from a straight line to the nearest rectangle and to the border, by parry2d.
-fn brute_distance_m(obstacles: &Obstacles, from: Point2<f64>, to: Point2<f64>) -> f64 {
-    let w = obstacles.workspace();
-    let border_m = |p: Point2<f64>| (p.x - w.x_min_m).min(w.x_max_m - p.x).min(p.y - w.y_min_m).min(w.y_max_m - p.y);
-    let segment = Segment::new(Vector::new(from.x, from.y), Vector::new(to.x, to.y));
-    let to_rectangle_m = |rect: &Rect| {
-        let (center, half) = (rect.center_m(), rect.size_m() / 2.0);
-        let pose = Pose::translation(center.x, center.y);
-        query::distance(&Pose::IDENTITY, &segment, &pose, &Cuboid::new(Vector::new(half.x, half.y))).unwrap().distance
-    };
-    obstacles.rectangles().iter().map(to_rectangle_m).fold(border_m(from).min(border_m(to)), f64::min)
-}
-
-/// Asserts with parry2d, every .2 mm, that an edge keeps its required clearance.
-fn assert_kept(obstacles: &Obstacles, from: Point2<f64>, to: Point2<f64>, clearance: &Clearance) {
-    let kept_m = brute_distance_m(obstacles, from, to);
-    if kept_m >= clearance.asked_m - TOLERANCE_M {
-        return;
-    }
-    let count = ((to - from).norm() / 2e-4).ceil() as usize + 1;
-    for i in 0..=count {
-        let p = from + (to - from) * (i as f64 / count as f64);
-        let ends_m = clearance.ends.map(|end| end.distance_m + 0.25 * ((p - end.point).norm() - 0.006).max(0.0));
-        let required_m = clearance.asked_m.min(ends_m[0]).min(ends_m[1]);
-        let distance_m = brute_distance_m(obstacles, p, p);
-        assert!(distance_m > 0.0 && distance_m >= required_m - TOLERANCE_M, "{p}: {distance_m} of {required_m}");
-    }
-}
 
 fn assert_all_kept(planner: &Planner, obstacles: &Obstacles, path: &Path) {
     path.points.windows(2).for_each(|edge| assert_kept(obstacles, edge[0], edge[1], &path.clearance));
@@ -122,75 +22,7 @@ fn found(planner: &Planner) -> Option<&Path> {
     }
 }
 
-/// Whether clear steps between neighbours on the lattice lead from one of its points to another.
-fn lattice_leads(obstacles: &Obstacles, clearance: &Clearance) -> bool {
-    let [start, goal] = clearance.ends.map(|end| {
-        let at = (end.point - lattice_point(0, 0)) / 0.001;
-        (at.x.round() as u32, at.y.round() as u32)
-    });
-    let mut seen = vec![false; 121 * 81];
-    let mut open = VecDeque::from([start]);
-    while let Some((column, row)) = open.pop_front() {
-        if (column, row) == goal {
-            return true;
-        }
-        for row_to in row.saturating_sub(1)..=(row + 1).min(80) {
-            for column_to in column.saturating_sub(1)..=(column + 1).min(120) {
-                let seen = &mut seen[(row_to * 121 + column_to) as usize];
-                let (from, to) = (lattice_point(column, row), lattice_point(column_to, row_to));
-                if !*seen && obstacles.is_clear(from, to, clearance) {
-                    *seen = true;
-                    open.push_back((column_to, row_to));
-                }
-            }
-        }
-    }
-    false
-}
-
 proptest! {
-    #[test]
-    fn an_edge_is_clear_when_its_distance_to_every_rectangle_is_enough(
-        map in small_maps(), from in places(), to in places(), asked_m in 0.0005..0.02f64,
-    ) {
-        let obstacles = Obstacles::of(&map, CLEARANCE_M);
-        prop_assert_eq!(obstacles.rectangles(), map.rectangles());
-        let distance_m = brute_distance_m(&obstacles, from, to);
-        prop_assume!((distance_m - asked_m).abs() > 1e-6);
-        prop_assert_eq!(obstacles.is_clear(from, to, &no_ends(asked_m)), distance_m > asked_m, "{}", distance_m);
-    }
-
-    #[test]
-    fn paths_begin_at_the_place_itself_or_at_the_nearest_clear_cell(map in small_maps(), point in places()) {
-        let obstacles = Obstacles::of(&map, CLEARANCE_M);
-        // Not exactly the clearance of any cell, except for rounding.
-        let least_m = 0.0057;
-        let brute_m = brute_distance_m(&obstacles, point, point);
-        prop_assume!(brute_m == 0.0 || brute_m > 1e-6);
-        let end = obstacles.end_near(point, least_m);
-        if brute_m > 0.0 {
-            prop_assert!(end.is_some_and(|end| end.point == point && (end.distance_m - brute_m).abs() < 1e-8));
-            prop_assert_eq!(obstacles.end_at(point), end);
-        } else {
-            let centers = (0..60 * 40).map(|i| lattice_point(2 * (i % 60) + 1, 2 * (i / 60) + 1));
-            let clear = centers.filter(|&p| brute_distance_m(&obstacles, p, p) >= least_m);
-            let nearest_m = clear.map(|p| (p - point).norm()).min_by(f64::total_cmp);
-            prop_assert_eq!(obstacles.end_at(point), None);
-            prop_assert_eq!(end.is_some(), nearest_m.is_some());
-            if let Some((end, nearest_m)) = end.zip(nearest_m) {
-                prop_assert!(((end.point - point).norm() - nearest_m).abs() < 1e-8 && end.distance_m > least_m - 1e-8);
-            }
-        }
-    }
-
-    #[test]
-    fn cell_distances_are_exact_up_to_the_largest_clearance(map in small_maps(), column in 0u32..60, row in 0u32..40) {
-        let obstacles = Obstacles::of(&map, CLEARANCE_M);
-        let center = lattice_point(2 * column + 1, 2 * row + 1);
-        let (known_m, brute_m) = (obstacles.grid().distance_m(center), brute_distance_m(&obstacles, center, center));
-        prop_assert!((known_m - brute_m).abs() < 1e-9 || known_m.min(brute_m) > CLEARANCE_M * 4.0 / 3.0);
-    }
-
     #[test]
     fn the_nearest_node_matches_an_exhaustive_search(
         // Few distinct places, so that many distances are equal.

@@ -147,6 +147,7 @@ export const CARRIERS: Readonly<Record<ControllerName, string>> = {
   rl: 'RL, a neural network',
   errt: 'ERRT, a planner',
   attractor: 'Attractor dynamics',
+  replanner: 'The shortest path',
 };
 
 /** What a screen shows that only watches: another one runs the programme. */

@@ -17,7 +17,7 @@ const ROOM: f64 = 1.0 / 3.0;
 
 /// The distance of each cell's centre from walls.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub(in crate::control::transport) struct Grid {
     workspace: Rect,
     columns: usize,
     cell_m: Vector2<f64>,
@@ -84,7 +84,6 @@ impl Grid {
 
     /// Whether a chain of free cells, connected by sides or corners, leads from one cell to another.
     fn connects(&self, from: usize, to: usize, is_free: impl Fn(usize) -> bool) -> bool {
-        let rows = self.distance_m.len() / self.columns;
         let mut seen = vec![false; self.distance_m.len()];
         let mut open = vec![from];
         seen[from] = true;
@@ -92,15 +91,11 @@ impl Grid {
             if cell == to {
                 return true;
             }
-            let (column, row) = (cell % self.columns, cell / self.columns);
-            for row in row.saturating_sub(1)..=(row + 1).min(rows - 1) {
-                for column in column.saturating_sub(1)..=(column + 1).min(self.columns - 1) {
-                    let next = row * self.columns + column;
-                    if !seen[next] {
-                        seen[next] = true;
-                        if is_free(next) {
-                            open.push(next);
-                        }
+            for next in self.neighbours(cell) {
+                if !seen[next] {
+                    seen[next] = true;
+                    if is_free(next) {
+                        open.push(next);
                     }
                 }
             }
@@ -108,8 +103,21 @@ impl Grid {
         false
     }
 
+    /// The cells that share a side or a corner with a cell, and the cell itself.
+    pub fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let (columns, rows) = (self.columns, self.distance_m.len() / self.columns);
+        let (column, row) = (cell % columns, cell / columns);
+        let around = |middle: usize, count: usize| middle.saturating_sub(1)..(middle + 2).min(count);
+        around(row, rows).flat_map(move |row| around(column, columns).map(move |column| row * columns + column))
+    }
+
+    /// Distance from walls at a cell's centre.
+    pub fn cell_distance_m(&self, cell: usize) -> f64 {
+        self.distance_m[cell]
+    }
+
     /// The cell that contains a point, or the nearest one.
-    fn cell(&self, point: Point2<f64>) -> usize {
+    pub fn cell(&self, point: Point2<f64>) -> usize {
         let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
         let at = (point - corner).component_div(&self.cell_m);
         // Casting a negative number gives 0.
@@ -117,7 +125,7 @@ impl Grid {
         (at.y as usize).min(rows - 1) * self.columns + (at.x as usize).min(self.columns - 1)
     }
 
-    fn center(&self, cell: usize) -> Point2<f64> {
+    pub fn center(&self, cell: usize) -> Point2<f64> {
         let (column, row) = (cell % self.columns, cell / self.columns);
         Point2::new(
             self.workspace.x_min_m + (column as f64 + 0.5) * self.cell_m.x,

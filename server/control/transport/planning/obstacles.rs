@@ -57,7 +57,7 @@ impl Obstacles {
         &self.rectangles
     }
 
-    pub(super) fn grid(&self) -> &Grid {
+    pub(in crate::control::transport) fn grid(&self) -> &Grid {
         &self.grid
     }
 
@@ -97,13 +97,13 @@ impl Obstacles {
     }
 
     /// An end at the point itself; `None` if the point is in a wall or outside the workspace.
-    pub(super) fn end_at(&self, point: Point2<f64>) -> Option<End> {
+    pub(in crate::control::transport) fn end_at(&self, point: Point2<f64>) -> Option<End> {
         let distance_m = self.distance_m(point) - ROUNDING_M;
         (distance_m > 0.0).then_some(End { point, distance_m })
     }
 
     /// The end from which a path begins: the point itself, or the place where a tool over a wall leaves the wall.
-    pub(super) fn end_near(&self, point: Point2<f64>, least_clearance_m: f64) -> Option<End> {
+    pub(in crate::control::transport) fn end_near(&self, point: Point2<f64>, least_clearance_m: f64) -> Option<End> {
         let is_place = point.coords.iter().all(|m| m.is_finite());
         let way_out = || self.grid.nearest(point, least_clearance_m).filter(|_| is_place);
         self.end_at(point).or_else(|| self.end_at(way_out()?))

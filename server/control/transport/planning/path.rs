@@ -76,7 +76,7 @@ impl Path {
     }
 
     /// Replaces corners by straight lines: from each corner on to the farthest corner with a clear line.
-    pub(super) fn skip_corners(&mut self, obstacles: &Obstacles) {
+    pub(in crate::control::transport) fn skip_corners(&mut self, obstacles: &Obstacles) {
         let corners = std::mem::take(&mut self.points);
         let mut at = 0;
         self.points.push(corners[at]);
@@ -88,7 +88,7 @@ impl Path {
     }
 
     /// Replaces the part between two random points by a straight line if that is clear.
-    pub(super) fn cut_short(&mut self, obstacles: &Obstacles, rng: &mut impl Rng) {
+    pub(in crate::control::transport) fn cut_short(&mut self, obstacles: &Obstacles, rng: &mut impl Rng) {
         let length_m = self.length_m();
         let mut along_m = [length_m * rng.random::<f64>(), length_m * rng.random::<f64>()];
         along_m.sort_by(f64::total_cmp);

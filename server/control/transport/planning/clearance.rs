@@ -19,6 +19,8 @@ const GRACE_M: f64 = 0.006;
 pub(super) const GROWTH: f64 = 0.25;
 /// Near such an end, edges are checked in pieces of this length; each must keep what its nearer end requires.
 pub(super) const PIECE_M: f64 = 0.0005;
+/// Distance that a path keeps in the narrowest places. None of the publications has it.
+pub const LEAST_CLEARANCE_M: f64 = 0.006;
 /// Larger than the rounding errors of distances and positions.
 pub(super) const ROUNDING_M: f64 = 1e-9;
 
