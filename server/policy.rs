@@ -2,8 +2,10 @@
 
 mod convolution;
 mod file;
+mod linear;
 mod modulation;
 mod network;
+mod survey;
 
 use std::sync::Arc;
 
@@ -14,10 +16,14 @@ use crate::geometry::Vector2;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation};
 
 pub use file::{Manifest, PolicyError};
-pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, Noise, TensorSpec};
+pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, TensorSpec};
+pub use survey::{Survey, SurveyParts};
 
 /// Number of quantile fractions for acting (Dabney et al. 2018, K = 32).
 pub const ACTING_FRACTIONS: usize = 32;
+
+/// Places per call of the network: each has 32 fractions of 128 features.
+pub const BATCH: usize = 256;
 
 /// One step of the tool along an axis of the table (paper, §IV-A).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -126,12 +132,43 @@ impl Policy {
         Ok(self.judge_from(&features, &[observation.places()])?.remove(0))
     }
 
+    /// Whether the policy sees a survey instead of an image.
+    pub fn has_memory(&self) -> bool {
+        self.manifest.architecture.fusion == Fusion::Survey
+    }
+
+    /// Quantiles of the return for all four actions, from a survey.
+    ///
+    /// # Errors
+    /// [`PolicyError::Network`], for a policy that sees an image.
+    pub fn judge_survey(&self, survey: &Survey) -> Result<Judgement, PolicyError> {
+        fault_point!("inference");
+        let features = self.network.features_of_surveys(&[survey])?;
+        Ok(self.judge_from(&features, &[[0.0; 4]])?.remove(0))
+    }
+
+    /// The same with the tool above each of many cells.
+    ///
+    /// # Errors
+    /// [`PolicyError::Network`], for a policy that sees an image.
+    pub fn judge_cells(&self, survey: &Survey, cells: &[usize]) -> Result<Vec<Judgement>, PolicyError> {
+        let mut judged = Vec::with_capacity(cells.len());
+        for cells in cells.chunks(BATCH) {
+            let features = self.network.features_at(survey, cells)?;
+            judged.extend(self.judge_from(&features, &vec![[0.0; 4]; cells.len()])?);
+        }
+        Ok(judged)
+    }
+
     /// Output of the trunk: `[B]` observations of 2×84×84 bytes → `[B, 128]`. With late fusion the places on channel 1
     /// are not used.
     ///
     /// # Errors
     /// [`PolicyError::Network`].
     pub fn features(&self, observations: &[&[u8]]) -> Result<Tensor, PolicyError> {
+        if self.has_memory() {
+            return Err(candle_core::Error::msg("the network sees a survey, not an image").into());
+        }
         let channels = self.network.architecture().channels();
         Ok(self.network.features(&images(observations.iter().copied(), channels)?)?)
     }

@@ -1,5 +1,7 @@
 //! `ferry train`.
 
+mod generated;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -17,7 +19,7 @@ const EXAMINATION_SEED: u64 = 0x00FE_77E5;
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Maps for training, separated by commas: names, or paths of SVGs
+    /// Maps for training, separated by commas: names, or paths of SVGs; or generated, for a policy with a memory
     #[arg(long, value_delimiter = ',', default_value = "colon")]
     map: Vec<String>,
     /// Maps used only in the final examination
@@ -59,6 +61,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 }
 
 fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    if arguments.map == [generated::MAP] {
+        return generated::train(arguments);
+    }
     let recipe = if arguments.paper { Recipe::paper() } else { Recipe::default() };
     let recipe: Recipe = super::with_changes(&recipe, &arguments.set)?;
     recipe.check().context("--set")?;

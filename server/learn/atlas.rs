@@ -10,13 +10,11 @@ use super::sweep::{STEP_M, Sweep, cells, center};
 use super::terrain::places;
 use crate::camera::{CameraError, Gpu};
 use crate::geometry::{Point2, Rect};
-use crate::policy::{Fusion, Judgement, Policy, PolicyError};
+use crate::policy::{BATCH, Fusion, Judgement, Policy, PolicyError};
 use crate::trial::Arena;
 
 /// Largest number of places, twice that of the paper's table: an image of each takes milliseconds.
 const MAX_PLACES: usize = 4000;
-/// Places per call of the network: each has 32 fractions of 128 features.
-const BATCH: usize = 256;
 
 /// The images of one map, for all goals.
 pub struct Atlas {
@@ -74,7 +72,7 @@ impl Atlas {
                 let views: Vec<&[u8]> = images().collect();
                 Stored::Features(features_of_all(policy.network(), &views).map_err(PolicyError::from)?)
             }
-            Fusion::Early => Stored::Images(images().map(<[u8]>::to_vec).collect()),
+            Fusion::Early | Fusion::Survey => Stored::Images(images().map(<[u8]>::to_vec).collect()),
         };
         let at = |&cell: &usize| center(&workspace, spacing_m, cell % sweep.columns, cell / sweep.columns);
         Ok(Self { workspace, spacing_m, centers_m: free.iter().map(at).collect(), seen, policy })

@@ -41,6 +41,19 @@ impl Marks {
     }
 }
 
+impl std::iter::Sum for Marks {
+    fn sum<I: Iterator<Item = Self>>(marks: I) -> Self {
+        marks.fold(Self::default(), |a, b| Self {
+            episodes: a.episodes + b.episodes,
+            reached: a.reached + b.reached,
+            collided: a.collided + b.collided,
+            timed_out: a.timed_out + b.timed_out,
+            steps: a.steps + b.steps,
+            least_steps: a.least_steps + b.least_steps,
+        })
+    }
+}
+
 /// Maps cells and places to actions.
 pub type Act<'a> = dyn FnMut(&[(u8, u16)], &[[f32; 4]]) -> Result<Vec<u32>> + 'a;
 
@@ -97,12 +110,12 @@ pub fn examine(
         Fusion::Late => {
             terrains.iter().map(|terrain| features_of_all(network, &terrain.images())).collect::<Result<_>>()?
         }
-        Fusion::Early => Vec::new(),
+        Fusion::Early | Fusion::Survey => Vec::new(),
     };
     examine_by(recipe, terrains, goals, episodes, seed, &mut |cells, places| {
         let batch = cells.len();
         let features = match network.architecture().fusion {
-            Fusion::Early => features_of(network, &views(terrains, cells), places)?,
+            Fusion::Early | Fusion::Survey => features_of(network, &views(terrains, cells), places)?,
             Fusion::Late => {
                 let rows = cells.iter().map(|&(terrain, cell)| cache[usize::from(terrain)].get(usize::from(cell)));
                 Tensor::stack(&rows.collect::<Result<Vec<_>>>()?, 0)?

@@ -1,42 +1,21 @@
 //! One learner: the networks, their optimiser, and one update (paper, §III; Hessel et al. 2018, "Rainbow"; Dabney et
 //! al. 2018, "Implicit Quantile Networks").
 
-use candle_core::{D, Device, Result, Tensor, Var};
-use rand::{RngExt, SeedableRng};
+use candle_core::{D, Device, Result, Tensor};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
 
-use super::adam::Adam;
 use super::environment::{Ending, Goal};
 use super::loss::{huber_mean, quantile_huber};
+use super::networks::{Descent, Memory, Networks};
 use super::recipe::{EPISODE_STEPS, Recipe};
 use super::replay::{Replay, Transition};
 use super::terrain::{Terrain, views};
 use crate::perception::OBSERVATION_SIZE_PX;
-use crate::policy::{Architecture, Fusion, Network, Noise, TensorSpec, acting_fractions, images};
-
-/// All weights, in the order of [`Architecture::tensors`].
-pub type Weights = Vec<Vec<f32>>;
+use crate::policy::{Fusion, Network, acting_fractions, images};
 
 /// Cells whose features are computed together, so that their columns stay in the CPU cache.
 const CHUNK: usize = 32;
-
-/// The learner's state.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
-    /// The network that is trained.
-    pub online: Weights,
-    /// Its older copy, which gives the targets.
-    pub target: Weights,
-    /// The averaged weights, which are evaluated and shipped.
-    pub average: Weights,
-    /// Moments of the optimiser.
-    pub adam: Adam,
-    /// Number of updates so far.
-    pub updates: u64,
-    /// Source of all random draws.
-    pub rng: ChaCha8Rng,
-}
 
 /// Measurements of one update.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,27 +30,9 @@ pub struct Learner<'a> {
     recipe: &'a Recipe,
     terrains: &'a [Terrain],
     memory: Memory,
-    variables: Vec<Var>,
-    /// Uses the variables.
-    online: Network,
-    /// Uses the same numbers without recording gradients.
-    frozen: Network,
-    target: Network,
+    networks: Networks,
     /// Features of all cells by the target network, one tensor per terrain; empty with early fusion.
     cache: Vec<Tensor>,
-}
-
-/// A network with the given weights.
-pub fn network(architecture: Architecture, weights: &Weights) -> Result<Network> {
-    let specs = architecture.tensors();
-    Network::new(architecture, |name| {
-        let index = position(&specs, name);
-        Tensor::from_slice(&weights[index], specs[index].shape.clone(), &Device::Cpu)
-    })
-}
-
-fn position(specs: &[TensorSpec], name: &str) -> usize {
-    specs.iter().position(|spec| spec.name == name).expect("the tensor belongs to the network")
 }
 
 /// Features of many views, each `[84 · 84]`: `[B, 128]`; late fusion only.
@@ -84,7 +45,7 @@ pub fn features_of_all(network: &Network, views: &[&[u8]]) -> Result<Tensor> {
 pub fn features_of(network: &Network, views: &[&[u8]], places: &[[f32; 4]]) -> Result<Tensor> {
     match network.architecture().fusion {
         Fusion::Late => network.features(&images(views.iter().copied(), 1)?),
-        Fusion::Early => {
+        Fusion::Early | Fusion::Survey => {
             let both: Vec<Vec<u8>> =
                 views.iter().zip(places).map(|(view, &places)| observation(view, places)).collect();
             network.features(&images(both.iter().map(Vec::as_slice), 2)?)
@@ -132,35 +93,13 @@ struct Aim {
     discount: f32,
 }
 
-impl Memory {
-    /// Initial weights and optimiser state.
-    pub fn new(recipe: &Recipe, seed: u64) -> Self {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let specs = recipe.architecture.tensors();
-        let online: Weights = specs.iter().map(|spec| spec.draw(&mut rng)).collect();
-        let adam = Adam::new(online.iter().map(Vec::len));
-        Self { target: online.clone(), average: online.clone(), online, adam, updates: 0, rng }
-    }
-}
-
 impl<'a> Learner<'a> {
     /// A learner that continues from its state.
     ///
     /// # Errors Those of candle, if the weights do not have the shapes of the recipe's network.
     pub fn new(recipe: &'a Recipe, terrains: &'a [Terrain], memory: Memory) -> Result<Self> {
-        let architecture = recipe.architecture;
-        let specs = architecture.tensors();
-        let variable =
-            |(spec, values): (&TensorSpec, &Vec<f32>)| Var::from_slice(values, spec.shape.clone(), &Device::Cpu);
-        let variables = specs.iter().zip(&memory.online).map(variable).collect::<Result<Vec<_>>>()?;
-        let online = Network::new(architecture, |name| {
-            Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_tensor().clone())
-        })?;
-        let frozen = Network::new(architecture, |name| {
-            Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_detached_tensor())
-        })?;
-        let target = network(architecture, &memory.target)?;
-        let mut learner = Self { recipe, terrains, memory, variables, online, frozen, target, cache: Vec::new() };
+        let networks = Networks::new(recipe.architecture, &memory)?;
+        let mut learner = Self { recipe, terrains, memory, networks, cache: Vec::new() };
         learner.fill_cache()?;
         Ok(learner)
     }
@@ -175,7 +114,7 @@ impl<'a> Learner<'a> {
 
     fn fill_cache(&mut self) -> Result<()> {
         if self.recipe.architecture.fusion == Fusion::Late {
-            let features = self.terrains.iter().map(|terrain| features_of_all(&self.target, &terrain.images()));
+            let features = self.terrains.iter().map(|terrain| features_of_all(&self.networks.target, &terrain.images()));
             self.cache = features.collect::<Result<_>>()?;
         }
         Ok(())
@@ -186,11 +125,11 @@ impl<'a> Learner<'a> {
     /// # Errors Those of candle.
     pub fn act(&mut self, cells: &[(u8, u16)], places: &[[f32; 4]]) -> Result<Vec<u32>> {
         let batch = cells.len();
-        let features = features_of(&self.frozen, &views(self.terrains, cells), places)?;
-        let noise = Noise::draw(&self.recipe.architecture, &mut self.memory.rng)?;
+        let features = features_of(&self.networks.frozen, &views(self.terrains, cells), places)?;
+        let noise = self.recipe.architecture.draw_noise(&mut self.memory.rng)?;
         let fractions = acting_fractions(batch, self.recipe.choosing_fractions)?;
         let places = tensor(places, (batch, 1, 4))?;
-        best(&self.frozen.quantiles(&features, &places, &fractions, noise.as_ref())?)
+        best(&self.networks.frozen.quantiles(&features, &places, &fractions, noise.as_ref())?)
     }
 
     /// Learns from one draw of the replay and updates the draw's losses.
@@ -210,11 +149,11 @@ impl<'a> Learner<'a> {
         let targets = self.targets(&samples)?;
 
         let cells: Vec<(u8, u16)> = samples.iter().map(|sample| sample.cell).collect();
-        let features = features_of(&self.online, &views(self.terrains, &cells), &places)?;
-        let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
-        let fractions = self.draw_fractions(batch, recipe.fractions)?;
+        let features = features_of(&self.networks.online, &views(self.terrains, &cells), &places)?;
+        let noise = recipe.architecture.draw_noise(&mut self.memory.rng)?;
+        let fractions = self.memory.draw_fractions(batch, recipe.fractions)?;
         let places = tensor(&places, (batch, goals, 4))?;
-        let quantiles = self.online.quantiles(&features, &places, &fractions, noise.as_ref())?;
+        let quantiles = self.networks.online.quantiles(&features, &places, &fractions, noise.as_ref())?;
         let count = quantiles.dim(2)?;
         let chosen = of_actions(&quantiles, &actions)?.reshape((batch * goals, count))?;
         let each = if recipe.architecture.quantiles {
@@ -226,45 +165,23 @@ impl<'a> Learner<'a> {
         let each = each.reshape((batch, goals))?.mean(1)?;
         let losses: Vec<f32> = each.to_vec1()?;
         let weights = Tensor::from_vec(draw.weights, batch, &Device::Cpu)?;
-        let gradients = (each * weights)?.mean_all()?.backward()?;
-
-        let gradients = self.variables.iter().map(|variable| match gradients.get(variable) {
-            Some(gradient) => gradient.flatten_all()?.to_vec1(),
-            None => Ok(vec![0.0; variable.elem_count()]),
-        });
-        let gradients = gradients.collect::<Result<Weights>>()?;
-        let gradient = self.descend(&gradients)?;
+        let descent = Descent {
+            rates: [recipe.learning_rate, recipe.learning_rate_end],
+            gradient_most: recipe.gradient_most,
+            averaging: recipe.averaging,
+            target_period: recipe.target_period,
+            updates: recipe.updates,
+        };
+        let loss = (each * weights)?.mean_all()?;
+        let (gradient, is_target_new) = self.networks.descend(&loss, &mut self.memory, &descent)?;
+        if is_target_new {
+            self.fill_cache()?;
+        }
         for (&index, &loss) in draw.indices.iter().zip(&losses) {
             replay.set_loss(index, f64::from(loss));
         }
         let loss = losses.iter().map(|&loss| f64::from(loss)).sum::<f64>() / batch as f64;
         Ok(Report { loss, gradient })
-    }
-
-    /// One step of the optimiser, of the average and, if it is due, of the target network.
-    fn descend(&mut self, gradients: &Weights) -> Result<f64> {
-        let recipe = self.recipe;
-        let memory = &mut self.memory;
-        let progress = memory.updates as f64 / recipe.updates as f64;
-        let fallen = (2.0 * progress - 1.0).clamp(0.0, 1.0);
-        let rate = recipe.learning_rate + (recipe.learning_rate_end - recipe.learning_rate) * fallen;
-        let length = memory.adam.step(&mut memory.online, gradients, rate, recipe.gradient_most);
-        for (variable, values) in self.variables.iter().zip(&memory.online) {
-            variable.set(&Tensor::from_slice(values, variable.shape(), &Device::Cpu)?)?;
-        }
-        let kept = recipe.averaging as f32;
-        for (average, online) in memory.average.iter_mut().zip(&memory.online) {
-            for (average, &online) in average.iter_mut().zip(online) {
-                *average = kept * *average + (1.0 - kept) * online;
-            }
-        }
-        memory.updates += 1;
-        if memory.updates.is_multiple_of(recipe.target_period) {
-            memory.target.clone_from(&memory.online);
-            self.target = network(recipe.architecture, &self.memory.target)?;
-            self.fill_cache()?;
-        }
-        Ok(length)
     }
 
     /// Target values of the samples' returns, `[B · G, N']`.
@@ -275,7 +192,7 @@ impl<'a> Learner<'a> {
         let places: Vec<[f32; 4]> = aims().map(|aim| aim.places_beyond).collect();
         let beyond: Vec<(u8, u16)> = samples.iter().map(|sample| sample.beyond).collect();
         let judged = match recipe.architecture.fusion {
-            Fusion::Early => features_of(&self.target, &views(self.terrains, &beyond), &places)?,
+            Fusion::Early | Fusion::Survey => features_of(&self.networks.target, &views(self.terrains, &beyond), &places)?,
             Fusion::Late => {
                 let rows =
                     beyond.iter().map(|&(terrain, cell)| self.cache[usize::from(terrain)].get(usize::from(cell)));
@@ -283,17 +200,17 @@ impl<'a> Learner<'a> {
             }
         };
         let place_tensor = tensor(&places, (batch, goals, 4))?;
-        let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
-        let fractions = self.draw_fractions(batch, recipe.fractions)?;
-        let quantiles = self.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?;
+        let noise = recipe.architecture.draw_noise(&mut self.memory.rng)?;
+        let fractions = self.memory.draw_fractions(batch, recipe.fractions)?;
+        let quantiles = self.networks.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?;
 
-        let noise = Noise::draw(&recipe.architecture, &mut self.memory.rng)?;
-        let fractions = self.draw_fractions(batch, recipe.choosing_fractions)?;
+        let noise = recipe.architecture.draw_noise(&mut self.memory.rng)?;
+        let fractions = self.memory.draw_fractions(batch, recipe.choosing_fractions)?;
         let chosen = if recipe.double {
-            let features = features_of(&self.frozen, &views(self.terrains, &beyond), &places)?;
-            best(&self.frozen.quantiles(&features, &place_tensor, &fractions, noise.as_ref())?)?
+            let features = features_of(&self.networks.frozen, &views(self.terrains, &beyond), &places)?;
+            best(&self.networks.frozen.quantiles(&features, &place_tensor, &fractions, noise.as_ref())?)?
         } else {
-            best(&self.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?)?
+            best(&self.networks.target.quantiles(&judged, &place_tensor, &fractions, noise.as_ref())?)?
         };
         let values = of_actions(&quantiles, &chosen)?;
         let count = values.dim(2)?;
@@ -301,11 +218,6 @@ impl<'a> Learner<'a> {
             |get: fn(&Aim) -> f32| Tensor::from_iter(aims().map(get), &Device::Cpu)?.reshape((batch * goals, 1));
         let discounted = values.reshape((batch * goals, count))?.broadcast_mul(&numbers(|aim| aim.discount)?)?;
         Ok(discounted.broadcast_add(&numbers(|aim| aim.reward)?)?.detach())
-    }
-
-    fn draw_fractions(&mut self, batch: usize, count: usize) -> Result<Tensor> {
-        let rng = &mut self.memory.rng;
-        Tensor::from_iter((0..batch * count).map(|_| rng.random::<f32>()), &Device::Cpu)?.reshape((batch, count))
     }
 
     /// A transition with its goals and returns.

@@ -105,15 +105,29 @@ impl Default for Recipe {
     }
 }
 
-/// A number of the recipe is out of range.
+/// A setting of a recipe that is not allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field} is {value}, it must be {min} to {max}")]
+#[error("{field} is {value}, it must be {allowed}")]
 pub struct RecipeError {
     /// Name of the wrong field.
     pub field: &'static str,
-    pub value: f64,
-    pub min: f64,
-    pub max: f64,
+    pub value: String,
+    pub allowed: String,
+}
+
+impl RecipeError {
+    /// Checks numbers, each with its name and its range; the error names the first that is outside.
+    ///
+    /// # Errors
+    /// [`RecipeError`].
+    pub fn check_ranges(ranges: &[(&'static str, f64, f64, f64)]) -> Result<(), Self> {
+        match ranges.iter().find(|(_, value, min, max)| !(*min..=*max).contains(value)) {
+            Some((field, value, min, max)) => {
+                Err(Self { field, value: value.to_string(), allowed: format!("{min} to {max}") })
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 impl Recipe {
@@ -178,10 +192,10 @@ impl Recipe {
             ("warm_up", self.warm_up as f64, self.images as f64, 1e6),
             ("updates", self.updates as f64, 1.0, 1e8),
         ];
-        for (field, value, min, max) in ranges {
-            if !(min..=max).contains(&value) {
-                return Err(RecipeError { field, value, min, max });
-            }
+        RecipeError::check_ranges(&ranges)?;
+        if self.architecture.fusion == Fusion::Survey {
+            let (value, allowed) = ("survey".to_owned(), "early or late, except with --map generated".to_owned());
+            return Err(RecipeError { field: "architecture.fusion", value, allowed });
         }
         Ok(())
     }

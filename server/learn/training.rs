@@ -1,17 +1,17 @@
 //! A training run: lanes act, the replay fills, the learner updates. It can be saved at any step and resumed with
 //! bit-identical results.
 
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
+use super::checkpoint::{self, CheckpointError};
 use super::environment::{Ending, Episode};
 use super::examine::{Marks, examine};
 use super::goals::GoalSet;
-use super::learner::{Learner, Memory, Weights, network};
+use super::learner::Learner;
+use super::networks::{Memory, Weights, network};
 use super::recipe::{Recipe, RecipeError};
 use super::replay::{Replay, Transition};
 use super::sweep::STEP_M;
@@ -25,7 +25,7 @@ const EXAMINED_EVERY: u64 = 1000;
 /// Episodes of a small examination.
 const EXAMINED_EPISODES: u32 = 200;
 /// Version of the checkpoint's layout.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Why a run cannot start or continue.
 #[derive(Debug, thiserror::Error)]
@@ -43,11 +43,8 @@ pub enum TrainingError {
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// A checkpoint could not be read or written.
-    #[error("checkpoint: {path}: {error}")]
-    Io { path: PathBuf, error: std::io::Error },
-    /// A checkpoint is damaged, or has another version, recipe, seed or map.
-    #[error("checkpoint: {path}: {reason}")]
-    Checkpoint { path: PathBuf, reason: String },
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// The loss or the gradient is not finite.
     #[error("training: at update {update} the loss is {loss} and the gradient {gradient}")]
     Diverged {
@@ -148,7 +145,7 @@ impl State {
                 return Err(TrainingError::NoGoals { map: terrain.name().to_owned(), held_out });
             }
         }
-        let mut memory = Memory::new(&recipe, seed);
+        let mut memory = Memory::new(&recipe.architecture, seed);
         let lanes = (0..recipe.lanes).map(|_| Episode::start(terrains, goals, &mut memory.rng)).collect();
         Ok(Self {
             seed,
@@ -267,12 +264,11 @@ impl State {
     /// # Errors
     /// [`TrainingError::Policy`].
     pub fn policy(&self, revision: &str) -> Result<Vec<u8>, TrainingError> {
-        let (version, observation) = Manifest::current();
         let manifest = Manifest {
-            version,
+            version: Manifest::VERSION,
             maps: self.maps.iter().map(|(name, _)| name.clone()).collect(),
             step_m: STEP_M,
-            observation,
+            observation: Manifest::observation(&self.recipe.architecture),
             architecture: self.recipe.architecture,
             clearance_m: self.recipe.clearance_m,
             seed: self.seed,
@@ -283,42 +279,25 @@ impl State {
         Ok(Policy::to_bytes(&manifest, &weights.collect::<Vec<_>>())?)
     }
 
-    /// Saves the run and `spent_s`, the seconds that it took so far. Writes to a temporary name first, so that no
-    /// reader finds half a file.
+    /// Saves the run and `spent_s`, the seconds that it took so far.
     ///
     /// # Errors
-    /// [`TrainingError::Io`].
+    /// [`TrainingError::Checkpoint`].
     pub fn write(&self, path: &Path, spent_s: f64) -> Result<(), TrainingError> {
-        let io = |error| TrainingError::Io { path: path.to_owned(), error };
-        let bytes = postcard::to_stdvec(&(VERSION, spent_s, self)).map_err(std::io::Error::other).map_err(io)?;
-        let part = path.with_extension("part");
-        let mut file = File::create(&part).map_err(io)?;
-        file.write_all(&xxhash_rust::xxh3::xxh3_64(&bytes).to_le_bytes()).map_err(io)?;
-        file.write_all(&bytes).map_err(io)?;
-        file.sync_all().map_err(io)?;
-        std::fs::rename(part, path).map_err(io)
+        Ok(checkpoint::write(path, VERSION, spent_s, self)?)
     }
 
     /// Reads a run of the same recipe, seed and maps, and the seconds that it took.
     ///
     /// # Errors
-    /// [`TrainingError::Io`] or [`TrainingError::Checkpoint`].
+    /// [`TrainingError::Checkpoint`].
     pub fn read(path: &Path, recipe: &Recipe, seed: u64, terrains: &[Terrain]) -> Result<(Self, f64), TrainingError> {
-        let bytes = std::fs::read(path).map_err(|error| TrainingError::Io { path: path.to_owned(), error })?;
-        let refuse = |reason: &str| TrainingError::Checkpoint { path: path.to_owned(), reason: reason.to_owned() };
-        let (hash, bytes) = bytes.split_at_checked(8).ok_or_else(|| refuse("it is damaged"))?;
-        if xxhash_rust::xxh3::xxh3_64(bytes).to_le_bytes() != hash {
-            return Err(refuse("it is damaged or edited"));
-        }
-        let (version, rest): (u32, _) = postcard::take_from_bytes(bytes).map_err(|_| refuse("it is damaged"))?;
-        if version != VERSION {
-            return Err(refuse(&format!("its version is {version}, expected {VERSION}")));
-        }
-        let (spent_s, state): (f64, Self) = postcard::from_bytes(rest).map_err(|error| refuse(&error.to_string()))?;
+        let (state, spent_s): (Self, f64) = checkpoint::read(path, VERSION)?;
+        let refuse = |reason: &str| Err(CheckpointError::refused(path, reason).into());
         match () {
-            () if state.recipe != *recipe => Err(refuse("it has another recipe")),
-            () if state.seed != seed => Err(refuse(&format!("its seed is {}, not {seed}", state.seed))),
-            () if state.maps != maps(terrains) => Err(refuse(&format!("its maps are {:?}", state.maps))),
+            () if state.recipe != *recipe => refuse("it has another recipe"),
+            () if state.seed != seed => refuse(&format!("its seed is {}, not {seed}", state.seed)),
+            () if state.maps != maps(terrains) => refuse(&format!("its maps are {:?}", state.maps)),
             () => Ok((state, spent_s)),
         }
     }

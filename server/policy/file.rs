@@ -9,14 +9,12 @@ use rust_embed::RustEmbed;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
 
-use super::network::{Architecture, Network, TensorSpec};
+use super::network::{Architecture, Fusion, Network, TensorSpec};
 use super::{OBSERVATION_SIZE_PX, Policy};
 use crate::files::{ReadError, read_at_most};
 
 /// Key of the manifest in the metadata.
 const KEY: &str = "ferry";
-/// Version of the manifest's layout and of the outputs' meaning.
-const VERSION: u32 = 1;
 /// Size limit of a policy's file.
 const MAX_BYTES: u64 = 16 << 20;
 /// Largest weight; those of shipped policies are below 10.
@@ -38,7 +36,7 @@ pub struct Manifest {
     /// Maps used in training.
     pub maps: Vec<String>,
     pub step_m: f64,
-    /// Shape of the observation, 2 × 84 × 84.
+    /// Shape of the observation: 2 × 84 × 84, or the planes of a survey, whose sides are those of the map.
     pub observation: [usize; 3],
     /// Parts of the network.
     pub architecture: Architecture,
@@ -53,9 +51,15 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// Version and observation shape of this program.
-    pub fn current() -> (u32, [usize; 3]) {
-        (VERSION, [2, OBSERVATION_SIZE_PX, OBSERVATION_SIZE_PX])
+    /// Version of the manifest's layout and of the outputs' meaning.
+    pub const VERSION: u32 = 1;
+
+    /// Shape of an architecture's observation; a side of 0 is that of the map.
+    pub fn observation(architecture: &Architecture) -> [usize; 3] {
+        match architecture.fusion {
+            Fusion::Early | Fusion::Late => [2, OBSERVATION_SIZE_PX, OBSERVATION_SIZE_PX],
+            Fusion::Survey => [architecture.channels(), 0, 0],
+        }
     }
 }
 
@@ -170,11 +174,11 @@ impl Policy {
         let text = text.ok_or_else(|| PolicyError::Manifest(format!("the metadata has no {KEY:?}")))?;
         let manifest: Manifest =
             serde_json::from_str(text).map_err(|error| PolicyError::Manifest(error.to_string()))?;
-        let (version, observation) = Manifest::current();
-        if manifest.version != version {
-            let found = manifest.version;
-            return Err(PolicyError::Manifest(format!("version is {found}, expected {version}")));
+        if manifest.version != Manifest::VERSION {
+            let (found, expected) = (manifest.version, Manifest::VERSION);
+            return Err(PolicyError::Manifest(format!("version is {found}, expected {expected}")));
         }
+        let observation = Manifest::observation(&manifest.architecture);
         if manifest.observation != observation {
             let found = manifest.observation;
             return Err(PolicyError::Manifest(format!("observation is {found:?}, expected {observation:?}")));

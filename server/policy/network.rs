@@ -5,11 +5,12 @@ use std::f32::consts::PI;
 
 use candle_core::{D, Device, Result, Tensor};
 use rand::{Rng, RngExt};
-use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
 use super::convolution::Convolution;
+use super::linear::{Input, Linear, Noise};
 use super::modulation::modulate;
+use super::survey::{Survey, SurveyParts, SurveyTrunk};
 
 /// Width of every fully connected layer.
 pub const HIDDEN: usize = 128;
@@ -21,8 +22,6 @@ const LAST_SIDE: usize = 6;
 const COSINES: usize = 64;
 /// Octaves in the embedding of a place.
 const OCTAVES: usize = 4;
-/// Number of parts into which the rows of a large product are divided.
-const ROW_PARTS: usize = 16;
 /// Size of the embedding of the places: the four numbers, and their sines and cosines.
 const PLACE: usize = 4 * (1 + 2 * OCTAVES);
 /// σ0 of the noisy layers (Fortunato et al. 2018, §3.2).
@@ -36,6 +35,8 @@ pub enum Fusion {
     Early,
     /// The trunk processes only the image; the four numbers of channel 1 are joined to its features.
     Late,
+    /// The trunk plans on a [`Survey`] instead of processing an image. Goal and tool are on the survey.
+    Survey,
 }
 
 /// The parts of the network. The shipped policies use late fusion and all parts.
@@ -49,13 +50,16 @@ pub struct Architecture {
     pub dueling: bool,
     /// Noisy layers as the last two; otherwise plain ones.
     pub noisy: bool,
-    /// Skip connections in the trunk.
+    /// Skip connections in the trunk; without a survey.
     pub residual: bool,
+    /// The parts of a survey that the network sees.
+    #[serde(default)]
+    pub survey: SurveyParts,
 }
 
 impl Default for Architecture {
     fn default() -> Self {
-        Self { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true }
+        Self { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true, survey: SurveyParts::ALL }
     }
 }
 
@@ -86,6 +90,7 @@ impl Architecture {
         match self.fusion {
             Fusion::Early => 2,
             Fusion::Late => 1,
+            Fusion::Survey => SurveyTrunk::PLANES,
         }
     }
 
@@ -105,6 +110,23 @@ impl Architecture {
                 add(&format!("{name}.bias_sigma"), &[outputs], sigma);
             }
         };
+        if self.fusion == Fusion::Survey {
+            for (name, inputs, outputs) in SurveyTrunk::layers(self.survey, HIDDEN) {
+                layer(&format!("survey.{name}"), inputs, outputs, false);
+            }
+        } else {
+            self.add_image_layers(&mut layer);
+        }
+        if self.quantiles {
+            layer("fraction", COSINES, HIDDEN, false);
+        }
+        for (name, inputs, outputs) in self.head() {
+            layer(name, inputs, outputs, self.noisy);
+        }
+        specs
+    }
+
+    fn add_image_layers(&self, layer: &mut impl FnMut(&str, usize, usize, bool)) {
         layer("trunk.patches", 7 * 7 * self.channels(), CHANNELS, false);
         for name in
             ["trunk.block1.conv1", "trunk.block1.conv2", "trunk.reduce", "trunk.block2.conv1", "trunk.block2.conv2"]
@@ -117,13 +139,13 @@ impl Architecture {
             layer("place", PLACE, HIDDEN, false);
             layer("join.place", HIDDEN, HIDDEN, false);
         }
-        if self.quantiles {
-            layer("fraction", COSINES, HIDDEN, false);
-        }
-        for (name, inputs, outputs) in self.head() {
-            layer(name, inputs, outputs, self.noisy);
-        }
-        specs
+    }
+
+    /// One draw of the noise of all noisy layers; `None` without noisy layers.
+    ///
+    /// # Errors Those of candle, which cannot occur with these shapes.
+    pub fn draw_noise(&self, rng: &mut impl Rng) -> Result<Option<Noise>> {
+        self.noisy.then(|| Noise::of_layers(&self.head(), rng)).transpose()
     }
 
     /// The last two layers: name, inputs, outputs.
@@ -150,97 +172,32 @@ impl TensorSpec {
     }
 }
 
-/// y = x·W + b, with W + σ_W∘ε if noisy.
-#[derive(Clone, Debug)]
-struct Linear {
-    weight: Tensor,
-    bias: Tensor,
-    sigma: Option<(Tensor, Tensor)>,
-}
-
-/// Whether a layer rectifies its input, so that the preceding ReLU needs no separate pass.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Input {
-    AsItIs,
-    Rectified,
-}
-
-impl Linear {
-    /// `[M, inputs]` → `[M, outputs]`.
-    fn forward(&self, x: &Tensor, input: Input, noise: Option<&LayerNoise>) -> Result<Tensor> {
-        match (&self.sigma, noise) {
-            (Some((weight_sigma, bias_sigma)), Some(noise)) => {
-                let weight = (&self.weight + (weight_sigma * &noise.weight)?)?;
-                let bias = (&self.bias + (bias_sigma * &noise.bias)?)?;
-                pointwise(x, &weight, &bias, input)
-            }
-            _ => pointwise(x, &self.weight, &self.bias, input),
-        }
-    }
-}
-
-/// A linear layer as a convolution over single pixels, which includes bias, ReLU and their gradients at no cost. With
-/// candle, the sum over the rows takes longer than the product.
-fn pointwise(x: &Tensor, weight: &Tensor, bias: &Tensor, input: Input) -> Result<Tensor> {
-    let (rows, inputs) = x.dims2()?;
-    // Rows are divided into parts for the thread pool.
-    let parts = if rows.is_multiple_of(ROW_PARTS) { ROW_PARTS } else { 1 };
-    let layer = Convolution { kernel: 1, stride: 1, padding: 0, rectify_input: input == Input::Rectified };
-    let y = layer.forward(&x.reshape((parts, rows / parts, 1, inputs))?, weight, bias)?;
-    y.reshape((rows, bias.elem_count()))
-}
-
-/// ε of one noisy layer.
-#[derive(Clone, Debug)]
-struct LayerNoise {
-    weight: Tensor,
-    bias: Tensor,
-}
-
-/// One draw of the noise of all noisy layers (Fortunato et al. 2018, equations 10 and 11): ε_ij = f(ε_i)·f(ε_j) with
-/// f(x) = sgn x·√|x|.
-#[derive(Clone, Debug)]
-pub struct Noise(Vec<LayerNoise>);
-
-impl Noise {
-    /// Draws noise for an architecture; `None` without noisy layers.
-    ///
-    /// # Errors Those of candle, which cannot occur with these shapes.
-    pub fn draw(architecture: &Architecture, rng: &mut impl Rng) -> Result<Option<Self>> {
-        if !architecture.noisy {
-            return Ok(None);
-        }
-        let mut vector = |count: usize| {
-            let scaled = (0..count).map(|_| {
-                let x: f32 = rng.sample(StandardNormal);
-                x.signum() * x.abs().sqrt()
-            });
-            Tensor::from_iter(scaled, &Device::Cpu)
-        };
-        let layers = architecture.head().into_iter().map(|(_, inputs, outputs)| {
-            let (from, to) = (vector(inputs)?, vector(outputs)?);
-            let weight = from.unsqueeze(1)?.matmul(&to.unsqueeze(0)?)?;
-            Ok(LayerNoise { weight, bias: to })
-        });
-        layers.collect::<Result<Vec<_>>>().map(|layers| Some(Self(layers)))
-    }
-}
-
 /// The network with its weights.
 #[derive(Clone, Debug)]
 pub struct Network {
     architecture: Architecture,
+    trunk: Trunk,
+    /// Embedding of the places, and its join with the features; late fusion only.
+    place: Option<[Linear; 2]>,
+    fraction: Option<Linear>,
+    advantage: [Linear; 2],
+    value: Option<[Linear; 2]>,
+}
+
+#[derive(Clone, Debug)]
+enum Trunk {
+    Image(ImageTrunk),
+    Survey(SurveyTrunk),
+}
+
+#[derive(Clone, Debug)]
+struct ImageTrunk {
     patches: Linear,
     block1: [Linear; 2],
     reduce: Linear,
     block2: [Linear; 2],
     features: Linear,
     join_features: Linear,
-    /// Embedding of the places, and its join with the features; late fusion only.
-    place: Option<[Linear; 2]>,
-    fraction: Option<Linear>,
-    advantage: [Linear; 2],
-    value: Option<[Linear; 2]>,
 }
 
 impl Network {
@@ -260,17 +217,25 @@ impl Network {
             Ok(Linear { weight: get(&format!("{name}.weight"))?, bias: get(&format!("{name}.bias"))?, sigma })
         };
         let noisy = architecture.noisy;
+        let trunk = match architecture.fusion {
+            Fusion::Survey => {
+                Trunk::Survey(SurveyTrunk::new(architecture.survey, |name| layer(&format!("survey.{name}"), false))?)
+            }
+            Fusion::Early | Fusion::Late => Trunk::Image(ImageTrunk {
+                patches: layer("trunk.patches", false)?,
+                block1: [layer("trunk.block1.conv1", false)?, layer("trunk.block1.conv2", false)?],
+                reduce: layer("trunk.reduce", false)?,
+                block2: [layer("trunk.block2.conv1", false)?, layer("trunk.block2.conv2", false)?],
+                features: layer("trunk.features", false)?,
+                join_features: layer("join.features", false)?,
+            }),
+        };
         Ok(Self {
             architecture,
-            patches: layer("trunk.patches", false)?,
-            block1: [layer("trunk.block1.conv1", false)?, layer("trunk.block1.conv2", false)?],
-            reduce: layer("trunk.reduce", false)?,
-            block2: [layer("trunk.block2.conv1", false)?, layer("trunk.block2.conv2", false)?],
-            features: layer("trunk.features", false)?,
-            join_features: layer("join.features", false)?,
+            trunk,
             place: match architecture.fusion {
                 Fusion::Late => Some([layer("place", false)?, layer("join.place", false)?]),
-                Fusion::Early => None,
+                Fusion::Early | Fusion::Survey => None,
             },
             fraction: if architecture.quantiles { Some(layer("fraction", false)?) } else { None },
             advantage: [layer("advantage.hidden", noisy)?, layer("advantage.out", noisy)?],
@@ -287,26 +252,36 @@ impl Network {
 
     /// The trunk and the first layer after it: images `[B, 84, 84, channels]` → features `[B, 128]`.
     ///
-    /// # Errors Those of candle, for another shape.
+    /// # Errors Those of candle, for another shape, or for a network that has no image.
     pub fn features(&self, images: &Tensor) -> Result<Tensor> {
-        let conv = |layer: &Linear, x: &Tensor, kernel, stride, rectify_input| {
-            let padding = usize::from(kernel == 3);
-            Convolution { kernel, stride, padding, rectify_input }.forward(x, &layer.weight, &layer.bias)
-        };
-        let block = |layers: &[Linear; 2], x: &Tensor| {
-            let y = conv(&layers[1], &conv(&layers[0], x, 3, 1, true)?, 3, 1, true)?;
-            if self.architecture.residual { x + y } else { Ok(y) }
-        };
-        let x = conv(&self.patches, images, 7, 7, false)?;
-        let x = block(&self.block1, &x)?;
-        let x = conv(&self.reduce, &x, 3, 2, true)?;
-        let x = block(&self.block2, &x)?;
-        let x = self.features.forward(&x.flatten_from(1)?, Input::Rectified, None)?;
-        self.join_features.forward(&x, Input::Rectified, None)
+        match &self.trunk {
+            Trunk::Image(trunk) => trunk.features(images, self.architecture.residual),
+            Trunk::Survey(_) => candle_core::bail!("the network sees a survey, not an image"),
+        }
+    }
+
+    /// The same from surveys of one shape: `[B]` → features `[B, 128]`.
+    ///
+    /// # Errors Those of candle, for surveys of several shapes, or for a network that has no survey.
+    pub fn features_of_surveys(&self, surveys: &[&Survey]) -> Result<Tensor> {
+        match &self.trunk {
+            Trunk::Survey(trunk) => trunk.features(surveys),
+            Trunk::Image(_) => candle_core::bail!("the network sees an image, not a survey"),
+        }
+    }
+
+    /// The same from one survey, with the tool above each of many cells: `[cells, 128]`.
+    ///
+    /// # Errors Those of candle, for a network that has no survey.
+    pub fn features_at(&self, survey: &Survey, cells: &[usize]) -> Result<Tensor> {
+        match &self.trunk {
+            Trunk::Survey(trunk) => trunk.features_at(survey, cells),
+            Trunk::Image(_) => candle_core::bail!("the network sees an image, not a survey"),
+        }
     }
 
     /// Quantiles of the return: features `[B, 128]`, places `[B, G, 4]` from 0 to 1 of `G` goals (and tools) per image,
-    /// fractions `[B, N]` → `[B, G, N, 4]`. With early fusion the features include the places, and `G` is 1. Without
+    /// fractions `[B, N]` → `[B, G, N, 4]`. Without late fusion the features include the places, and `G` is 1. Without
     /// quantiles `N` is 1 for any fractions.
     ///
     /// # Errors Those of candle, for other shapes.
@@ -348,6 +323,25 @@ impl Network {
             None => advantage,
         };
         out.reshape((batch, goals, count, 4))
+    }
+}
+
+impl ImageTrunk {
+    fn features(&self, images: &Tensor, residual: bool) -> Result<Tensor> {
+        let conv = |layer: &Linear, x: &Tensor, kernel, stride, rectify_input| {
+            let padding = usize::from(kernel == 3);
+            Convolution { kernel, stride, padding, rectify_input }.forward(x, &layer.weight, &layer.bias)
+        };
+        let block = |layers: &[Linear; 2], x: &Tensor| {
+            let y = conv(&layers[1], &conv(&layers[0], x, 3, 1, true)?, 3, 1, true)?;
+            if residual { x + y } else { Ok(y) }
+        };
+        let x = conv(&self.patches, images, 7, 7, false)?;
+        let x = block(&self.block1, &x)?;
+        let x = conv(&self.reduce, &x, 3, 2, true)?;
+        let x = block(&self.block2, &x)?;
+        let x = self.features.forward(&x.flatten_from(1)?, Input::Rectified, None)?;
+        self.join_features.forward(&x, Input::Rectified, None)
     }
 }
 

@@ -10,9 +10,8 @@ use crate::control::transport::attractor::Flow;
 use crate::control::transport::errt::Errt;
 use crate::control::transport::rl::Rl;
 use crate::geometry::{Point2, Rect};
-use crate::learn::Atlas;
 use crate::perception::{CellState, ObstacleMap, PixelRect};
-use crate::policy::Judgement;
+use crate::policy::{Judgement, Policy};
 use crate::scenario::RlPolicy;
 use crate::session::{Scenery, View};
 use crate::trial::{Arena, Motion, Sight};
@@ -132,6 +131,8 @@ pub struct JudgementLayer {
     pub taken: u8,
     /// Maps that the policy was trained on.
     pub trained_on: Vec<String>,
+    /// Whether the policy remembers what the camera has seen, so that it needs no training on the map.
+    pub has_memory: bool,
 }
 
 /// Body of `POST /api/sessions/{id}/values`.
@@ -141,18 +142,26 @@ pub struct JudgementLayer {
 pub struct ValueQuery {
     #[schema(value_type = Numbers2)]
     pub goal_m: [f64; 2],
+    /// Number of the page's last `seen` message. The server ignores it; it makes the request a new one
+    /// when more was observed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional, type = "number")]
+    pub seen: Option<u64>,
 }
 
-/// Values of the session's policy for every place of the map and one goal, from images of the default camera.
-/// Places are a centimetre apart, farther where there would be more than 4000.
+/// Values of the session's policy for every place of the map and one goal. Without a memory they come from images of the
+/// default camera, with places a centimetre apart, farther where there would be more than 4000. A policy with a memory
+/// judges all places where it may be, by what the session's camera has seen so far.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct ValueMap {
     /// Side of a cell.
     pub spacing_m: f64,
-    /// Cells with at least the policy's clearance from walls.
+    /// Cells with at least the policy's clearance from walls; with a memory, from walls that were seen.
     pub cells: Vec<ValueCell>,
     /// Maps that the policy was trained on.
     pub trained_on: Vec<String>,
+    /// Whether the values are those of what the session's camera has seen so far.
+    pub has_memory: bool,
 }
 
 /// One cell of a [`ValueMap`].
@@ -282,21 +291,23 @@ impl JudgementLayer {
             values: judgement.values(),
             taken: taken.index() as u8,
             trained_on: policy.manifest().maps.clone(),
+            has_memory: policy.has_memory(),
         })
     }
 }
 
 impl ValueMap {
-    /// Converts an atlas and the policy's values for each place.
-    pub fn of(atlas: &Atlas, judged: Vec<(Point2<f64>, Judgement)>) -> Self {
+    /// Converts a policy's values for places `spacing_m` apart.
+    pub fn of(policy: &Policy, spacing_m: f64, judged: Vec<(Point2<f64>, Judgement)>) -> Self {
         let cell = |(center_m, judgement): (Point2<f64>, Judgement)| {
             let best = judgement.ranking()[0].index();
             ValueCell { center_m: center_m.coords.into(), value: judgement.values()[best], action: best as u8 }
         };
         Self {
-            spacing_m: atlas.spacing_m(),
+            spacing_m,
             cells: judged.into_iter().map(cell).collect(),
-            trained_on: atlas.policy().manifest().maps.clone(),
+            trained_on: policy.manifest().maps.clone(),
+            has_memory: policy.has_memory(),
         }
     }
 }

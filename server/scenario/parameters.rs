@@ -39,12 +39,14 @@ pub enum AttractorLaw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RlPolicy {
-    /// The policy trained on the map, otherwise the general one.
+    /// The policy trained on the map, otherwise the explorer.
     Auto,
     /// Trained on the map `colon` only.
     Colon,
     /// Trained on several maps.
     General,
+    /// Trained on generated mazes; it remembers what the camera has seen.
+    Explorer,
 }
 
 /// A parameter outside its range.

@@ -47,7 +47,8 @@ impl Arena {
         let name = match asked {
             RlPolicy::Auto if self.map.is_drawn_like_shipped("colon") => "colon",
             RlPolicy::Colon => "colon",
-            RlPolicy::Auto | RlPolicy::General => "general",
+            RlPolicy::General => "general",
+            RlPolicy::Auto | RlPolicy::Explorer => "explorer",
         };
         Policy::shipped(name)
     }

@@ -37,8 +37,13 @@ pub struct Sight {
 }
 
 impl Sight {
-    /// The network's observation.
+    /// The network's observation. If the policy has a memory, its survey is drawn in place of the image.
     pub fn observation(&self) -> Observation {
+        if let Carrier::Rl(rl) = &self.carrier
+            && let Some(survey) = rl.survey()
+        {
+            return Observation::new(&survey.picture(), self.goal_m, self.tool_m, self.known.workspace());
+        }
         let gray = self.percept.for_network(self.corrects_image, self.tool_m, &self.known);
         Observation::new(&gray, self.goal_m, self.tool_m, self.known.workspace())
     }

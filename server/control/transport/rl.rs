@@ -1,4 +1,4 @@
-//! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis per image, greedy.
+//! The Rainbow-IQN policy as a transport (paper, §IV-A): one step along an axis per decision, greedy.
 //!
 //! In training the tool was only at the centres of the sweep's cells. So the tool first goes to a nearby cell that
 //! keeps training's distance from walls, and then from cell to cell. Between two cells the network does not run: a slow
@@ -13,7 +13,7 @@ use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Rect, Vector2};
 use crate::perception::{Observation, Percept};
-use crate::policy::{Action, Judgement, Policy};
+use crate::policy::{Action, Judgement, Policy, PolicyError, Survey};
 
 /// Share of a step within which the tool counts as over a cell.
 const OVER: f64 = 0.35;
@@ -53,6 +53,8 @@ pub struct Rl {
     cell: Option<Cell>,
     /// The network's result for the last image that it evaluated, and the action taken.
     judged: Option<(Judgement, Action)>,
+    /// What a policy with a memory saw at its last decision.
+    survey: Option<Survey>,
     /// How often the tool chose an action over each cell on this leg.
     visits: BTreeMap<Cell, u32>,
     progress: Progress,
@@ -62,6 +64,34 @@ impl Rl {
     /// The network's result for the last image that it evaluated, and the action taken.
     pub fn judged(&self) -> Option<&(Judgement, Action)> {
         self.judged.as_ref()
+    }
+
+    /// What a policy with a memory saw at its last decision; `None` for one that sees the image.
+    pub fn survey(&self) -> Option<&Survey> {
+        self.survey.as_ref()
+    }
+
+    /// Asks the policy, over a cell.
+    fn judge(
+        &mut self,
+        policy: &Policy,
+        input: &TransportInput<'_>,
+        lattice: &Lattice,
+        here: Cell,
+    ) -> Result<Judgement, PolicyError> {
+        if policy.has_memory() {
+            let ends_m = [lattice.center_m(here), input.goal_m];
+            let mut survey = Survey::over(input.known, lattice.step_m, policy.manifest().clearance_m, ends_m);
+            for (&place, &visits) in &self.visits {
+                if let Some(cell) = survey.cell_at(place) {
+                    survey.set_visits(cell, visits);
+                }
+            }
+            return policy.judge_survey(self.survey.insert(survey));
+        }
+        self.survey = None;
+        let gray = input.percept.for_network(input.parameters.rl_corrects_image, input.tool_m, input.known);
+        policy.judge(&Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace))
     }
 
     /// Actions, best first, by the network's value minus the penalty for earlier visits of the cell ahead. A cell that
@@ -159,10 +189,8 @@ impl Transport for Rl {
                 cell
             }
         };
-        let percept = input.percept;
-        let gray = percept.for_network(input.parameters.rl_corrects_image, input.tool_m, input.known);
-        let observation = Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace);
-        let judgement = policy.judge(&observation).map_err(|error| Refusal::Policy(error.to_string()))?;
+        let judgement = self.judge(policy, input, &lattice, here);
+        let judgement = judgement.map_err(|error| Refusal::Policy(error.to_string()))?;
         *self.visits.entry(here).or_default() += 1;
         let action = choose(&lattice, input, policy, self.ranking(&judgement, input, here), here);
         self.judged = Some((judgement, action));

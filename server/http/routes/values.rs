@@ -10,17 +10,19 @@ use axum::http::StatusCode;
 
 use super::sessions::view;
 use crate::camera::Gpu;
+use crate::control::transport::Carrier;
 use crate::evaluate::gentle_pool;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Vector2};
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::learn::{Atlas, AtlasError};
-use crate::policy::Policy;
+use crate::perception::Area;
+use crate::policy::{Judgement, Policy, PolicyError, Survey};
 use crate::protocol::{ValueMap, ValueQuery};
-use crate::trial::Arena;
+use crate::trial::{Arena, Sight};
 
 /// Requests for value maps run one at a time.
 const PAINTER_WAITS: Duration = Duration::from_secs(60);
@@ -67,6 +69,8 @@ impl Atlases {
 enum NoValues {
     #[error(transparent)]
     Atlas(#[from] AtlasError),
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
     #[error("the threads of the value map could not start: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -90,7 +94,7 @@ pub async fn values(
     Path(SessionPath { id }): Path<SessionPath>,
     WholeBody(body): WholeBody,
 ) -> Result<Json<ValueMap>, Problem> {
-    let ValueQuery { goal_m: [x_m, y_m] } = parse(&body)?;
+    let ValueQuery { goal_m: [x_m, y_m], .. } = parse(&body)?;
     let view = view(&server, &id)?;
     let arena = view.scenery.arena.clone();
     let goal_m = Point2::new(x_m, y_m);
@@ -101,9 +105,39 @@ pub async fn values(
     let policy = arena.policy(view.scenery.parameters.rl_policy).map_err(Problem::internal)?;
     // One at a time, so that other long computations get permits.
     let judged = server.work_at(&server.painter, PAINTER_WAITS, move |server| {
+        if policy.has_memory() {
+            let judged = remembered(&policy, &view.sight.1, goal_m)?;
+            return Ok::<_, NoValues>(ValueMap::of(&policy, policy.manifest().step_m, judged));
+        }
         let atlas = server.atlases.of(&arena, &policy, &server.gpu)?;
         let judged = atlas.judge(goal_m)?;
-        Ok::<_, NoValues>(ValueMap::of(&atlas, judged))
+        Ok(ValueMap::of(&policy, atlas.spacing_m(), judged))
     });
     Ok(Json(judged.await??))
+}
+
+/// The values of a policy with a memory, at all cells that are not known to be blocked. On the session's own goal, its
+/// visits count.
+fn remembered(
+    policy: &Policy,
+    sight: &Sight,
+    goal_m: Point2<f64>,
+) -> Result<Vec<(Point2<f64>, Judgement)>, PolicyError> {
+    let (known, manifest) = (&sight.known, policy.manifest());
+    let mut survey = Survey::over(known, manifest.step_m, manifest.clearance_m, [sight.tool_m, goal_m]);
+    if let Carrier::Rl(rl) = &sight.carrier
+        && let Some(own) = rl.survey().filter(|own| own.goal == survey.goal && own.shape() == survey.shape())
+    {
+        for cell in 0..survey.count() {
+            survey.set_visits(cell, own.visits(cell).into());
+        }
+    }
+    let cells: Vec<usize> = (0..survey.count()).filter(|&cell| survey.known(cell) != Area::Blocked).collect();
+    let judged = policy.judge_cells(&survey, &cells)?;
+    let corner_m = Point2::new(known.workspace().x_min_m, known.workspace().y_min_m);
+    let center_m = |cell: usize| {
+        let [column, row] = survey.place(cell).map(|index| (index as f64 + 0.5) * manifest.step_m);
+        corner_m + Vector2::new(column, row)
+    };
+    Ok(cells.into_iter().map(center_m).zip(judged).collect())
 }

@@ -1,3 +1,6 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
 use super::*;
 use crate::learn::environment::Episode;
 use crate::learn::goals::GoalSet;
@@ -44,7 +47,7 @@ fn walked(terrain: &Terrain, cells: &[u16], goal: Goal, ending: Option<Ending>) 
 /// Reward, discount and bootstrap cell of the first step's return for a goal.
 fn return_of(recipe: &Recipe, replay: &Replay, goal: Goal, is_own: bool) -> (f32, f32, u16) {
     let terrains = [two_rooms()];
-    let mut learner = Learner::new(recipe, &terrains, Memory::new(recipe, 1)).unwrap();
+    let mut learner = Learner::new(recipe, &terrains, Memory::new(&recipe.architecture, 1)).unwrap();
     let path: Vec<Transition> = replay.following(0, recipe.n_step).copied().collect();
     let (reward, discount) = learner.step_return(&terrains[0], &path, goal, is_own);
     let sample = learner.sample(replay, 0);
@@ -143,7 +146,7 @@ fn a_path_that_ends_at_the_newest_step_bootstraps_from_there() {
 fn shaped_rewards_sum_to_the_difference_of_the_distances() {
     let terrains = [two_rooms()];
     let recipe = Recipe { n_step: 20, discount: 1.0, progress_reward: 0.1, goals: 1, ..Recipe::default() };
-    let learner = Learner::new(&recipe, &terrains, Memory::new(&recipe, 1)).unwrap();
+    let learner = Learner::new(&recipe, &terrains, Memory::new(&recipe.architecture, 1)).unwrap();
     let mut rng = ChaCha8Rng::seed_from_u64(8);
     let mut reached = 0;
     for _ in 0..200 {

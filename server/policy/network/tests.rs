@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 
 const FULL: Architecture =
-    Architecture { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true };
+    Architecture { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true, survey: SurveyParts::ALL };
 
 /// All parts, then each one switched off.
 const ALL: [Architecture; 6] = [
@@ -69,7 +69,7 @@ impl Example {
             images: uniform(&mut rng, &[2, 84, 84, architecture.channels()]),
             places: uniform(&mut rng, &[2, goals, 4]),
             fractions: uniform(&mut rng, &[2, 4]),
-            noise: Noise::draw(architecture, &mut rng).unwrap(),
+            noise: architecture.draw_noise(&mut rng).unwrap(),
         }
     }
 
@@ -87,7 +87,7 @@ fn noise_has_the_moments_of_the_publication_and_rank_one() {
     // For each layer: Σ ε_w, Σ ε_w², Σ ε_b, Σ ε_b².
     let mut sums = vec![[0.0f64; 4]; layers.len()];
     for draw in 0..DRAWS {
-        let Noise(noise) = Noise::draw(&FULL, &mut rng).unwrap().unwrap();
+        let Noise(noise) = FULL.draw_noise(&mut rng).unwrap().unwrap();
         assert_eq!(noise.len(), layers.len());
         for ((noise, &(_, inputs, outputs)), sums) in noise.iter().zip(&layers).zip(&mut sums) {
             assert_eq!((noise.weight.dims(), noise.bias.dims()), (&[inputs, outputs][..], &[outputs][..]));
@@ -172,12 +172,12 @@ fn without_noise_the_means_are_used_and_two_draws_differ() {
 
     let mut rng = ChaCha8Rng::seed_from_u64(6);
     let [first, second] = [(), ()].map(|()| {
-        let noise = Noise::draw(&FULL, &mut rng).unwrap();
+        let noise = FULL.draw_noise(&mut rng).unwrap();
         flat(&Example { noise, ..Example::new(&FULL, 5) }.quantiles(&noisy))
     });
     let differing = first.iter().zip(&second).filter(|(a, b)| (*a - *b).abs() > 1e-3).count();
     assert!(differing > first.len() / 2, "{differing} of {}", first.len());
-    assert!(Noise::draw(&Architecture { noisy: false, ..FULL }, &mut rng).unwrap().is_none());
+    assert!(Architecture { noisy: false, ..FULL }.draw_noise(&mut rng).unwrap().is_none());
 }
 
 #[test]

@@ -172,8 +172,10 @@ parameters! {
     }
     Rl {
         rl_policy: RlPolicy = RlPolicy::Auto,
-            Kind::Choice(&[("auto", "Auto: by map"), ("colon", "Colon"), ("general", "General")]),
-            "Policy", "Which trained policy runs. Auto takes the one trained on this map, else the general one.";
+            Kind::Choice(&[("auto", "Auto: by map"), ("colon", "Colon"), ("general", "General"),
+                           ("explorer", "Explorer")]),
+            "Policy", "Which trained policy runs. Auto takes the one trained on this map only, else the explorer, which \
+                       remembers what the camera has seen and needs no training on the map.";
         rl_shield: bool = true, Kind::Flag,
             "Shield", "Replaces a best step that comes near a visible wall by the next best. \
                        Without it, such a step is refused and the arm holds.";

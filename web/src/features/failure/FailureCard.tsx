@@ -97,7 +97,10 @@ export function FailureCard(props: { lab: FailureLab }): JSX.Element {
       const state = lab.state();
       const scene = lab.scene();
       if (!state || !scene) return undefined;
-      return failedAttempt(before, state, scene, lab.overlay()?.judgement?.trained_on);
+      const judgement = lab.overlay()?.judgement;
+      // A policy with a memory needs no training on the map.
+      const trainedOn = judgement?.has_memory ? undefined : judgement?.trained_on;
+      return failedAttempt(before, state, scene, trainedOn);
     },
     undefined,
     { equals: (a, b) => JSON.stringify(a) === JSON.stringify(b) },

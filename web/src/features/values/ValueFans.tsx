@@ -105,7 +105,15 @@ export function ValueFans(props: { judgement: JudgementLayer; map: string }): JS
       <p class="rule">
         Trained on: <span data-testid="rl-trained-on">{props.judgement.trained_on.join(', ')}</span>
         <Show when={!props.judgement.trained_on.includes(props.map)}>
-          , <strong data-testid="rl-unseen">not on this map</strong>
+          ,{' '}
+          <Show
+            when={props.judgement.has_memory}
+            fallback={<strong data-testid="rl-unseen">not on this map</strong>}
+          >
+            <span data-testid="rl-memory">
+              not on this map. It plans with what the camera has seen so far.
+            </span>
+          </Show>
         </Show>
       </p>
     </section>

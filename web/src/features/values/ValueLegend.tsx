@@ -48,8 +48,11 @@ export function ValueLegend(props: {
       </span>
       {/* Always there: when the values come, the map above keeps its size. */}
       <p class="words">
-        Expected discounted return at each place for this goal, with images of the default camera.
-        Arrows show the best step.
+        Expected discounted return at each place for this goal
+        {props.map?.has_memory
+          ? ', by what the camera has seen so far'
+          : ', with images of the default camera'}
+        . Arrows show the best step.
       </p>
     </div>
   );

@@ -8,26 +8,33 @@ import type { LayerContext, MapLayer } from '../../plan/layer';
 import { ValueLegend } from './ValueLegend';
 import { createValues, drawValues } from './drawValue';
 import { valueKey } from './value';
-import type { Session, Trial } from '../../lab/slices';
+import type { Pictures, Session, Trial } from '../../lab/slices';
+
+const REQUESTS_PER_S = 4;
 
 export const VALUE_LAYER: MapLayer = {
   id: 'value',
   label: 'Value',
   swatch: ['heat-low', 'heat-middle', 'heat-high'],
   group: 'RL',
-  create: ({ lab, palette, isShown }: LayerContext<Session & Trial>) => {
+  create: ({ lab, palette, isShown }: LayerContext<Session & Trial & Pictures>) => {
     const key = createMemo(() => {
       const [scene, goal_m] = [lab.scene(), lab.goal()];
       return scene && goal_m && isShown() ? valueKey(scene, goal_m) : undefined;
     });
+    // The values of a policy with a memory change with each image that shows more.
+    const remembers = (): boolean => answer().data?.has_memory === true;
     const answer = createAnswer<ValueQuery, ValueMap>(
       sessionPath(lab.session, 'values'),
       () => {
         const goal_m = lab.goal();
         const asks = key() !== undefined && lab.connection().kind === 'live';
-        return asks && goal_m ? { goal_m: [goal_m[0], goal_m[1]] } : undefined;
+        if (!asks || !goal_m) return undefined;
+        const query: ValueQuery = { goal_m: [goal_m[0], goal_m[1]] };
+        const seen = remembers() ? lab.obstacleMap()?.number : undefined;
+        return seen === undefined ? query : { ...query, seen };
       },
-      { key: () => key() ?? '' },
+      { key: () => key() ?? '', perS: REQUESTS_PER_S },
     );
     // Only values of this goal, map and policy: the first answer takes seconds, and old values would mislead.
     const isNow = createMemo(() => key() !== undefined && answer().key === key());

@@ -1,0 +1,92 @@
+//! A maze on the lattice: how far the centre of each cell is from the walls.
+
+use rayon::prelude::*;
+
+use crate::geometry::{Point2, Rect, Vector2};
+use crate::learn::sweep::STEP_M;
+use crate::map::{Map, Maze, MazeError, MazeFamily};
+
+/// Distance without a path.
+pub const UNREACHABLE: u16 = u16::MAX;
+
+#[derive(Clone, Debug)]
+pub struct Ground {
+    name: String,
+    workspace: Rect,
+    columns: usize,
+    /// Row by row from the smallest y; negative inside walls.
+    clearance_m: Vec<f32>,
+}
+
+impl Ground {
+    pub fn of(map: &Map) -> Self {
+        let workspace = *map.workspace();
+        let [columns, rows] = [workspace.size_m().x, workspace.size_m().y].map(|side_m| (side_m / STEP_M + 1e-6) as usize);
+        let ground = Self { name: map.name().to_owned(), workspace, columns, clearance_m: Vec::new() };
+        let clearance_m = (0..columns * rows).map(|cell| map.clearance_m(ground.center_m(cell)) as f32).collect();
+        Self { clearance_m, ..ground }
+    }
+
+    /// Mazes of families, each with seeds from `first_seed` on, in turn.
+    ///
+    /// # Errors
+    /// [`MazeError`].
+    pub fn generated(families: &[MazeFamily], first_seed: u64, count: usize) -> Result<Vec<Self>, MazeError> {
+        let draw = |index: usize| {
+            let seed = first_seed + (index / families.len()) as u64;
+            Maze::generate(families[index % families.len()], seed).map(|maze| Self::of(&maze.map))
+        };
+        (0..count).into_par_iter().map(draw).collect()
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Columns and rows.
+    pub fn shape(&self) -> (usize, usize) {
+        (self.columns, self.clearance_m.len() / self.columns)
+    }
+
+    pub fn count(&self) -> usize {
+        self.clearance_m.len()
+    }
+
+    pub fn clearance_m(&self, cell: usize) -> f64 {
+        f64::from(self.clearance_m[cell])
+    }
+
+    pub fn center_m(&self, cell: usize) -> Point2<f64> {
+        let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
+        let [column, row] = [cell % self.columns, cell / self.columns].map(|index| (index as f64 + 0.5) * STEP_M);
+        corner + Vector2::new(column, row)
+    }
+
+    /// Steps to a cell from every other, over the cells that `is_free`, and from the cells beside those.
+    pub fn steps_to(&self, goal: usize, is_free: impl Fn(usize) -> bool) -> Vec<u16> {
+        steps_to(self.columns, self.count(), goal, is_free)
+    }
+}
+
+/// Steps to a cell from every other, over cells that are free. The goal itself counts as free.
+pub fn steps_to(columns: usize, count: usize, goal: usize, is_free: impl Fn(usize) -> bool) -> Vec<u16> {
+    let mut steps = vec![UNREACHABLE; count];
+    steps[goal] = 0;
+    let mut open = std::collections::VecDeque::from([goal]);
+    while let Some(cell) = open.pop_front() {
+        let column = cell % columns;
+        let beside = [
+            (column + 1 < columns).then_some(cell + 1),
+            (column > 0).then(|| cell.wrapping_sub(1)),
+            (cell + columns < count).then_some(cell + columns),
+            cell.checked_sub(columns),
+        ];
+        for next in beside.into_iter().flatten() {
+            if steps[next] == UNREACHABLE && is_free(next) {
+                steps[next] = steps[cell] + 1;
+                open.push_back(next);
+            }
+        }
+    }
+    steps
+}
