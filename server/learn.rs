@@ -24,6 +24,6 @@ pub use environment::Ending;
 pub use examine::Marks;
 pub use goals::GoalSet;
 pub use recipe::{Recipe, RecipeError};
-pub use survey::{Ground, SurveyRecipe, SurveyRun, examine as examine_surveys, examine_teacher};
+pub use survey::{MazeLattice, SurveyRecipe, SurveyRun, examine as examine_surveys, examine_teacher};
 pub use terrain::{Terrain, TerrainError};
 pub use training::{Point, Spread, State, TrainingError, WINDOW};

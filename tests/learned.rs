@@ -15,7 +15,7 @@ use crate::support::{ferry, gpu};
 
 #[test]
 fn every_shipped_policy_is_complete_and_has_a_manifest() {
-    assert_eq!(Policy::shipped_names(), ["colon", "general"]);
+    assert_eq!(Policy::shipped_names(), ["colon", "explorer", "general"]);
     for name in Policy::shipped_names() {
         let policy = Policy::shipped(&name).unwrap();
         let manifest = policy.manifest();
@@ -24,7 +24,7 @@ fn every_shipped_policy_is_complete_and_has_a_manifest() {
         assert_eq!(manifest.maps == ["colon"], name == "colon");
     }
     let error = Policy::shipped("rectum").unwrap_err().to_string();
-    assert_eq!(error, "policy: there is no policy named \"rectum\"; there are colon, general");
+    assert_eq!(error, "policy: there is no policy named \"rectum\"; there are colon, explorer, general");
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn auto_takes_the_policy_of_the_drawing_not_of_the_name() {
     let auto = |arena: std::sync::Arc<Arena>| arena.policy(RlPolicy::Auto).unwrap().hash();
     let shipped = |name: &str| Policy::shipped(name).unwrap().hash();
     assert_eq!(auto(drawn("mine", "colon")), shipped("colon"));
-    assert_eq!(auto(drawn("colon", "posts")), shipped("general"));
+    assert_eq!(auto(drawn("colon", "posts")), shipped("explorer"));
 }
 
 #[test]

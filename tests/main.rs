@@ -30,5 +30,6 @@ mod rendering;
 mod sights;
 mod stopping;
 mod support;
+mod surveys;
 mod tracker;
 mod viewer;

@@ -114,7 +114,8 @@ impl<'a> Learner<'a> {
 
     fn fill_cache(&mut self) -> Result<()> {
         if self.recipe.architecture.fusion == Fusion::Late {
-            let features = self.terrains.iter().map(|terrain| features_of_all(&self.networks.target, &terrain.images()));
+            let features =
+                self.terrains.iter().map(|terrain| features_of_all(&self.networks.target, &terrain.images()));
             self.cache = features.collect::<Result<_>>()?;
         }
         Ok(())
@@ -192,7 +193,9 @@ impl<'a> Learner<'a> {
         let places: Vec<[f32; 4]> = aims().map(|aim| aim.places_beyond).collect();
         let beyond: Vec<(u8, u16)> = samples.iter().map(|sample| sample.beyond).collect();
         let judged = match recipe.architecture.fusion {
-            Fusion::Early | Fusion::Survey => features_of(&self.networks.target, &views(self.terrains, &beyond), &places)?,
+            Fusion::Early | Fusion::Survey => {
+                features_of(&self.networks.target, &views(self.terrains, &beyond), &places)?
+            }
             Fusion::Late => {
                 let rows =
                     beyond.iter().map(|&(terrain, cell)| self.cache[usize::from(terrain)].get(usize::from(cell)));

@@ -3,7 +3,7 @@
 
 mod episode;
 mod examination;
-mod ground;
+mod lattice;
 mod learner;
 mod recipe;
 mod replay;
@@ -13,6 +13,6 @@ mod teacher;
 mod tests;
 
 pub use examination::{examine, examine_teacher};
-pub use ground::Ground;
+pub use lattice::MazeLattice;
 pub use recipe::SurveyRecipe;
 pub use run::SurveyRun;

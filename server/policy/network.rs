@@ -59,7 +59,14 @@ pub struct Architecture {
 
 impl Default for Architecture {
     fn default() -> Self {
-        Self { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true, survey: SurveyParts::ALL }
+        Self {
+            fusion: Fusion::Late,
+            quantiles: true,
+            dueling: true,
+            noisy: true,
+            residual: true,
+            survey: SurveyParts::ALL,
+        }
     }
 }
 

@@ -62,12 +62,7 @@ impl Survey {
 
     /// What an obstacle map shows of the lattice: a cell is free if no obstacle is within `clearance_m` of its centre, and
     /// all of that was observed. Without visits. Tool and goal outside the workspace are at its border.
-    pub fn over(
-        map: &ObstacleMap,
-        step_m: f64,
-        clearance_m: f64,
-        [tool_m, goal_m]: [Point2<f64>; 2],
-    ) -> Self {
+    pub fn over(map: &ObstacleMap, step_m: f64, clearance_m: f64, [tool_m, goal_m]: [Point2<f64>; 2]) -> Self {
         let corner_m = Point2::new(map.workspace().x_min_m, map.workspace().y_min_m);
         let size_m = map.workspace().size_m();
         let [columns, rows] = [size_m.x, size_m.y].map(|side_m| ((side_m / step_m + ROUNDING) as usize).max(1));

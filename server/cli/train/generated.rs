@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Arguments, CHECKPOINT_PERIOD, EXAMINATION_SEED, describe, revision};
 use crate::learn::{
-    Curve, Ground, Marks, SurveyRecipe, SurveyRun, TrainingError, examine_surveys, examine_teacher,
+    Curve, Marks, MazeLattice, SurveyRecipe, SurveyRun, TrainingError, examine_surveys, examine_teacher,
 };
 use crate::map::{Map, MazeFamily};
 
@@ -24,18 +24,18 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     ensure!(arguments.rounds == 1, "--rounds: --map {MAP} trains one round; give --seed instead");
     let recipe: SurveyRecipe = crate::cli::with_changes(&SurveyRecipe::default(), &arguments.set)?;
     recipe.check().context("--set")?;
-    let grounds = Ground::generated(&TRAINED, 1, recipe.mazes)?;
-    let tests: Vec<(&str, Vec<Ground>)> = TESTED
+    let mazes = MazeLattice::generated(&TRAINED, 1, recipe.mazes)?;
+    let tests: Vec<(&str, Vec<MazeLattice>)> = TESTED
         .into_iter()
-        .map(|family| Ok((family.as_str(), Ground::generated(&[family], 1, EXAMINED)?)))
+        .map(|family| Ok((family.as_str(), MazeLattice::generated(&[family], 1, EXAMINED)?)))
         .collect::<anyhow::Result<_>>()?;
-    let unseen = arguments.unseen.iter().map(|name| Ok((name.as_str(), vec![Ground::of(&Map::open(name)?)])));
-    let unseen: Vec<(&str, Vec<Ground>)> = unseen.collect::<anyhow::Result<_>>()?;
+    let unseen = arguments.unseen.iter().map(|name| Ok((name.as_str(), vec![MazeLattice::of(&Map::open(name)?)])));
+    let unseen: Vec<(&str, Vec<MazeLattice>)> = unseen.collect::<anyhow::Result<_>>()?;
     if let Some(folder) = arguments.out.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
     }
 
-    let (run, curve) = learn(arguments, &recipe, &grounds)?;
+    let (run, curve) = learn(arguments, &recipe, &mazes)?;
     let maps = TRAINED.map(|family| format!("{} {} to {}", family.as_str(), 1, recipe.mazes.div_ceil(TRAINED.len())));
     let out = &arguments.out;
     std::fs::write(out, run.policy(maps.into(), &revision())?).with_context(|| format!("{}", out.display()))?;
@@ -50,11 +50,11 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         curve.spent_s() / 60.0
     );
     let network = run.network()?;
-    for (name, grounds) in tests.iter().chain(&unseen) {
-        let each = (arguments.episodes as usize / grounds.len()).max(1) as u32;
-        let marks = examine_surveys(&network, &recipe, grounds, each, EXAMINATION_SEED)?;
+    for (name, mazes) in tests.iter().chain(&unseen) {
+        let each = (arguments.episodes as usize / mazes.len()).max(1) as u32;
+        let marks = examine_surveys(&network, &recipe, mazes, each, EXAMINATION_SEED)?;
         println!("unseen      {name}: {}", describe(&marks.into_iter().sum()));
-        let taught = examine_teacher(&recipe, grounds, each, EXAMINATION_SEED);
+        let taught = examine_teacher(&recipe, mazes, each, EXAMINATION_SEED);
         println!("  teacher   {name}: {}", describe(&taught.into_iter().sum::<Marks>()));
     }
     println!("policy      {}", out.display());
@@ -65,14 +65,14 @@ pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn learn(arguments: &Arguments, recipe: &SurveyRecipe, grounds: &[Ground]) -> anyhow::Result<(SurveyRun, Curve)> {
+fn learn(arguments: &Arguments, recipe: &SurveyRecipe, mazes: &[MazeLattice]) -> anyhow::Result<(SurveyRun, Curve)> {
     let checkpoint = arguments.out.with_extension("checkpoint");
     let (mut run, mut curve) = match arguments.resume {
         true => {
             let (run, spent_s) = SurveyRun::read(&checkpoint, recipe, arguments.seed)?;
             (run, Curve::resumed(spent_s))
         }
-        false => (SurveyRun::new(recipe.clone(), arguments.seed, grounds)?, Curve::default()),
+        false => (SurveyRun::new(recipe.clone(), arguments.seed, mazes)?, Curve::default()),
     };
     let bar = ProgressBar::new(recipe.updates)
         .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} updates, {msg}, {eta} left")?);
@@ -81,7 +81,7 @@ fn learn(arguments: &Arguments, recipe: &SurveyRecipe, grounds: &[Ground]) -> an
     let begun = Instant::now();
     let mut kept = Instant::now();
     let mut failure: Option<TrainingError> = None;
-    run.run(grounds, &mut |run| {
+    run.run(mazes, &mut |run| {
         curve.time(begun.elapsed().as_secs_f64());
         bar.set_position(run.memory.updates);
         bar.set_message(message(run));

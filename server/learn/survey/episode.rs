@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use super::ground::{Ground, UNREACHABLE};
+use super::lattice::{MazeLattice, UNREACHABLE};
 use super::recipe::SurveyRecipe;
 use crate::geometry::{Point2, Vector2};
 use crate::learn::environment::Ending;
@@ -21,8 +21,8 @@ const DRAWS: usize = 200;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Episode {
-    /// Index of the ground.
-    pub ground: usize,
+    /// Index of the maze.
+    pub maze: usize,
     pub survey: Survey,
     goal_m: Point2<f64>,
     /// Clearance of the cells that appear free.
@@ -44,46 +44,46 @@ pub struct Outcome {
 }
 
 impl Episode {
-    /// A start and a goal on one of the grounds, which may keep what an earlier episode has observed there.
-    pub fn start(grounds: &[Ground], earlier: Option<&Self>, recipe: &SurveyRecipe, rng: &mut impl Rng) -> Self {
+    /// A start and a goal on one of the mazes, which may keep what an earlier episode has observed there.
+    pub fn start(mazes: &[MazeLattice], earlier: Option<&Self>, recipe: &SurveyRecipe, rng: &mut impl Rng) -> Self {
         let keeps = earlier.filter(|_| rng.random::<f64>() < recipe.keep_survey);
         if let Some(earlier) = keeps
-            && let Some(episode) = Self::on(grounds, earlier.ground, Some(earlier), recipe, rng)
+            && let Some(episode) = Self::on(mazes, earlier.maze, Some(earlier), recipe, rng)
         {
             return episode;
         }
         loop {
-            let ground = rng.random_range(0..grounds.len());
-            if let Some(episode) = Self::on(grounds, ground, None, recipe, rng) {
+            let maze = rng.random_range(0..mazes.len());
+            if let Some(episode) = Self::on(mazes, maze, None, recipe, rng) {
                 return episode;
             }
         }
     }
 
-    /// An episode on one ground; `None` if many draws find no start and goal that are connected.
+    /// An episode on one maze; `None` if many draws find no start and goal that are connected.
     pub fn on(
-        grounds: &[Ground],
+        mazes: &[MazeLattice],
         index: usize,
         earlier: Option<&Self>,
         recipe: &SurveyRecipe,
         rng: &mut impl Rng,
     ) -> Option<Self> {
-        let ground = &grounds[index];
+        let maze = &mazes[index];
         let drawn_m = recipe.clearance_m + MARGINS_M[rng.random_range(0..MARGINS_M.len())];
         let clearance_m = earlier.map_or(drawn_m, |earlier| earlier.clearance_m);
         let seen = SEEN[rng.random_range(0..SEEN.len())];
         for _ in 0..DRAWS {
-            let [start, goal] = std::array::from_fn(|_| rng.random_range(0..ground.count()));
+            let [start, goal] = std::array::from_fn(|_| rng.random_range(0..maze.count()));
             let offset = Vector2::new(rng.random_range(-0.5..0.5), rng.random_range(-0.5..0.5));
-            if [start, goal].iter().any(|&cell| ground.clearance_m(cell) < clearance_m) {
+            if [start, goal].iter().any(|&cell| maze.clearance_m(cell) < clearance_m) {
                 continue;
             }
-            let goal_m = ground.center_m(goal) + offset * STEP_M;
-            let to_goal = ground.steps_to(goal, |cell| ground.clearance_m(cell) >= clearance_m);
-            if to_goal[start] == UNREACHABLE || (ground.center_m(start) - goal_m).norm() <= GOAL_RADIUS_M {
+            let goal_m = maze.center_m(goal) + offset * STEP_M;
+            let to_goal = maze.steps_to(goal, |cell| maze.clearance_m(cell) >= clearance_m);
+            if to_goal[start] == UNREACHABLE || (maze.center_m(start) - goal_m).norm() <= GOAL_RADIUS_M {
                 continue;
             }
-            let (columns, rows) = ground.shape();
+            let (columns, rows) = maze.shape();
             let survey = match earlier {
                 Some(earlier) => {
                     let mut survey = earlier.survey.clone();
@@ -94,10 +94,10 @@ impl Episode {
                 None => Survey::unknown(columns, rows, start, goal),
             };
             let least_steps = to_goal[start];
-            let mut episode = Self { ground: index, survey, goal_m, clearance_m, seen, steps: 0, least_steps, to_goal };
-            episode.look(ground);
+            let mut episode = Self { maze: index, survey, goal_m, clearance_m, seen, steps: 0, least_steps, to_goal };
+            episode.look(maze);
             if !recipe.memory {
-                episode.forget(ground);
+                episode.forget(maze);
             }
             return Some(episode);
         }
@@ -105,23 +105,23 @@ impl Episode {
     }
 
     /// Notes what an image from the tool's place shows.
-    fn look(&mut self, ground: &Ground) {
+    fn look(&mut self, maze: &MazeLattice) {
         let [column, row] = self.survey.place(self.survey.tool);
-        let (columns, rows) = ground.shape();
+        let (columns, rows) = maze.shape();
         let span = |middle: i64, count: usize| (middle - self.seen).max(0)..=(middle + self.seen).min(count as i64 - 1);
         for (row, column) in span(row, rows).flat_map(|row| span(column, columns).map(move |column| (row, column))) {
             let cell = row as usize * columns + column as usize;
-            let is_free = ground.clearance_m(cell) >= self.clearance_m;
+            let is_free = maze.clearance_m(cell) >= self.clearance_m;
             self.survey.set_known(cell, if is_free { Area::Free } else { Area::Blocked });
         }
     }
 
     /// Keeps only what the present image shows, for the ablation without memory.
-    fn forget(&mut self, ground: &Ground) {
+    fn forget(&mut self, maze: &MazeLattice) {
         for cell in 0..self.survey.count() {
             self.survey.set_known(cell, Area::Unknown);
         }
-        self.look(ground);
+        self.look(maze);
     }
 
     /// Whether an action leads to a cell that is not known to be blocked.
@@ -132,33 +132,31 @@ impl Episode {
     /// The actions' values after the penalty for visits and the shield, as in the live transport; the best action.
     pub fn best(survey: &Survey, values: [f32; 4], recipe: &SurveyRecipe) -> Action {
         let visits = |action: Action| survey.beside(survey.tool, action).map_or(0, |cell| survey.visits(cell));
-        let worth = |action: Action| {
-            values[action.index()] - recipe.visit_penalty as f32 * f32::from(visits(action))
-        };
+        let worth = |action: Action| values[action.index()] - recipe.visit_penalty as f32 * f32::from(visits(action));
         let open = || Action::ALL.into_iter().filter(|&action| Self::is_open(survey, action));
         let best = |actions: &mut dyn Iterator<Item = Action>| actions.max_by(|&a, &b| worth(a).total_cmp(&worth(b)));
         best(&mut open()).or_else(|| best(&mut Action::ALL.into_iter())).expect("there are four actions")
     }
 
-    pub fn step(&mut self, ground: &Ground, action: Action, recipe: &SurveyRecipe) -> Outcome {
+    pub fn step(&mut self, maze: &MazeLattice, action: Action, recipe: &SurveyRecipe) -> Outcome {
         if self.to_goal.is_empty() {
             // After a checkpoint.
-            self.to_goal = ground.steps_to(self.survey.goal, |cell| ground.clearance_m(cell) >= self.clearance_m);
+            self.to_goal = maze.steps_to(self.survey.goal, |cell| maze.clearance_m(cell) >= self.clearance_m);
         }
         let here = self.survey.tool;
         let visits = u32::from(self.survey.visits(here)) + 1;
         self.survey.set_visits(here, visits);
         self.steps += 1;
-        let next = self.survey.beside(here, action).filter(|&next| ground.clearance_m(next) >= self.clearance_m);
+        let next = self.survey.beside(here, action).filter(|&next| maze.clearance_m(next) >= self.clearance_m);
         let Some(next) = next else { return Outcome { reward: -1.0, ending: Some(Ending::Collided) } };
         let gained = f64::from(self.to_goal[here]) - f64::from(self.to_goal[next]);
         self.survey.tool = next;
         if recipe.memory {
-            self.look(ground);
+            self.look(maze);
         } else {
-            self.forget(ground);
+            self.forget(maze);
         }
-        let reached = (ground.center_m(next) - self.goal_m).norm() <= GOAL_RADIUS_M;
+        let reached = (maze.center_m(next) - self.goal_m).norm() <= GOAL_RADIUS_M;
         let reward = recipe.progress_reward * gained + f64::from(u8::from(reached));
         let ending = match reached {
             true => Some(Ending::Reached),
@@ -168,8 +166,8 @@ impl Episode {
     }
 
     /// Whether an action ends within the goal's radius.
-    pub fn reaches(&self, ground: &Ground, action: Action) -> bool {
+    pub fn reaches(&self, maze: &MazeLattice, action: Action) -> bool {
         let next = self.survey.beside(self.survey.tool, action);
-        next.is_some_and(|next| (ground.center_m(next) - self.goal_m).norm() <= GOAL_RADIUS_M)
+        next.is_some_and(|next| (maze.center_m(next) - self.goal_m).norm() <= GOAL_RADIUS_M)
     }
 }

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::episode::Episode;
-use super::ground::Ground;
+use super::lattice::MazeLattice;
 use super::learner::values;
 use super::recipe::SurveyRecipe;
 use super::teacher::Advice;
@@ -20,50 +20,51 @@ const TOGETHER: usize = 128;
 /// Mazes of a small examination during training.
 const EXAMINED: usize = 100;
 /// Below the value of any action.
-const NO_WAY: f32 = -1e6;
+const NO_PATH: f32 = -1e6;
 
 /// Values of the actions for surveys.
 type Judge<'a> = dyn FnMut(&[&Survey]) -> Result<Vec<[f32; 4]>> + 'a;
 
 /// The mazes of the small examinations.
-pub fn examined_mazes(grounds: &[Ground]) -> &[Ground] {
-    &grounds[..grounds.len().min(EXAMINED)]
+pub fn examined_mazes(mazes: &[MazeLattice]) -> &[MazeLattice] {
+    &mazes[..mazes.len().min(EXAMINED)]
 }
 
-/// `each` episodes on each ground, with random starts and goals.
+/// `each` episodes on each maze, with random starts and goals.
 ///
 /// # Errors
 /// Those of candle.
 pub fn examine(
     network: &Network,
     recipe: &SurveyRecipe,
-    grounds: &[Ground],
+    mazes: &[MazeLattice],
     each: u32,
     seed: u64,
 ) -> Result<Vec<Marks>> {
-    examine_by(&mut |surveys| values(network, surveys, ACTING_FRACTIONS, None), recipe, grounds, each, seed)
+    examine_by(&mut |surveys| values(network, surveys, ACTING_FRACTIONS, None), recipe, mazes, each, seed)
 }
 
 /// The same episodes by the teacher.
-pub fn examine_teacher(recipe: &SurveyRecipe, grounds: &[Ground], each: u32, seed: u64) -> Vec<Marks> {
-    let judge = |survey: &&Survey| Advice::on(survey).after.map(|steps| steps.map_or(NO_WAY, |steps| -f32::from(steps)));
-    let marks = examine_by(&mut |surveys| Ok(surveys.iter().map(judge).collect()), recipe, grounds, each, seed);
+pub fn examine_teacher(recipe: &SurveyRecipe, mazes: &[MazeLattice], each: u32, seed: u64) -> Vec<Marks> {
+    let judge =
+        |survey: &&Survey| Advice::on(survey).after.map(|steps| steps.map_or(NO_PATH, |steps| -f32::from(steps)));
+    let marks = examine_by(&mut |surveys| Ok(surveys.iter().map(judge).collect()), recipe, mazes, each, seed);
     marks.expect("the teacher has no network that could fail")
 }
 
 fn examine_by(
     judge: &mut Judge<'_>,
     recipe: &SurveyRecipe,
-    grounds: &[Ground],
+    mazes: &[MazeLattice],
     each: u32,
     seed: u64,
 ) -> Result<Vec<Marks>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(STREAM);
-    let mut marks = vec![Marks::default(); grounds.len()];
-    let indices = (0..grounds.len()).flat_map(|index| (0..each).map(move |_| index));
+    let mut marks = vec![Marks::default(); mazes.len()];
+    let indices = (0..mazes.len()).flat_map(|index| (0..each).map(move |_| index));
     let mut left: Vec<Episode> =
-        indices.filter_map(|index| Episode::on(grounds, index, None, recipe, &mut rng)).collect();
+        indices.filter_map(|index| Episode::on(mazes, index, None, recipe, &mut rng)).collect();
     while !left.is_empty() {
         let mut running: Vec<Episode> = left.drain(..left.len().min(TOGETHER)).collect();
         while !running.is_empty() {
@@ -72,12 +73,12 @@ fn examine_by(
             let mut still = Vec::with_capacity(running.len());
             for (mut episode, values) in running.into_iter().zip(values) {
                 let action = Episode::best(&episode.survey, values, recipe);
-                let ending = episode.step(&grounds[episode.ground], action, recipe).ending;
+                let ending = episode.step(&mazes[episode.maze], action, recipe).ending;
                 let Some(ending) = ending else {
                     still.push(episode);
                     continue;
                 };
-                let marks = &mut marks[episode.ground];
+                let marks = &mut marks[episode.maze];
                 marks.episodes += 1;
                 match ending {
                     Ending::Collided => marks.collided += 1,

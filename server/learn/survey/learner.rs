@@ -131,11 +131,12 @@ impl<'a> SurveyLearner<'a> {
         let features = self.networks.target.features_of_surveys(&beyond)?;
         let quantiles = self.networks.target.quantiles(&features, &places, &fractions, noise.as_ref())?;
         let flat: Vec<f32> = quantiles.flatten_all()?.to_vec1()?;
-        let targets = drawn.iter().zip(best).zip(flat.chunks_exact(4 * count)).flat_map(|(((_, step, _), best), row)| {
-            let discount = if step.terminal { 0.0 } else { recipe.discount as f32 };
-            let beyond = row.iter().skip(best.index()).step_by(4);
-            beyond.map(move |value| step.reward + discount * value)
-        });
+        let targets =
+            drawn.iter().zip(best).zip(flat.chunks_exact(4 * count)).flat_map(|(((_, step, _), best), row)| {
+                let discount = if step.terminal { 0.0 } else { recipe.discount as f32 };
+                let beyond = row.iter().skip(best.index()).step_by(4);
+                beyond.map(move |value| step.reward + discount * value)
+            });
         Tensor::from_iter(targets, &Device::Cpu)?.reshape((batch, count))
     }
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::episode::Episode;
 use super::examination::{examine, examined_mazes};
-use super::ground::Ground;
+use super::lattice::MazeLattice;
 use super::learner::{SurveyLearner, taught};
 use super::recipe::SurveyRecipe;
 use super::replay::{Entry, Step, SurveyReplay};
@@ -49,10 +49,10 @@ impl SurveyRun {
     ///
     /// # Errors
     /// [`TrainingError::Recipe`].
-    pub fn new(recipe: SurveyRecipe, seed: u64, grounds: &[Ground]) -> Result<Self, TrainingError> {
+    pub fn new(recipe: SurveyRecipe, seed: u64, mazes: &[MazeLattice]) -> Result<Self, TrainingError> {
         recipe.check()?;
         let mut memory = Memory::new(&recipe.architecture, seed);
-        let lanes = (0..recipe.lanes).map(|_| Episode::start(grounds, None, &recipe, &mut memory.rng)).collect();
+        let lanes = (0..recipe.lanes).map(|_| Episode::start(mazes, None, &recipe, &mut memory.rng)).collect();
         Ok(Self {
             seed,
             memory,
@@ -77,11 +77,11 @@ impl SurveyRun {
     ///
     /// # Errors
     /// [`TrainingError`].
-    pub fn run(&mut self, grounds: &[Ground], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
+    pub fn run(&mut self, mazes: &[MazeLattice], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
         let recipe = self.recipe.clone();
         let mut learner = SurveyLearner::new(&recipe, self.memory.clone())?;
         while learner.memory.updates < recipe.updates {
-            self.act(grounds, &mut learner)?;
+            self.act(mazes, &mut learner)?;
             if self.replay.len() < recipe.warm_up {
                 continue;
             }
@@ -94,7 +94,7 @@ impl SurveyRun {
             self.point.gradient.add(gradient);
             if update.is_multiple_of(WINDOW) || update == recipe.updates {
                 self.memory = learner.memory.clone();
-                self.end_point(grounds)?;
+                self.end_point(mazes)?;
                 if !watch(self) {
                     return Ok(());
                 }
@@ -104,7 +104,7 @@ impl SurveyRun {
     }
 
     /// One step of all lanes.
-    fn act(&mut self, grounds: &[Ground], learner: &mut SurveyLearner<'_>) -> NetworkResult<()> {
+    fn act(&mut self, mazes: &[MazeLattice], learner: &mut SurveyLearner<'_>) -> NetworkResult<()> {
         let surveys: Vec<_> = self.lanes.iter().map(|lane| &lane.survey).collect();
         let actions = learner.act(&surveys)?;
         let recipe = &self.recipe;
@@ -112,10 +112,10 @@ impl SurveyRun {
             let rng = &mut learner.memory.rng;
             let explores = rng.random::<f64>() < recipe.exploration;
             let action = if explores { Action::ALL[rng.random_range(0..4)] } else { action };
-            let ground = &grounds[lane.ground];
-            let taught = taught(lane, |action| lane.reaches(ground, action), recipe);
+            let maze = &mazes[lane.maze];
+            let taught = taught(lane, |action| lane.reaches(maze, action), recipe);
             let survey = lane.survey.clone();
-            let outcome = lane.step(ground, action, recipe);
+            let outcome = lane.step(maze, action, recipe);
             self.totals[index] += outcome.reward;
             let terminal = matches!(outcome.ending, Some(Ending::Reached | Ending::Collided));
             let step = Step { action: action as u8, reward: outcome.reward, terminal, taught };
@@ -128,16 +128,18 @@ impl SurveyRun {
             self.point.reached += u32::from(ending == Ending::Reached);
             self.point.collided += u32::from(ending == Ending::Collided);
             self.episodes += 1;
-            *lane = Episode::start(grounds, Some(lane), recipe, rng);
+            *lane = Episode::start(mazes, Some(lane), recipe, rng);
         }
         self.steps += self.lanes.len() as u64;
         Ok(())
     }
 
-    fn end_point(&mut self, grounds: &[Ground]) -> NetworkResult<()> {
+    fn end_point(&mut self, mazes: &[MazeLattice]) -> NetworkResult<()> {
         let update = self.memory.updates;
         let examined = match update.is_multiple_of(EXAMINED_EVERY) {
-            true => Some(examine(&self.network()?, &self.recipe, examined_mazes(grounds), 2, self.seed)?.into_iter().sum()),
+            true => {
+                Some(examine(&self.network()?, &self.recipe, examined_mazes(mazes), 2, self.seed)?.into_iter().sum())
+            }
             false => None,
         };
         let (steps, episodes) = (self.steps, self.episodes);

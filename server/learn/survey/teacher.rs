@@ -1,7 +1,7 @@
 //! The teacher: a planner that knows only what the policy knows, and takes everything unseen as free. A teacher that
 //! knew the whole maze would ask for what the policy cannot know (the imitation gap, Weihs et al. 2021).
 
-use super::ground::{UNREACHABLE, steps_to};
+use super::lattice::{UNREACHABLE, steps_to};
 use crate::perception::Area;
 use crate::policy::{Action, Survey};
 

@@ -24,8 +24,8 @@ fn small() -> SurveyRecipe {
     }
 }
 
-fn mazes(count: usize) -> Vec<Ground> {
-    Ground::generated(&[MazeFamily::Tubes, MazeFamily::Stones], 1, count).unwrap()
+fn drawn(count: usize) -> Vec<MazeLattice> {
+    MazeLattice::generated(&[MazeFamily::Tubes, MazeFamily::Stones], 1, count).unwrap()
 }
 
 #[test]
@@ -48,15 +48,15 @@ fn the_teacher_knows_only_what_is_on_the_survey() {
 
 #[test]
 fn only_what_was_near_is_known() {
-    let (grounds, recipe) = (mazes(2), small());
+    let (mazes, recipe) = (drawn(2), small());
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut episode = Episode::on(&grounds, 0, None, &recipe, &mut rng).unwrap();
+    let mut episode = Episode::on(&mazes, 0, None, &recipe, &mut rng).unwrap();
     for _ in 0..30 {
         let advice = Advice::on(&episode.survey);
         let best = Action::ALL.into_iter().filter(|action| advice.after[action.index()].is_some());
         let action = best.min_by_key(|action| advice.after[action.index()]).unwrap();
         let before = episode.survey.clone();
-        let outcome = episode.step(&grounds[0], action, &recipe);
+        let outcome = episode.step(&mazes[0], action, &recipe);
         assert_ne!(outcome.ending, Some(Ending::Collided), "the tool knows the cells beside it");
         assert_eq!(episode.survey.visits(before.tool), before.visits(before.tool) + 1);
         if outcome.ending.is_some() {
@@ -76,32 +76,32 @@ fn only_what_was_near_is_known() {
 
 #[test]
 fn without_memory_only_the_present_image_is_known() {
-    let (grounds, recipe) = (mazes(2), SurveyRecipe { memory: false, ..small() });
+    let (mazes, recipe) = (drawn(2), SurveyRecipe { memory: false, ..small() });
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut episode = Episode::on(&grounds, 0, None, &recipe, &mut rng).unwrap();
+    let mut episode = Episode::on(&mazes, 0, None, &recipe, &mut rng).unwrap();
     let known = |episode: &Episode| {
         (0..episode.survey.count()).filter(|&cell| episode.survey.known(cell) != Area::Unknown).count()
     };
     for _ in 0..10 {
         let open = Action::ALL.into_iter().find(|&action| Episode::is_open(&episode.survey, action)).unwrap();
-        episode.step(&grounds[0], open, &recipe);
+        episode.step(&mazes[0], open, &recipe);
         assert!(known(&episode) <= 19 * 19);
     }
 }
 
 #[test]
 fn rewards_are_those_of_the_true_distance() {
-    let (grounds, recipe) = (mazes(2), small());
+    let (mazes, recipe) = (drawn(2), small());
     let mut rng = ChaCha8Rng::seed_from_u64(4);
-    let start = Episode::on(&grounds, 1, None, &recipe, &mut rng).unwrap();
-    let rewards = Action::ALL.map(|action| start.clone().step(&grounds[1], action, &recipe));
+    let start = Episode::on(&mazes, 1, None, &recipe, &mut rng).unwrap();
+    let rewards = Action::ALL.map(|action| start.clone().step(&mazes[1], action, &recipe));
     assert!(rewards.iter().any(|outcome| (outcome.reward - 0.1).abs() < 1e-6), "{rewards:?}");
     assert!(rewards.iter().all(|outcome| {
         let sizes = [0.1, -0.1, -1.0, 1.1, 0.9];
         sizes.iter().any(|size| (outcome.reward - size).abs() < 1e-6)
     }));
     // The teacher's own best action has the highest taught value.
-    let taught = taught(&start, |action| start.reaches(&grounds[1], action), &recipe);
+    let taught = taught(&start, |action| start.reaches(&mazes[1], action), &recipe);
     let advice = Advice::on(&start.survey);
     let best = (0..4).filter(|&action| advice.after[action].is_some()).min_by_key(|&action| advice.after[action]);
     assert!(taught.iter().all(|value| *value <= taught[best.unwrap()] + 1e-6), "{taught:?}");
@@ -109,23 +109,23 @@ fn rewards_are_those_of_the_true_distance() {
 
 #[test]
 fn imitation_teaches_and_a_resumed_run_is_the_same() {
-    let (grounds, recipe) = (mazes(3), small());
+    let (mazes, recipe) = (drawn(3), small());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.checkpoint");
-    let mut whole = SurveyRun::new(recipe.clone(), 3, &grounds).unwrap();
-    whole.run(&grounds, &mut |_| true).unwrap();
+    let mut whole = SurveyRun::new(recipe.clone(), 3, &mazes).unwrap();
+    whole.run(&mazes, &mut |_| true).unwrap();
     let losses: Vec<f64> = whole.curve.iter().map(|point| point.loss.mean().unwrap()).collect();
     assert!(losses[1] < 0.5 * losses[0], "{losses:?}");
 
-    let mut half = SurveyRun::new(recipe.clone(), 3, &grounds).unwrap();
-    half.run(&grounds, &mut |run| {
+    let mut half = SurveyRun::new(recipe.clone(), 3, &mazes).unwrap();
+    half.run(&mazes, &mut |run| {
         run.write(&path, 1.0).unwrap();
         false
     })
     .unwrap();
     let (mut resumed, spent_s) = SurveyRun::read(&path, &recipe, 3).unwrap();
     assert_eq!((resumed.memory.updates, spent_s), (100, 1.0));
-    resumed.run(&grounds, &mut |_| true).unwrap();
+    resumed.run(&mazes, &mut |_| true).unwrap();
     assert_eq!(resumed.memory.online, whole.memory.online);
     assert_eq!(resumed.curve, whole.curve);
 
@@ -146,7 +146,7 @@ fn a_recipe_out_of_range_is_refused_by_name() {
 
 #[test]
 fn the_teacher_reaches_nearly_all_goals() {
-    let marks: crate::learn::Marks = examine_teacher(&small(), &mazes(6), 5, 1).into_iter().sum();
+    let marks: crate::learn::Marks = examine_teacher(&small(), &drawn(6), 5, 1).into_iter().sum();
     // Where the margin closes a narrow passage, a maze may have no start and goal that are connected.
     assert!(marks.episodes >= 25 && marks.reached + 1 >= marks.episodes, "{marks:?}");
     assert!(marks.steps as f64 >= 0.9 * f64::from(marks.least_steps));

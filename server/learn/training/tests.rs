@@ -83,7 +83,10 @@ fn a_checkpoint_that_does_not_fit_is_refused_with_the_reason() {
         assert!(text.contains("run.checkpoint"), "{text}");
         text
     };
-    assert!(matches!(State::read(&path, &recipe, 3, &terrains), Err(TrainingError::Checkpoint(CheckpointError::Io { .. }))), "no file exists yet");
+    assert!(
+        matches!(State::read(&path, &recipe, 3, &terrains), Err(TrainingError::Checkpoint(CheckpointError::Io { .. }))),
+        "no file exists yet"
+    );
 
     state.write(&path, 0.0).unwrap();
     assert!(State::read(&path, &recipe, 3, &terrains).is_ok());

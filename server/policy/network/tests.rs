@@ -6,8 +6,14 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 
-const FULL: Architecture =
-    Architecture { fusion: Fusion::Late, quantiles: true, dueling: true, noisy: true, residual: true, survey: SurveyParts::ALL };
+const FULL: Architecture = Architecture {
+    fusion: Fusion::Late,
+    quantiles: true,
+    dueling: true,
+    noisy: true,
+    residual: true,
+    survey: SurveyParts::ALL,
+};
 
 /// All parts, then each one switched off.
 const ALL: [Architecture; 6] = [

@@ -159,7 +159,10 @@ mod tests {
         assert_eq!(refusal("obstacle_level=300"), "obstacle_level is 300, it must be 50 to 199");
         assert_eq!(refusal("errt_ways=2.5"), "errt_ways is \"2.5\", it must be a whole number, 1 to 20");
         assert_eq!(refusal("rl_shield=1"), "rl_shield is \"1\", it must be true or false");
-        assert_eq!(refusal("rl_policy=best"), "rl_policy is \"best\", it must be one of auto, colon, general");
+        assert_eq!(
+            refusal("rl_policy=best"),
+            "rl_policy is \"best\", it must be one of auto, colon, general, explorer"
+        );
         assert_eq!(
             refusal("fetch_radius_m=0.15"),
             "fetch_radius_m is 0.15, it must be 0.002 to 0.1 m (at most threshold_m)"

@@ -185,7 +185,7 @@ export const POLICY: Lesson = {
     'The policy was trained with the tool in the middle of the image. At the first fold it gives a step down a low value and goes around the fold. With the moved camera, the fold is no longer in the middle of the image: the same step gets the highest value, and the policy always chooses it.',
     'The shield knows the position of the camera. It refuses that step and takes the next best one, to the left or to the right, so the tool moves to and fro. With the shield off, the arm does not move.',
     'ERRT delivers the bead with the same moved camera, because it calculates the place of each pixel on the table. ERRT uses the geometry; the policy only knows images like those it was trained with. With Corrected image on, Ferry moves the image to where it was in training, and the policy delivers the bead too.',
-    'The policy also needs a map that it was trained on. On colon-folds, which was not in its training, it rarely arrives; ERRT nearly always does.',
+    'This policy also needs the map that it was trained on. On other maps Ferry takes the policy explorer. It remembers what the camera has seen and plans with it, so it needs no training on the map, and a moved camera does not matter to it.',
   ],
   paper:
     'Section IV-A, sub-controller 2: observations of 2 × 84 × 84, four actions, success within 2 cm of the goal.',

@@ -167,4 +167,8 @@ taken: number,
 /**
  * Maps that the policy was trained on.
  */
-trained_on: Array<string>, };
+trained_on: Array<string>, 
+/**
+ * Whether the policy remembers what the camera has seen, so that it needs no training on the map.
+ */
+has_memory: boolean, };

@@ -10,7 +10,7 @@ use crate::map::{Map, Maze, MazeError, MazeFamily};
 pub const UNREACHABLE: u16 = u16::MAX;
 
 #[derive(Clone, Debug)]
-pub struct Ground {
+pub struct MazeLattice {
     name: String,
     workspace: Rect,
     columns: usize,
@@ -18,13 +18,14 @@ pub struct Ground {
     clearance_m: Vec<f32>,
 }
 
-impl Ground {
+impl MazeLattice {
     pub fn of(map: &Map) -> Self {
         let workspace = *map.workspace();
-        let [columns, rows] = [workspace.size_m().x, workspace.size_m().y].map(|side_m| (side_m / STEP_M + 1e-6) as usize);
-        let ground = Self { name: map.name().to_owned(), workspace, columns, clearance_m: Vec::new() };
-        let clearance_m = (0..columns * rows).map(|cell| map.clearance_m(ground.center_m(cell)) as f32).collect();
-        Self { clearance_m, ..ground }
+        let [columns, rows] =
+            [workspace.size_m().x, workspace.size_m().y].map(|side_m| (side_m / STEP_M + 1e-6) as usize);
+        let maze = Self { name: map.name().to_owned(), workspace, columns, clearance_m: Vec::new() };
+        let clearance_m = (0..columns * rows).map(|cell| map.clearance_m(maze.center_m(cell)) as f32).collect();
+        Self { clearance_m, ..maze }
     }
 
     /// Mazes of families, each with seeds from `first_seed` on, in turn.

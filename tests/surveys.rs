@@ -1,0 +1,95 @@
+//! What a policy with a memory sees live, compared with what it saw in training.
+
+use ferry::control::transport::rl::Rl;
+use ferry::control::transport::{Transport, TransportInput};
+use ferry::geometry::Point2;
+use ferry::learn::MazeLattice;
+use ferry::map::{MazeFamily, WALL_HEIGHT_M};
+use ferry::perception::{Area, ObstacleMap, Percept, wall_spread};
+use ferry::policy::{Policy, Survey};
+use ferry::scenario::{Parameters, Scenario};
+use ferry::trial::{Arena, Trial};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::support::gpu;
+
+/// Training's distance between a cell and the nearest wall, and by how much perception may see walls nearer.
+const CLEARANCE_M: f64 = 0.008;
+const MARGIN_M: f64 = 0.0025;
+/// Cells to each side of the tool that training takes as seen, at least and at most.
+const SEEN: [i64; 2] = [8, 10];
+
+#[test]
+fn perception_gives_the_survey_that_training_has() {
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let (mut compared, mut open) = (0, 0);
+    for (family, seed) in [(MazeFamily::Tubes, 3), (MazeFamily::Stones, 4), (MazeFamily::Rooms, 5)] {
+        let maze = ferry::map::Maze::generate(family, seed).unwrap();
+        let lattice = MazeLattice::of(&maze.map);
+        let arena = Arena::of(maze.map);
+        let mut camera = arena.camera(&gpu()).unwrap();
+        for _ in 0..8 {
+            let tool = loop {
+                let cell = rng.random_range(0..lattice.count());
+                if lattice.clearance_m(cell) > 0.012 {
+                    break cell;
+                }
+            };
+            let tool_m = lattice.center_m(tool);
+            let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle(arena.map.name(), 1) };
+            let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
+            let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
+            let parameters = Parameters::default();
+            let mut known = ObstacleMap::new(*arena.map.workspace());
+            let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
+            known.update(&percept.dark(parameters.obstacle_level), &percept.calibration, spread);
+            let survey = Survey::over(&known, 0.01, CLEARANCE_M, [tool_m, tool_m]);
+            assert_eq!((survey.shape(), survey.tool), (lattice.shape(), tool));
+            for cell in 0..survey.count() {
+                let [away, up] = [0, 1].map(|axis| (survey.place(cell)[axis] - survey.place(tool)[axis]).abs());
+                let clearance_m = lattice.clearance_m(cell);
+                match survey.known(cell) {
+                    Area::Unknown => assert!(away.max(up) > SEEN[0], "a near cell is unseen: {away}, {up}"),
+                    Area::Free => {
+                        assert!(clearance_m > CLEARANCE_M - 0.0005, "free at {clearance_m} m from a wall");
+                        assert!(away.max(up) <= SEEN[1], "a far cell is free: {away}, {up}");
+                        open += 1;
+                    }
+                    Area::Blocked => {
+                        assert!(clearance_m < CLEARANCE_M + MARGIN_M, "blocked at {clearance_m} m from a wall");
+                    }
+                }
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 40_000 && open > 2000, "{open} open cells of {compared}");
+}
+
+/// Walls that the camera has left behind still count, and a way round that was tried is not tried again.
+#[test]
+fn the_explorer_remembers() {
+    let arena = Arena::open("posts").unwrap();
+    let policy = Policy::shipped("explorer").unwrap();
+    let (tool_m, goal_m) = (Point2::new(-0.045, -0.375), Point2::new(0.205, -0.375));
+    let mut camera = arena.camera(&gpu()).unwrap();
+    let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle("posts", 1) };
+    let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
+    let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
+    let parameters = Parameters::default();
+    let judged = |known: &ObstacleMap| {
+        let mut rl = Rl::default();
+        let policy = Some(&*policy);
+        let input = TransportInput { percept: &percept, known, tool_m, goal_m, parameters: &parameters, policy };
+        rl.next_step(&input).unwrap();
+        (rl.survey().unwrap().clone(), rl.judged().unwrap().0.values())
+    };
+    let empty = ObstacleMap::new(*arena.map.workspace());
+    let mut seen = empty.clone();
+    let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
+    seen.update(&percept.dark(parameters.obstacle_level), &percept.calibration, spread);
+    let (before, after) = (judged(&empty), judged(&seen));
+    assert_ne!(before.0, after.0);
+    assert_ne!(before.1, after.1);
+}
