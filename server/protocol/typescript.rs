@@ -91,7 +91,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 10] {
+fn modules() -> [(&'static str, Vec<Declaration>); 11] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -109,13 +109,11 @@ fn modules() -> [(&'static str, Vec<Declaration>); 10] {
                 Plane,
                 WorkspaceQuery,
                 WorkspaceMap,
-                ValueQuery,
-                ValueCell,
-                ValueMap,
                 FlowQuery,
                 FlowField,
             ],
         ),
+        ("values", declared![ValueQuery, ValueCell, ValueMap]),
         (
             "evaluations",
             declared![EvaluationQuery, Cell, EvaluationStage, PaperRow, EvaluationCell, EvaluationSummary, Evaluations],

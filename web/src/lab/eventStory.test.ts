@@ -42,6 +42,7 @@ test('the explanation of a policy names its action and the value', () => {
     values: [0.1, 0.25, 0.9, 0],
     taken: 2,
     trained_on: [],
+    has_memory: false,
   };
   const story = whatItSaw({ ...chosen, overlay: { ...chosen.overlay, judgement } });
   expect(story).toContain('RL chose ↑ +y with a value of 0.90');

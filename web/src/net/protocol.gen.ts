@@ -7,6 +7,7 @@ export * from './protocol/session.gen';
 export * from './protocol/layers.gen';
 export * from './protocol/comparison.gen';
 export * from './protocol/fields.gen';
+export * from './protocol/values.gen';
 export * from './protocol/evaluations.gen';
 export * from './protocol/report.gen';
 export * from './protocol/recordings.gen';

@@ -15,6 +15,7 @@ const MAP: ValueMap = {
     { center_m: [0.115, -0.385], value: 1, action: 3 },
   ],
   trained_on: ['colon'],
+  has_memory: false,
 };
 const NONE: ValueMap = { ...MAP, cells: [] };
 
