@@ -11,8 +11,8 @@ use ferry::geometry::Point2;
 use ferry::image::{CameraFrame, CameraMount};
 use ferry::learn::sweep::{STEP_M, Sweep};
 use ferry::learn::{Recipe, State, Terrain};
-use ferry::map::FreeSpace;
-use ferry::perception::{ObstacleMap, Percept};
+use ferry::map::{FreeSpace, WALL_HEIGHT_M};
+use ferry::perception::{ObstacleMap, Percept, wall_spread};
 use ferry::policy::Policy;
 use ferry::scenario::Parameters;
 use ferry::trial::Arena;
@@ -44,11 +44,16 @@ fn frames(arena: &Arena, gpu: &std::sync::Arc<Gpu>) -> Vec<(Point2<f64>, CameraF
 }
 
 /// Times the whole of a decision: the frame understood, the way onto the lattice, the network, the shield.
-fn acting(c: &mut Criterion, arena: &Arena, gpu: &std::sync::Arc<Gpu>) {
-    let policy = Policy::shipped("colon").unwrap();
-    let known = ObstacleMap::new(*arena.map.workspace());
+fn acting(c: &mut Criterion, arena: &Arena, frames: &[(Point2<f64>, CameraFrame)], name: &str) {
+    let policy = Policy::shipped(name).unwrap();
     let parameters = Parameters::default();
-    let frames = frames(arena, gpu);
+    // All that the frames show: a policy with a memory gets it.
+    let mut known = ObstacleMap::new(*arena.map.workspace());
+    let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
+    for (tool_m, frame) in frames {
+        let percept = Percept::of(frame, *tool_m);
+        known.update(&percept.dark(parameters.obstacle_level), &percept.calibration, spread);
+    }
     let decide = |(tool_m, frame): &(Point2<f64>, CameraFrame)| {
         // Over the middle of a cell, where the network decides.
         let [x, y] = [tool_m.x, tool_m.y].map(|value: f64| ((value * 100.0 - 0.5).round() + 0.5) / 100.0);
@@ -66,9 +71,9 @@ fn acting(c: &mut Criterion, arena: &Arena, gpu: &std::sync::Arc<Gpu>) {
     let mut times: Vec<Duration> = frames.iter().filter_map(least).collect();
     times.sort_unstable();
     let quantile = |share: f64| times[(share * (times.len() - 1) as f64) as usize];
-    println!("policy/frame to action: median {:?}, p99 {:?}, most {:?}", quantile(0.5), quantile(0.99), quantile(1.0));
+    println!("policy/{name}, frame to action: median {:?}, p99 {:?}, most {:?}", quantile(0.5), quantile(0.99), quantile(1.0));
     let mut cycle = frames.iter().cycle();
-    c.bench_function("policy/frame to action", |b| {
+    c.bench_function(&format!("policy/{name}, frame to action"), |b| {
         b.iter_custom(|count| cycle.by_ref().take(count as usize).map(decide).sum());
     });
 }
@@ -76,7 +81,10 @@ fn acting(c: &mut Criterion, arena: &Arena, gpu: &std::sync::Arc<Gpu>) {
 pub fn benches(c: &mut Criterion) {
     let arena = Arena::open("colon").unwrap();
     let gpu = Gpu::open(AdapterChoice::Auto).unwrap();
-    acting(c, &arena, &gpu);
+    let frames = frames(&arena, &gpu);
+    for name in ["colon", "explorer"] {
+        acting(c, &arena, &frames, name);
+    }
     let recipe = Recipe { updates: UPDATES, ..Recipe::default() };
     let sweep = Sweep::take(&arena, &gpu, STEP_M, &|| ()).unwrap();
     let terrains = [Terrain::new("colon", arena.map.workspace(), &sweep, recipe.clearance_m).unwrap()];

@@ -95,7 +95,9 @@ test('shows the action values of a policy and its decision', async ({ lab }) => 
   await expect(page.getByTestId('rl-taken')).toHaveCount(0);
 });
 
-test('reports that the policy plans with what it has seen on a map it was not trained on', async ({ lab }) => {
+test('reports that the policy plans with what it has seen on a map it was not trained on', async ({
+  lab,
+}) => {
   await lab.map('attractor-example-arm');
   await lab.controller('RL');
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.06, 0.2)[0]);

@@ -47,6 +47,25 @@ impl ObstacleMap {
 
     /// Content of a disc.
     pub fn disc(&self, center: Point2<f64>, radius_m: f64) -> Area {
+        if !self.keeps_in(center, center, radius_m) {
+            return Area::Blocked;
+        }
+        // Most discs are in a square of one kind, which takes a tenth of the time to look at.
+        let (columns, rows) = self.shape();
+        let reach = Vector2::new(radius_m, radius_m);
+        let [low, high] = [center - reach, center + reach].map(|corner| self.in_cells(corner));
+        // Also the cells that the disc only touches. Casting a negative number gives 0.
+        let [first, end] = [low.map(|at| (at.ceil() - 1.0) as usize), high.map(|at| at as usize + 1)];
+        let across = [first.x.min(columns), end.x.min(columns)];
+        let mut up = first.y..end.y.min(rows);
+        if !up.clone().any(|row| self.cells.obstacle.any(row, across[0], across[1])) {
+            if up.clone().all(|row| self.cells.seen.all(row, across[0], across[1])) {
+                return Area::Free;
+            }
+            if !up.any(|row| self.cells.seen.any(row, across[0], across[1])) {
+                return Area::Unknown;
+            }
+        }
         self.corridor(center, center, radius_m)
     }
 

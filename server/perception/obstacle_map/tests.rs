@@ -257,6 +257,7 @@ proptest! {
         }
         prop_assert_eq!(map.corridor(from, to, clearance_m), expected);
         prop_assert_eq!(map.corridor(to, from, clearance_m), expected);
+        prop_assert_eq!(map.disc(from, clearance_m), map.corridor(from, from, clearance_m));
         prop_assert_eq!(map.is_corridor_free(from, to, clearance_m, Unknown::Blocked), expected == Area::Free);
         prop_assert_eq!(map.is_corridor_free(from, to, clearance_m, Unknown::Free), expected != Area::Blocked);
     }

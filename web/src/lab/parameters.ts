@@ -17,7 +17,7 @@ export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
   attractor:
     'Attractor: no plan. It heads for the goal, and walls in view bend its motion. It can get stuck.',
   replanner:
-    'Replanner: the shortest path around the walls that it has seen, found anew at each new one. A reference for evaluations.',
+    'Replanner: the shortest path around the walls that it has seen, and a new one at each new wall. A reference for evaluations.',
 };
 
 export type NumberName = {
