@@ -1,13 +1,13 @@
 # `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
 # `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses,
 # `make dist` writes an archive with the program, `make results` runs the evaluations of docs/evaluation.md,
-# `make ablations` trains the policies of docs/ablations.md.
+# `make ablations` trains the policies of docs/ablations.md, `make mazes` evaluates controllers on unseen mazes (docs/mazes.md).
 # Each target first installs what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test dist results ablations soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist results ablations mazes soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description.
@@ -61,6 +61,11 @@ results: system-run
 ablations: system-run
 	cargo build --release
 	python3 tests/results/ablations.py
+
+# Five hours of one core with the default of 200 trials on each maze. An interrupted run goes on.
+mazes: system-run
+	cargo build --release
+	python3 tests/results/mazes.py
 
 # Its budgets are strict: run nothing else meanwhile. SOAK_MINUTES=4 is a shorter run.
 soak: system-test

@@ -33,7 +33,8 @@ fn auto_takes_the_policy_of_the_drawing_not_of_the_name() {
     let auto = |arena: std::sync::Arc<Arena>| arena.policy(RlPolicy::Auto).unwrap().hash();
     let shipped = |name: &str| Policy::shipped(name).unwrap().hash();
     assert_eq!(auto(drawn("mine", "colon")), shipped("colon"));
-    assert_eq!(auto(drawn("colon", "posts")), shipped("explorer"));
+    assert_eq!(auto(drawn("colon", "posts")), shipped("general"));
+    assert_eq!(auto(drawn("colon", "colon-folds")), shipped("explorer"));
 }
 
 #[test]

@@ -67,9 +67,9 @@ fn perception_gives_the_survey_that_training_has() {
     assert!(compared > 40_000 && open > 2000, "{open} open cells of {compared}");
 }
 
-/// Walls that the camera has left behind still count, and a way round that was tried is not tried again.
+/// The policy decides by the obstacle map, not by the image alone.
 #[test]
-fn the_explorer_remembers() {
+fn the_explorer_decides_by_the_obstacle_map() {
     let arena = Arena::open("posts").unwrap();
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.375), Point2::new(0.205, -0.375));

@@ -38,17 +38,20 @@ impl Arena {
         Arc::new(arena)
     }
 
-    /// The policy in use: the arena's own, or else the requested shipped one. Which one `auto` takes depends on the
-    /// map's drawing, not on its name.
+    /// The policy in use: the arena's own, or else the requested shipped one. `auto` takes one that was trained on the
+    /// map's drawing, whatever its name, or else the explorer.
     pub fn policy(&self, asked: RlPolicy) -> Result<Arc<Policy>, PolicyError> {
         if let Some(own) = &self.policy {
             return Ok(own.clone());
         }
         let name = match asked {
-            RlPolicy::Auto if self.map.is_drawn_like_shipped("colon") => "colon",
+            RlPolicy::Auto => {
+                let knows = |name: &&str| Policy::shipped(name).is_ok_and(|policy| self.is_drawn_as_trained(&policy));
+                ["colon", "general"].into_iter().find(knows).unwrap_or("explorer")
+            }
             RlPolicy::Colon => "colon",
             RlPolicy::General => "general",
-            RlPolicy::Auto | RlPolicy::Explorer => "explorer",
+            RlPolicy::Explorer => "explorer",
         };
         Policy::shipped(name)
     }
@@ -58,8 +61,12 @@ impl Arena {
         let name_is = |name: &String| *name == self.map.name();
         self.policy(asked).is_ok_and(|policy| match &self.policy {
             Some(own) => own.manifest().maps.iter().any(name_is),
-            None => policy.manifest().maps.iter().any(|name| self.map.is_drawn_like_shipped(name)),
+            None => self.is_drawn_as_trained(&policy),
         })
+    }
+
+    fn is_drawn_as_trained(&self, policy: &Policy) -> bool {
+        policy.manifest().maps.iter().any(|name| self.map.is_drawn_like_shipped(name))
     }
 
     /// Share of the area where trials are set up that the tool reaches.

@@ -71,7 +71,12 @@ fn acting(c: &mut Criterion, arena: &Arena, frames: &[(Point2<f64>, CameraFrame)
     let mut times: Vec<Duration> = frames.iter().filter_map(least).collect();
     times.sort_unstable();
     let quantile = |share: f64| times[(share * (times.len() - 1) as f64) as usize];
-    println!("policy/{name}, frame to action: median {:?}, p99 {:?}, most {:?}", quantile(0.5), quantile(0.99), quantile(1.0));
+    println!(
+        "policy/{name}, frame to action: median {:?}, p99 {:?}, most {:?}",
+        quantile(0.5),
+        quantile(0.99),
+        quantile(1.0)
+    );
     let mut cycle = frames.iter().cycle();
     c.bench_function(&format!("policy/{name}, frame to action"), |b| {
         b.iter_custom(|count| cycle.by_ref().take(count as usize).map(decide).sum());

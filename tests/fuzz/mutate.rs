@@ -80,7 +80,7 @@ fn in_form(target: Target, bytes: &[u8], rng: &mut impl Rng) -> Option<Vec<u8>> 
         Target::Policy => {
             let (length, rest) = bytes.split_first_chunk()?;
             let (header, rest) = rest.split_at_checked(usize::try_from(u64::from_le_bytes(*length)).ok()?)?;
-            let header = in_json(header, rng)?;
+            let header = if rng.random() { in_manifest(header, rng)? } else { in_json(header, rng)? };
             Some([&(header.len() as u64).to_le_bytes()[..], &header, rest].concat())
         }
         Target::Entries => {
@@ -113,6 +113,14 @@ fn in_json(bytes: &[u8], rng: &mut impl Rng) -> Option<Vec<u8>> {
     let mut value: Value = serde_json::from_slice(bytes).ok()?;
     in_tree(&mut value, rng);
     serde_json::to_vec(&value).ok()
+}
+
+/// Changes one value of the manifest, which is a text in a policy's header.
+fn in_manifest(header: &[u8], rng: &mut impl Rng) -> Option<Vec<u8>> {
+    let mut header: serde_json::Value = serde_json::from_slice(header).ok()?;
+    let manifest = header.pointer_mut("/__metadata__/ferry")?;
+    *manifest = String::from_utf8(in_json(manifest.as_str()?.as_bytes(), rng)?).ok()?.into();
+    serde_json::to_vec(&header).ok()
 }
 
 /// Changes one value of the tree, each as likely as any other.

@@ -33,7 +33,7 @@ EVALUATIONS = [
      "A hand draws the bead away three times through free space, and the tool starts at least 15 cm from the bead.",
      200, ["--map", "colon,posts", "--controller", ALL, "--disturbances", "3", "--by-hand", "--tool-apart"]),
     ("general", "RL with the general policy", "One network for four maps.",
-     400, ["--map", "posts,vessels", "--controller", "rl", "--disturbances", "0,3"]),
+     400, ["--map", "posts,vessels", "--controller", "rl", "--disturbances", "0,3", "--set", "rl_policy=general"]),
     ("poor", "Poor sensors",
      "A tracker with noise, bias, drift, losses and latency, which the arm can hide the bead from, and a late camera with "
      "noise.",

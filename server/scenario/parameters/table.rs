@@ -174,7 +174,7 @@ parameters! {
         rl_policy: RlPolicy = RlPolicy::Auto,
             Kind::Choice(&[("auto", "Auto: by map"), ("colon", "Colon"), ("general", "General"),
                            ("explorer", "Explorer")]),
-            "Policy", "Which trained policy runs. Auto takes the one trained on this map only, else the explorer, which \
+            "Policy", "Which trained policy runs. Auto takes the one trained on this map, else the explorer, which \
                        remembers what the camera has seen and needs no training on the map.";
         rl_shield: bool = true, Kind::Flag,
             "Shield", "Replaces a best step that comes near a visible wall by the next best. \
