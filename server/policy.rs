@@ -2,6 +2,7 @@
 
 mod convolution;
 mod file;
+mod lattice;
 mod linear;
 mod modulation;
 mod network;
@@ -16,7 +17,9 @@ use crate::geometry::Vector2;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation};
 
 pub use file::{Manifest, PolicyError};
+pub use lattice::{Cell, Lattice, neighbours};
 pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, TensorSpec};
+use survey::Plan;
 pub use survey::{Survey, SurveyParts};
 
 /// Number of quantile fractions for acting (Dabney et al. 2018, K = 32).
@@ -142,22 +145,16 @@ impl Policy {
     /// # Errors
     /// [`PolicyError::Network`], for a policy that sees an image.
     pub fn judge_survey(&self, survey: &Survey) -> Result<Judgement, PolicyError> {
-        fault_point!("inference");
-        let features = self.network.features_of_surveys(&[survey])?;
-        Ok(self.judge_from(&features, &[[0.0; 4]])?.remove(0))
+        Ok(self.plan(survey)?.judge(&[survey.tool])?.remove(0))
     }
 
-    /// The same with the tool above each of many cells.
+    /// Plans over a survey, to judge it with the tool above other cells too.
     ///
     /// # Errors
     /// [`PolicyError::Network`], for a policy that sees an image.
-    pub fn judge_cells(&self, survey: &Survey, cells: &[usize]) -> Result<Vec<Judgement>, PolicyError> {
-        let mut judged = Vec::with_capacity(cells.len());
-        for cells in cells.chunks(BATCH) {
-            let features = self.network.features_at(survey, cells)?;
-            judged.extend(self.judge_from(&features, &vec![[0.0; 4]; cells.len()])?);
-        }
-        Ok(judged)
+    pub fn plan<'a>(&'a self, survey: &'a Survey) -> Result<Planned<'a>, PolicyError> {
+        fault_point!("inference");
+        Ok(Planned { policy: self, plan: self.network.plan(survey)? })
     }
 
     /// Output of the trunk: `[B]` observations of 2×84×84 bytes → `[B, 128]`. With late fusion the places on channel 1
@@ -188,6 +185,28 @@ impl Policy {
             quantiles: std::array::from_fn(|action| row.iter().skip(action).step_by(4).copied().collect()),
         };
         Ok(flat.chunks_exact(4 * count).map(judgement).collect())
+    }
+}
+
+/// A policy's plan over a survey.
+#[derive(Clone, Debug)]
+pub struct Planned<'a> {
+    policy: &'a Policy,
+    plan: Plan<'a>,
+}
+
+impl Planned<'_> {
+    /// Quantiles of the return for all four actions, with the tool above each of many cells.
+    ///
+    /// # Errors
+    /// [`PolicyError::Network`], only if [`Policy`] has accepted an invalid network.
+    pub fn judge(&self, cells: &[usize]) -> Result<Vec<Judgement>, PolicyError> {
+        let mut judged = Vec::with_capacity(cells.len());
+        for cells in cells.chunks(BATCH) {
+            let features = self.policy.network.features_at(&self.plan, cells)?;
+            judged.extend(self.policy.judge_from(&features, &vec![[0.0; 4]; cells.len()])?);
+        }
+        Ok(judged)
     }
 }
 

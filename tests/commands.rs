@@ -131,7 +131,7 @@ fn replay_refuses_unreadable_logs_and_accepts_truncated_ones() {
     newer[8] += 1;
     for (bytes, parts) in [
         (edited.as_slice(), &["changed.ferry", "damaged or edited after", "whole ticks"][..]),
-        (&newer, &["version 7, this Ferry reads version 6"]),
+        (&newer, &["version 8, this Ferry reads version 7"]),
         (b"<svg></svg>", &["not a Ferry input log", "<svg></s"]),
         (&whole[..9], &["ends before its first trial"]),
     ] {

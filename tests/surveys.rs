@@ -12,7 +12,7 @@ use ferry::trial::{Arena, Trial};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::support::gpu;
+use crate::support::{ferry, gpu};
 
 /// Training's distance between a cell and the nearest wall, and by how much perception may see walls nearer.
 const CLEARANCE_M: f64 = 0.008;
@@ -92,4 +92,52 @@ fn the_explorer_decides_by_the_obstacle_map() {
     let (before, after) = (judged(&empty), judged(&seen));
     assert_ne!(before.0, after.0);
     assert_ne!(before.1, after.1);
+}
+
+/// Where the obstacle map shows its next cells clear, the tool goes straight over them.
+#[test]
+fn a_shortcut_leads_over_observed_cells_only() {
+    let arena = Arena::open("open").unwrap();
+    let policy = Policy::shipped("explorer").unwrap();
+    let (tool_m, goal_m) = (Point2::new(-0.045, -0.425), Point2::new(0.055, -0.325));
+    let mut camera = arena.camera(&gpu()).unwrap();
+    let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle("open", 1) };
+    let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
+    let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
+    let step_m = |known: &ObstacleMap, parameters: &Parameters| {
+        let policy = Some(&*policy);
+        let input = TransportInput { percept: &percept, known, tool_m, goal_m, parameters, policy };
+        let step_m = Rl::default().next_step(&input).unwrap().target_m - tool_m;
+        [step_m.x, step_m.y].map(|side_m| (1000.0 * side_m).round())
+    };
+    let standard = Parameters::default();
+    let unobserved = ObstacleMap::new(*arena.map.workspace());
+    let mut observed = unobserved.clone();
+    let spread = wall_spread(standard.camera_height_m, WALL_HEIGHT_M);
+    observed.update(&percept.dark(standard.obstacle_level), &percept.calibration, spread);
+    let along_an_axis = |step: [f64; 2]| step.contains(&0.0) && step.contains(&10.0);
+    let oblique = step_m(&observed, &standard);
+    assert!(oblique.iter().all(|&side| side > 3.0), "{oblique:?}");
+    let by_axis = step_m(&observed, &Parameters { rl_shortcut: false, ..standard.clone() });
+    assert!(along_an_axis(by_axis), "{by_axis:?}");
+    let unseen = step_m(&unobserved, &standard);
+    assert!(along_an_axis(unseen), "{unseen:?}");
+}
+
+/// In this trial the policy's route comes back to the cell that it begins in, while its memory stays the same.
+#[test]
+fn a_route_that_comes_back_does_not_hold_the_tool() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = ferry(&["maps", "generate", "--family", "spirals", "--seed", "4", "--count", "1", "--out"])
+        .arg(folder.path())
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let done = ferry(&["evaluate", "--controller", "rl", "--episodes", "3", "--episode", "2", "--seed", "77"])
+        .args(["--set", "step_limit=400", "--json", "--map"])
+        .arg(folder.path().join("spirals-4.svg"))
+        .output()
+        .unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!(report["rows"][0]["delivered"], 1, "{report}");
 }

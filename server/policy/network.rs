@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::convolution::Convolution;
 use super::linear::{Input, Linear, Noise};
 use super::modulation::modulate;
-use super::survey::{Survey, SurveyParts, SurveyTrunk};
+use super::survey::{Plan, Survey, SurveyParts, SurveyTrunk};
 
 /// Width of every fully connected layer.
 pub const HIDDEN: usize = 128;
@@ -277,12 +277,22 @@ impl Network {
         }
     }
 
-    /// The same from one survey, with the tool above each of many cells: `[cells, 128]`.
+    /// The plan over one survey.
     ///
     /// # Errors Those of candle, for a network that has no survey.
-    pub fn features_at(&self, survey: &Survey, cells: &[usize]) -> Result<Tensor> {
+    pub(super) fn plan<'a>(&self, survey: &'a Survey) -> Result<Plan<'a>> {
         match &self.trunk {
-            Trunk::Survey(trunk) => trunk.features_at(survey, cells),
+            Trunk::Survey(trunk) => trunk.plan(survey),
+            Trunk::Image(_) => candle_core::bail!("the network sees an image, not a survey"),
+        }
+    }
+
+    /// Features with the tool above each of many cells of a plan's survey: `[cells, 128]`.
+    ///
+    /// # Errors Those of candle, for a network that has no survey.
+    pub(super) fn features_at(&self, plan: &Plan<'_>, cells: &[usize]) -> Result<Tensor> {
+        match &self.trunk {
+            Trunk::Survey(trunk) => trunk.features_at(plan, cells),
             Trunk::Image(_) => candle_core::bail!("the network sees an image, not a survey"),
         }
     }

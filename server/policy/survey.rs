@@ -11,14 +11,13 @@ mod trunk;
 use serde::{Deserialize, Serialize};
 
 use super::Action;
-use crate::geometry::{Point2, Vector2};
+use super::lattice::Lattice;
+use crate::geometry::Point2;
 use crate::image::GrayImage;
 use crate::perception::{Area, OBSERVATION_SIZE_PX, ObstacleMap};
 
-pub use trunk::SurveyTrunk;
+pub use trunk::{Plan, SurveyTrunk};
 
-/// A side that is a multiple of a step, except for rounding, has all its cells.
-const ROUNDING: f64 = 1e-6;
 /// Largest number of visits that is counted.
 const MAX_VISITS: u8 = 63;
 
@@ -63,19 +62,15 @@ impl Survey {
     /// What an obstacle map shows of the lattice: a cell is free if no obstacle is within `clearance_m` of its centre, and
     /// all of that was observed. Without visits. Tool and goal outside the workspace are at its border.
     pub fn over(map: &ObstacleMap, step_m: f64, clearance_m: f64, [tool_m, goal_m]: [Point2<f64>; 2]) -> Self {
-        let corner_m = Point2::new(map.workspace().x_min_m, map.workspace().y_min_m);
-        let size_m = map.workspace().size_m();
-        let [columns, rows] = [size_m.x, size_m.y].map(|side_m| ((side_m / step_m + ROUNDING) as usize).max(1));
-        // Casting a negative number gives 0.
-        let index = |along_m: f64, count: usize| ((along_m / step_m) as usize).min(count - 1);
+        let lattice = Lattice { workspace: *map.workspace(), step_m };
+        let (columns, rows) = lattice.shape();
         let cell_at = |place: Point2<f64>| {
-            let along_m: Vector2<f64> = place - corner_m;
-            index(along_m.y, rows) * columns + index(along_m.x, columns)
+            let [column, row] = lattice.cell_at(place).map(|index| index.max(0) as usize);
+            row.min(rows - 1) * columns + column.min(columns - 1)
         };
         let mut survey = Self::unknown(columns, rows, cell_at(tool_m), cell_at(goal_m));
         for cell in 0..survey.count() {
-            let along_m = |index: usize| (index as f64 + 0.5) * step_m;
-            let center_m = corner_m + Vector2::new(along_m(cell % columns), along_m(cell / columns));
+            let center_m = lattice.center_m(survey.place(cell));
             survey.set_known(cell, map.disc(center_m, clearance_m));
         }
         survey

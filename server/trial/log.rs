@@ -19,7 +19,7 @@ use super::entry::{Entry, LoggedBeginning, LoggedMap};
 use crate::files::{ReadError, read_at_most};
 
 /// Format version. Increase it when an older reader would misread a file.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 const MAGIC: &[u8; 8] = b"ferrylog";
 const FRAME_HEAD: usize = 8;
 /// Bytes of a seal.
@@ -371,9 +371,9 @@ mod tests {
         let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();
         assert!(matches!(InputLog::read(&without), Err(LogError::Damaged { ticks: 1, .. })));
         let mut newer = bytes.clone();
-        newer[8] = 7;
+        newer[8] = 8;
         let error = InputLog::read(&newer).unwrap_err().to_string();
-        assert!(error.contains("version 7") && error.contains("reads version 6"), "{error}");
+        assert!(error.contains("version 8") && error.contains("reads version 7"), "{error}");
         let error = InputLog::read(b"RRF2 and so on").unwrap_err().to_string();
         assert!(error.contains("RRF2"), "{error}");
     }

@@ -3,6 +3,11 @@
 //! In training the tool was only at the centres of the sweep's cells. So the tool first goes to a nearby cell that
 //! keeps training's distance from walls, and then from cell to cell. Between two cells the network does not run: a slow
 //! tool needs several control steps for one action.
+//!
+//! A policy with a memory does not depend on the image, so the tool may be between cells. It takes a shortcut over the
+//! cells to which the policy would go, where a straight line over them is clear.
+
+mod shortcut;
 
 use std::collections::BTreeMap;
 
@@ -11,45 +16,23 @@ use serde::{Deserialize, Serialize};
 use super::progress::{Progress, Standstill};
 use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
-use crate::geometry::{Point2, Rect, Vector2};
-use crate::perception::{Observation, Percept};
-use crate::policy::{Action, Judgement, Policy, PolicyError, Survey};
+use crate::geometry::{Point2, Vector2};
+use crate::perception::{Area, Observation, Percept};
+use crate::policy::{Action, Cell, Judgement, Lattice, Policy, PolicyError, Survey};
 
 /// Share of a step within which the tool counts as over a cell.
 const OVER: f64 = 0.35;
 /// Distance, in cells, within which the tool looks for a cell to enter the lattice.
 const ENTRY_CELLS: i64 = 2;
 
-/// The places used in training.
-#[derive(Clone, Copy, Debug)]
-struct Lattice {
-    workspace: Rect,
-    step_m: f64,
-}
-
-/// Column and row of a cell.
-type Cell = [i64; 2];
-
-impl Lattice {
-    fn center_m(&self, [column, row]: Cell) -> Point2<f64> {
-        let along = |index: i64| (index as f64 + 0.5) * self.step_m;
-        Point2::new(self.workspace.x_min_m + along(column), self.workspace.y_min_m + along(row))
-    }
-
-    fn cell_at(&self, place: Point2<f64>) -> Cell {
-        let index = |value: f64, min_m: f64| ((value - min_m) / self.step_m).floor() as i64;
-        [index(place.x, self.workspace.x_min_m), index(place.y, self.workspace.y_min_m)]
-    }
-
-    fn is_over(&self, place: Point2<f64>, cell: Cell) -> bool {
-        (self.center_m(cell) - place).norm() <= OVER * self.step_m
-    }
+fn is_over(lattice: &Lattice, place: Point2<f64>, cell: Cell) -> bool {
+    (lattice.center_m(cell) - place).norm() <= OVER * lattice.step_m
 }
 
 /// The transport and its memory.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rl {
-    /// The cell that the tool is over or moves to.
+    /// The cell that the tool is over or moves to; `None` on a shortcut.
     cell: Option<Cell>,
     /// The network's result for the last image that it evaluated, and the action taken.
     judged: Option<(Judgement, Action)>,
@@ -71,25 +54,20 @@ impl Rl {
         self.survey.as_ref()
     }
 
-    /// Asks the policy, over a cell.
-    fn judge(
-        &mut self,
-        policy: &Policy,
-        input: &TransportInput<'_>,
-        lattice: &Lattice,
-        here: Cell,
-    ) -> Result<Judgement, PolicyError> {
-        if policy.has_memory() {
-            let ends_m = [lattice.center_m(here), input.goal_m];
-            let mut survey = Survey::over(input.known, lattice.step_m, policy.manifest().clearance_m, ends_m);
-            for (&place, &visits) in &self.visits {
-                if let Some(cell) = survey.cell_at(place) {
-                    survey.set_visits(cell, visits);
-                }
+    /// What a policy with a memory sees over a cell.
+    fn survey_over(&self, policy: &Policy, input: &TransportInput<'_>, lattice: &Lattice, here: Cell) -> Survey {
+        let ends_m = [lattice.center_m(here), input.goal_m];
+        let mut survey = Survey::over(input.known, lattice.step_m, policy.manifest().clearance_m, ends_m);
+        for (&place, &visits) in &self.visits {
+            if let Some(cell) = survey.cell_at(place) {
+                survey.set_visits(cell, visits);
             }
-            return policy.judge_survey(self.survey.insert(survey));
         }
-        self.survey = None;
+        survey
+    }
+
+    /// Asks a policy that sees the image.
+    fn judge(policy: &Policy, input: &TransportInput<'_>, lattice: &Lattice) -> Result<Judgement, PolicyError> {
         let gray = input.percept.for_network(input.parameters.rl_corrects_image, input.tool_m, input.known);
         policy.judge(&Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace))
     }
@@ -101,6 +79,26 @@ impl Rl {
         let penalty = input.parameters.rl_visit_penalty as f32;
         let visits = Action::ALL.map(|action| self.visits.get(&beside(here, action)).copied().unwrap_or_default());
         judgement.ranking_with(visits.map(|count| penalty * count as f32))
+    }
+
+    /// The best action, from a cell to the one beside it.
+    fn take(
+        &mut self,
+        policy: &Policy,
+        input: &TransportInput<'_>,
+        lattice: &Lattice,
+        here: Cell,
+        judgement: Judgement,
+    ) -> TargetStep {
+        *self.visits.entry(here).or_default() += 1;
+        let action = choose(lattice, input, policy, self.ranking(&judgement, input, here), here);
+        self.judged = Some((judgement, action));
+        let center_m = lattice.center_m(beside(here, action));
+        let step = Self::toward(input, center_m);
+        // A step that the limits refuse is not taken. The next image is evaluated from here.
+        let is_taken = lattice.workspace.contains(center_m) && !is_blocked(input, step.target_m);
+        self.cell = Some(if is_taken { beside(here, action) } else { here });
+        step
     }
 
     /// The nearest cell that keeps the clearance with no obstacle before it; if none keeps the clearance, the cell with
@@ -126,10 +124,10 @@ impl Rl {
         best.map(|(_, cell)| cell)
     }
 
-    /// A control step toward the middle of a cell.
-    fn toward(lattice: &Lattice, input: &TransportInput<'_>, cell: Cell) -> TargetStep {
+    /// A control step toward a place.
+    fn toward(input: &TransportInput<'_>, place_m: Point2<f64>) -> TargetStep {
         let limit_m_s = input.parameters.transport_speed_m_s;
-        let offset: Vector2<f64> = (lattice.center_m(cell) - input.tool_m).cap_magnitude(limit_m_s * CONTROL_PERIOD_S);
+        let offset: Vector2<f64> = (place_m - input.tool_m).cap_magnitude(limit_m_s * CONTROL_PERIOD_S);
         let speed_m_s = (offset.norm() / CONTROL_PERIOD_S).min(limit_m_s);
         TargetStep { target_m: input.tool_m + offset, speed_m_s }
     }
@@ -172,35 +170,59 @@ impl Transport for Rl {
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
         let Some(policy) = input.policy else { return Err(Refusal::Policy("none is loaded".to_owned())) };
+        let failed = |error: PolicyError| Refusal::Policy(error.to_string());
         let lattice = Lattice { workspace: *input.known.workspace(), step_m: policy.manifest().step_m };
+        let takes_shortcuts = policy.has_memory() && input.parameters.rl_shortcut;
         self.progress.note(input.tool_m);
         let here = match self.cell {
-            Some(cell) if lattice.is_over(input.tool_m, cell) => cell,
-            // The tool is still moving to its cell.
-            Some(cell) => return Ok(Self::toward(&lattice, input, cell)),
+            Some(cell) => cell,
             None => {
-                let near = lattice.cell_at(input.tool_m);
-                let clearance_m = policy.manifest().clearance_m;
-                let cell = Self::entry(&lattice, input, clearance_m).unwrap_or(near);
-                self.cell = Some(cell);
-                if !lattice.is_over(input.tool_m, cell) {
-                    return Ok(Self::toward(&lattice, input, cell));
+                let (near, clearance_m) = (lattice.cell_at(input.tool_m), policy.manifest().clearance_m);
+                let is_free = || input.known.disc(lattice.center_m(near), clearance_m) == Area::Free;
+                match takes_shortcuts && is_free() {
+                    true => near,
+                    false => Self::entry(&lattice, input, clearance_m).unwrap_or(near),
                 }
-                cell
             }
         };
-        let judgement = self.judge(policy, input, &lattice, here);
-        let judgement = judgement.map_err(|error| Refusal::Policy(error.to_string()))?;
-        *self.visits.entry(here).or_default() += 1;
-        let action = choose(&lattice, input, policy, self.ranking(&judgement, input, here), here);
-        self.judged = Some((judgement, action));
-        let cell = beside(here, action);
-        let step = Self::toward(&lattice, input, cell);
-        // A step that the limits refuse is not taken. The next image is evaluated from here.
-        if lattice.workspace.contains(lattice.center_m(cell)) && !is_blocked(input, step.target_m) {
-            self.cell = Some(cell);
+        let is_over_cell = is_over(&lattice, input.tool_m, here);
+        // The tool is still moving to its cell.
+        if !is_over_cell && (self.cell.is_some() || !takes_shortcuts) {
+            self.cell = Some(here);
+            return Ok(Self::toward(input, lattice.center_m(here)));
         }
-        Ok(step)
+        if !policy.has_memory() {
+            self.survey = None;
+            let judgement = Self::judge(policy, input, &lattice).map_err(failed)?;
+            return Ok(self.take(policy, input, &lattice, here, judgement));
+        }
+        let survey = self.survey_over(policy, input, &lattice, here);
+        let planned = policy.plan(&survey).map_err(failed)?;
+        let judgement = planned.judge(&[survey.tool]).map_err(failed)?.remove(0);
+        if takes_shortcuts {
+            let action = choose(&lattice, input, policy, self.ranking(&judgement, input, here), here);
+            let clearance_m = policy.manifest().clearance_m;
+            let route =
+                shortcut::Route { rl: self, planned: &planned, survey: &survey, lattice: &lattice, input, clearance_m };
+            let ahead_m = route.farthest_clear_m(here, beside(here, action)).map_err(failed)?;
+            let step = ahead_m.map(|ahead_m| Self::toward(input, ahead_m));
+            if let Some(step) = step.filter(|step| !is_blocked(input, step.target_m)) {
+                // Between two cells it decides over the same cell again.
+                let was_here = self.cell.is_none() && self.survey.as_ref().is_some_and(|last| last.tool == survey.tool);
+                *self.visits.entry(here).or_default() += u32::from(!was_here);
+                self.cell = None;
+                self.judged = Some((judgement, action));
+                self.survey = Some(survey);
+                return Ok(step);
+            }
+            if !is_over_cell {
+                self.cell = Some(here);
+                return Ok(Self::toward(input, lattice.center_m(here)));
+            }
+        }
+        drop(planned);
+        self.survey = Some(survey);
+        Ok(self.take(policy, input, &lattice, here, judgement))
     }
 
     fn trouble(&self) -> Option<Trouble> {

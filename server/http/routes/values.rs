@@ -12,7 +12,7 @@ use super::sessions::view;
 use crate::camera::Gpu;
 use crate::control::transport::Carrier;
 use crate::evaluate::gentle_pool;
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::Point2;
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
@@ -20,7 +20,7 @@ use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
 use crate::learn::{Atlas, AtlasError};
 use crate::perception::Area;
-use crate::policy::{Judgement, Policy, PolicyError, Survey};
+use crate::policy::{Judgement, Lattice, Policy, PolicyError, Survey};
 use crate::protocol::{ValueMap, ValueQuery};
 use crate::trial::{Arena, Sight};
 
@@ -133,11 +133,8 @@ fn remembered(
         }
     }
     let cells: Vec<usize> = (0..survey.count()).filter(|&cell| survey.known(cell) != Area::Blocked).collect();
-    let judged = policy.judge_cells(&survey, &cells)?;
-    let corner_m = Point2::new(known.workspace().x_min_m, known.workspace().y_min_m);
-    let center_m = |cell: usize| {
-        let [column, row] = survey.place(cell).map(|index| (index as f64 + 0.5) * manifest.step_m);
-        corner_m + Vector2::new(column, row)
-    };
-    Ok(cells.into_iter().map(center_m).zip(judged).collect())
+    let judged = policy.plan(&survey)?.judge(&cells)?;
+    let lattice = Lattice { workspace: *known.workspace(), step_m: manifest.step_m };
+    let centers_m = cells.into_iter().map(|cell| lattice.center_m(survey.place(cell)));
+    Ok(centers_m.zip(judged).collect())
 }

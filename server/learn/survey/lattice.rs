@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::{Point2, Rect, Vector2};
+use crate::geometry::Point2;
 use crate::learn::sweep::STEP_M;
 use crate::map::{Map, Maze, MazeError, MazeFamily};
+use crate::policy::{Lattice, neighbours};
 
 /// Distance without a path.
 pub const UNREACHABLE: u16 = u16::MAX;
@@ -12,18 +13,16 @@ pub const UNREACHABLE: u16 = u16::MAX;
 #[derive(Clone, Debug)]
 pub struct MazeLattice {
     name: String,
-    workspace: Rect,
-    columns: usize,
+    lattice: Lattice,
     /// Row by row from the smallest y; negative inside walls.
     clearance_m: Vec<f32>,
 }
 
 impl MazeLattice {
     pub fn of(map: &Map) -> Self {
-        let workspace = *map.workspace();
-        let [columns, rows] =
-            [workspace.size_m().x, workspace.size_m().y].map(|side_m| (side_m / STEP_M + 1e-6) as usize);
-        let maze = Self { name: map.name().to_owned(), workspace, columns, clearance_m: Vec::new() };
+        let lattice = Lattice { workspace: *map.workspace(), step_m: STEP_M };
+        let (columns, rows) = lattice.shape();
+        let maze = Self { name: map.name().to_owned(), lattice, clearance_m: Vec::new() };
         let clearance_m = (0..columns * rows).map(|cell| map.clearance_m(maze.center_m(cell)) as f32).collect();
         Self { clearance_m, ..maze }
     }
@@ -46,7 +45,7 @@ impl MazeLattice {
 
     /// Columns and rows.
     pub fn shape(&self) -> (usize, usize) {
-        (self.columns, self.clearance_m.len() / self.columns)
+        self.lattice.shape()
     }
 
     pub fn count(&self) -> usize {
@@ -58,14 +57,13 @@ impl MazeLattice {
     }
 
     pub fn center_m(&self, cell: usize) -> Point2<f64> {
-        let corner = Point2::new(self.workspace.x_min_m, self.workspace.y_min_m);
-        let [column, row] = [cell % self.columns, cell / self.columns].map(|index| (index as f64 + 0.5) * STEP_M);
-        corner + Vector2::new(column, row)
+        let (columns, _) = self.shape();
+        self.lattice.center_m([cell % columns, cell / columns].map(|index| index as i64))
     }
 
     /// Steps to a cell from every other, over the cells that `is_free`, and from the cells beside those.
     pub fn steps_to(&self, goal: usize, is_free: impl Fn(usize) -> bool) -> Vec<u16> {
-        steps_to(self.columns, self.count(), goal, is_free)
+        steps_to(self.shape().0, self.count(), goal, is_free)
     }
 }
 
@@ -75,14 +73,7 @@ pub fn steps_to(columns: usize, count: usize, goal: usize, is_free: impl Fn(usiz
     steps[goal] = 0;
     let mut open = std::collections::VecDeque::from([goal]);
     while let Some(cell) = open.pop_front() {
-        let column = cell % columns;
-        let beside = [
-            (column + 1 < columns).then_some(cell + 1),
-            (column > 0).then(|| cell.wrapping_sub(1)),
-            (cell + columns < count).then_some(cell + columns),
-            cell.checked_sub(columns),
-        ];
-        for next in beside.into_iter().flatten() {
+        for next in neighbours(cell, columns, count) {
             if steps[next] == UNREACHABLE && is_free(next) {
                 steps[next] = steps[cell] + 1;
                 open.push_back(next);

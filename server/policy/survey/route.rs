@@ -10,6 +10,8 @@ use std::collections::BinaryHeap;
 use candle_core::{CpuStorage, CustomOp1, Error, Layout, Result, Shape, Storage, Tensor};
 use rayon::prelude::*;
 
+use crate::policy::lattice::neighbours;
+
 /// Costs to the goal from costs of entering a cell, both `[B, rows · columns]` of f32: 0 at the goal, elsewhere the
 /// least of a neighbour's own cost and its cost to the goal.
 #[derive(Clone, Debug)]
@@ -26,18 +28,6 @@ impl CheapestRoutes {
         costs.contiguous()?.apply_op1(self)
     }
 
-    fn neighbours(&self, cell: usize, count: usize) -> impl Iterator<Item = usize> + use<> {
-        let columns = self.columns;
-        let column = cell % columns;
-        let beside = [
-            (column + 1 < columns).then_some(cell + 1),
-            (column > 0).then(|| cell.wrapping_sub(1)),
-            (cell + columns < count).then_some(cell + columns),
-            cell.checked_sub(columns),
-        ];
-        beside.into_iter().flatten()
-    }
-
     fn to_goal(&self, costs: &[f32], goal: usize) -> Vec<f32> {
         let mut found = vec![f32::INFINITY; costs.len()];
         let mut open = BinaryHeap::new();
@@ -51,7 +41,7 @@ impl CheapestRoutes {
                 continue;
             }
             let entered = at + costs[cell];
-            for beside in self.neighbours(cell, costs.len()) {
+            for beside in neighbours(cell, self.columns, costs.len()) {
                 if entered < found[beside] {
                     found[beside] = entered;
                     open.push(Reverse((entered.to_bits(), beside as u32)));
@@ -68,8 +58,7 @@ impl CheapestRoutes {
             let mut cell = from;
             while cell != goal {
                 let by_cost_of = |&next: &usize| costs[next] + found[next];
-                let next = self
-                    .neighbours(cell, costs.len())
+                let next = neighbours(cell, self.columns, costs.len())
                     .min_by(|a, b| by_cost_of(a).total_cmp(&by_cost_of(b)))
                     .expect("a cell has neighbours");
                 by_cost[next] += gradient;

@@ -138,7 +138,7 @@ fn room() -> Survey {
 fn the_values_of_many_cells_are_those_of_each() {
     let (policy, survey) = (policy(SurveyParts::ALL), room());
     let cells = [0, 14, 50, 107];
-    let together = policy.judge_cells(&survey, &cells).unwrap();
+    let together = policy.plan(&survey).unwrap().judge(&cells).unwrap();
     for (cell, together) in cells.into_iter().zip(together) {
         let alone = policy.judge_survey(&Survey { tool: cell, ..survey.clone() }).unwrap();
         for (a, b) in together.values().into_iter().zip(alone.values()) {

@@ -80,18 +80,23 @@ impl SurveyTrunk {
         }
         let planes: Vec<Vec<f32>> = frames.iter().map(|frame| frame.planes(self.parts)).collect();
         let by_cell = self.by_cell(&frames, &planes)?;
-        let tools = frames.iter().zip(&planes).map(|(frame, planes)| (frame, planes.as_slice(), frame.survey.tool));
+        let each = frames.iter().zip(&planes).enumerate();
+        let tools = each.map(|(entry, (frame, planes))| Tool { entry, frame, planes, cell: frame.survey.tool });
         self.of_tools(&by_cell, &tools.collect::<Vec<_>>())
     }
 
-    /// The same for one survey with the tool above each of many cells: `[cells, hidden]`.
-    pub fn features_at(&self, survey: &Survey, cells: &[usize]) -> Result<Tensor> {
+    /// What [`Self::features_at`] needs of a survey.
+    pub fn plan<'a>(&self, survey: &'a Survey) -> Result<Plan<'a>> {
         let frame = Frame::of(survey);
         let planes = frame.planes(self.parts);
         let by_cell = self.by_cell(std::slice::from_ref(&frame), std::slice::from_ref(&planes))?;
-        let by_cell = by_cell.broadcast_as((cells.len(), by_cell.dim(1)?))?.contiguous()?;
-        let tools = cells.iter().map(|&cell| (&frame, planes.as_slice(), cell));
-        self.of_tools(&by_cell, &tools.collect::<Vec<_>>())
+        Ok(Plan { frame, planes, by_cell })
+    }
+
+    /// Features of one survey with the tool above each of many cells: `[cells, hidden]`.
+    pub fn features_at(&self, plan: &Plan<'_>, cells: &[usize]) -> Result<Tensor> {
+        let tool = |&cell: &usize| Tool { entry: 0, frame: &plan.frame, planes: &plan.planes, cell };
+        self.of_tools(&plan.by_cell, &cells.iter().map(tool).collect::<Vec<_>>())
     }
 
     /// The cost of a step into each cell and on to the goal: `[B, rows · columns]` of the frames.
@@ -103,10 +108,10 @@ impl SurveyTrunk {
         costs + to_goal
     }
 
-    /// `[B]` frames with their planes and the cell of the tool → `[B, hidden]`.
-    fn of_tools(&self, by_cell: &Tensor, tools: &[(&Frame<'_>, &[f32], usize)]) -> Result<Tensor> {
+    /// `[B]` → `[B, hidden]`.
+    fn of_tools(&self, by_cell: &Tensor, tools: &[Tool<'_>]) -> Result<Tensor> {
         let planned = planned(by_cell, tools)?;
-        let patches = tools.iter().flat_map(|(frame, planes, tool)| frame.patch(planes, *tool));
+        let patches = tools.iter().flat_map(|tool| tool.frame.patch(tool.planes, tool.cell));
         let patches = Tensor::from_iter(patches, &Device::Cpu)?.reshape((tools.len(), PATCH))?;
         let local = self.local.forward(&Tensor::cat(&[&patches, &planned], 1)?, Input::AsItIs, None)?;
         self.join.forward(&local, Input::Rectified, None)
@@ -142,13 +147,13 @@ impl SurveyTrunk {
 }
 
 /// What the plan says about the four actions, and where the goal is: `[B, PLANNED]`.
-fn planned(by_cell: &Tensor, tools: &[(&Frame<'_>, &[f32], usize)]) -> Result<Tensor> {
-    let (batch, count) = by_cell.dims2()?;
-    let beside = tools.iter().enumerate().flat_map(|(entry, (frame, _, tool))| {
-        let tool = frame.cell(*tool);
+fn planned(by_cell: &Tensor, tools: &[Tool<'_>]) -> Result<Tensor> {
+    let (batch, count) = (tools.len(), by_cell.dim(1)?);
+    let beside = tools.iter().flat_map(|tool| {
+        let cell = tool.frame.cell(tool.cell);
         Action::ALL.map(|action| {
             let (dx, dy) = action.offset();
-            (entry * count + tool.wrapping_add_signed(dx + dy * frame.columns as isize)) as u32
+            (tool.entry * count + cell.wrapping_add_signed(dx + dy * tool.frame.columns as isize)) as u32
         })
     });
     let beside = Tensor::from_iter(beside, &Device::Cpu)?;
@@ -158,12 +163,30 @@ fn planned(by_cell: &Tensor, tools: &[(&Frame<'_>, &[f32], usize)]) -> Result<Te
     let bounded = more.broadcast_div(&(&more + 1.0)?)?;
     let far = (more * 0.1)?.clamp(0.0, 1.0)?;
     let ahead = ((least + 1.0)?.log()? * 0.2)?;
-    let bearing = tools.iter().flat_map(|(frame, _, tool)| frame.bearing(*tool));
+    let bearing = tools.iter().flat_map(|tool| tool.frame.bearing(tool.cell));
     let bearing = Tensor::from_iter(bearing, &Device::Cpu)?.reshape((batch, 4))?;
     Tensor::cat(&[&bounded, &far, &ahead, &bearing], 1)
 }
 
+/// A survey with what the planning layer says of it.
+#[derive(Clone, Debug)]
+pub struct Plan<'a> {
+    frame: Frame<'a>,
+    planes: Vec<f32>,
+    /// `[1, rows · columns]` of the frame.
+    by_cell: Tensor,
+}
+
+/// The tool above a cell of the survey of one entry of a batch.
+struct Tool<'a> {
+    entry: usize,
+    frame: &'a Frame<'a>,
+    planes: &'a [f32],
+    cell: usize,
+}
+
 /// A survey with a border of at least one cell, with sides that the coarse scale divides.
+#[derive(Clone, Debug)]
 struct Frame<'a> {
     survey: &'a Survey,
     columns: usize,

@@ -182,6 +182,9 @@ parameters! {
         rl_visit_penalty: f64 = 0.1, number(PLAIN, [0.0, 1.0], 0.01),
             "Visit penalty", "Subtracted from the value of a step for each earlier visit of its cell since the last \
                               fetch or goal. It ends going to and fro. 0 is the paper.";
+        rl_shortcut: bool = true, Kind::Flag,
+            "Shortcuts", "A policy with a memory goes straight over the next cells of its route where the way is known \
+                          to be clear, instead of step by step along the axes.";
         rl_corrects_image: bool = true, Kind::Flag,
             "Corrected image", "The network gets the square of table around the tool, as in training, wherever the camera \
                                 is. Without it, it gets the camera's own image.";

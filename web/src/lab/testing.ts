@@ -88,6 +88,7 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
     rl_policy: 'auto',
     rl_shield: true,
     rl_visit_penalty: 0.1,
+    rl_shortcut: true,
     rl_corrects_image: true,
     errt_goal_probability: 0.1,
     errt_waypoint_probability: 0.6,

@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::Rect;
 use crate::perception::{ObstacleMap, test_frame};
 use crate::policy::{Architecture, Manifest, TensorSpec};
 use crate::scenario::Parameters;
