@@ -1,5 +1,8 @@
 //! What a policy with a memory sees live, compared with what it saw in training.
 
+use std::sync::Arc;
+
+use ferry::camera::Camera;
 use ferry::control::transport::rl::Rl;
 use ferry::control::transport::{Transport, TransportInput};
 use ferry::geometry::Point2;
@@ -20,6 +23,22 @@ const MARGIN_M: f64 = 0.0025;
 /// Cells to each side of the tool that training takes as seen, at least and at most.
 const SEEN: [i64; 2] = [8, 10];
 
+/// What the camera shows with the tool above a place.
+fn percept_above(arena: &Arc<Arena>, camera: &mut Camera, tool_m: Point2<f64>) -> Percept {
+    let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle(arena.map.name(), 1) };
+    let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
+    Percept::of(&camera.capture(&subject).unwrap(), tool_m)
+}
+
+/// An obstacle map after one image.
+fn observed(percept: &Percept, arena: &Arena) -> ObstacleMap {
+    let parameters = Parameters::default();
+    let mut known = ObstacleMap::new(*arena.map.workspace());
+    let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
+    known.update(&percept.dark(parameters.obstacle_level), &percept.calibration, spread);
+    known
+}
+
 #[test]
 fn perception_gives_the_survey_that_training_has() {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
@@ -37,13 +56,7 @@ fn perception_gives_the_survey_that_training_has() {
                 }
             };
             let tool_m = lattice.center_m(tool);
-            let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle(arena.map.name(), 1) };
-            let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
-            let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
-            let parameters = Parameters::default();
-            let mut known = ObstacleMap::new(*arena.map.workspace());
-            let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
-            known.update(&percept.dark(parameters.obstacle_level), &percept.calibration, spread);
+            let known = observed(&percept_above(&arena, &mut camera, tool_m), &arena);
             let survey = Survey::over(&known, 0.01, CLEARANCE_M, [tool_m, tool_m]);
             assert_eq!((survey.shape(), survey.tool), (lattice.shape(), tool));
             for cell in 0..survey.count() {
@@ -74,9 +87,7 @@ fn the_explorer_decides_by_the_obstacle_map() {
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.375), Point2::new(0.205, -0.375));
     let mut camera = arena.camera(&gpu()).unwrap();
-    let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle("posts", 1) };
-    let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
-    let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
+    let percept = percept_above(&arena, &mut camera, tool_m);
     let parameters = Parameters::default();
     let judged = |known: &ObstacleMap| {
         let mut rl = Rl::default();
@@ -86,10 +97,7 @@ fn the_explorer_decides_by_the_obstacle_map() {
         (rl.survey().unwrap().clone(), rl.judged().unwrap().0.values())
     };
     let empty = ObstacleMap::new(*arena.map.workspace());
-    let mut seen = empty.clone();
-    let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
-    seen.update(&percept.dark(parameters.obstacle_level), &percept.calibration, spread);
-    let (before, after) = (judged(&empty), judged(&seen));
+    let (before, after) = (judged(&empty), judged(&observed(&percept, &arena)));
     assert_ne!(before.0, after.0);
     assert_ne!(before.1, after.1);
 }
@@ -101,9 +109,7 @@ fn a_shortcut_leads_over_observed_cells_only() {
     let policy = Policy::shipped("explorer").unwrap();
     let (tool_m, goal_m) = (Point2::new(-0.045, -0.425), Point2::new(0.055, -0.325));
     let mut camera = arena.camera(&gpu()).unwrap();
-    let scenario = Scenario { start_m: Some(tool_m), ..Scenario::idle("open", 1) };
-    let subject = Trial::new(scenario, arena.clone()).unwrap().subject();
-    let percept = Percept::of(&camera.capture(&subject).unwrap(), tool_m);
+    let percept = percept_above(&arena, &mut camera, tool_m);
     let step_m = |known: &ObstacleMap, parameters: &Parameters| {
         let policy = Some(&*policy);
         let input = TransportInput { percept: &percept, known, tool_m, goal_m, parameters, policy };
@@ -112,9 +118,7 @@ fn a_shortcut_leads_over_observed_cells_only() {
     };
     let standard = Parameters::default();
     let unobserved = ObstacleMap::new(*arena.map.workspace());
-    let mut observed = unobserved.clone();
-    let spread = wall_spread(standard.camera_height_m, WALL_HEIGHT_M);
-    observed.update(&percept.dark(standard.obstacle_level), &percept.calibration, spread);
+    let observed = observed(&percept, &arena);
     let along_an_axis = |step: [f64; 2]| step.contains(&0.0) && step.contains(&10.0);
     let oblique = step_m(&observed, &standard);
     assert!(oblique.iter().all(|&side| side > 1.0), "{oblique:?}");
