@@ -129,9 +129,10 @@ fn replay_refuses_unreadable_logs_and_accepts_truncated_ones() {
     edited[whole.len() / 2] ^= 4;
     let mut newer = whole.clone();
     newer[8] += 1;
+    let versions = format!("version {}, this Ferry reads version {}", InputLog::VERSION + 1, InputLog::VERSION);
     for (bytes, parts) in [
         (edited.as_slice(), &["changed.ferry", "damaged or edited after", "whole ticks"][..]),
-        (&newer, &["version 8, this Ferry reads version 7"]),
+        (&newer, &[versions.as_str()]),
         (b"<svg></svg>", &["not a Ferry input log", "<svg></s"]),
         (&whole[..9], &["ends before its first trial"]),
     ] {

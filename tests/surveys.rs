@@ -94,7 +94,7 @@ fn the_explorer_decides_by_the_obstacle_map() {
         let policy = Some(&*policy);
         let input = TransportInput { percept: &percept, known, tool_m, goal_m, parameters: &parameters, policy };
         rl.next_step(&input).unwrap();
-        (rl.survey().unwrap().clone(), rl.judged().unwrap().0.values())
+        (rl.survey().unwrap().clone(), rl.decision().unwrap().judgement.values())
     };
     let empty = ObstacleMap::new(*arena.map.workspace());
     let (before, after) = (judged(&empty), judged(&observed(&percept, &arena)));

@@ -8,7 +8,7 @@ use super::numbers::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
 use crate::control::transport::Carrier;
 use crate::control::transport::attractor::Flow;
 use crate::control::transport::errt::Errt;
-use crate::control::transport::rl::Rl;
+use crate::control::transport::rl::{Decision, Rl};
 use crate::geometry::{Point2, Rect};
 use crate::perception::{CellState, ObstacleMap, PixelRect};
 use crate::policy::{Judgement, Policy};
@@ -121,6 +121,8 @@ pub struct SeenMessage {
 /// The policy's evaluation of the last image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct JudgementLayer {
+    /// The policy that acts: `colon`, `general` or `explorer`, or `own` for one from a file.
+    pub policy: String,
     /// Quantiles of the return for +x, −x, +y and −y, at the fractions (k + ½) / K.
     #[schema(value_type = Lists4)]
     pub quantiles: [Vec<f32>; 4],
@@ -129,6 +131,8 @@ pub struct JudgementLayer {
     pub values: [f32; 4],
     /// Index of the action that was taken; the best one, unless the shield chose the next best.
     pub taken: u8,
+    /// Whether the tool goes straight over several cells of the route that begins with the action.
+    pub is_shortcut: bool,
     /// Maps that the policy was trained on.
     pub trained_on: Vec<String>,
     /// Whether the policy remembers what the camera has seen, so that it needs no training on the map.
@@ -284,12 +288,15 @@ impl From<Flow> for FlowField {
 impl JudgementLayer {
     /// Layer of a policy; `None` before its first decision.
     pub fn of(rl: &Rl, arena: &Arena, policy: RlPolicy) -> Option<Self> {
-        let (judgement, taken) = rl.judged()?;
+        let Decision { judgement, action, shortcut_m, .. } = rl.decision()?;
+        let name = arena.policy_name(policy).to_owned();
         let policy = arena.policy(policy).ok()?;
         Some(Self {
+            policy: name,
             quantiles: judgement.quantiles.clone(),
             values: judgement.values(),
-            taken: taken.index() as u8,
+            taken: action.index() as u8,
+            is_shortcut: shortcut_m.is_some(),
             trained_on: policy.manifest().maps.clone(),
             has_memory: policy.has_memory(),
         })

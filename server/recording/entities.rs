@@ -232,8 +232,8 @@ impl Writer {
     /// Logs the controller's evaluation of the image.
     fn evaluation(&mut self, sight: &Sight) -> Result<(), RecordingError> {
         match &sight.carrier {
-            Carrier::Rl(rl) => match rl.judged() {
-                Some((judgement, _)) => self.judgement(judgement),
+            Carrier::Rl(rl) => match rl.decision() {
+                Some(decision) => self.judgement(&decision.judgement),
                 None => Ok(()),
             },
             Carrier::Errt(errt) if self.plans != Some(errt.plans()) => {

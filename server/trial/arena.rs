@@ -41,10 +41,16 @@ impl Arena {
     /// The policy in use: the arena's own, or else the requested shipped one. `auto` takes one that was trained on the
     /// map's drawing, whatever its name, or else the explorer.
     pub fn policy(&self, asked: RlPolicy) -> Result<Arc<Policy>, PolicyError> {
-        if let Some(own) = &self.policy {
-            return Ok(own.clone());
+        match &self.policy {
+            Some(own) => Ok(own.clone()),
+            None => Policy::shipped(self.policy_name(asked)),
         }
-        let name = match asked {
+    }
+
+    /// The name of the policy in use; `own` for the arena's own.
+    pub fn policy_name(&self, asked: RlPolicy) -> &'static str {
+        match asked {
+            _ if self.policy.is_some() => "own",
             RlPolicy::Auto => {
                 let knows = |name: &&str| Policy::shipped(name).is_ok_and(|policy| self.is_drawn_as_trained(&policy));
                 ["colon", "general"].into_iter().find(knows).unwrap_or("explorer")
@@ -52,8 +58,7 @@ impl Arena {
             RlPolicy::Colon => "colon",
             RlPolicy::General => "general",
             RlPolicy::Explorer => "explorer",
-        };
-        Policy::shipped(name)
+        }
     }
 
     /// Whether the policy in use was trained on this map's drawing. A policy of one's own names its maps only.

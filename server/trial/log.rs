@@ -19,7 +19,7 @@ use super::entry::{Entry, LoggedBeginning, LoggedMap};
 use crate::files::{ReadError, read_at_most};
 
 /// Format version. Increase it when an older reader would misread a file.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 const MAGIC: &[u8; 8] = b"ferrylog";
 const FRAME_HEAD: usize = 8;
 /// Bytes of a seal.
@@ -150,6 +150,9 @@ pub struct InputLog {
 }
 
 impl InputLog {
+    /// Version of the file format.
+    pub const VERSION: u32 = VERSION;
+
     /// Reads a log from a file.
     ///
     /// # Errors
@@ -371,9 +374,9 @@ mod tests {
         let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();
         assert!(matches!(InputLog::read(&without), Err(LogError::Damaged { ticks: 1, .. })));
         let mut newer = bytes.clone();
-        newer[8] = 8;
+        newer[8] += 1;
         let error = InputLog::read(&newer).unwrap_err().to_string();
-        assert!(error.contains("version 8") && error.contains("reads version 7"), "{error}");
+        assert!(error.contains(&format!("version {}, this Ferry reads version {VERSION}", VERSION + 1)), "{error}");
         let error = InputLog::read(b"RRF2 and so on").unwrap_err().to_string();
         assert!(error.contains("RRF2"), "{error}");
     }

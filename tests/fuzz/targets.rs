@@ -142,7 +142,7 @@ pub fn framed(payload: &[u8]) -> Vec<u8> {
     let mut packed = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::none());
     packed.write_all(payload).unwrap();
     let packed = packed.finish().unwrap();
-    let (version, length) = (7_u32, (packed.len() as u32).to_le_bytes());
+    let (version, length) = (InputLog::VERSION, (packed.len() as u32).to_le_bytes());
     let check = (xxh3_64_with_seed(&length, u64::from(version)) as u32).to_le_bytes();
     let hash = xxh3_64_with_seed(&packed, u64::from(version)).to_le_bytes();
     let end = (12 + 8 + packed.len() as u64 + 8 + 16).to_le_bytes();

@@ -39,7 +39,9 @@ test('RL delivers on an uploaded map, and the panel says what it was trained on'
   await lab.controller('RL');
   await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.2, 0.4).at(-1), 'a goal'));
   await lab.run();
+  await expect(page.getByTestId('rl-policy')).toHaveText('explorer');
   await expect(page.getByTestId('rl-trained-on')).toContainText('tubes');
+  await expect(page.getByTestId('rl-shortcut')).toBeVisible();
   await expect(page.getByTestId('rl-memory')).toContainText('what the camera has seen');
   await lab.delivered(1);
   await lab.pause();

@@ -92,8 +92,6 @@ impl Errt {
     /// tool that switches between them makes no progress.
     fn plan(&mut self, obstacles: &Obstacles, input: &TransportInput<'_>) -> Result<(), Refusal> {
         let parameters = planner_parameters(input.parameters);
-        // Waypoints follow the known path; the comparison needs different ones.
-        let other = PlannerParameters { waypoint_probability: 0.0, ..parameters };
         let is_same = |task: &Task| task.goal == input.goal_m && (task.from - input.tool_m).norm() <= OFF_PATH_M;
         let goes_on = *self.planner.progress() == Progress::Searching && self.task.as_ref().is_some_and(is_same);
         let mut task = match self.task.take().filter(|_| goes_on) {
@@ -130,7 +128,14 @@ impl Errt {
                 break;
             }
             if *self.planner.progress() != Progress::Searching {
-                self.planner.start(if task.paths > 0 { &other } else { &parameters }, obstacles, task.from, task.goal);
+                // Waypoints follow the known path; the comparison needs different ones. A clearance that took too long
+                // is not tried again.
+                let others = task.best.as_ref().map(|(path, _)| PlannerParameters {
+                    waypoint_probability: 0.0,
+                    clearance_m: path.clearance.asked_m,
+                    ..parameters
+                });
+                self.planner.start(&others.unwrap_or(parameters), obstacles, task.from, task.goal);
             }
         }
         match task.best.take() {

@@ -29,29 +29,41 @@ fn is_over(lattice: &Lattice, place: Point2<f64>, cell: Cell) -> bool {
     (lattice.center_m(cell) - place).norm() <= OVER * lattice.step_m
 }
 
+/// What the policy decided over a cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision {
+    cell: Cell,
+    /// The network's result.
+    pub judgement: Judgement,
+    /// The action taken: the best one, or the next best that the shield allows.
+    pub action: Action,
+    /// What the policy saw, if it has a memory.
+    pub survey: Option<Survey>,
+    /// Where the tool goes straight to, over several cells of the route that begins with the action.
+    pub shortcut_m: Option<Point2<f64>>,
+}
+
 /// The transport and its memory.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rl {
     /// The cell that the tool is over or moves to; `None` on a shortcut.
     cell: Option<Cell>,
-    /// The network's result for the last image that it evaluated, and the action taken.
-    judged: Option<(Judgement, Action)>,
-    /// What a policy with a memory saw at its last decision.
-    survey: Option<Survey>,
+    /// The last decision.
+    decision: Option<Decision>,
     /// How often the tool chose an action over each cell on this leg.
     visits: BTreeMap<Cell, u32>,
     progress: Progress,
 }
 
 impl Rl {
-    /// The network's result for the last image that it evaluated, and the action taken.
-    pub fn judged(&self) -> Option<&(Judgement, Action)> {
-        self.judged.as_ref()
+    /// The last decision.
+    pub fn decision(&self) -> Option<&Decision> {
+        self.decision.as_ref()
     }
 
     /// What a policy with a memory saw at its last decision; `None` for one that sees the image.
     pub fn survey(&self) -> Option<&Survey> {
-        self.survey.as_ref()
+        self.decision()?.survey.as_ref()
     }
 
     /// What a policy with a memory sees over a cell.
@@ -66,10 +78,33 @@ impl Rl {
         survey
     }
 
-    /// Asks a policy that sees the image.
-    fn judge(policy: &Policy, input: &TransportInput<'_>, lattice: &Lattice) -> Result<Judgement, PolicyError> {
-        let gray = input.percept.for_network(input.parameters.rl_corrects_image, input.tool_m, input.known);
-        policy.judge(&Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace))
+    /// Asks the policy. With a memory, a shortcut is looked for if `takes_shortcuts`.
+    fn decide(
+        &self,
+        policy: &Policy,
+        input: &TransportInput<'_>,
+        lattice: &Lattice,
+        cell: Cell,
+        takes_shortcuts: bool,
+    ) -> Result<Decision, PolicyError> {
+        let take = |judgement: &Judgement| choose(lattice, input, policy, self.ranking(judgement, input, cell), cell);
+        if !policy.has_memory() {
+            let gray = input.percept.for_network(input.parameters.rl_corrects_image, input.tool_m, input.known);
+            let seen = Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace);
+            let judgement = policy.judge(&seen)?;
+            let action = take(&judgement);
+            return Ok(Decision { cell, judgement, action, survey: None, shortcut_m: None });
+        }
+        let survey = self.survey_over(policy, input, lattice, cell);
+        let planned = policy.plan(&survey)?;
+        let judgement = planned.judge(&[survey.tool])?.remove(0);
+        let action = take(&judgement);
+        let clearance_m = policy.manifest().clearance_m;
+        let route = shortcut::Route { rl: self, planned: &planned, survey: &survey, lattice, input, clearance_m };
+        let ahead_m = if takes_shortcuts { route.farthest_clear_m(cell, beside(cell, action))? } else { None };
+        let shortcut_m = ahead_m.filter(|&ahead_m| !is_blocked(input, Self::toward(input, ahead_m).target_m));
+        drop(planned);
+        Ok(Decision { cell, judgement, action, survey: Some(survey), shortcut_m })
     }
 
     /// Actions, best first, by the network's value minus the penalty for earlier visits of the cell ahead. A cell that
@@ -79,26 +114,6 @@ impl Rl {
         let penalty = input.parameters.rl_visit_penalty as f32;
         let visits = Action::ALL.map(|action| self.visits.get(&beside(here, action)).copied().unwrap_or_default());
         judgement.ranking_with(visits.map(|count| penalty * count as f32))
-    }
-
-    /// The best action, from a cell to the one beside it.
-    fn take(
-        &mut self,
-        policy: &Policy,
-        input: &TransportInput<'_>,
-        lattice: &Lattice,
-        here: Cell,
-        judgement: Judgement,
-    ) -> TargetStep {
-        *self.visits.entry(here).or_default() += 1;
-        let action = choose(lattice, input, policy, self.ranking(&judgement, input, here), here);
-        self.judged = Some((judgement, action));
-        let center_m = lattice.center_m(beside(here, action));
-        let step = Self::toward(input, center_m);
-        // A step that the limits refuse is not taken. The next image is evaluated from here.
-        let is_taken = lattice.workspace.contains(center_m) && !is_blocked(input, step.target_m);
-        self.cell = Some(if is_taken { beside(here, action) } else { here });
-        step
     }
 
     /// The nearest cell that keeps the clearance with no obstacle before it; if none keeps the clearance, the cell with
@@ -170,7 +185,6 @@ impl Transport for Rl {
 
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
         let Some(policy) = input.policy else { return Err(Refusal::Policy("none is loaded".to_owned())) };
-        let failed = |error: PolicyError| Refusal::Policy(error.to_string());
         let lattice = Lattice { workspace: *input.known.workspace(), step_m: policy.manifest().step_m };
         let takes_shortcuts = policy.has_memory() && input.parameters.rl_shortcut;
         self.progress.note(input.tool_m);
@@ -191,38 +205,29 @@ impl Transport for Rl {
             self.cell = Some(here);
             return Ok(Self::toward(input, lattice.center_m(here)));
         }
-        if !policy.has_memory() {
-            self.survey = None;
-            let judgement = Self::judge(policy, input, &lattice).map_err(failed)?;
-            return Ok(self.take(policy, input, &lattice, here, judgement));
-        }
-        let survey = self.survey_over(policy, input, &lattice, here);
-        let planned = policy.plan(&survey).map_err(failed)?;
-        let judgement = planned.judge(&[survey.tool]).map_err(failed)?.remove(0);
-        if takes_shortcuts {
-            let action = choose(&lattice, input, policy, self.ranking(&judgement, input, here), here);
-            let clearance_m = policy.manifest().clearance_m;
-            let route =
-                shortcut::Route { rl: self, planned: &planned, survey: &survey, lattice: &lattice, input, clearance_m };
-            let ahead_m = route.farthest_clear_m(here, beside(here, action)).map_err(failed)?;
-            let step = ahead_m.map(|ahead_m| Self::toward(input, ahead_m));
-            if let Some(step) = step.filter(|step| !is_blocked(input, step.target_m)) {
-                // Between two cells it decides over the same cell again.
-                let was_here = self.cell.is_none() && self.survey.as_ref().is_some_and(|last| last.tool == survey.tool);
-                *self.visits.entry(here).or_default() += u32::from(!was_here);
-                self.cell = None;
-                self.judged = Some((judgement, action));
-                self.survey = Some(survey);
-                return Ok(step);
-            }
-            if !is_over_cell {
-                self.cell = Some(here);
-                return Ok(Self::toward(input, lattice.center_m(here)));
-            }
-        }
-        drop(planned);
-        self.survey = Some(survey);
-        Ok(self.take(policy, input, &lattice, here, judgement))
+        let decision = self
+            .decide(policy, input, &lattice, here, takes_shortcuts)
+            .map_err(|error| Refusal::Policy(error.to_string()))?;
+        let step = if let Some(ahead_m) = decision.shortcut_m {
+            // Between two cells it decides over the same cell again.
+            let was_here = self.cell.is_none() && self.decision.as_ref().is_some_and(|last| last.cell == here);
+            *self.visits.entry(here).or_default() += u32::from(!was_here);
+            self.cell = None;
+            Self::toward(input, ahead_m)
+        } else if !is_over_cell {
+            self.cell = Some(here);
+            return Ok(Self::toward(input, lattice.center_m(here)));
+        } else {
+            *self.visits.entry(here).or_default() += 1;
+            let next = beside(here, decision.action);
+            let step = Self::toward(input, lattice.center_m(next));
+            // A step that the limits refuse is not taken. The policy decides again from here.
+            let is_taken = lattice.workspace.contains(lattice.center_m(next)) && !is_blocked(input, step.target_m);
+            self.cell = Some(if is_taken { next } else { here });
+            step
+        };
+        self.decision = Some(decision);
+        Ok(step)
     }
 
     fn trouble(&self) -> Option<Trouble> {

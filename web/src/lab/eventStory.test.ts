@@ -38,12 +38,17 @@ test('the explanation of a sub-controller names its inputs', () => {
 test('the explanation of a policy names its action and the value', () => {
   const chosen = momentOf({ mode: 2, goal_m: [0.3, 0], controller: 'rl' });
   const judgement: JudgementLayer = {
+    policy: 'explorer',
     quantiles: [[], [], [], []],
     values: [0.1, 0.25, 0.9, 0],
     taken: 2,
+    is_shortcut: false,
     trained_on: [],
     has_memory: false,
   };
   const story = whatItSaw({ ...chosen, overlay: { ...chosen.overlay, judgement } });
-  expect(story).toContain('RL chose ↑ +y with a value of 0.90');
+  expect(story).toContain('RL chose ↑ +y with a value of 0.90 (expected return).');
+  const straight = { ...judgement, is_shortcut: true };
+  const longer = whatItSaw({ ...chosen, overlay: { ...chosen.overlay, judgement: straight } });
+  expect(longer).toContain('(expected return), and went straight over the next cells.');
 });

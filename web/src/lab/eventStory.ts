@@ -93,7 +93,7 @@ function transport(moment: MomentMessage): string {
       const judged = overlay.judgement;
       const action = judged && ACTIONS[judged.taken];
       if (!judged || !action) return `${name} had not used an image yet.`;
-      return `${name} chose ${action.arrow} ${action.name} with a value of ${fixed(judged.values[judged.taken] ?? 0, 2)} (expected return).`;
+      return `${name} chose ${action.arrow} ${action.name} with a value of ${fixed(judged.values[judged.taken] ?? 0, 2)} (expected return)${judged.is_shortcut ? ', and went straight over the next cells' : ''}.`;
     }
   }
 }

@@ -15,6 +15,10 @@ use crate::scenario::Stream;
 /// more.
 const FIRST_STEP: f64 = 0.25;
 
+/// Not from the publication: after this many attempts a search asks for the next smaller clearance. Where the larger one
+/// leaves only a narrow strip of a channel, a path would take many more.
+const CLEARANCE_PATIENCE: usize = 1000;
+
 /// How often a sample that is too close to a wall is redrawn.
 const DRAWS: usize = 100;
 
@@ -206,6 +210,9 @@ impl Planner {
         search.attempts += 1;
         if search.attempts.is_multiple_of(parameters.beta_patience.max(1)) {
             self.beta = (self.beta - parameters.beta_step).max(0.0);
+        }
+        if search.attempts.is_multiple_of(CLEARANCE_PATIENCE) {
+            search.clearance.lower([parameters.clearance_m, parameters.least_clearance_m]);
         }
         let target = search.target(&self.cache, obstacles, &mut self.rng);
         // A path's length is known only afterwards, and the parameters may have changed since.

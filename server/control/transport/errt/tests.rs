@@ -7,7 +7,7 @@ use super::tree::Tree;
 use crate::control::transport::planning::test_space::*;
 use crate::control::transport::planning::{Clearance, Obstacles, Path};
 use crate::geometry::{Point2, Rect};
-use crate::map::{FreeSpace, Map};
+use crate::map::{FreeSpace, Map, Maze, MazeFamily};
 
 fn assert_all_kept(planner: &Planner, obstacles: &Obstacles, path: &Path) {
     path.points.windows(2).for_each(|edge| assert_kept(obstacles, edge[0], edge[1], &path.clearance));
@@ -164,6 +164,22 @@ fn passes_narrow_gaps_with_less_clearance_and_reports_closed_ones() {
     assert_eq!(asked_m(0.016), 0.006);
     assert_eq!(plan(0.006), Progress::WalledOff);
     assert_eq!(plan(-1.0), Progress::WalledOff);
+}
+
+#[test]
+fn a_long_channel_with_a_narrow_strip_is_passed_with_less_clearance_than_the_strip_has() {
+    let obstacles = all_seen(&Maze::generate(MazeFamily::Spirals, 13).unwrap().map);
+    let (from, goal) = (Point2::new(0.257, -0.4445), Point2::new(0.21, -0.325));
+    let ends = [from, goal].map(|point| obstacles.end_at(point).unwrap());
+    let strip_m = obstacles.grid().clearance(ends, [CLEARANCE_M, LEAST_M]).unwrap().asked_m;
+    for seed in 1..=5 {
+        let mut planner = Planner::new(seed);
+        planner.start(&PlannerParameters::default(), &obstacles, from, goal);
+        planner.advance(&obstacles, usize::MAX);
+        let path = found(&planner).expect("a path");
+        assert_all_kept(&planner, &obstacles, path);
+        assert!(path.clearance.asked_m < strip_m && planner.attempts() < 4000, "{}", planner.attempts());
+    }
 }
 
 #[test]

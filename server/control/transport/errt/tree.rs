@@ -2,19 +2,15 @@
 
 use std::sync::Arc;
 
-use rstar::RTree;
-use rstar::primitives::GeomWithData;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
 
 /// A tree of straight edges that grows from its first node, the root. Clones share memory until one of them grows.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Vec<Stored>", try_from = "Vec<Stored>")]
 pub struct Tree {
     nodes: Arc<Vec<Node>>,
-    /// Position and number of every node; not serialised, because the nodes determine it.
-    index: Arc<RTree<GeomWithData<[f64; 2], u32>>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,12 +24,6 @@ struct Node {
 
 /// A serialised node: its position and its parent, which precedes it.
 type Stored = (Point2<f64>, u32);
-
-impl PartialEq for Tree {
-    fn eq(&self, other: &Self) -> bool {
-        self.nodes == other.nodes
-    }
-}
 
 impl From<Tree> for Vec<Stored> {
     fn from(tree: Tree) -> Self {
@@ -60,21 +50,14 @@ impl TryFrom<Vec<Stored>> for Tree {
 impl Tree {
     /// A tree that consists of its root.
     pub fn new(root: Point2<f64>) -> Self {
-        let mut tree = Self { nodes: Arc::default(), index: Arc::default() };
-        tree.add(Node { point: root, parent: 0, cost_m: 0.0 });
-        tree
-    }
-
-    fn add(&mut self, node: Node) {
-        Arc::make_mut(&mut self.index).insert(GeomWithData::new(node.point.into(), self.nodes.len() as u32));
-        Arc::make_mut(&mut self.nodes).push(node);
+        Self { nodes: Arc::new(vec![Node { point: root, parent: 0, cost_m: 0.0 }]) }
     }
 
     /// Adds a node at the end of a straight edge from `parent` and returns its number.
     pub fn push(&mut self, point: Point2<f64>, parent: usize) -> usize {
         let from = &self.nodes[parent];
         let cost_m = from.cost_m + (point - from.point).norm();
-        self.add(Node { point, parent: parent as u32, cost_m });
+        Arc::make_mut(&mut self.nodes).push(Node { point, parent: parent as u32, cost_m });
         self.nodes.len() - 1
     }
 
@@ -94,18 +77,17 @@ impl Tree {
 
     /// The node with the smallest sum of distance and `beta` · cost from the root; the first one if several are equal.
     ///
-    /// Nodes are visited by growing distance, so the search ends when the distance alone exceeds the best sum.
+    /// All nodes are looked at: for the few hundred that a search has, an index costs more than it saves.
     pub fn nearest(&self, target: Point2<f64>, beta: f64) -> usize {
-        let mut best = (f64::INFINITY, usize::MAX);
-        for (entry, distance_2) in self.index.nearest_neighbor_iter_with_distance_2(target.into()) {
-            let distance_m = distance_2.sqrt();
-            if distance_m > best.0 {
-                break;
-            }
-            let node = entry.data as usize;
-            let sum = (distance_m + beta * self.nodes[node].cost_m, node);
-            if sum < best {
-                best = sum;
+        let mut best = (f64::INFINITY, 0);
+        for (node, Node { point, cost_m, .. }) in self.nodes.iter().enumerate() {
+            let distance_2 = (point - target).norm_squared();
+            // Most are farther away than the best sum, and need no square root.
+            if distance_2 < best.0 * best.0 {
+                let sum_m = distance_2.sqrt() + beta * cost_m;
+                if sum_m < best.0 {
+                    best = (sum_m, node);
+                }
             }
         }
         best.1

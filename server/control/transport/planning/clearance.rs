@@ -24,6 +24,14 @@ pub const LEAST_CLEARANCE_M: f64 = 0.006;
 /// Larger than the rounding errors of distances and positions.
 pub(super) const ROUNDING_M: f64 = 1e-9;
 
+/// Number of clearance levels, including the largest and the smallest.
+const LEVELS: usize = 5;
+
+/// The clearances that are tried one after another, from the largest to the smallest.
+pub(super) fn levels_m([most_m, least_m]: [f64; 2]) -> impl Iterator<Item = f64> {
+    (0..LEVELS).map(move |level| most_m + (least_m - most_m) * level as f64 / (LEVELS - 1) as f64)
+}
+
 /// The distance that a path keeps from walls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clearance {
@@ -55,6 +63,11 @@ impl Clearance {
     pub fn required_m(&self, point: Point2<f64>) -> f64 {
         let [start_m, goal_m] = self.ends.map(|end| end.required_m((point - end.point).norm()));
         self.asked_m.min(start_m).min(goal_m)
+    }
+
+    /// Asks for the next smaller of the levels between two limits; the smallest stays.
+    pub fn lower(&mut self, limits_m: [f64; 2]) {
+        self.asked_m = levels_m(limits_m).find(|&level_m| level_m < self.asked_m).unwrap_or(self.asked_m);
     }
 
     /// The same clearance reduced by `by_m`, but still without touching walls.

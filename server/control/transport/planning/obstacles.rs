@@ -79,9 +79,14 @@ impl Obstacles {
 
     /// Whether a straight line stays `distance_m` from every rectangle and from the border.
     fn keeps(&self, from: Point2<f64>, to: Point2<f64>, distance_m: f64) -> bool {
-        let segment = Segment::new(from, to);
-        let is_near = |node: &BvhNode| segment.is_nearer(node, distance_m);
-        self.border_m(from).min(self.border_m(to)) >= distance_m && self.index.leaves(is_near).next().is_none()
+        if self.border_m(from).min(self.border_m(to)) < distance_m {
+            return false;
+        }
+        self.grid.keeps(from, to, distance_m).unwrap_or_else(|| {
+            let segment = Segment::new(from, to);
+            let is_near = |node: &BvhNode| segment.is_nearer(node, distance_m);
+            self.index.leaves(is_near).next().is_none()
+        })
     }
 
     /// Distance to the nearest rectangle or to the border; 0 over a wall and outside of the workspace.

@@ -93,10 +93,10 @@ impl Path {
         let mut along_m = [length_m * rng.random::<f64>(), length_m * rng.random::<f64>()];
         along_m.sort_by(f64::total_cmp);
         let [(before, from), (last, to)] = along_m.map(|along_m| self.place(along_m));
+        let is_clear = |from, to| obstacles.is_clear(from, to, &self.clearance);
         // The remaining parts of edges are checked again: near an end, they are divided into other pieces than before.
-        let corners = [self.points[before], from, to, self.points[last + 1]];
-        let is_clear = |edge: &[Point2<f64>]| obstacles.is_clear(edge[0], edge[1], &self.clearance);
-        if before < last && corners.windows(2).all(is_clear) {
+        let rest_is_clear = || is_clear(self.points[before], from) && is_clear(to, self.points[last + 1]);
+        if before < last && is_clear(from, to) && rest_is_clear() {
             self.points.splice(before + 1..=last, [from, to]);
         }
     }

@@ -8,12 +8,12 @@
 use crate::geometry::{Point2, Rect, Vector2};
 use crate::perception::CellRect;
 
-use super::clearance::{Clearance, End, GROWTH, PIECE_M};
+use super::clearance::{Clearance, End, GROWTH, PIECE_M, ROUNDING_M, levels_m};
 
-/// Number of clearance levels, including the largest and the smallest.
-const LEVELS: usize = 5;
 /// Extra clearance, as a share of the required one, that leaves room for a random search.
 const ROOM: f64 = 1.0 / 3.0;
+/// Steps along a line shorter than this take longer than to look at the obstacles themselves.
+const LEAST_ROOM_M: f64 = 0.0005;
 
 /// The distance of each cell's centre from walls.
 #[derive(Clone, Debug)]
@@ -22,8 +22,9 @@ pub(in crate::control::transport) struct Grid {
     columns: usize,
     cell_m: Vector2<f64>,
     /// Row by row, from the smallest y: distance from the centre to the nearest obstacle edge or to the border; 0 in an
-    /// obstacle. Exact up to the largest clearance that is queried.
+    /// obstacle. Exact up to `most_m`; larger distances are only known to be larger.
     distance_m: Vec<f64>,
+    most_m: f64,
 }
 
 impl Grid {
@@ -35,8 +36,9 @@ impl Grid {
         most_clearance_m: f64,
     ) -> Self {
         let cell_m = workspace.size_m().component_div(&Vector2::new(columns as f64, rows as f64));
-        let distance_m = truncated_distances_m(columns, rows, cell_m, obstacles, most_clearance_m * (1.0 + ROOM));
-        Self { workspace, columns, cell_m, distance_m }
+        let most_m = most_clearance_m * (1.0 + ROOM);
+        let distance_m = truncated_distances_m(columns, rows, cell_m, obstacles, most_m);
+        Self { workspace, columns, cell_m, distance_m, most_m }
     }
 
     /// The clearance for a path between two ends, between the two limits; `None` if no path has the smallest.
@@ -56,8 +58,7 @@ impl Grid {
                 distance_m >= near_ends.required_m(center) || is_beside(center)
             }
         };
-        let level_m = |level: usize| most_m + (least_m - most_m) * level as f64 / (LEVELS - 1) as f64;
-        let roomy = (0..LEVELS).map(level_m).find(|&asked_m| leads(&|cell| is_roomy(cell, asked_m)));
+        let roomy = levels_m([most_m, least_m]).find(|&asked_m| leads(&|cell| is_roomy(cell, asked_m)));
         // A point of a path is at most half a diagonal from the centre of its cell. There the distance may be half a
         // diagonal less, and the requirement GROWTH times half a diagonal more.
         let half_m = 0.5 * self.cell_m.norm();
@@ -68,6 +69,28 @@ impl Grid {
         };
         let asked_m = roomy.or_else(|| leads(&is_possible).then_some(least_m))?;
         Some(Clearance { asked_m, ends })
+    }
+
+    /// Whether a straight line stays `distance_m` from walls, where the cells decide it; `None` where the line is too
+    /// near to that distance.
+    pub fn keeps(&self, from: Point2<f64>, to: Point2<f64>, distance_m: f64) -> Option<bool> {
+        let length_m = (to - from).norm();
+        let along = (to - from) / length_m.max(ROUNDING_M);
+        // A place has at most half a diagonal more or less than the centre of its cell.
+        let half_m = 0.5 * self.cell_m.norm() + ROUNDING_M;
+        let (mut along_m, mut is_decided) = (0.0, true);
+        while along_m < length_m {
+            let here_m = self.distance_m(from + along * along_m);
+            if here_m + half_m < distance_m {
+                return Some(false);
+            }
+            // So far around, no place is nearer to a wall than asked.
+            let room_m = here_m.min(self.most_m) - half_m - distance_m;
+            is_decided &= room_m >= LEAST_ROOM_M;
+            // Where the cells cannot tell, only a place too near to a wall is looked for.
+            along_m += if is_decided { room_m } else { room_m.max(half_m) };
+        }
+        is_decided.then_some(true)
     }
 
     /// Distance from walls at the centre of the cell that contains a point.
@@ -82,21 +105,36 @@ impl Grid {
         clear.map(|cell| self.center(cell)).min_by(|a, b| away_2(a).total_cmp(&away_2(b)))
     }
 
-    /// Whether a chain of free cells, connected by sides or corners, leads from one cell to another.
+    /// Whether a chain of free cells, connected by sides or corners, leads from one cell to another. The first need not
+    /// be free. Filled row by row, a run of free cells at a time.
     fn connects(&self, from: usize, to: usize, is_free: impl Fn(usize) -> bool) -> bool {
-        let mut seen = vec![false; self.distance_m.len()];
+        let (columns, count) = (self.columns, self.distance_m.len());
+        let mut seen = vec![false; count];
         let mut open = vec![from];
-        seen[from] = true;
         while let Some(cell) = open.pop() {
-            if cell == to {
+            if seen[cell] {
+                continue;
+            }
+            let row = cell - cell % columns;
+            let is_new = |&cell: &usize| !seen[cell] && is_free(cell);
+            let first = (row..cell).rev().take_while(is_new).last().unwrap_or(cell);
+            let last = (cell + 1..row + columns).take_while(is_new).last().unwrap_or(cell);
+            if (first..=last).contains(&to) {
                 return true;
             }
-            for next in self.neighbours(cell) {
-                if !seen[next] {
-                    seen[next] = true;
-                    if is_free(next) {
-                        open.push(next);
+            seen[first..=last].fill(true);
+            // With the cells beside the run's ends, which share a corner with it.
+            let around = first.max(row + 1) - 1..(last + 2).min(row + columns);
+            let below = (row > 0).then(|| around.start.wrapping_sub(columns)..around.end.wrapping_sub(columns));
+            let above = (row + columns < count).then(|| around.start + columns..around.end + columns);
+            for beside in [below, above].into_iter().flatten() {
+                let mut was_open = false;
+                for cell in beside {
+                    let is_open = !seen[cell] && is_free(cell);
+                    if is_open && !was_open {
+                        open.push(cell);
                     }
+                    was_open = is_open;
                 }
             }
         }

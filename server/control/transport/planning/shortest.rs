@@ -2,7 +2,7 @@
 
 use pathfinding::directed::astar::astar;
 
-use super::clearance::Clearance;
+use super::clearance::{Clearance, levels_m};
 use super::obstacles::Obstacles;
 use super::path::Path;
 use crate::geometry::Point2;
@@ -12,21 +12,20 @@ const UM_PER_M: f64 = 1e6;
 
 impl Obstacles {
     /// The shortest path from cell to neighbouring cell, along sides or diagonals, with the largest clearance between
-    /// the two limits that the cells promise, or else the smallest; then without the corners that a straight line can
-    /// skip. Unobserved places are free. `None` if no path keeps the smallest clearance, or the goal is in a wall.
+    /// the two limits that leads to the goal; then without the corners that a straight line can skip. Unobserved places are free. `None` if no path keeps the smallest clearance, or the goal is in a wall.
     ///
     /// A tool over a wall begins where it leaves the wall.
-    pub fn shortest_path(&self, from: Point2<f64>, goal: Point2<f64>, [most_m, least_m]: [f64; 2]) -> Option<Path> {
-        let ends = [self.end_near(from, least_m)?, self.end_at(goal)?];
-        let straight = Clearance { asked_m: most_m, ends };
+    pub fn shortest_path(&self, from: Point2<f64>, goal: Point2<f64>, limits_m: [f64; 2]) -> Option<Path> {
+        let ends = [self.end_near(from, limits_m[1])?, self.end_at(goal)?];
+        let straight = Clearance { asked_m: limits_m[0], ends };
         let [start, goal] = ends.map(|end| end.point);
         if self.is_clear(start, goal, &straight) {
             return Some(Path { points: vec![start, goal], clearance: straight });
         }
-        let promised = self.grid().clearance(ends, [most_m, least_m])?;
+        let promised_m = self.grid().clearance(ends, limits_m)?.asked_m;
         // The cells around the ends promise more than the lines from the ends to their centres may keep.
-        let least = (promised.asked_m > least_m).then_some(Clearance { asked_m: least_m, ends });
-        self.shortest_with(promised).or_else(|| self.shortest_with(least?))
+        let levels = levels_m(limits_m).filter(|&asked_m| asked_m <= promised_m);
+        levels.map(|asked_m| Clearance { asked_m, ends }).find_map(|clearance| self.shortest_with(clearance))
     }
 
     fn shortest_with(&self, clearance: Clearance) -> Option<Path> {

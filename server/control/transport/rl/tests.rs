@@ -61,7 +61,7 @@ fn the_best_action_is_taken_one_step_along_its_axis() {
         let mut rl = Rl::default();
         let target_m = step(&mut rl, &wanting(values), HERE, &parameters, |_| false);
         assert!(near(target_m, HERE + action.direction() * 0.01), "{action:?} {target_m}");
-        let (judgement, taken) = rl.judged().unwrap();
+        let Decision { judgement, action: taken, .. } = rl.decision().unwrap();
         assert_eq!((judgement.ranking()[0], *taken), (action, action));
         assert_eq!(judgement.values(), values);
     }
@@ -73,7 +73,7 @@ fn off_the_lattice_the_tool_first_goes_to_a_cell_clear_of_walls() {
     let aside = HERE + Vector2::new(0.0045, 0.0);
     let mut rl = Rl::default();
     assert!(near(step(&mut rl, &policy, aside, &parameters, |_| false), HERE), "the nearest");
-    assert_eq!(rl.judged(), None, "no image is judged between two cells");
+    assert_eq!(rl.decision(), None, "no image is judged between two cells");
     // The nearest cell is 6 mm from a wall; the one to its left has room.
     let mut rl = Rl::default();
     let wall = |p: Point2<f64>| p.x > HERE.x + 0.006;
@@ -103,7 +103,7 @@ fn the_shield_takes_the_next_best_action_and_without_it_the_step_enters_the_wall
     let mut rl = Rl::default();
     let up = step(&mut rl, &policy, HERE, &shielded, wall);
     assert!(near(up, HERE + Vector2::new(0.0, 0.01)));
-    assert_eq!(rl.judged().unwrap().0.ranking()[0], Action::PlusX, "the best action is still reported");
+    assert_eq!(rl.decision().unwrap().judgement.ranking()[0], Action::PlusX, "the best action is still reported");
     let bare = Parameters { rl_shield: false, ..Parameters::default() };
     let right = step(&mut Rl::default(), &policy, HERE, &bare, wall);
     assert!(near(right, HERE + Vector2::new(0.01, 0.0)));

@@ -101,9 +101,15 @@ export function ValueFans(props: { judgement: JudgementLayer; map: string }): JS
       <p>
         Taken: <strong data-testid="rl-taken">{ACTIONS[props.judgement.taken]?.name}</strong>
         <Show when={shielded()}>, the next best: the shield refused the best action</Show>
+        <Show when={props.judgement.is_shortcut}>
+          <span data-testid="rl-shortcut">
+            . The way ahead is clear, so the tool goes straight over the next cells
+          </span>
+        </Show>
       </p>
       <p class="rule">
-        Trained on: <span data-testid="rl-trained-on">{props.judgement.trained_on.join(', ')}</span>
+        Policy: <strong data-testid="rl-policy">{props.judgement.policy}</strong>, trained on:{' '}
+        <span data-testid="rl-trained-on">{props.judgement.trained_on.join(', ')}</span>
         <Show when={!props.judgement.trained_on.includes(props.map)}>
           ,{' '}
           <Show

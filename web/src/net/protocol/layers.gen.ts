@@ -153,6 +153,10 @@ runs: Array<[number, number]>, };
  */
 export type JudgementLayer = { 
 /**
+ * The policy that acts: `colon`, `general` or `explorer`, or `own` for one from a file.
+ */
+policy: string, 
+/**
  * Quantiles of the return for +x, −x, +y and −y, at the fractions (k + ½) / K.
  */
 quantiles: [Array<number>, Array<number>, Array<number>, Array<number>], 
@@ -164,6 +168,10 @@ values: [number, number, number, number],
  * Index of the action that was taken; the best one, unless the shield chose the next best.
  */
 taken: number, 
+/**
+ * Whether the tool goes straight over several cells of the route that begins with the action.
+ */
+is_shortcut: boolean, 
 /**
  * Maps that the policy was trained on.
  */
