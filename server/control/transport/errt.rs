@@ -10,7 +10,8 @@
 //! wall ([`super::planning::Clearance`]). A flood fill decides beforehand whether a path exists and which clearance it can keep. The
 //! straight line from start to goal is tried first. The cache starts with empty slots, not with random states. Samples
 //! are drawn where the clearance is kept. β also falls while a search takes long. Found paths are shortened. Each has a
-//! parameter or a reason where it is defined.
+//! parameter or a reason where it is defined. A search that takes too many attempts ends with the shortest path over
+//! the map's cells.
 //!
 //! Unobserved places count as free: a path may lead through them. When they are observed, the path is either confirmed
 //! or planned again. So the tool explores unobserved places when the goal is behind them. A goal that is walled off
@@ -48,6 +49,17 @@ struct Task {
     #[serde(rename = "ways")]
     paths: u32,
     best: Option<(Path, f64)>,
+}
+
+impl Task {
+    /// Keeps a path if it is expected to be shorter than the best one so far.
+    fn compare(&mut self, path: Path, input: &TransportInput<'_>) {
+        self.paths += 1;
+        let cost_m = expected_m(&path, input.known, input.parameters.errt_unseen_weight);
+        if self.best.as_ref().is_none_or(|(_, best_m)| cost_m < *best_m) {
+            self.best = Some((path, cost_m));
+        }
+    }
 }
 
 /// The transport and its memory.
@@ -92,6 +104,8 @@ impl Errt {
     /// tool that switches between them makes no progress.
     fn plan(&mut self, obstacles: &Obstacles, input: &TransportInput<'_>) -> Result<(), Refusal> {
         let parameters = planner_parameters(input.parameters);
+        // Waypoints follow the known path; the comparison needs different ones.
+        let other = PlannerParameters { waypoint_probability: 0.0, ..parameters };
         let is_same = |task: &Task| task.goal == input.goal_m && (task.from - input.tool_m).norm() <= OFF_PATH_M;
         let goes_on = *self.planner.progress() == Progress::Searching && self.task.as_ref().is_some_and(is_same);
         let mut task = match self.task.take().filter(|_| goes_on) {
@@ -106,17 +120,17 @@ impl Errt {
             let before = self.planner.attempts();
             match self.planner.advance(obstacles, left) {
                 Progress::WalledOff => return Err(Refusal::WalledOff),
-                // The remaining gaps are narrower than the smallest clearance. Otherwise the flood fill would have
-                // found room for a shorter search.
-                Progress::Exhausted if task.paths == 0 => return Err(Refusal::WalledOff),
+                // In a long narrow channel a random search takes too many attempts, so the map's cells decide.
+                Progress::Exhausted if task.paths == 0 => {
+                    let limits_m = [parameters.clearance_m, parameters.least_clearance_m];
+                    let shortest = obstacles.shortest_path(task.from, task.goal, limits_m);
+                    task.compare(shortest.ok_or(Refusal::WalledOff)?, input);
+                    break;
+                }
                 Progress::Found(path) => {
-                    task.paths += 1;
-                    let cost_m = expected_m(path, input.known, input.parameters.errt_unseen_weight);
                     // No path is shorter than the straight line.
                     let is_straight = path.points.len() == 2;
-                    if task.best.as_ref().is_none_or(|(_, best_m)| cost_m < *best_m) {
-                        task.best = Some((path.clone(), cost_m));
-                    }
+                    task.compare(path.clone(), input);
                     if is_straight || task.paths >= input.parameters.errt_ways {
                         break;
                     }
@@ -128,14 +142,7 @@ impl Errt {
                 break;
             }
             if *self.planner.progress() != Progress::Searching {
-                // Waypoints follow the known path; the comparison needs different ones. A clearance that took too long
-                // is not tried again.
-                let others = task.best.as_ref().map(|(path, _)| PlannerParameters {
-                    waypoint_probability: 0.0,
-                    clearance_m: path.clearance.asked_m,
-                    ..parameters
-                });
-                self.planner.start(&others.unwrap_or(parameters), obstacles, task.from, task.goal);
+                self.planner.start(if task.paths > 0 { &other } else { &parameters }, obstacles, task.from, task.goal);
             }
         }
         match task.best.take() {

@@ -15,10 +15,6 @@ use crate::scenario::Stream;
 /// more.
 const FIRST_STEP: f64 = 0.25;
 
-/// Not from the publication: after this many attempts a search asks for the next smaller clearance. Where the larger one
-/// leaves only a narrow strip of a channel, a path would take many more.
-const CLEARANCE_PATIENCE: usize = 1000;
-
 /// How often a sample that is too close to a wall is redrawn.
 const DRAWS: usize = 100;
 
@@ -68,7 +64,7 @@ impl Default for PlannerParameters {
             shortcuts: Some(200),
             clearance_m: 0.012,
             least_clearance_m: LEAST_CLEARANCE_M,
-            most_attempts: 20_000,
+            most_attempts: 2000,
         }
     }
 }
@@ -111,7 +107,7 @@ pub enum Progress {
     Searching,
     /// A path was found.
     Found(Path),
-    /// Given up after the largest number of attempts. A new start draws other random numbers.
+    /// Given up after the largest number of attempts, although a path may exist.
     Exhausted,
     /// No path has the smallest clearance, even if all unobserved places are free.
     WalledOff,
@@ -210,9 +206,6 @@ impl Planner {
         search.attempts += 1;
         if search.attempts.is_multiple_of(parameters.beta_patience.max(1)) {
             self.beta = (self.beta - parameters.beta_step).max(0.0);
-        }
-        if search.attempts.is_multiple_of(CLEARANCE_PATIENCE) {
-            search.clearance.lower([parameters.clearance_m, parameters.least_clearance_m]);
         }
         let target = search.target(&self.cache, obstacles, &mut self.rng);
         // A path's length is known only afterwards, and the parameters may have changed since.

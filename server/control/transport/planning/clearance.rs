@@ -65,11 +65,6 @@ impl Clearance {
         self.asked_m.min(start_m).min(goal_m)
     }
 
-    /// Asks for the next smaller of the levels between two limits; the smallest stays.
-    pub fn lower(&mut self, limits_m: [f64; 2]) {
-        self.asked_m = levels_m(limits_m).find(|&level_m| level_m < self.asked_m).unwrap_or(self.asked_m);
-    }
-
     /// The same clearance reduced by `by_m`, but still without touching walls.
     pub(super) fn less(&self, by_m: f64) -> Self {
         let less_m = |m: f64| (m - by_m).max(ROUNDING_M);

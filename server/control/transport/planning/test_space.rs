@@ -43,12 +43,8 @@ pub(in crate::control::transport) fn seen(
 
 pub(in crate::control::transport) fn shipped(name: &str) -> (Map, Obstacles) {
     let map = Map::shipped(name).unwrap();
-    let obstacles = all_seen(&map);
+    let obstacles = Obstacles::of(&seen(*map.workspace(), 5.0, |p| !map.is_free(p)), CLEARANCE_M);
     (map, obstacles)
-}
-
-pub(in crate::control::transport) fn all_seen(map: &Map) -> Obstacles {
-    Obstacles::of(&seen(*map.workspace(), 5.0, |p| !map.is_free(p)), CLEARANCE_M)
 }
 
 pub(in crate::control::transport) const SMALL: Rect =
