@@ -11,7 +11,7 @@ mod trunk;
 use serde::{Deserialize, Serialize};
 
 use super::Action;
-use super::lattice::Lattice;
+use super::lattice::{Lattice, neighbours};
 use crate::geometry::Point2;
 use crate::image::GrayImage;
 use crate::perception::{Area, OBSERVATION_SIZE_PX, ObstacleMap};
@@ -148,6 +148,24 @@ impl Survey {
         let [column, row] = self.place(cell);
         let (dx, dy) = action.offset();
         self.cell_at([column + dx as i64, row + dy as i64])
+    }
+
+    /// Whether every route from the tool to the goal enters a cell that is known to be blocked.
+    pub fn is_walled_off(&self) -> bool {
+        let mut seen = vec![false; self.count()];
+        let mut open = vec![self.tool];
+        while let Some(cell) = open.pop() {
+            if cell == self.goal {
+                return false;
+            }
+            for next in neighbours(cell, self.columns, self.count()) {
+                let is_open = next == self.goal || self.known(next) != Area::Blocked;
+                if !std::mem::replace(&mut seen[next], true) && is_open {
+                    open.push(next);
+                }
+            }
+        }
+        true
     }
 
     /// Forgets all visits: a new leg begins.

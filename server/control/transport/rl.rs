@@ -39,6 +39,8 @@ pub struct Decision {
     pub action: Action,
     /// What the policy saw, if it has a memory.
     pub survey: Option<Survey>,
+    /// Whether what the policy saw shows no route to the goal, even through unseen cells.
+    is_walled_off: bool,
     /// Where the tool goes straight to, over several cells of the route that begins with the action.
     pub shortcut_m: Option<Point2<f64>>,
 }
@@ -93,7 +95,7 @@ impl Rl {
             let seen = Observation::new(&gray, Some(input.goal_m), input.tool_m, &lattice.workspace);
             let judgement = policy.judge(&seen)?;
             let action = take(&judgement);
-            return Ok(Decision { cell, judgement, action, survey: None, shortcut_m: None });
+            return Ok(Decision { cell, judgement, action, survey: None, is_walled_off: false, shortcut_m: None });
         }
         let survey = self.survey_over(policy, input, lattice, cell);
         let planned = policy.plan(&survey)?;
@@ -104,7 +106,8 @@ impl Rl {
         let ahead_m = if takes_shortcuts { route.farthest_clear_m(cell, beside(cell, action))? } else { None };
         let shortcut_m = ahead_m.filter(|&ahead_m| !is_blocked(input, Self::toward(input, ahead_m).target_m));
         drop(planned);
-        Ok(Decision { cell, judgement, action, survey: Some(survey), shortcut_m })
+        let is_walled_off = survey.is_walled_off();
+        Ok(Decision { cell, judgement, action, survey: Some(survey), is_walled_off, shortcut_m })
     }
 
     /// Actions, best first, by the network's value minus the penalty for earlier visits of the cell ahead. A cell that
@@ -231,6 +234,9 @@ impl Transport for Rl {
     }
 
     fn trouble(&self) -> Option<Trouble> {
+        if self.decision().is_some_and(|decision| decision.is_walled_off) {
+            return Some(Trouble::WalledOff);
+        }
         self.progress.standstill().map(|standstill| match standstill {
             Standstill::Still => Trouble::Refused,
             Standstill::Around => Trouble::Circling,

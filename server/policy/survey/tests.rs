@@ -177,3 +177,17 @@ fn an_image_is_no_survey() {
     let error = image.judge_survey(&room()).unwrap_err();
     assert!(error.to_string().contains("the network sees an image, not a survey"), "{error}");
 }
+
+#[test]
+fn a_goal_is_walled_off_where_no_route_avoids_blocked_cells() {
+    let mut survey = Survey::unknown(COLUMNS, ROWS, 0, COLUMNS * ROWS - 1);
+    assert!(!survey.is_walled_off());
+    let column = |row: usize| row * COLUMNS + 3;
+    (0..ROWS).for_each(|row| survey.set_known(column(row), Area::Blocked));
+    assert!(survey.is_walled_off());
+    survey.goal = column(2);
+    assert!(!survey.is_walled_off(), "a goal near a wall is reached from beside its cell");
+    survey.goal = COLUMNS - 1;
+    survey.set_known(column(4), Area::Unknown);
+    assert!(!survey.is_walled_off());
+}

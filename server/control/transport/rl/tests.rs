@@ -1,4 +1,5 @@
 use super::*;
+use crate::control::transport::planning::test_space::seen;
 use crate::geometry::Rect;
 use crate::perception::{ObstacleMap, test_frame};
 use crate::policy::{Architecture, Manifest, TensorSpec};
@@ -161,4 +162,28 @@ fn without_a_policy_the_arm_holds_and_reports_the_reason() {
         policy: None,
     };
     assert!(matches!(Rl::default().next_step(&input), Err(Refusal::Policy(_))));
+}
+
+#[test]
+fn a_goal_behind_observed_walls_is_walled_off_at_once_for_a_policy_with_a_memory() {
+    let (policy, parameters) = (Policy::shipped("explorer").unwrap(), Parameters::default());
+    let goal_m = Point2::new(0.105, -0.385);
+    let percept = Percept::of(&test_frame(HERE, |_| false), HERE);
+    let trouble = |gap_m: f64| {
+        let is_ring = |p: Point2<f64>| (0.04..0.06).contains(&(p - goal_m).norm()) && (p.y - goal_m.y).abs() >= gap_m;
+        let known = seen(WORKSPACE, 1.0, is_ring);
+        let input = TransportInput {
+            percept: &percept,
+            known: &known,
+            tool_m: HERE,
+            goal_m,
+            parameters: &parameters,
+            policy: Some(&policy),
+        };
+        let mut rl = Rl::default();
+        rl.next_step(&input).unwrap();
+        rl.trouble()
+    };
+    assert_eq!(trouble(0.0), Some(Trouble::WalledOff));
+    assert_eq!(trouble(0.03), None);
 }
