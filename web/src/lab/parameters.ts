@@ -12,7 +12,7 @@ export { CONTROLLER_LABELS, CONTROLLERS };
 
 /** What each controller does, one or two sentences. */
 export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
-  rl: 'RL: a trained neural network. From the camera picture, or from all that the camera has seen, it judges the four directions, step by step.',
+  rl: "RL: a trained neural network. From the camera's pictures it judges four directions, step by step.",
   errt: 'ERRT: a path planner. It plans a whole path around the walls that it has seen, and plans again at each new one.',
   attractor:
     'Attractor: no plan. It heads for the goal, and walls in view bend its motion. It can get stuck.',

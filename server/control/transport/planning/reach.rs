@@ -79,7 +79,7 @@ impl Grid {
         // A place has at most half a diagonal more or less than the centre of its cell.
         let half_m = 0.5 * self.cell_m.norm() + ROUNDING_M;
         let (mut along_m, mut is_decided) = (0.0, true);
-        while along_m < length_m {
+        while along_m <= length_m {
             let here_m = self.distance_m(from + along * along_m);
             if here_m + half_m < distance_m {
                 return Some(false);

@@ -19,6 +19,9 @@ proptest! {
         let distance_m = brute_distance_m(&obstacles, from, to);
         prop_assume!((distance_m - asked_m).abs() > 1e-6);
         prop_assert_eq!(obstacles.is_clear(from, to, &no_ends(asked_m)), distance_m > asked_m, "{}", distance_m);
+        let point_m = brute_distance_m(&obstacles, from, from);
+        prop_assume!((point_m - asked_m).abs() > 1e-6);
+        prop_assert_eq!(obstacles.is_clear(from, from, &no_ends(asked_m)), point_m > asked_m, "{}", point_m);
     }
 
     #[test]
