@@ -76,6 +76,17 @@ def line(family, name, rows):
             f"| {least['map']}: {least['delivered']}/{least['episodes']} | {ratio:.2f} | {steps:.0f} |")
 
 
+def deficit(name, reference, reports):
+    """On which maze a controller falls farthest behind another, once all are evaluated."""
+    if not all((family, other) in reports for family in FAMILIES for other in (name, reference)):
+        return
+    pairs = [pair for family in FAMILIES for pair in zip(reports[family, name], reports[family, reference], strict=True)]
+    points, maze = max((100 * (second["delivered"] - first["delivered"]) / first["episodes"], first["map"])
+                       for first, second in pairs)
+    yield ""
+    yield f"{name} delivers at most {points:.1f} points less than the {reference} on a maze ({maze})."
+
+
 def page(reports, commit):
     yield "# Mazes that no training used"
     yield ""
@@ -96,6 +107,7 @@ def page(reports, commit):
                 yield line(family, name, reports[family, name])
         pooled = [row for (_, other), rows in reports.items() if other == name for row in rows]
         yield line("**all**", name, pooled)
+    yield from deficit("ERRT", "replanner", reports)
 
 
 def main():
