@@ -83,7 +83,7 @@ impl PlannerParameters {
             ("shortcuts", found.shortcuts.unwrap_or(0) as f64, 1000.0),
             ("clearance_m", found.clearance_m, 0.03),
             ("least_clearance_m", found.least_clearance_m, 0.03),
-            ("most_attempts", found.most_attempts as f64, 1e6),
+            ("most_attempts", found.most_attempts as f64, 20_000.0),
         ];
         match ranges.into_iter().find(|&(_, value, max)| !(0.0..=max).contains(&value)) {
             Some((field, value, max)) => Err(D::Error::custom(format!("{field} is {value}, it must be 0 to {max}"))),

@@ -25,6 +25,10 @@ struct Node {
 /// A serialised node: its position and its parent, which precedes it.
 type Stored = (Point2<f64>, u32);
 
+/// A tree from a file may have this many nodes beside its root, because each is looked at in each attempt. An attempt
+/// adds two at most.
+const MOST_STORED: usize = 40_000;
+
 impl From<Tree> for Vec<Stored> {
     fn from(tree: Tree) -> Self {
         tree.nodes.iter().map(|node| (node.point, node.parent)).collect()
@@ -36,6 +40,9 @@ impl TryFrom<Vec<Stored>> for Tree {
 
     fn try_from(stored: Vec<Stored>) -> Result<Self, Self::Error> {
         let (&(root, _), others) = stored.split_first().ok_or("the tree has no root")?;
+        if others.len() > MOST_STORED {
+            return Err("the tree has more nodes than a search makes");
+        }
         let mut tree = Self::new(root);
         for &(point, parent) in others {
             if parent as usize >= tree.node_count() {
