@@ -365,7 +365,7 @@ impl ImageTrunk {
 /// cos(π·j·τ) for j < 64: `[M]` → `[M, 64]` (Dabney et al. 2018, equation 4).
 fn cosines(fractions: &Tensor) -> Result<Tensor> {
     let orders = Tensor::from_iter((0..COSINES).map(|j| PI * j as f32), &Device::Cpu)?;
-    fractions.unsqueeze(1)?.matmul(&orders.unsqueeze(0)?)?.cos()
+    fractions.unsqueeze(1)?.broadcast_mul(&orders.unsqueeze(0)?)?.cos()
 }
 
 /// The numbers themselves, and the sine and cosine of π·2^k times them: `[M, 4]` → `[M, 36]`.

@@ -225,7 +225,7 @@ impl Planner {
             let mut path = Path { points, clearance: search.clearance };
             if let Some(count) = parameters.shortcuts {
                 path.skip_corners(obstacles);
-                (0..count).for_each(|_| path.cut_short(obstacles, &mut self.rng));
+                path.cut_short(count, obstacles, &mut self.rng);
             }
             self.progress = Progress::Found(path);
         } else if search.attempts >= parameters.most_attempts {

@@ -8,6 +8,9 @@ use super::clearance::Clearance;
 use super::obstacles::Obstacles;
 use crate::geometry::Point2;
 
+/// After this many shortcuts in a row that are not possible, a path is hardly shortened by more of them.
+const MOST_MISSES: usize = 40;
+
 /// Straight lines from start to goal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Path {
@@ -87,8 +90,19 @@ impl Path {
         }
     }
 
-    /// Replaces the part between two random points by a straight line if that is clear.
-    pub(in crate::control::transport) fn cut_short(&mut self, obstacles: &Obstacles, rng: &mut impl Rng) {
+    /// Tries `count` random shortcuts, or fewer if [`MOST_MISSES`] in a row are not possible.
+    pub(in crate::control::transport) fn cut_short(&mut self, count: usize, obstacles: &Obstacles, rng: &mut impl Rng) {
+        let mut misses = 0;
+        for _ in 0..count {
+            misses = if self.try_shortcut(obstacles, rng) { 0 } else { misses + 1 };
+            if misses == MOST_MISSES {
+                break;
+            }
+        }
+    }
+
+    /// Replaces the part between two random points by a straight line if that is clear. Returns whether it was.
+    fn try_shortcut(&mut self, obstacles: &Obstacles, rng: &mut impl Rng) -> bool {
         let length_m = self.length_m();
         let mut along_m = [length_m * rng.random::<f64>(), length_m * rng.random::<f64>()];
         along_m.sort_by(f64::total_cmp);
@@ -96,9 +110,11 @@ impl Path {
         let is_clear = |from, to| obstacles.is_clear(from, to, &self.clearance);
         // The remaining parts of edges are checked again: near an end, they are divided into other pieces than before.
         let rest_is_clear = || is_clear(self.points[before], from) && is_clear(to, self.points[last + 1]);
-        if before < last && is_clear(from, to) && rest_is_clear() {
+        let is_shortcut = before < last && is_clear(from, to) && rest_is_clear();
+        if is_shortcut {
             self.points.splice(before + 1..=last, [from, to]);
         }
+        is_shortcut
     }
 
     /// The point at `along_m` from the start, and the index of its edge.
