@@ -111,11 +111,9 @@ fn ompl(obstacles: &Obstacles, clearance_m: f64) {
     }
 }
 
-/// Prints quantiles over many plans, and lets criterion time the same. A plan is the same whenever it is made: the
-/// smallest of three times is the time on an idle machine.
+/// Prints quantiles over many plans, and lets criterion time the same.
 fn time(c: &mut Criterion, name: &str, plan: impl Fn(u64) -> Duration) {
-    let least = |seed| (0..3).map(|_| plan(seed)).min();
-    quantiles(name, (0..PLANS).filter_map(least).collect());
+    quantiles(name, (0..PLANS).map(&plan).collect());
     let mut seeds = (0..PLANS).cycle();
     c.bench_function(&format!("errt/{name}"), |b| {
         b.iter_custom(|count| seeds.by_ref().take(count as usize).map(&plan).sum());

@@ -55,14 +55,20 @@ impl Grid {
         };
         // From the end itself to the centre of a cell next to the end's cell.
         let beside_m = self.cell_m.norm();
-        let is_beside = |center: Point2<f64>| ends.iter().any(|end| (end.point - center).norm() <= beside_m);
+        let beside: Vec<usize> = ends
+            .iter()
+            .flat_map(|end| {
+                let around = self.neighbours(self.cell(end.point));
+                around.filter(move |&cell| (end.point - self.center(cell)).norm() <= beside_m)
+            })
+            .collect();
+        let least_near_ends_m = ends[0].distance_m.min(ends[1].distance_m);
         let is_roomy = |cell: usize, asked_m: f64| {
             let distance_m = self.distance_m[cell];
-            // For most cells the ends need no check.
-            distance_m >= asked_m * (1.0 + ROOM) || {
-                let center = self.center(cell);
-                distance_m >= near_ends.required_m(center) || is_beside(center)
-            }
+            // For most cells the first two comparisons decide.
+            distance_m >= asked_m * (1.0 + ROOM)
+                || distance_m >= least_near_ends_m && distance_m >= near_ends.required_m(self.center(cell))
+                || beside.contains(&cell)
         };
         let roomy = levels_m([most_m, least_m]).find(|&asked_m| leads(&|cell| is_roomy(cell, asked_m)));
         // A point of a path is at most half a diagonal from the centre of its cell. There the distance may be half a
