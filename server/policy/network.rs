@@ -365,6 +365,7 @@ impl ImageTrunk {
 /// cos(π·j·τ) for j < 64: `[M]` → `[M, 64]` (Dabney et al. 2018, equation 4).
 fn cosines(fractions: &Tensor) -> Result<Tensor> {
     let orders = Tensor::from_iter((0..COSINES).map(|j| PI * j as f32), &Device::Cpu)?;
+    // Not `matmul`: candle's reads /proc/cpuinfo each time.
     fractions.unsqueeze(1)?.broadcast_mul(&orders.unsqueeze(0)?)?.cos()
 }
 

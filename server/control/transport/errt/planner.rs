@@ -39,8 +39,8 @@ pub struct PlannerParameters {
     pub step_m: f64,
     /// Not from the publication: random points are drawn where the clearance is kept, not in the whole workspace.
     pub sample_where_clear: bool,
-    /// Not from the publication: random shortcuts tried on a found path, after those from corner to corner. `None`
-    /// leaves the path as it was found.
+    /// Not from the publication: most random shortcuts tried on a found path, after those from corner to corner.
+    /// `None` leaves the path as it was found.
     pub shortcuts: Option<usize>,
     /// Not from the publication: distance that a path keeps from walls where there is room.
     pub clearance_m: f64,

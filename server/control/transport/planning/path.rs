@@ -9,7 +9,7 @@ use super::obstacles::Obstacles;
 use crate::geometry::Point2;
 
 /// After this many shortcuts in a row that are not possible, a path is hardly shortened by more of them.
-const MOST_MISSES: usize = 40;
+pub(super) const MOST_MISSES: usize = 40;
 
 /// Straight lines from start to goal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

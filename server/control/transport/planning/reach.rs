@@ -40,8 +40,8 @@ impl Grid {
         most_clearance_m: f64,
     ) -> Self {
         let count = Vector2::new(columns as f64, rows as f64);
-        let [cell_m, cells_per_m] =
-            [workspace.size_m().component_div(&count), count.component_div(&workspace.size_m())];
+        let cell_m = workspace.size_m().component_div(&count);
+        let cells_per_m = count.component_div(&workspace.size_m());
         let most_m = most_clearance_m * (1.0 + ROOM);
         let distance_m = truncated_distances_m(columns, rows, cell_m, obstacles, most_m);
         Self { workspace, columns, cell_m, cells_per_m, distance_m, most_m }
@@ -92,7 +92,7 @@ impl Grid {
         let half_m = 0.5 * self.cell_m.norm() + ROUNDING_M;
         let is_too_near = |here_m: f64| here_m + half_m < distance_m;
         // A long line through a wall is often in it here.
-        if FIRST_LOOKS.iter().any(|share| is_too_near(self.distance_m(from + along * (share * length_m)))) {
+        if FIRST_LOOKS.iter().any(|share| is_too_near(self.distance_m(from + (to - from) * *share))) {
             return Some(false);
         }
         let (mut along_m, mut is_decided) = (0.0, true);

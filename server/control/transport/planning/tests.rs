@@ -2,8 +2,9 @@ use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use super::path::MOST_MISSES;
 use super::test_space::*;
-use super::{Clearance, Obstacles};
+use super::{Clearance, Obstacles, Path};
 use crate::map::{FreeSpace, Map};
 
 /// The smallest clearance and a cell.
@@ -95,4 +96,20 @@ fn the_shortest_path_is_as_short_as_a_taut_one() {
         println!("{name}: {mean:.3}, most {:.3}", ratios.iter().copied().fold(0.0, f64::max));
         assert!(mean < 1.03, "{name}: {mean}");
     }
+}
+
+#[test]
+fn shortening_ends_after_so_many_misses() {
+    let (_, obstacles) = shipped("open");
+    // A straight line has no shortcut, so each one misses.
+    let points = vec![lattice_point(20, 20), lattice_point(30, 30)];
+    let after = |count| {
+        let mut path = Path { points: points.clone(), clearance: no_ends(LEAST_M) };
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        path.cut_short(count, &obstacles, &mut rng);
+        assert_eq!(path.points, points);
+        rng
+    };
+    assert_eq!(after(200), after(MOST_MISSES));
+    assert_ne!(after(MOST_MISSES), after(MOST_MISSES - 1));
 }
