@@ -1,10 +1,13 @@
 // Nothing on the page moves by itself: the browser's own measure of layout shifts (CLS).
 
+import { setTimeout as delay } from 'node:timers/promises';
 import type { Page } from '@playwright/test';
 import { Lab, expect, test } from './fixtures';
 import { until } from './support/wait';
 
 const MAX_SHIFT = 0.01;
+/** Long enough that each message is drawn alone. */
+const SLOW_FRAME_MS = 50;
 /** At 64 times real time, on a busy machine. */
 const TEN_MINUTES_MS = 100_000;
 /** `STEADY_MINUTES=5` repeats the events for five minutes. */
@@ -56,6 +59,38 @@ function observeShifts() {
 }
 
 const shiftOf = (page: Page) => page.evaluate(() => window.ferryShift);
+
+test('does not move when messages arrive one by one', async ({ page, session }) => {
+  await page.addInitScript(observeShifts);
+  await page.routeWebSocket(/./, (socket) => {
+    const server = socket.connectToServer();
+    let last = Promise.resolve();
+    server.onMessage((message) => {
+      last = last.then(async () => {
+        await delay(SLOW_FRAME_MS);
+        socket.send(message);
+      });
+    });
+  });
+  const lab = await Lab.attach(page, session.url);
+  await lab.page.getByTestId('phase').getByText(/./).waitFor();
+  await delay(10 * SLOW_FRAME_MS);
+  const { cls, worst } = await shiftOf(page);
+  expect(cls, worst.join('\n')).toBeLessThan(MAX_SHIFT);
+});
+
+test('keeps the parameters in their place when the first decision comes', async ({ lab }) => {
+  const parameters = lab.page.getByRole('button', { name: 'Parameters' });
+  const decision = lab.page.getByTestId('rl-taken');
+  await lab.reset();
+  await lab.controller('RL');
+  await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1) ?? [0, 0]);
+  await expect(decision).toHaveCount(0);
+  const before = await parameters.boundingBox();
+  await lab.run();
+  await decision.waitFor();
+  expect(await parameters.boundingBox()).toEqual(before);
+});
 
 test('does not move while a session runs', async ({ page, session, openLab }) => {
   test.setTimeout(TEN_MINUTES_MS + 140_000);

@@ -1,28 +1,43 @@
 // Details of the active controller.
 
-import { Show, type JSX } from 'solid-js';
+import { Match, Show, Switch, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ValueFans } from '../features/values/ValueFans';
 import type { Pictures, Trial } from '../lab/slices';
+import type { ControllerName } from '../net/protocol.gen';
+import './ControllerFacts.css';
+
+const NONE_YET: Record<ControllerName, string | undefined> = {
+  rl: 'The policy has not decided anything yet.',
+  errt: 'There is no plan yet.',
+  replanner: 'There is no plan yet.',
+  attractor: undefined,
+};
 
 export function ControllerFacts(props: { lab: Trial & Pictures }): JSX.Element {
   const { lab } = props;
   return (
-    <>
-      <Show when={lab.overlay()?.plan}>
-        {(plan) => (
-          <Show when={lab.state()}>
-            {(state) => <PlannerFacts plan={plan()} state={state()} />}
-          </Show>
-        )}
-      </Show>
-      <Show when={lab.overlay()?.judgement}>
-        {(judgement) => (
-          <Show when={lab.scene()}>
-            {(scene) => <ValueFans judgement={judgement()} map={scene().map} />}
-          </Show>
-        )}
-      </Show>
-    </>
+    <Show when={lab.state()}>
+      {(state) => (
+        <Show when={NONE_YET[state().controller]}>
+          {(none) => (
+            <div class="controller-facts" data-controller={state().controller}>
+              <Switch fallback={<p class="none-yet">{none()}</p>}>
+                <Match when={lab.overlay()?.plan}>
+                  {(plan) => <PlannerFacts plan={plan()} state={state()} />}
+                </Match>
+                <Match when={lab.overlay()?.judgement}>
+                  {(judgement) => (
+                    <Show when={lab.scene()}>
+                      {(scene) => <ValueFans judgement={judgement()} map={scene().map} />}
+                    </Show>
+                  )}
+                </Match>
+              </Switch>
+            </div>
+          )}
+        </Show>
+      )}
+    </Show>
   );
 }

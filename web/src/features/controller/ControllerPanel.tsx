@@ -85,18 +85,17 @@ export function ControllerPanel(props: {
       </header>
       <Show when={lab.scene()}>
         {(scene) => (
-          <>
-            <Show when={lab.state()}>
-              {(state) => (
-                <>
-                  <About state={state()} />
-                  <SwitchingLaw state={state()} scene={scene()} />
-                  {props.children}
-                </>
-              )}
-            </Show>
-            <ParameterForm lab={lab} scene={scene()} />
-          </>
+          <Show when={lab.state()}>
+            {(state) => (
+              <>
+                <About state={state()} />
+                <SwitchingLaw state={state()} scene={scene()} />
+                {props.children}
+                {/* Not before the rest, which would push it down. */}
+                <ParameterForm lab={lab} scene={scene()} />
+              </>
+            )}
+          </Show>
         )}
       </Show>
       <PlaceNotice lab={lab} place="controller" />

@@ -98,7 +98,7 @@ export function ValueFans(props: { judgement: JudgementLayer; map: string }): JS
           </tr>
         </tbody>
       </table>
-      <p>
+      <p class="decision">
         Taken: <strong data-testid="rl-taken">{ACTIONS[props.judgement.taken]?.name}</strong>
         <Show when={shielded()}>, the next best: the shield refused the best action</Show>
         <Show when={props.judgement.is_shortcut}>
