@@ -34,6 +34,8 @@ class Study(NamedTuple):
     # The lines of `ferry train` that count, as a regular expression.
     examined: str
     settings: list
+    # Starts and goals on each map, or on each family's mazes together.
+    episodes: int
     seeds: range
     # What is changed, and the settings of `ferry train`.
     variants: dict
@@ -46,6 +48,7 @@ STUDIES = {
         map="colon",
         examined=r"trained on +colon",
         settings=["updates=4000"],
+        episodes=2000,
         seeds=range(1, 6),
         variants={
             AS_SHIPPED: [],
@@ -69,11 +72,12 @@ STUDIES = {
     ),
     "explorer": Study(
         title="The explorer on mazes that it has not seen",
-        about="a third of the default number of updates; examined on rooms, spirals and serpentines with seeds 1 to 20, 100 "
+        about="a quarter of the default number of updates; examined on rooms, spirals and serpentines with seeds 1 to 20, 25 "
         "starts and goals on each",
         map="generated",
         examined="unseen +(?:rooms|spirals|serpentines)",
-        settings=["updates=2700", "imitation_updates=850"],
+        settings=["updates=2000", "imitation_updates=625"],
+        episodes=500,
         seeds=range(1, 4),
         variants={
             AS_SHIPPED: [],
@@ -81,7 +85,7 @@ STUDIES = {
             "visits not seen": ["architecture.survey.visits=false"],
             "one scale": ["architecture.survey.coarse=false"],
             "no imitation": ["imitation_updates=0"],
-            "imitation only": ["updates=850"],
+            "imitation only": ["updates=625"],
         },
     ),
 }
@@ -90,7 +94,7 @@ STUDIES = {
 def train(study, changes, seed):
     """Counts of the last examination: episodes, reached, collided, out of steps."""
     OUT.mkdir(parents=True, exist_ok=True)
-    command = [FERRY, "train", "--map", study.map, "--seed", str(seed), "--episodes", "2000",
+    command = [FERRY, "train", "--map", study.map, "--seed", str(seed), "--episodes", str(study.episodes),
                "--out", str(OUT / "one.safetensors"), "--sweeps", str(OUT / "sweeps"),
                *(word for setting in [*study.settings, *changes] for word in ("--set", setting))]
     environment = {"XDG_RUNTIME_DIR": "/tmp", **os.environ}
