@@ -72,12 +72,12 @@ STUDIES = {
     ),
     "explorer": Study(
         title="The explorer on mazes that it has not seen",
-        about="a quarter of the default number of updates; examined on rooms, spirals and serpentines with seeds 1 to 20, 25 "
+        about="a quarter of the default number of updates; examined on rooms, spirals and serpentines with seeds 1 to 20, 10 "
         "starts and goals on each",
         map="generated",
         examined="unseen +(?:rooms|spirals|serpentines)",
         settings=["updates=2000", "imitation_updates=625"],
-        episodes=500,
+        episodes=200,
         seeds=range(1, 4),
         variants={
             AS_SHIPPED: [],

@@ -1,6 +1,6 @@
 """Evaluates controllers on generated mazes that no training used, and writes docs/mazes.md: `make mazes`.
 
-`MAZE_TRIALS` is the number of trials on each maze. The seed is the first eight hexadecimal digits of the evaluated
+`MAZE_TRIALS` is the number of trials on each maze, of those with disturbances a quarter. The seed is the first eight hexadecimal digits of the evaluated
 commit, so it is not chosen; `FERRY_COMMIT` names that commit when HEAD has moved on. Finished rows are kept in
 tests/results/mazes/COMMIT, so an interrupted run goes on. `POLICIES` lists further policies, trained with other seeds.
 """
@@ -30,23 +30,23 @@ def revision():
 
 
 def contenders():
-    """Name, controller, disturbances, and further options."""
-    yield "RL, explorer", "rl", 0, []
-    yield "RL, explorer, three disturbances", "rl", 3, []
+    """Name, controller, disturbances, trials on each maze, and further options."""
+    yield "RL, explorer", "rl", 0, TRIALS, []
+    yield "RL, explorer, three disturbances", "rl", 3, TRIALS // 4, []
     for path in POLICIES:
-        yield f"RL, {path.stem}", "rl", 0, ["--policy", str(path)]
-    yield "ERRT", "errt", 0, []
-    yield "replanner", "replanner", 0, []
+        yield f"RL, {path.stem}", "rl", 0, TRIALS, ["--policy", str(path)]
+    yield "ERRT", "errt", 0, TRIALS, []
+    yield "replanner", "replanner", 0, TRIALS, []
 
 
-def report(family, name, controller, disturbances, options, commit):
+def report(family, name, controller, disturbances, trials, options, commit):
     """The rows of an evaluation on all mazes of a family, run now if they are not kept."""
-    kept = ROOT / "tests/results/mazes" / commit / f"{family}, {name}, {TRIALS}.json"
+    kept = ROOT / "tests/results/mazes" / commit / f"{family}, {name}, {trials}.json"
     if not kept.exists():
         print(f"{family}, {name}", file=sys.stderr, flush=True)
         maps = ",".join(str(DRAWN / f"{family}-{seed}.svg") for seed in range(1, MAZES + 1))
         command = [FERRY, "evaluate", "--map", maps, "--controller", controller, "--disturbances", str(disturbances),
-                   "--episodes", str(TRIALS), "--seed", str(int(commit, 16)), "--set", f"step_limit={STEPS}", "--json",
+                   "--episodes", str(trials), "--seed", str(int(commit, 16)), "--set", f"step_limit={STEPS}", "--json",
                    *options]
         environment = {"XDG_RUNTIME_DIR": "/tmp", **os.environ}
         done = subprocess.run(command, stdout=subprocess.PIPE, check=True, env=environment)
@@ -94,7 +94,7 @@ def page(reports, commit):
     yield ""
     yield textwrap.fill(
         f"Mazes of the families rooms, spirals and serpentines with seeds 1 to {MAZES}, all widths, none left out: "
-        f"`ferry maps generate --family F --count {MAZES} --out DIR`. {TRIALS} trials on each, `step_limit` {STEPS}, commit "
+        f"`ferry maps generate --family F --count {MAZES} --out DIR`. {TRIALS} trials on each, {TRIALS // 4} with disturbances, `step_limit` {STEPS}, commit "
         f"{commit}, seed {int(commit, 16)}. The explorer was trained on tubes, trees and stones only. Path ratio: length of "
         "the tool's path over the shortest path of the bead, in trials that reached the goal; a controller that sees 20 cm "
         "must explore.", 120)
@@ -116,9 +116,9 @@ def main():
         subprocess.run([FERRY, "maps", "generate", "--family", family, "--count", str(MAZES), "--out", DRAWN], check=True,
                        stdout=subprocess.DEVNULL)
     reports = {}
-    for name, controller, disturbances, options in contenders():
+    for name, *setup in contenders():
         for family in FAMILIES:
-            reports[family, name] = report(family, name, controller, disturbances, options, commit)
+            reports[family, name] = report(family, name, *setup, commit)
             # After each, so that an interrupted run leaves what it has.
             PAGE.write_text("\n".join(page(reports, commit)) + "\n")
 
