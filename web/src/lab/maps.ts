@@ -1,0 +1,64 @@
+// The user's own map: its drawing is sent to the server, which reads and names it.
+
+import { post } from '../net/requests';
+import { MAX_SVG_BYTES, type MapFacts, type MapReport } from '../net/protocol.gen';
+import { counted, fixed, millimetres } from '../ui/format';
+
+/** Leaves room for an ending. */
+const NAME_LENGTH = 34;
+
+/** The name of a file as the name of a map: `My maze.svg` becomes `my-maze`. */
+export function mapName(file: string): string {
+  return file
+    .replace(/\.svg$/i, '')
+    .normalize('NFKD')
+    .replaceAll(/\p{M}/gu, '')
+    .toLowerCase()
+    .replaceAll(/[^a-z0-9_]+/g, '-')
+    .replaceAll(/^[-_]+|-+$/g, '')
+    .slice(0, NAME_LENGTH);
+}
+
+/** A drawing with a smaller share of reached area is offered a move. */
+const MOST = 0.98;
+
+/** Whether a part of the map is out of the arm's reach. */
+export const isOutOfReach = ({ reached_share }: MapFacts): boolean => reached_share < MOST;
+
+/** What the drawing holds, one sentence each. */
+export function reportWords(report: MapFacts): string[] {
+  const { width_m, height_m, walls, regions, narrowest, repairs } = report;
+  const size = `${(1000 * width_m).toFixed(0)} × ${millimetres(height_m)}`;
+  const sentences = [`${size}, ${counted(walls, 'wall')}.`];
+  if (regions === 0) sentences.push('Nowhere is there room for the bead.');
+  else if (regions > 1) {
+    sentences.push(`${regions} separate regions: the bead cannot pass from one to the other.`);
+  }
+  if (narrowest) {
+    sentences.push(
+      `The narrowest place is ${millimetres(narrowest.width_m)} wide, at x ${fixed(narrowest.x_m, 2)}, y ${fixed(narrowest.y_m, 2)} m.`,
+    );
+  }
+  if (isOutOfReach(report)) {
+    sentences.push(
+      `The arm reaches ${(100 * report.reached_share).toFixed(0)} % of the free area.`,
+    );
+  }
+  return [...sentences, ...repairs.map((repair) => `Repaired: ${repair}.`)];
+}
+
+/**
+ * Returns what the server says about the new map; throws an error with the message to show. `fit` moves the drawing into
+ * the arm's reach and shrinks it if it is larger.
+ */
+export async function addMap(file: File, fit = false): Promise<MapReport> {
+  if (file.size > MAX_SVG_BYTES) {
+    throw new Error('This drawing is too large: the limit is 1 MiB.');
+  }
+  const name = encodeURIComponent(mapName(file.name));
+  return post<MapReport>(
+    fit ? `/api/maps?name=${name}-moved&fit=true` : `/api/maps?name=${name}`,
+    file,
+    'image/svg+xml',
+  );
+}
