@@ -35,7 +35,7 @@ pub use layers::{
     SeenMessage, SensedObstacle, ValueCell, ValueMap, ValueQuery,
 };
 pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
-pub use maps::{MapReport, NarrowPlace};
+pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
 pub use numbers::{Numbers3, Numbers6, Rows3};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
 pub use server::{CaseSummary, EventMessage, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};

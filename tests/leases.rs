@@ -117,6 +117,25 @@ async fn a_silent_hand_is_released_and_the_session_pauses() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_drawing_is_checked_without_being_added() {
+    let lab = Laboratory::open().await;
+    let rooms = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\
+                 <path d=\"M0 210V350M0 390V540\" stroke=\"#000\" stroke-width=\"10\"/></svg>";
+    let (status, check) = lab.ask("POST", "/api/map-checks", rooms).await;
+    assert_eq!((status, &check["walls"], &check["regions"]), (200, &json!(2), &json!(1)), "{check}");
+    let near = |value: &Value, m: f64| (value.as_f64().unwrap() - m).abs() < 0.003;
+    let [door] = &check["passages"].as_array().unwrap()[..] else { panic!("{check}") };
+    assert!(near(&door["width_m"], 0.04) && near(&door["x_m"], 0.0) && near(&door["y_m"], -0.37), "{door}");
+    assert_eq!(check["outlines"].as_array().unwrap().len(), 2);
+    assert!(near(&check["workspace"]["x_min_m"], -0.3));
+    let (status, problem) = lab.ask("POST", "/api/map-checks", "<svg").await;
+    assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("map_refused"), &json!("map")));
+    let (_, list) = lab.ask("GET", "/api/maps", "").await;
+    assert_eq!(list["maps"], json!(ferry::map::Map::shipped_names()));
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn uploaded_maps_are_stored_listed_and_deleted() {
     let lab = Laboratory::open().await;
     let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-300 210 580 330\">\

@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     println!("reached    {:.0} % of the free area by the tool", 100.0 * Arena::of(map.clone()).reached_share());
     println!("widest     {:.0} mm across", summary.widest_m * 1e3);
-    if let Some(narrow) = summary.narrowest {
+    if let Some(narrow) = summary.passages.first() {
         let (width_mm, at) = (narrow.width_m * 1e3, narrow.at);
         println!("narrowest  {width_mm:.0} mm between two rooms, at x {:.3} y {:.3} m", at.x, at.y);
     }

@@ -46,6 +46,7 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(access::login::logout))
         .routes(routes!(maps::list, maps::add))
         .routes(routes!(maps::file, maps::delete))
+        .routes(routes!(maps::check))
         .routes(routes!(sessions::sessions, sessions::create_session))
         .routes(routes!(sessions::session, sessions::delete_session))
         .routes(routes!(sessions::state))

@@ -1,10 +1,11 @@
-//! Reports about uploaded maps.
+//! Reports about drawings of maps.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
-use crate::map::{Narrow, Summary};
+use crate::geometry::{Polygon, Rect};
+use crate::map::{Map, Narrow, Summary};
 
 /// A passage between two rooms of a map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -15,11 +16,9 @@ pub struct NarrowPlace {
     pub y_m: f64,
 }
 
-/// What an uploaded drawing holds.
+/// What a drawing holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
-pub struct MapReport {
-    /// Name of the new map.
-    pub name: String,
+pub struct MapFacts {
     pub width_m: f64,
     pub height_m: f64,
     pub walls: usize,
@@ -37,17 +36,52 @@ pub struct MapReport {
     pub repairs: Vec<String>,
 }
 
-impl From<Narrow> for NarrowPlace {
-    fn from(Narrow { width_m, at }: Narrow) -> Self {
+/// A map that was added.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct MapReport {
+    /// Name of the new map.
+    pub name: String,
+    #[serde(flatten)]
+    pub facts: MapFacts,
+}
+
+/// A drawing as a map, which is not added.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct MapCheck {
+    #[serde(flatten)]
+    pub facts: MapFacts,
+    /// The passages between its rooms, the narrowest first, at most 30.
+    pub passages: Vec<NarrowPlace>,
+    pub workspace: Rect,
+    /// Its walls, in metres, without the border.
+    pub outlines: Vec<Polygon>,
+}
+
+/// Most passages of a check.
+const MOST_PASSAGES: usize = 30;
+
+impl From<&Narrow> for NarrowPlace {
+    fn from(&Narrow { width_m, at }: &Narrow) -> Self {
         Self { width_m, x_m: at.x, y_m: at.y }
     }
 }
 
-impl MapReport {
-    pub fn new(name: String, summary: Summary, reached_share: f64) -> Self {
-        let Summary { size_m, walls, regions, free_m2, narrowest, widest_m, repairs } = summary;
-        let [width_m, height_m] = size_m;
-        let narrowest = narrowest.map(NarrowPlace::from);
-        Self { name, width_m, height_m, walls, regions, free_m2, widest_m, narrowest, reached_share, repairs }
+impl MapFacts {
+    pub fn new(summary: &Summary, reached_share: f64) -> Self {
+        let &Summary { size_m: [width_m, height_m], walls, regions, free_m2, ref passages, widest_m, ref repairs } =
+            summary;
+        let (narrowest, repairs) = (passages.first().map(NarrowPlace::from), repairs.clone());
+        Self { width_m, height_m, walls, regions, free_m2, widest_m, narrowest, reached_share, repairs }
+    }
+}
+
+impl MapCheck {
+    pub fn new(map: &Map, summary: &Summary, reached_share: f64) -> Self {
+        Self {
+            facts: MapFacts::new(summary, reached_share),
+            passages: summary.passages.iter().take(MOST_PASSAGES).map(NarrowPlace::from).collect(),
+            workspace: *map.workspace(),
+            outlines: map.walls().to_vec(),
+        }
     }
 }

@@ -15,7 +15,7 @@ use crate::control::transport::errt::MOST_EDGES;
 use crate::evaluate::{Comparison, PairedMean, Row};
 use crate::geometry::{Polygon, Rect};
 use crate::magnetics::force::FARTHEST_M;
-use crate::map::{MAX_SVG_BYTES, WALL_HEIGHT_M};
+use crate::map::{MAX_SVG_BYTES, Map, WALL_HEIGHT_M};
 use crate::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
 use crate::plant::PositionerKind;
 use crate::scenario::{
@@ -58,6 +58,7 @@ fn constants() -> String {
         constant("OBSERVATION_PX", OBSERVATION_SIZE_PX, "Width and height of the observation."),
         constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
         controller_labels(),
+        shipped_maps(),
     ]
     .join("\n")
 }
@@ -69,6 +70,14 @@ fn controller_labels() -> String {
          /** Controllers that the page offers. */\nexport const CONTROLLERS = [{}] as const;\n",
         lines.concat(),
         ControllerName::OFFERED.map(|name| format!("'{}'", name.as_str())).join(", ")
+    )
+}
+
+fn shipped_maps() -> String {
+    let names = Map::shipped_names().into_iter().map(|name| format!("'{name}'")).collect::<Vec<_>>();
+    format!(
+        "/** Maps that every server has. */\nexport const SHIPPED_MAPS: readonly string[] = [{}];\n",
+        names.join(", ")
     )
 }
 
@@ -120,7 +129,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 11] {
         ),
         ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
         ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),
-        ("maps", declared![NarrowPlace, MapReport]),
+        ("maps", declared![NarrowPlace, MapFacts, MapReport, MapCheck]),
     ]
 }
 

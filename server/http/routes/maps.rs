@@ -6,6 +6,7 @@ use std::path::{Path as FilePath, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::Json;
+use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -19,9 +20,9 @@ use crate::http::body::{WholeBody, attachment};
 use crate::http::path::{MapPath, Path, Query};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::map::{Library, MAX_SVG_BYTES, MapError, Summary, is_added};
+use crate::map::{Library, MAX_SVG_BYTES, Map, MapError, Summary, is_added};
 use crate::plant::BEAD_RADIUS_M;
-use crate::protocol::MapReport;
+use crate::protocol::{MapCheck, MapFacts, MapReport};
 use crate::trial::Arena;
 
 /// A drawing of a map.
@@ -113,7 +114,7 @@ impl Maps {
         };
         self.changed();
         let (name, summary) = (map.name().to_owned(), Summary::of(&map, BEAD_RADIUS_M));
-        Ok(MapReport::new(name, summary, Arena::of(map).reached_share()))
+        Ok(MapReport { name, facts: MapFacts::new(&summary, Arena::of(map).reached_share()) })
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -198,13 +199,31 @@ pub async fn add(
     Query(wish): Query<Wish>,
     WholeBody(body): WholeBody,
 ) -> Result<Response, Problem> {
-    let svg = String::from_utf8(body.into()).map_err(|error| {
-        Problem::new(StatusCode::BAD_REQUEST, "malformed", format!("the drawing is not UTF-8: {error}")).field("map")
-    })?;
+    let svg = text(body)?;
     let adding = server.work(move |server| server.maps.add(wish, svg)).await?;
     let report = adding?;
     let location = format!("/api/maps/{}", report.name);
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(report)).into_response())
+}
+
+fn text(body: Bytes) -> Result<String, Problem> {
+    String::from_utf8(body.into()).map_err(|error| {
+        Problem::new(StatusCode::BAD_REQUEST, "malformed", format!("the drawing is not UTF-8: {error}")).field("map")
+    })
+}
+
+/// Tells what the drawing in the body would be as a map, without adding it.
+#[utoipa::path(post, path = "/api/map-checks", tag = "maps", operation_id = "check_map",
+    request_body(content = String, content_type = "image/svg+xml", description = "SVG in millimetres.", example = example),
+    responses((status = 200, body = MapCheck), OutOfRange, Unavailable))]
+pub async fn check(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<MapCheck>, Problem> {
+    let svg = text(body)?;
+    let checking = server.work(move |_| {
+        let map = Map::from_svg("drawing", &svg)?;
+        let (summary, arena) = (Summary::of(&map, BEAD_RADIUS_M), Arena::of(map.clone()));
+        Ok::<_, Problem>(MapCheck::new(&map, &summary, arena.reached_share()))
+    });
+    Ok(Json(checking.await??))
 }
 
 /// A map's drawing as a file.

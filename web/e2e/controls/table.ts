@@ -4,6 +4,7 @@
 import { type Locator, type Page, expect } from '@playwright/test';
 import type { InputMethod } from '../support/inputMethods';
 import { isChosen, setOf } from '../support/inputMethods';
+import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { LABORATORY, LAYERS } from './laboratory';
 import { PARAMETERS, SOME_PARAMETERS } from './parameters';
@@ -24,6 +25,7 @@ const SECTIONS_BY_TEST: SectionsByTest = {
   'recordings and evaluations': [RECORDINGS, EVALUATE],
   'events and comparisons': [EVENTS, COMPARE],
   lessons: [LESSONS],
+  'the map editor': [DRAW],
   'the parameters': PARAMETERS,
 };
 

@@ -11,6 +11,7 @@ import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
+import { LazyDrawView } from '../features/draw/LazyDrawView';
 import { EvaluateView } from '../features/evaluate/EvaluateView';
 import { Header } from './Header';
 import { MAP_LAYERS } from './layers';
@@ -48,7 +49,9 @@ export function Page(): JSX.Element {
       void take(file);
     });
   };
-  onDrop(/\.svg$/i, (file) => opener.open(file));
+  onDrop(/\.svg$/i, async (file) => {
+    await opener.open(file);
+  });
   onDrop(/\.json$/i, (file) => openCase(lab, file));
   return (
     <>
@@ -67,7 +70,7 @@ export function Page(): JSX.Element {
               </>
             }
             share={
-              <ShareButton links={links}>
+              <ShareButton links={links} map={lab.scene()?.map}>
                 <CaptureTools capture={capture} />
               </ShareButton>
             }
@@ -85,6 +88,15 @@ export function Page(): JSX.Element {
             <LowerPanel lab={lab} theme={theme} />
             <AsidePanel lab={lab} theme={theme} />
           </main>
+        </Match>
+        <Match when={view() === 'draw'}>
+          <LazyDrawView
+            lab={lab}
+            open={(file) => opener.open(file)}
+            onLaboratory={() => {
+              setView('laboratory');
+            }}
+          />
         </Match>
         <Match when={view() === 'recordings'}>
           <RecordingsView theme={theme} session={lab.session} />

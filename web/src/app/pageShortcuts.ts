@@ -1,6 +1,7 @@
 // All keys of the page.
 
 import { CONTROLLER_SHORTCUTS } from '../features/controller/shortcuts';
+import { DRAW_SHORTCUTS } from '../features/draw/keys';
 import { TIME_SHORTCUTS } from '../features/playback/shortcuts';
 import type { FeatureShortcuts } from '../lab/shortcuts';
 import { WORKSPACE_SHORTCUTS } from '../plan/keyboard';
@@ -30,5 +31,6 @@ export function pageShortcuts(
     { group: 'Page', keys: ['?'], does: 'open this help', run: help },
     ...WORKSPACE_SHORTCUTS,
     ...ZOOM_SHORTCUTS,
+    ...DRAW_SHORTCUTS,
   ];
 }

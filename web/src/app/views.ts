@@ -2,6 +2,7 @@
 
 export const VIEWS = [
   ['laboratory', 'Laboratory'],
+  ['draw', 'Draw'],
   ['recordings', 'Recordings'],
   ['evaluate', 'Evaluate'],
 ] as const;

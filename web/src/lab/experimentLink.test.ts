@@ -89,6 +89,7 @@ function anyExperiment(chance: () => number): Experiment {
     parameters: parameters as Partial<Parameters>,
     disturbances: Math.floor(chance() * 3),
     script,
+    drawing: pick([null, 'q1YqVrI_-0']),
   };
 }
 
@@ -156,6 +157,7 @@ describe('a link', () => {
       parameters: {},
       disturbances: 2,
       script: scene.scenario.script,
+      drawing: null,
     });
     // A goal from the scenario is not rounded.
     scene.scenario.goal_m = [0.123456789, -0.3000001];
@@ -203,6 +205,7 @@ describe('an invalid link', () => {
     ['#top', '“#top” does not start with #v=1'],
     ['#v=2&map=colon', 'v is “2”; this page reads version 1'],
     ['#v=1&controller=errt&seed=7', 'map is missing'],
+    ['#v=1&map=colon&controller=errt&seed=7&drawing=a%2Bb', 'drawing is “a+b”; it must be'],
     [
       '#v=1&map=liver&controller=errt&seed=7',
       'map is “liver”; it must be one of attractor-example',

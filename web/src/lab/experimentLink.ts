@@ -41,6 +41,8 @@ export interface Experiment {
   /** Number of random disturbances. */
   readonly disturbances: number;
   readonly script: readonly Scripted[];
+  /** The map's drawing as text ([`packed`](./drawingLink.ts)), for servers that do not have the map. */
+  readonly drawing: string | null;
 }
 
 /** Maps, controllers and defaults of this server, to check a link. */
@@ -60,7 +62,7 @@ export type Reading =
 const POSITIONERS: readonly PositionerKind[] = ['arm', 'planar_stage'];
 /** Fields of a link besides parameters. */
 const FIELDS = ['v', 'map', 'controller', 'positioner', 'seed', 'start', 'goal'];
-const LAST_FIELDS = ['disturbances', 'script'];
+const LAST_FIELDS = ['disturbances', 'script', 'drawing'];
 
 function isParameter(name: string, defaults: Parameters): name is keyof Parameters {
   return Object.hasOwn(defaults, name);
@@ -94,12 +96,13 @@ export function experimentOf(scene: SceneMessage, state: Chosen): Experiment {
     parameters: tuned(scene.parameters, scene.defaults),
     disturbances: scenario.disturbances,
     script: scenario.script,
+    drawing: null,
   };
 }
 
 /** The link of an experiment with `#`. The same experiment always has the same link. */
 export function linkText(experiment: Experiment, defaults: Parameters): string {
-  const { positioner, start_m, goal_m, parameters, disturbances, script } = experiment;
+  const { positioner, start_m, goal_m, parameters, disturbances, script, drawing } = experiment;
   const pairs: (readonly [string, string])[] = [
     ['v', String(LINK_VERSION)],
     ['map', experiment.map],
@@ -115,6 +118,7 @@ export function linkText(experiment: Experiment, defaults: Parameters): string {
   }
   if (disturbances > 0) pairs.push(['disturbances', String(disturbances)]);
   if (script.length > 0) pairs.push(['script', scriptText(script)]);
+  if (drawing !== null) pairs.push(['drawing', drawing]);
   // Separators stay readable, but inside a map's name they are encoded.
   const safe = (name: string, value: string): string =>
     name === 'map' ? encodeURIComponent(value) : value;
@@ -151,6 +155,10 @@ function readParameter(
   if (field?.kind !== 'choice') return { [name]: text };
   const choices = field.options.map(([option]) => option);
   return { [name]: oneOf(name, text, choices) };
+}
+
+function readDrawing(field: string, text: string): string {
+  return /^[\w-]+$/.test(text) ? text : refuse(field, text, 'letters, digits, - and _');
 }
 
 function decoded(text: string): string {
@@ -191,8 +199,10 @@ function readExperiment(pairs: ReadonlyMap<string, string>, known: Known): Exper
     if (!isParameter(name, known.defaults)) continue;
     parameters = { ...parameters, ...readParameter(name, value, known.defaults) };
   }
+  const drawing = may('drawing', readDrawing);
   return {
-    map: oneOf('map', must('map'), known.maps),
+    // A map with its drawing need not be here.
+    map: drawing === null ? oneOf('map', must('map'), known.maps) : must('map'),
     controller: oneOf('controller', must('controller'), known.controllers),
     positioner: may('positioner', (field, text) => oneOf(field, text, POSITIONERS)),
     seed: readWhole('seed', must('seed')),
@@ -201,6 +211,7 @@ function readExperiment(pairs: ReadonlyMap<string, string>, known: Known): Exper
     parameters: tuned({ ...known.defaults, ...parameters }, known.defaults),
     disturbances: may('disturbances', readWhole) ?? 0,
     script: may('script', readScript) ?? [],
+    drawing,
   };
 }
 

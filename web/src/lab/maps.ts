@@ -25,23 +25,29 @@ const MOST = 0.98;
 /** Whether a part of the map is out of the arm's reach. */
 export const isOutOfReach = ({ reached_share }: MapFacts): boolean => reached_share < MOST;
 
-/** What the drawing holds, one sentence each. */
-export function reportWords(report: MapFacts): string[] {
-  const { width_m, height_m, walls, regions, narrowest, repairs } = report;
-  const size = `${(1000 * width_m).toFixed(0)} × ${millimetres(height_m)}`;
-  const sentences = [`${size}, ${counted(walls, 'wall')}.`];
+/** What keeps the bead or the arm from a part of the map, one sentence each. */
+export function faultWords(facts: MapFacts): string[] {
+  const { regions, reached_share } = facts;
+  const sentences: string[] = [];
   if (regions === 0) sentences.push('Nowhere is there room for the bead.');
   else if (regions > 1) {
     sentences.push(`${regions} separate regions: the bead cannot pass from one to the other.`);
   }
-  if (narrowest) {
-    sentences.push(
-      `The narrowest place is ${millimetres(narrowest.width_m)} wide, at x ${fixed(narrowest.x_m, 2)}, y ${fixed(narrowest.y_m, 2)} m.`,
-    );
+  if (isOutOfReach(facts)) {
+    sentences.push(`The arm reaches ${(100 * reached_share).toFixed(0)} % of the free area.`);
   }
-  if (isOutOfReach(report)) {
+  return sentences;
+}
+
+/** What the drawing holds, one sentence each. */
+export function reportWords(facts: MapFacts): string[] {
+  const { width_m, height_m, walls, narrowest, repairs } = facts;
+  const size = `${(1000 * width_m).toFixed(0)} × ${millimetres(height_m)}`;
+  const sentences = [`${size}, ${counted(walls, 'wall')}.`, ...faultWords(facts)];
+  if (narrowest) {
+    const { x_m, y_m } = narrowest;
     sentences.push(
-      `The arm reaches ${(100 * report.reached_share).toFixed(0)} % of the free area.`,
+      `The narrowest place is ${millimetres(narrowest.width_m)} wide, at x ${fixed(x_m, 2)}, y ${fixed(y_m, 2)} m.`,
     );
   }
   return [...sentences, ...repairs.map((repair) => `Repaired: ${repair}.`)];

@@ -15,6 +15,7 @@ import {
   loadMessage,
   type Reading,
 } from './experimentLink';
+import { drawnMap } from './drawingLink';
 import type { Notices, Session, Trial } from './slices';
 import { takeControl } from './takeControl';
 
@@ -62,9 +63,18 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     setHash('');
     setWanted(false);
   };
-  const send = (experiment: Experiment): void => {
+  const send = async (experiment: Experiment): Promise<void> => {
     const scene = untrack(lab.scene);
-    if (scene) lab.send(loadMessage(experiment, scene.defaults));
+    if (!scene) return;
+    try {
+      const { drawing } = experiment;
+      const map =
+        drawing === null ? experiment.map : await drawnMap(experiment.map, drawing, scene.maps);
+      lab.send(loadMessage({ ...experiment, map }, scene.defaults));
+    } catch (reason) {
+      const why = reason instanceof Error ? reason.message : String(reason);
+      lab.notify('playback', `The map of this link could not be added: ${why}`);
+    }
   };
 
   // An operator who opens the page with a link wants to load it. The link is not offered again later.
@@ -75,7 +85,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
     const may = lab.canOperate();
     // A reloaded page may be a viewer for a moment.
     if (experiment && may && (isFirst || lab.isReturning() || wanted())) {
-      send(experiment);
+      void send(experiment);
       forget();
     }
     isFirst = false;
@@ -101,7 +111,7 @@ export function createPageExperiment(lab: Session & Trial & Notices, page: Windo
       const scene = lab.scene();
       if (!scene) return;
       const read = experimentFrom(link, scene);
-      if (read.kind === 'experiment') send(read.experiment);
+      if (read.kind === 'experiment') void send(read.experiment);
       else if (read.kind === 'broken') lab.notify('playback', read.why);
     },
     forget,

@@ -86,3 +86,6 @@ export const CONTROLLER_LABELS = {
 
 /** Controllers that the page offers. */
 export const CONTROLLERS = ['rl', 'errt', 'attractor'] as const;
+
+/** Maps that every server has. */
+export const SHIPPED_MAPS: readonly string[] = ['attractor-example', 'attractor-example-arm', 'colon', 'colon-folds', 'open', 'posts', 'vessels'];

@@ -81,6 +81,11 @@ export function get<A>(path: string): Promise<A> {
   return request(path, {});
 }
 
+/** Gets text from `path`; throws an error with the message to show. */
+export async function getText(path: string): Promise<string> {
+  return (await answered(path, {})).text();
+}
+
 /** Posts JSON to `path` and returns the answer; throws an error with the message to show. */
 export function post<A>(path: string, body: string | Blob, type = 'application/json'): Promise<A> {
   return request(path, { method: 'POST', headers: { 'content-type': type }, body });

@@ -2,7 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import type { Session } from '../../lab/slices';
-import { isOutOfReach, reportWords } from './maps';
+import { isOutOfReach, reportWords } from '../../lab/maps';
 import type { MapOpener } from './opener';
 import './maps.css';
 

@@ -4,7 +4,7 @@ import { createSignal, type Accessor } from 'solid-js';
 import { loadMap } from '../../lab/loadMap';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import type { MapReport } from '../../net/protocol.gen';
-import { addMap, isOutOfReach } from './maps';
+import { addMap, isOutOfReach } from '../../lab/maps';
 
 interface Added {
   readonly file: File;
@@ -15,8 +15,11 @@ export interface MapOpener {
   readonly isBusy: Accessor<boolean>;
   /** The new map, until it is dismissed or another map is chosen. */
   readonly added: Accessor<Added | undefined>;
-  /** Adds a drawing and starts a trial on it. `fit` moves it into the arm's reach. Says why if it cannot. */
-  open(file: File, fit?: boolean): Promise<void>;
+  /**
+   * Adds a drawing and starts a trial on it. `fit` moves it into the arm's reach. Returns whether it was added, and says
+   * why if it was not.
+   */
+  open(file: File, fit?: boolean): Promise<boolean>;
   dismiss(): void;
 }
 
@@ -37,21 +40,24 @@ export function createMapOpener(lab: Session & Trial & Notices): MapOpener {
     async open(file, fit = false) {
       if (!lab.canOperate()) {
         say('Take control to open a map.');
-        return;
+        return false;
       }
       if (isBusy()) {
         say('Another map is being opened. Try again when it is there.');
-        return;
+        return false;
       }
       setBusy(true);
       try {
         const report = await addMap(file, fit);
         setAdded({ file, report });
         loadMap(lab, report.name);
+        return true;
       } catch (reason) {
         say(reason instanceof Error ? reason.message : String(reason));
+        return false;
+      } finally {
+        setBusy(false);
       }
-      setBusy(false);
     },
     dismiss: () => setAdded(undefined),
   };

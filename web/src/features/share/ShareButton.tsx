@@ -1,6 +1,7 @@
 // The page's experiment as a link to copy.
 
-import { Show, createEffect, createSignal, type JSX } from 'solid-js';
+import { Show, createEffect, createResource, createSignal, type JSX } from 'solid-js';
+import { drawingForLink } from '../../lab/drawingLink';
 import type { PageExperiment } from '../../lab/pageExperiment';
 import { createPopover } from '../../ui/popover';
 import './share.css';
@@ -15,6 +16,8 @@ const WORDS: Readonly<Record<Copied, string>> = {
 
 export function ShareButton(props: {
   links: PageExperiment;
+  /** The map of the experiment. */
+  map: string | undefined;
   /** Below the link. */
   children: JSX.Element;
 }): JSX.Element {
@@ -26,9 +29,13 @@ export function ShareButton(props: {
     () => box,
     () => button,
   );
+  // Asked for when the link is.
+  const [drawn] = createResource(() => (open() ? props.map : undefined), drawingForLink);
   const address = (): string => {
     const { origin, pathname } = window.location;
-    return `${origin}${pathname}${props.links.now() ?? ''}`;
+    const { text } = drawn() ?? {};
+    const drawing = text === undefined ? '' : `&drawing=${text}`;
+    return `${origin}${pathname}${props.links.now() ?? ''}${drawing}`;
   };
   createEffect(() => {
     // The link has changed since it was copied, or the popover was opened again.
@@ -84,7 +91,7 @@ export function ShareButton(props: {
           </p>
           <p>
             The link contains the map, seed, start, goal, controller, changed parameters and
-            scripted disturbances. On a Ferry server it loads this experiment.
+            scripted disturbances. On a Ferry server it loads this experiment. {drawn()?.remark}
           </p>
           <p class="hint">
             It begins at the start of this trial, with the last goal. It does not contain what you

@@ -1,0 +1,137 @@
+// The map editor: draw a maze, check it, use it, share it.
+
+import { readFile } from 'node:fs/promises';
+import { type Page, expect } from '@playwright/test';
+import { Lab, test } from './fixtures';
+import { must } from './support/wait';
+
+/** Draws by hand along places given in millimetres, as in the drawing. */
+async function drawAlong(page: Page, ...places: (readonly [number, number])[]) {
+  const px = await page.locator('.draw-surface').evaluate((svg: SVGSVGElement, at) => {
+    const matrix = svg.getScreenCTM() ?? undefined;
+    return at.map(([x, y]) => {
+      const point = new DOMPoint(x, y).matrixTransform(matrix);
+      return [point.x, point.y] as const;
+    });
+  }, places);
+  const [from, ...others] = px;
+  const [x, y] = must(from, 'a place');
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (const [right, down] of others) await page.mouse.move(right, down, { steps: 5 });
+  await page.mouse.up();
+}
+
+const check = (lab: Lab) => lab.page.getByRole('status', { name: 'Check' });
+
+test('draws a maze, is told what is wrong with it, and RL delivers on it', async ({
+  lab,
+  server,
+}) => {
+  const { page } = lab;
+  await lab.view('Draw').click();
+  await expect(check(lab)).toContainText('580 × 330 mm, 0 walls.');
+  // From border to border: two regions.
+  await drawAlong(page, [-10, 210], [0, 380], [-5, 540]);
+  await expect(check(lab)).toContainText('2 separate regions');
+  // A door, first too narrow, then wide enough.
+  await lab.button('Erase').click();
+  await page.getByRole('slider', { name: 'Width' }).fill('30');
+  await drawAlong(page, [-40, 380], [40, 380]);
+  await expect(check(lab)).not.toContainText('regions');
+  await expect(check(lab)).toContainText('tested in channels from 35 mm');
+  await expect(page.getByTestId('passage')).toHaveText(/^(29|30|31) mm$/);
+  await page.getByRole('slider', { name: 'Width' }).fill('70');
+  await drawAlong(page, [-40, 380], [40, 380]);
+  await expect(check(lab)).not.toContainText('tested in channels');
+  // A reload loses nothing.
+  await page.reload();
+  await lab.live();
+  await lab.view('Draw').click();
+  await expect(page.locator('.draw-shape')).toHaveCount(2);
+  await page.getByLabel('Name').fill('Two halves');
+  await lab.button('Save and use').click();
+  await expect.poll(() => lab.scene.map).toBe('two-halves');
+  await expect(page.locator('.map-report')).toContainText('2 walls');
+  await lab.button('Dismiss the report').click();
+  await lab.reset({ speed: '8', map: 'two-halves' });
+  await lab.controller('RL');
+  const bead = await lab.bead();
+  const other = lab.freePoints(bead, 0.15, 0.5).filter(([x]) => x < -0.01 !== bead[0] < -0.01);
+  await lab.setGoal(must(other.at(-1), 'a goal on the other side'));
+  await lab.run();
+  await lab.delivered(1);
+  await lab.pause();
+  await lab.reset({ map: 'posts' });
+  expect((await page.request.delete(`${server.url}/api/maps/two-halves`)).status()).toBe(204);
+});
+
+test('goes on with a shipped map, undoes, and downloads what the server reads', async ({
+  lab,
+  server,
+}) => {
+  const { page } = lab;
+  await lab.view('Draw').click();
+  await page.getByLabel('Begin with').selectOption('posts');
+  await expect(check(lab)).toContainText('9 walls');
+  await lab.button('Mirror left and right').click();
+  await page.keyboard.press('Control+z');
+  await lab.button('Post').click();
+  await drawAlong(page, [0, 375], [0.1, 375]);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+Shift+z');
+  const downloading = page.waitForEvent('download');
+  await lab.button('Download SVG').click();
+  const file = await readFile(await (await downloading).path(), 'utf8');
+  const answer = await page.request.post(`${server.url}/api/map-checks`, {
+    data: file,
+    headers: { 'content-type': 'image/svg+xml' },
+  });
+  expect(await answer.json()).toMatchObject({ walls: 10, regions: 1, repairs: [] });
+});
+
+test('a link brings a drawn map to a server that does not have it', async ({ lab, server }) => {
+  const { page } = lab;
+  await lab.view('Draw').click();
+  await drawAlong(page, [-100, 300], [0, 400], [100, 300]);
+  await page.getByLabel('Name').fill('vee');
+  await lab.button('Save and use').click();
+  await expect.poll(() => lab.scene.map).toBe('vee');
+  await lab.button('Dismiss the report').click();
+  await lab.button('Share').click();
+  const field = page.getByLabel('Link to this experiment');
+  await expect(field).toHaveValue(/&drawing=[\w-]+$/);
+  const hash = new URL(await field.inputValue()).hash;
+  const svg = await (await page.request.get(`${server.url}/api/maps/vee`)).text();
+  await page.keyboard.press('Escape');
+  const load = () =>
+    page.evaluate((link) => {
+      location.hash = '';
+      location.hash = link;
+    }, hash);
+  // While the map is here, the link does not add it again.
+  await lab.reset({ map: 'posts' });
+  await load();
+  await expect.poll(() => lab.scene.map).toBe('vee');
+  await lab.reset({ map: 'posts' });
+  expect((await page.request.delete(`${server.url}/api/maps/vee`)).status()).toBe(204);
+  await expect.poll(() => lab.scene.maps.includes('vee')).toBe(false);
+  // The name of a deleted map is not given again.
+  await load();
+  await expect.poll(() => lab.scene.map).toMatch(/^map-\d+$/);
+  const added = lab.scene.map;
+  expect(await (await page.request.get(`${server.url}/api/maps/${added}`)).text()).toBe(svg);
+  await lab.reset({ map: 'posts' });
+  expect((await page.request.delete(`${server.url}/api/maps/${added}`)).status()).toBe(204);
+});
+
+test('a viewer draws but does not save', async ({ lab, openLab }) => {
+  const viewer = await openLab();
+  await viewer.view('Draw').click();
+  await drawAlong(viewer.page, [-100, 300], [0, 400]);
+  await expect(check(viewer)).toContainText('1 wall.');
+  await expect(viewer.button('Save and use')).toBeDisabled();
+  await expect(viewer.page.getByText('You are watching')).toBeVisible();
+  await expect(viewer.button('Download SVG')).toBeEnabled();
+  expect(lab.scene.map).toBe('posts');
+});

@@ -1,0 +1,71 @@
+// A map of one's own: drawn here, checked by the server after each change, saved and used.
+
+import { createMemo, onCleanup, type JSX } from 'solid-js';
+import type { Notices, Session, Trial } from '../../lab/slices';
+import { fixed } from '../../ui/format';
+import { createCheck } from './check';
+import { svgText } from './drawing';
+import { createEditor } from './editor';
+import { onUndoKey } from './keys';
+import { SidePanel } from './SidePanel';
+import { Surface } from './Surface';
+import { Toolbar } from './Toolbar';
+import './draw.css';
+
+const HELP_ID = 'draw-help';
+
+export interface DrawProps {
+  readonly lab: Session & Trial & Notices;
+  /** Adds the drawing to the server's maps and loads it; returns whether it was added. */
+  readonly open: (file: File) => Promise<boolean>;
+  readonly onLaboratory: () => void;
+}
+
+export function DrawView(props: DrawProps): JSX.Element {
+  const editor = createEditor();
+  const svg = createMemo(() => svgText(editor.editing().drawing));
+  const { answer, isPresent } = createCheck(svg);
+  const onKeyDown = (event: KeyboardEvent): void => {
+    onUndoKey(editor, event);
+  };
+  document.addEventListener('keydown', onKeyDown);
+  onCleanup(() => {
+    document.removeEventListener('keydown', onKeyDown);
+  });
+  const check = createMemo(() => answer().data);
+  const place = (): string => {
+    const at = editor.pointer();
+    return at ? `x ${fixed(at[0] / 1000, 3)} y ${fixed(-at[1] / 1000, 3)} m` : 'x –   y –';
+  };
+  return (
+    <main class="view draw">
+      <Toolbar editor={editor} helpId={HELP_ID} />
+      <section class="panel draw-stage" aria-label="Drawing area">
+        <Surface
+          editor={editor}
+          passages={isPresent() ? (check()?.passages ?? []) : []}
+          helpId={HELP_ID}
+        />
+        <footer class="panel-foot">
+          <p class="hint">Squares of 5 cm. The border is a wall.</p>
+          <output class="readout" aria-live="off">
+            {place()}
+          </output>
+        </footer>
+      </section>
+      <SidePanel
+        lab={props.lab}
+        svg={svg()}
+        check={check()}
+        error={answer().error}
+        isChecked={isPresent()}
+        onDrawing={(drawing) => {
+          editor.act({ type: 'show', drawing });
+        }}
+        onSave={async (file) => {
+          if (await props.open(file)) props.onLaboratory();
+        }}
+      />
+    </main>
+  );
+}

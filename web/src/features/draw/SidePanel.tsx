@@ -1,0 +1,157 @@
+// What the server says about the drawing, where it comes from, and where it goes.
+
+import { For, Show, createSignal, type JSX } from 'solid-js';
+import type { MapCheck } from '../../net/protocol.gen';
+import { getText } from '../../net/requests';
+import { mapName } from '../../lab/maps';
+import { PlaceNotice } from '../../lab/PlaceNotice';
+import type { Notices, Session, Trial } from '../../lab/slices';
+import { download } from '../../ui/download';
+import { checkWords } from './check';
+import { BLANK, type Drawing } from './drawing';
+import { checkOf, drawingOf } from './import';
+
+const DEFAULT_NAME = 'my-maze';
+
+function Check(props: { check: MapCheck | undefined; error: string | undefined }): JSX.Element {
+  return (
+    <div class="draw-check" role="status" aria-label="Check">
+      <Show when={props.error}>{(error) => <p class="warning">{error()}</p>}</Show>
+      <Show when={props.error === undefined && props.check}>
+        {(check) => (
+          <For each={checkWords(check())}>
+            {({ text, isWarning }) => <p classList={{ warning: isWarning }}>{text}</p>}
+          </For>
+        )}
+      </Show>
+    </div>
+  );
+}
+
+export function SidePanel(props: {
+  lab: Session & Trial & Notices;
+  svg: string;
+  check: MapCheck | undefined;
+  error: string | undefined;
+  /** Whether the check is about the present drawing. */
+  isChecked: boolean;
+  onDrawing: (drawing: Drawing) => void;
+  /** Adds the drawing to the server's maps and loads it. */
+  onSave: (file: File) => Promise<void>;
+}): JSX.Element {
+  const { lab } = props;
+  const [name, setName] = createSignal(DEFAULT_NAME);
+  const [isBusy, setBusy] = createSignal(false);
+  /** Why the last drawing could not be opened. */
+  const [refusal, setRefusal] = createSignal<string>();
+  let file!: HTMLInputElement;
+  const fileName = (): string => `${mapName(name()) || DEFAULT_NAME}.svg`;
+  const mayPass = (): boolean => props.error === undefined && (props.check?.regions ?? 0) > 0;
+  const isOff = (): boolean => !lab.canOperate() || isBusy() || !props.isChecked || !mayPass();
+  const take = async (drawing: () => Promise<Drawing>): Promise<void> => {
+    setRefusal(undefined);
+    setBusy(true);
+    try {
+      props.onDrawing(await drawing());
+    } catch (reason) {
+      setRefusal(reason instanceof Error ? reason.message : String(reason));
+    }
+    setBusy(false);
+  };
+  const start = (map: string): Promise<void> =>
+    take(async () =>
+      map === ''
+        ? BLANK
+        : drawingOf(await checkOf(await getText(`/api/maps/${encodeURIComponent(map)}`))),
+    );
+  return (
+    <section class="panel draw-side" aria-label="Check and use">
+      <h2>Check</h2>
+      <Check check={props.check} error={props.error} />
+      <h2>Begin with</h2>
+      <div class="draw-row">
+        <select
+          aria-label="Begin with"
+          disabled={isBusy()}
+          onChange={(event) => {
+            const { value } = event.currentTarget;
+            event.currentTarget.value = '-';
+            void start(value);
+          }}
+        >
+          <option value="-" disabled selected>
+            A map…
+          </option>
+          <option value="">an empty workspace</option>
+          <For each={lab.scene()?.maps}>{(map) => <option value={map}>{map}</option>}</For>
+        </select>
+        <button
+          type="button"
+          disabled={isBusy()}
+          onClick={() => {
+            file.click();
+          }}
+        >
+          Open SVG…
+        </button>
+        <input
+          ref={file}
+          type="file"
+          accept=".svg,image/svg+xml"
+          aria-label="Drawing to go on with"
+          hidden
+          onChange={() => {
+            const chosen = file.files?.[0];
+            if (chosen) void take(async () => drawingOf(await checkOf(await chosen.text())));
+            file.value = '';
+          }}
+        />
+      </div>
+      <p class="hint">This replaces the drawing. Undo brings it back.</p>
+      <Show when={refusal()}>
+        {(text) => (
+          <p class="warning" role="alert">
+            {text()}
+          </p>
+        )}
+      </Show>
+      <h2>Use it</h2>
+      <label class="draw-field">
+        <span>Name</span>
+        <input
+          type="text"
+          value={name()}
+          maxLength={34}
+          onInput={(event) => {
+            setName(event.currentTarget.value);
+          }}
+        />
+      </label>
+      <div class="draw-row">
+        <button
+          type="button"
+          class="primary"
+          disabled={isOff()}
+          title="Adds the drawing to the server's maps and starts a trial on it"
+          onClick={() => {
+            void props.onSave(new File([props.svg], fileName(), { type: 'image/svg+xml' }));
+          }}
+        >
+          Save and use
+        </button>
+        <button
+          type="button"
+          onClick={() => {
+            download(fileName(), new Blob([props.svg], { type: 'image/svg+xml' }));
+          }}
+        >
+          Download SVG
+        </button>
+      </div>
+      <Show when={!lab.canOperate()}>
+        <p class="hint">You are watching: take control to save the drawing here.</p>
+      </Show>
+      <PlaceNotice lab={lab} place="playback" />
+    </section>
+  );
+}

@@ -1,0 +1,172 @@
+// The tools, their settings, and what can be done to the drawing as a whole.
+
+import { For, Show, createUniqueId, type JSX } from 'solid-js';
+import { SYMMETRIES, type Symmetry } from './drawing';
+import type { Editor } from './editor';
+import { type Brush, SIZES_MM, type Tool } from './editing';
+import { TOOL_KEYS } from './keys';
+
+const TOOLS: readonly (readonly [Tool, name: string, help: string])[] = [
+  ['wall', 'Wall', 'Drag to draw by hand. Click for a corner; click it again to finish.'],
+  ['post', 'Post', 'Click to put a post. Drag from its middle for another size.'],
+  ['area', 'Area', 'Drag a rectangle. Click for a corner; click the first one to finish.'],
+  ['erase', 'Erase', 'Drag over walls to cut them away.'],
+  ['move', 'Move', 'Click a shape to select it. Drag it to another place.'],
+];
+
+const BRUSHES: Partial<Record<Tool, readonly [Brush, string]>> = {
+  wall: ['wall', 'Width'],
+  post: ['post', 'Diameter'],
+  erase: ['erase', 'Width'],
+};
+
+const SNAP_MM = 5;
+
+function Size(props: { editor: Editor; brush: Brush; name: string }): JSX.Element {
+  const size_mm = (): number => props.editor.editing().size_mm[props.brush];
+  return (
+    <label class="draw-size">
+      <span>
+        {props.name} <strong class="number">{size_mm()} mm</strong>
+      </span>
+      <input
+        type="range"
+        aria-label={props.name}
+        min={SIZES_MM.least}
+        max={SIZES_MM.most}
+        step="1"
+        value={size_mm()}
+        onInput={(event) => {
+          const size_mm = event.currentTarget.valueAsNumber;
+          props.editor.act({ type: 'size', brush: props.brush, size_mm });
+        }}
+      />
+    </label>
+  );
+}
+
+export function Toolbar(props: { editor: Editor; helpId: string }): JSX.Element {
+  const { editor } = props;
+  const symmetryId = createUniqueId();
+  const tool = (): Tool => editor.editing().tool;
+  const isBegun = (): boolean => editor.editing().corners.length > 0;
+  const isSelected = (): boolean => editor.editing().selected !== undefined;
+  const isEmpty = (): boolean => editor.editing().drawing.shapes.length === 0;
+  const help = (): string => TOOLS.find(([name]) => name === tool())?.[2] ?? '';
+  return (
+    <section class="panel draw-tools" aria-label="Tools">
+      <div class="draw-row" role="group" aria-label="Tool">
+        <For each={TOOLS}>
+          {([name, label, title]) => (
+            <button
+              type="button"
+              aria-pressed={tool() === name}
+              title={`${title} (${TOOL_KEYS[name].toUpperCase()})`}
+              onClick={() => {
+                editor.act({ type: 'tool', tool: name });
+              }}
+            >
+              {label}
+            </button>
+          )}
+        </For>
+      </div>
+      <p id={props.helpId} class="draw-help">
+        {help()}
+      </p>
+      <div class="draw-size-place">
+        <Show when={BRUSHES[tool()]}>
+          {(brush) => <Size editor={editor} brush={brush()[0]} name={brush()[1]} />}
+        </Show>
+      </div>
+      <label>
+        <input
+          type="checkbox"
+          checked={editor.editing().snap_mm > 0}
+          onChange={(event) => {
+            editor.act({ type: 'snap', snap_mm: event.currentTarget.checked ? SNAP_MM : 0 });
+          }}
+        />
+        Snap to {SNAP_MM} mm
+      </label>
+      <div class="draw-field">
+        <label for={symmetryId}>Symmetry</label>
+        <select
+          id={symmetryId}
+          onChange={(event) => {
+            editor.act({ type: 'symmetry', symmetry: event.currentTarget.value as Symmetry });
+          }}
+        >
+          <For each={SYMMETRIES}>
+            {([name, label]) => (
+              <option value={name} selected={editor.editing().symmetry === name}>
+                {label}
+              </option>
+            )}
+          </For>
+        </select>
+      </div>
+      <div class="draw-row">
+        <button type="button" disabled={!editor.canUndo()} title="Ctrl+Z" onClick={editor.undo}>
+          Undo
+        </button>
+        <button type="button" disabled={!editor.canRedo()} title="Ctrl+Y" onClick={editor.redo}>
+          Redo
+        </button>
+      </div>
+      <div class="draw-row">
+        <button
+          type="button"
+          disabled={isEmpty()}
+          title="Exchanges left and right, of the selected shape or of all"
+          aria-label="Mirror left and right"
+          onClick={() => {
+            editor.act({ type: 'mirror', axis: 'sides' });
+          }}
+        >
+          Mirror ↔
+        </button>
+        <button
+          type="button"
+          disabled={isEmpty()}
+          title="Exchanges top and bottom, of the selected shape or of all"
+          aria-label="Mirror top and bottom"
+          onClick={() => {
+            editor.act({ type: 'mirror', axis: 'ends' });
+          }}
+        >
+          Mirror ↕
+        </button>
+      </div>
+      <div class="draw-row">
+        <button
+          type="button"
+          disabled={!isSelected()}
+          onClick={() => {
+            editor.act({ type: 'delete' });
+          }}
+        >
+          Delete
+        </button>
+        <button
+          type="button"
+          disabled={!isBegun()}
+          onClick={() => {
+            editor.act({ type: 'finish' });
+          }}
+        >
+          Finish
+        </button>
+        <button
+          type="button"
+          disabled={!isBegun()}
+          onClick={() => {
+            editor.act({ type: 'cancel' });
+          }}
+        >
+          Cancel
+        </button>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,43 @@
+// What the server says about the drawing, after each change.
+
+import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
+import { type Answer, Asker } from '../../net/requests';
+import type { MapCheck } from '../../net/protocol.gen';
+import { faultWords, reportWords } from '../../lab/maps';
+import { checkOf } from './import';
+
+const CHECKS_PER_S = 4;
+/** The mazes on which the controllers are tested have no narrower channels. */
+export const TESTED_WIDTH_M = 0.035;
+
+export interface Remark {
+  readonly text: string;
+  readonly isWarning: boolean;
+}
+
+export function checkWords(check: MapCheck): Remark[] {
+  const faults = faultWords(check);
+  const remarks = reportWords(check).map((text) => ({ text, isWarning: faults.includes(text) }));
+  if ((check.narrowest?.width_m ?? Infinity) < TESTED_WIDTH_M) {
+    const text =
+      'The controllers are tested in channels from 35 mm; in narrower ones they may get stuck.';
+    remarks.push({ text, isWarning: true });
+  }
+  return remarks;
+}
+
+/** The newest answer, and whether it is about the present drawing. */
+export function createCheck(svg: Accessor<string>): {
+  readonly answer: Accessor<Answer<MapCheck>>;
+  readonly isPresent: Accessor<boolean>;
+} {
+  const [answer, setAnswer] = createSignal<Answer<MapCheck>>({});
+  const asker = new Asker<MapCheck>(checkOf, setAnswer, CHECKS_PER_S);
+  createEffect(() => {
+    asker.ask(svg(), svg());
+  });
+  onCleanup(() => {
+    asker.forget();
+  });
+  return { answer, isPresent: () => answer().key === svg() };
+}

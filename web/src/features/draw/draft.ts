@@ -1,0 +1,43 @@
+// The drawing in the browser's storage, so that a reload does not lose it.
+
+import { recall, remember } from '../../ui/storage';
+import type { Drawing, Frame, Mm, Shape } from './drawing';
+
+const KEY = 'drawing';
+
+const isNumber = (value: unknown): value is number => Number.isFinite(value);
+
+const isPlace = (value: unknown): value is Mm =>
+  Array.isArray(value) && value.length === 2 && value.every(isNumber);
+
+const isLine = (value: unknown): value is Mm[] =>
+  Array.isArray(value) && value.length > 0 && value.every(isPlace);
+
+function isShape(value: unknown): value is Shape {
+  const { kind, points, width_mm, center, radius_mm, rings } = value as Record<string, unknown>;
+  if (kind === 'wall') return isLine(points) && isNumber(width_mm);
+  if (kind === 'post') return isPlace(center) && isNumber(radius_mm);
+  return kind === 'area' && Array.isArray(rings) && rings.length > 0 && rings.every(isLine);
+}
+
+function isFrame(value: unknown): value is Frame {
+  const { x_mm, y_mm, width_mm, height_mm } = value as Record<string, unknown>;
+  return [x_mm, y_mm, width_mm, height_mm].every(isNumber);
+}
+
+/** The stored drawing, or nothing if there is none or it is damaged. */
+export function draftFrom(text: string | null): Drawing | undefined {
+  try {
+    const { frame, shapes } = JSON.parse(text ?? '') as Record<string, unknown>;
+    const isWhole = isFrame(frame) && Array.isArray(shapes) && shapes.every(isShape);
+    return isWhole ? { frame, shapes } : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
+export const recallDraft = (): Drawing | undefined => draftFrom(recall(KEY));
+
+export function rememberDraft(drawing: Drawing): void {
+  remember(KEY, JSON.stringify(drawing));
+}

@@ -1,0 +1,180 @@
+// A map as the user draws it, in millimetres, x right and y down, as in its SVG. Pure.
+
+import { insidePolygon } from '../../lab/geometry';
+
+export type Mm = readonly [number, number];
+
+/** A line of a chosen width, with round ends. */
+export interface Wall {
+  readonly kind: 'wall';
+  readonly points: readonly Mm[];
+  readonly width_mm: number;
+}
+
+export interface Post {
+  readonly kind: 'post';
+  readonly center: Mm;
+  readonly radius_mm: number;
+}
+
+/** A filled outline, and its holes. */
+export interface Area {
+  readonly kind: 'area';
+  readonly rings: readonly (readonly Mm[])[];
+}
+
+export type Shape = Wall | Post | Area;
+
+/** The workspace. Its border is a wall. */
+export interface Frame {
+  readonly x_mm: number;
+  readonly y_mm: number;
+  readonly width_mm: number;
+  readonly height_mm: number;
+}
+
+export interface Drawing {
+  readonly frame: Frame;
+  readonly shapes: readonly Shape[];
+}
+
+/** The workspace of most shipped maps, which the arm reaches. */
+export const BLANK: Drawing = {
+  frame: { x_mm: -300, y_mm: 210, width_mm: 580, height_mm: 330 },
+  shapes: [],
+};
+
+/** What is drawn is drawn again on the other side of the frame's middle. */
+export const SYMMETRIES = [
+  ['none', 'off'],
+  ['sides', 'left and right'],
+  ['ends', 'top and bottom'],
+  ['both', 'all four quarters'],
+] as const;
+
+export type Symmetry = (typeof SYMMETRIES)[number][0];
+
+export function distanceMm(a: Mm, b: Mm): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+function mapped(shape: Shape, to: (point: Mm) => Mm): Shape {
+  if (shape.kind === 'wall') return { ...shape, points: shape.points.map(to) };
+  if (shape.kind === 'post') return { ...shape, center: to(shape.center) };
+  return { ...shape, rings: shape.rings.map((ring) => ring.map(to)) };
+}
+
+export function moved(shape: Shape, [right_mm, down_mm]: Mm): Shape {
+  return mapped(shape, ([x, y]) => [x + right_mm, y + down_mm]);
+}
+
+/** Exchanges the sides of the frame, or its ends. */
+export function mirrored(shape: Shape, frame: Frame, axis: 'sides' | 'ends'): Shape {
+  const sum_x = 2 * frame.x_mm + frame.width_mm;
+  const sum_y = 2 * frame.y_mm + frame.height_mm;
+  return mapped(shape, ([x, y]) => (axis === 'sides' ? [sum_x - x, y] : [x, sum_y - y]));
+}
+
+/** A shape with the copies that a symmetry asks for. */
+export function withImages(shape: Shape, frame: Frame, symmetry: Symmetry): Shape[] {
+  const sides = symmetry === 'sides' || symmetry === 'both';
+  const ends = symmetry === 'ends' || symmetry === 'both';
+  const pair = sides ? [shape, mirrored(shape, frame, 'sides')] : [shape];
+  return ends ? [...pair, ...pair.map((one) => mirrored(one, frame, 'ends'))] : pair;
+}
+
+export function clampedTo(frame: Frame, [x, y]: Mm): Mm {
+  return [
+    Math.min(frame.x_mm + frame.width_mm, Math.max(frame.x_mm, x)),
+    Math.min(frame.y_mm + frame.height_mm, Math.max(frame.y_mm, y)),
+  ];
+}
+
+/** The nearest point of the grid; the point itself if the spacing is 0. */
+export function snapped([x, y]: Mm, spacing_mm: number): Mm {
+  if (spacing_mm === 0) return [x, y];
+  return [Math.round(x / spacing_mm) * spacing_mm, Math.round(y / spacing_mm) * spacing_mm];
+}
+
+function distanceToLine([x, y]: Mm, from: Mm, to: Mm): number {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const square = dx * dx + dy * dy;
+  const share = square === 0 ? 0 : ((x - from[0]) * dx + (y - from[1]) * dy) / square;
+  const along = Math.min(1, Math.max(0, share));
+  return distanceMm([x, y], [from[0] + along * dx, from[1] + along * dy]);
+}
+
+function isAt(shape: Shape, at: Mm, slop_mm: number): boolean {
+  if (shape.kind === 'post') return distanceMm(at, shape.center) <= shape.radius_mm + slop_mm;
+  if (shape.kind === 'wall') {
+    const most_mm = shape.width_mm / 2 + slop_mm;
+    return shape.points.some(
+      (point, index) => distanceToLine(at, shape.points[index - 1] ?? point, point) <= most_mm,
+    );
+  }
+  const [exterior = [], ...holes] = shape.rings;
+  return insidePolygon(
+    {
+      exterior: exterior.map(([x, y]) => [x, y]),
+      holes: holes.map((hole) => hole.map(([x, y]) => [x, y])),
+    },
+    at,
+  );
+}
+
+/** The index of the topmost shape at a point, or within `slop_mm` of a line or post there. */
+export function shapeAt(drawing: Drawing, at: Mm, slop_mm: number): number | undefined {
+  const index = drawing.shapes.findLastIndex((shape) => isAt(shape, at, slop_mm));
+  return index < 0 ? undefined : index;
+}
+
+/** Without needless digits: a hundredth of a millimetre. */
+function number(value: number): string {
+  return String(Number(value.toFixed(2)));
+}
+
+const place = ([x, y]: Mm): string => `${number(x)} ${number(y)}`;
+
+function ringText(ring: readonly Mm[]): string {
+  return `M${ring.map(place).join('L')}Z`;
+}
+
+/** The `d` of a path that shows a shape: the middle line of a wall, the outline of others. */
+export function pathText(shape: Shape): string {
+  if (shape.kind === 'wall') {
+    // A line of one point is drawn as a dot only if it has an end.
+    const [first] = shape.points;
+    const points = shape.points.length === 1 && first ? [first, first] : shape.points;
+    return `M${points.map(place).join('L')}`;
+  }
+  if (shape.kind === 'area') return shape.rings.map(ringText).join('');
+  const { center, radius_mm } = shape;
+  const [r, left] = [number(radius_mm), place([center[0] - radius_mm, center[1]])];
+  const right = place([center[0] + radius_mm, center[1]]);
+  return `M${left}A${r} ${r} 0 1 0 ${right}A${r} ${r} 0 1 0 ${left}Z`;
+}
+
+function elementText(shape: Shape): string {
+  if (shape.kind === 'wall') {
+    return `<path d="${pathText(shape)}" stroke-width="${number(shape.width_mm)}" class="wall"/>`;
+  }
+  if (shape.kind === 'area') return `<path d="${pathText(shape)}" fill-rule="evenodd"/>`;
+  const { center, radius_mm } = shape;
+  return `<circle cx="${number(center[0])}" cy="${number(center[1])}" r="${number(radius_mm)}"/>`;
+}
+
+/** The drawing as a map for the server, and for other drawing programs. */
+export function svgText({ frame, shapes }: Drawing): string {
+  const { x_mm, y_mm, width_mm, height_mm } = frame;
+  const size = `width="${number(width_mm)}mm" height="${number(height_mm)}mm"`;
+  const viewBox = [x_mm, y_mm, width_mm, height_mm].map(number).join(' ');
+  return [
+    `<svg xmlns="http://www.w3.org/2000/svg" ${size} viewBox="${viewBox}">`,
+    '<style>.wall{fill:none;stroke:#404048;stroke-linecap:round;stroke-linejoin:round}</style>',
+    '<g fill="#404048">',
+    ...shapes.map(elementText),
+    '</g>',
+    '</svg>',
+    '',
+  ].join('\n');
+}

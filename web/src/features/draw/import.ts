@@ -1,0 +1,37 @@
+// A map's drawing as shapes that can be edited: the server reads it, and sends its walls as outlines.
+
+import { post } from '../../net/requests';
+import type { MapCheck, Polygon, Rect } from '../../net/protocol.gen';
+import type { Area, Drawing, Frame, Mm } from './drawing';
+
+const MM_PER_M = 1000;
+
+/** What the drawing would be as a map; throws an error with the message to show. */
+export function checkOf(svg: string): Promise<MapCheck> {
+  return post<MapCheck>('/api/map-checks', svg, 'image/svg+xml');
+}
+
+/** A hundredth of a millimetre, as in the drawing's text. */
+const rounded = (m: number): number => Number((MM_PER_M * m).toFixed(2));
+
+const place = ([x_m = 0, y_m = 0]: readonly number[]): Mm => [rounded(x_m), 0 - rounded(y_m)];
+
+export function frameOf({ x_min_m, x_max_m, y_min_m, y_max_m }: Rect): Frame {
+  return {
+    x_mm: rounded(x_min_m),
+    y_mm: 0 - rounded(y_max_m),
+    width_mm: rounded(x_max_m - x_min_m),
+    height_mm: rounded(y_max_m - y_min_m),
+  };
+}
+
+function areaOf({ exterior, holes }: Polygon): Area {
+  return { kind: 'area', rings: [exterior, ...holes].map((ring) => ring.map(place)) };
+}
+
+export function drawingOf({
+  workspace,
+  outlines,
+}: Pick<MapCheck, 'workspace' | 'outlines'>): Drawing {
+  return { frame: frameOf(workspace), shapes: outlines.map(areaOf) };
+}
