@@ -24,7 +24,7 @@ async function drawAlong(page: Page, ...places: (readonly [number, number])[]) {
 
 const check = (lab: Lab) => lab.page.getByRole('status', { name: 'Check' });
 
-test('draws a maze, is told what is wrong with it, and RL delivers on it', async ({
+test('draws a maze, corrects what the check finds, and RL delivers on it', async ({
   lab,
   server,
 }) => {
