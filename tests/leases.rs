@@ -127,7 +127,7 @@ async fn a_drawing_is_checked_without_being_added() {
     let [door] = &check["passages"].as_array().unwrap()[..] else { panic!("{check}") };
     assert!(near(&door["width_m"], 0.04) && near(&door["x_m"], 0.0) && near(&door["y_m"], -0.37), "{door}");
     assert_eq!(check["outlines"].as_array().unwrap().len(), 2);
-    assert!(near(&check["workspace"]["x_min_m"], -0.3));
+    assert!(near(&check["workspace"]["x_min_m"], -0.3) && check["positioner"] == "arm");
     let (status, problem) = lab.ask("POST", "/api/map-checks", "<svg").await;
     assert_eq!((status, &problem["code"], &problem["field"]), (422, &json!("map_refused"), &json!("map")));
     let (_, list) = lab.ask("GET", "/api/maps", "").await;

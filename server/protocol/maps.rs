@@ -6,6 +6,7 @@ use utoipa::ToSchema;
 
 use crate::geometry::{Polygon, Rect};
 use crate::map::{Map, Narrow, Summary};
+use crate::plant::PositionerKind;
 
 /// A passage between two rooms of a map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
@@ -53,6 +54,8 @@ pub struct MapCheck {
     /// The passages between its rooms, the narrowest first, at most 30.
     pub passages: Vec<NarrowPlace>,
     pub workspace: Rect,
+    /// What moves the magnet over this map.
+    pub positioner: PositionerKind,
     /// Its walls, in metres, without the border.
     pub outlines: Vec<Polygon>,
 }
@@ -81,6 +84,7 @@ impl MapCheck {
             facts: MapFacts::new(summary, reached_share),
             passages: summary.passages.iter().take(MOST_PASSAGES).map(NarrowPlace::from).collect(),
             workspace: *map.workspace(),
+            positioner: PositionerKind::of(map),
             outlines: map.walls().to_vec(),
         }
     }

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import type { MapReport } from '../net/protocol.gen';
-import { mapName, reportWords } from './maps';
+import { freeName, mapName, reportWords } from './maps';
 
 it.each([
   ['two-rooms.svg', 'two-rooms'],
@@ -10,6 +10,11 @@ it.each([
   [`${'x'.repeat(60)}.svg`, 'x'.repeat(34)],
 ])('%s becomes the map %s', (file, name) => {
   expect(mapName(file)).toBe(name);
+});
+
+it('numbers a name that a map has', () => {
+  expect(freeName('mine', ['posts'])).toBe('mine');
+  expect(freeName('mine', ['mine', 'mine-2', 'posts'])).toBe('mine-3');
 });
 
 const REPORT: MapReport = {

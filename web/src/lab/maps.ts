@@ -19,6 +19,13 @@ export function mapName(file: string): string {
     .slice(0, NAME_LENGTH);
 }
 
+/** The name, or with a number if a map has it: `two-rooms-2`. */
+export function freeName(name: string, maps: readonly string[]): string {
+  let free = name;
+  for (let number = 2; maps.includes(free); number += 1) free = `${name}-${number}`;
+  return free;
+}
+
 /** A drawing with a smaller share of reached area is offered a move. */
 const MOST = 0.98;
 

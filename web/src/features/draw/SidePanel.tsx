@@ -3,7 +3,7 @@
 import { For, Show, createSignal, type JSX } from 'solid-js';
 import type { MapCheck } from '../../net/protocol.gen';
 import { getText } from '../../net/requests';
-import { mapName } from '../../lab/maps';
+import { freeName, mapName } from '../../lab/maps';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { download } from '../../ui/download';
@@ -45,7 +45,9 @@ export function SidePanel(props: {
   /** Why the last drawing could not be opened. */
   const [refusal, setRefusal] = createSignal<string>();
   let file!: HTMLInputElement;
-  const fileName = (): string => `${mapName(name()) || DEFAULT_NAME}.svg`;
+  const plainName = (): string => mapName(name()) || DEFAULT_NAME;
+  const fileOf = (name: string): File =>
+    new File([props.svg], `${name}.svg`, { type: 'image/svg+xml' });
   const mayPass = (): boolean => props.error === undefined && (props.check?.regions ?? 0) > 0;
   const isOff = (): boolean => !lab.canOperate() || isBusy() || !props.isChecked || !mayPass();
   const take = async (drawing: () => Promise<Drawing>): Promise<void> => {
@@ -134,7 +136,7 @@ export function SidePanel(props: {
           disabled={isOff()}
           title="Adds the drawing to the server's maps and starts a trial on it"
           onClick={() => {
-            void props.onSave(new File([props.svg], fileName(), { type: 'image/svg+xml' }));
+            void props.onSave(fileOf(freeName(plainName(), lab.scene()?.maps ?? [])));
           }}
         >
           Save and use
@@ -142,7 +144,8 @@ export function SidePanel(props: {
         <button
           type="button"
           onClick={() => {
-            download(fileName(), new Blob([props.svg], { type: 'image/svg+xml' }));
+            const drawn = fileOf(plainName());
+            download(drawn.name, drawn);
           }}
         >
           Download SVG

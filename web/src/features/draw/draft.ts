@@ -25,12 +25,16 @@ function isFrame(value: unknown): value is Frame {
   return [x_mm, y_mm, width_mm, height_mm].every(isNumber);
 }
 
-/** The stored drawing, or nothing if there is none or it is damaged. */
+/** The stored drawing; undefined if it is missing or damaged. */
 export function draftFrom(text: string | null): Drawing | undefined {
   try {
-    const { frame, shapes } = JSON.parse(text ?? '') as Record<string, unknown>;
-    const isWhole = isFrame(frame) && Array.isArray(shapes) && shapes.every(isShape);
-    return isWhole ? { frame, shapes } : undefined;
+    const { frame, positioner, shapes } = JSON.parse(text ?? '') as Record<string, unknown>;
+    const isWhole =
+      isFrame(frame) &&
+      (positioner === 'arm' || positioner === 'planar_stage') &&
+      Array.isArray(shapes) &&
+      shapes.every(isShape);
+    return isWhole ? { frame, positioner, shapes } : undefined;
   } catch {
     return undefined;
   }

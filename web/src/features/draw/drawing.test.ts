@@ -39,11 +39,17 @@ const RING: Shape = {
 };
 
 it('is an SVG in millimetres with the frame as its view box', () => {
-  const text = svgText({ frame: BLANK.frame, shapes: [WALL, POST, RING] });
+  const text = svgText({ ...BLANK, shapes: [WALL, POST, RING] });
   expect(text).toContain('viewBox="-300 210 580 330"');
   expect(text).toContain('<path d="M-100 300L-100 400" stroke-width="12" class="wall"/>');
   expect(text).toContain('<circle cx="50" cy="300" r="10"/>');
   expect(text).toContain('d="M100 300L200 300L200 400L100 400ZM120 320L180 320');
+});
+
+it('says when it is for the planar stage', () => {
+  expect(svgText(BLANK)).not.toContain('data-positioner');
+  const text = svgText({ ...BLANK, positioner: 'planar_stage' });
+  expect(text).toContain(' data-positioner="planar-stage">');
 });
 
 it('draws a wall of one point as a dot, and rounds to a hundredth', () => {
@@ -82,7 +88,7 @@ it('repeats a shape on the other sides', () => {
 });
 
 it('finds the topmost shape at a point, but nothing in a hole', () => {
-  const drawing = { frame: BLANK.frame, shapes: [WALL, POST, RING, moved(POST, [5, 0])] };
+  const drawing = { ...BLANK, shapes: [WALL, POST, RING, moved(POST, [5, 0])] };
   expect(shapeAt(drawing, [-95, 350], 0)).toBe(0);
   expect(shapeAt(drawing, [-92, 350], 0)).toBeUndefined();
   expect(shapeAt(drawing, [-92, 350], 3)).toBe(0);

@@ -1,6 +1,7 @@
 // A map as the user draws it, in millimetres, x right and y down, as in its SVG. Pure.
 
 import { insidePolygon } from '../../lab/geometry';
+import type { PositionerKind } from '../../net/protocol.gen';
 
 export type Mm = readonly [number, number];
 
@@ -35,12 +36,15 @@ export interface Frame {
 
 export interface Drawing {
   readonly frame: Frame;
+  /** What moves the magnet over this map. */
+  readonly positioner: PositionerKind;
   readonly shapes: readonly Shape[];
 }
 
 /** The workspace of most shipped maps, which the arm reaches. */
 export const BLANK: Drawing = {
   frame: { x_mm: -300, y_mm: 210, width_mm: 580, height_mm: 330 },
+  positioner: 'arm',
   shapes: [],
 };
 
@@ -164,12 +168,13 @@ function elementText(shape: Shape): string {
 }
 
 /** The drawing as a map for the server, and for other drawing programs. */
-export function svgText({ frame, shapes }: Drawing): string {
+export function svgText({ frame, positioner, shapes }: Drawing): string {
   const { x_mm, y_mm, width_mm, height_mm } = frame;
   const size = `width="${number(width_mm)}mm" height="${number(height_mm)}mm"`;
+  const stage = positioner === 'planar_stage' ? ' data-positioner="planar-stage"' : '';
   const viewBox = [x_mm, y_mm, width_mm, height_mm].map(number).join(' ');
   return [
-    `<svg xmlns="http://www.w3.org/2000/svg" ${size} viewBox="${viewBox}">`,
+    `<svg xmlns="http://www.w3.org/2000/svg" ${size} viewBox="${viewBox}"${stage}>`,
     '<style>.wall{fill:none;stroke:#404048;stroke-linecap:round;stroke-linejoin:round}</style>',
     '<g fill="#404048">',
     ...shapes.map(elementText),

@@ -35,6 +35,10 @@ describe('a wall', () => {
     };
     expect(shapesOf([...begun, click(50, 350)])).toEqual([wall]);
     expect(shapesOf([...begun, { type: 'finish' }])).toEqual([wall]);
+    expect(run([...begun, { type: 'back' }]).corners).toEqual([
+      [0, 300],
+      [50, 300],
+    ]);
     expect(run([...begun, { type: 'cancel' }])).toMatchObject({ corners: [], drawing: BLANK });
   });
 

@@ -41,6 +41,8 @@ export type Step =
   | { readonly type: 'drop' }
   /** Ends a begun wall or area. */
   | { readonly type: 'finish' }
+  /** Drops the last corner. */
+  | { readonly type: 'back' }
   /** Drops what is begun, or else the selection. */
   | { readonly type: 'cancel' }
   | { readonly type: 'delete' }
@@ -222,6 +224,8 @@ export function after(editing: Editing, step: Step): Editing {
       return dropped(editing);
     case 'finish':
       return finished(editing);
+    case 'back':
+      return { ...editing, corners: corners.slice(0, -1) };
     case 'cancel':
       return corners.length + trace.length > 0
         ? { ...editing, ...IDLE }

@@ -41,8 +41,7 @@ export function createEditor(): Editor {
     point,
     act,
     undo: () => {
-      // What is begun goes first.
-      if (editing().corners.length > 0) act({ type: 'cancel' });
+      if (editing().corners.length > 0) act({ type: 'back' });
       else travel(undone);
     },
     redo: () => {

@@ -11,6 +11,7 @@ it('turns the walls of a map into areas, in millimetres and y down', () => {
     [0.2, -0.4],
   ];
   const drawing = drawingOf({
+    positioner: 'planar_stage',
     workspace,
     outlines: [
       {
@@ -25,7 +26,7 @@ it('turns the walls of a map into areas, in millimetres and y down', () => {
       },
     ],
   });
-  expect(drawing.frame).toEqual(BLANK.frame);
+  expect(drawing).toMatchObject({ frame: BLANK.frame, positioner: 'planar_stage' });
   expect(drawing.shapes).toEqual([
     {
       kind: 'area',

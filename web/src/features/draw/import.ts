@@ -29,9 +29,8 @@ function areaOf({ exterior, holes }: Polygon): Area {
   return { kind: 'area', rings: [exterior, ...holes].map((ring) => ring.map(place)) };
 }
 
-export function drawingOf({
-  workspace,
-  outlines,
-}: Pick<MapCheck, 'workspace' | 'outlines'>): Drawing {
-  return { frame: frameOf(workspace), shapes: outlines.map(areaOf) };
+type Found = Pick<MapCheck, 'workspace' | 'positioner' | 'outlines'>;
+
+export function drawingOf({ workspace, positioner, outlines }: Found): Drawing {
+  return { frame: frameOf(workspace), positioner, shapes: outlines.map(areaOf) };
 }

@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-import type { Polygon, Rect } from './experiment.gen';
+import type { Polygon, PositionerKind, Rect } from './experiment.gen';
 
 /**
  * A passage between two rooms of a map.
@@ -81,6 +81,10 @@ export type MapCheck = {
  * The passages between its rooms, the narrowest first, at most 30.
  */
 passages: Array<NarrowPlace>, workspace: Rect, 
+/**
+ * What moves the magnet over this map.
+ */
+positioner: PositionerKind, 
 /**
  * Its walls, in metres, without the border.
  */
