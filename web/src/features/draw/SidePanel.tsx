@@ -6,6 +6,7 @@ import { getText } from '../../net/requests';
 import { freeName, mapName } from '../../lab/maps';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Notices, Session, Trial } from '../../lab/slices';
+import { FileButton } from '../../ui/FileButton';
 import { download } from '../../ui/download';
 import { checkWords } from './check';
 import { BLANK, type Drawing } from './drawing';
@@ -44,7 +45,6 @@ export function SidePanel(props: {
   const [isBusy, setBusy] = createSignal(false);
   /** Why the last drawing could not be opened. */
   const [refusal, setRefusal] = createSignal<string>();
-  let file!: HTMLInputElement;
   const plainName = (): string => mapName(name()) || DEFAULT_NAME;
   const fileOf = (name: string): File =>
     new File([props.svg], `${name}.svg`, { type: 'image/svg+xml' });
@@ -87,27 +87,14 @@ export function SidePanel(props: {
           <option value="">an empty workspace</option>
           <For each={lab.scene()?.maps}>{(map) => <option value={map}>{map}</option>}</For>
         </select>
-        <button
-          type="button"
+        <FileButton
+          accept=".svg,image/svg+xml"
+          inputName="Drawing to go on with"
           disabled={isBusy()}
-          onClick={() => {
-            file.click();
-          }}
+          onFile={(file) => void take(async () => drawingOf(await checkOf(await file.text())))}
         >
           Open SVG…
-        </button>
-        <input
-          ref={file}
-          type="file"
-          accept=".svg,image/svg+xml"
-          aria-label="Drawing to go on with"
-          hidden
-          onChange={() => {
-            const chosen = file.files?.[0];
-            if (chosen) void take(async () => drawingOf(await checkOf(await chosen.text())));
-            file.value = '';
-          }}
-        />
+        </FileButton>
       </div>
       <p class="hint">This replaces the drawing. Undo brings it back.</p>
       <Show when={refusal()}>

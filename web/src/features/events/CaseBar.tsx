@@ -3,11 +3,11 @@
 import { For, Show, createMemo, type JSX } from 'solid-js';
 import { sessionPath } from '../../net/session';
 import type { Lab } from '../../lab/slices';
+import { FileButton } from '../../ui/FileButton';
 import { caseWords, openCase } from './cases';
 
 export function CaseBar(props: { lab: Lab }): JSX.Element {
   const { lab } = props;
-  let input!: HTMLInputElement;
   /** A case needs a delivery that it can expect. */
   const caseAddress = (): string | undefined => {
     const state = lab.state();
@@ -39,30 +39,16 @@ export function CaseBar(props: { lab: Lab }): JSX.Element {
             </a>
           )}
         </Show>
-        <button
-          type="button"
+        <FileButton
           class="small"
+          accept=".json,application/json"
+          inputName="File of the test case"
           disabled={!lab.canOperate()}
           title="Sets the trial up and repeats its inputs. A file can also be dropped on the page"
-          onClick={() => {
-            input.click();
-          }}
+          onFile={(file) => void openCase(lab, file)}
         >
           Open test case…
-        </button>
-        <input
-          ref={input}
-          type="file"
-          accept=".json,application/json"
-          aria-label="File of the test case"
-          hidden
-          onChange={() => {
-            const file = input.files?.[0];
-            if (file) void openCase(lab, file);
-            // The same file may be chosen again after it was corrected.
-            input.value = '';
-          }}
-        />
+        </FileButton>
       </div>
     </div>
   );

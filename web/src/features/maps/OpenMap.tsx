@@ -3,40 +3,26 @@
 import { For, Show, type JSX } from 'solid-js';
 import type { Session } from '../../lab/slices';
 import { isOutOfReach, reportWords } from '../../lab/maps';
+import { FileButton } from '../../ui/FileButton';
 import type { MapOpener } from './opener';
 import './maps.css';
 
 export function OpenMap(props: { lab: Session; opener: MapOpener }): JSX.Element {
   const { lab, opener } = props;
-  let input!: HTMLInputElement;
   const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <div class="open-map">
-      <button
-        type="button"
+      <FileButton
+        accept=".svg,image/svg+xml"
+        inputName="Drawing of the map"
         disabled={isOff()}
         // On a small screen only the first word is visible.
-        aria-label="Open map…"
+        name="Open map…"
         title="Your own map: an SVG drawing in millimetres, at most 1 MiB"
-        onClick={() => {
-          input.click();
-        }}
+        onFile={(file) => void opener.open(file)}
       >
         Open<span class="spelt-out"> map</span>…
-      </button>
-      <input
-        ref={input}
-        type="file"
-        accept=".svg,image/svg+xml"
-        aria-label="Drawing of the map"
-        hidden
-        onChange={() => {
-          const file = input.files?.[0];
-          if (file) void opener.open(file);
-          // The same file may be chosen again after it was corrected.
-          input.value = '';
-        }}
-      />
+      </FileButton>
       <Show when={opener.added()}>
         {(now) => (
           <div class="map-report" role="status">
