@@ -90,6 +90,45 @@ test('goes on with a shipped map, undoes, and downloads what the server reads', 
   expect(await answer.json()).toMatchObject({ walls: 10, regions: 1, repairs: [] });
 });
 
+test('keeps what is begun, over a visit to the laboratory and in the saved map', async ({
+  lab,
+  server,
+}) => {
+  const { page } = lab;
+  const shapes = page.locator('.draw-shape:not(.begun)');
+  await lab.view('Draw').click();
+  await drawAlong(page, [-100, 300], [-100, 400]);
+  // Escape ends a drag: what follows of it draws nothing.
+  const floor = must(await page.locator('.draw-floor').boundingBox(), 'the floor');
+  const at = (right: number, down: number) =>
+    [floor.x + right * floor.width, floor.y + down * floor.height] as const;
+  await page.mouse.move(...at(0.5, 0.2));
+  await page.mouse.down();
+  await page.mouse.move(...at(0.5, 0.5), { steps: 3 });
+  await page.keyboard.press('Escape');
+  await page.mouse.move(...at(0.5, 0.8), { steps: 3 });
+  await page.mouse.up();
+  await expect(shapes).toHaveCount(1);
+  await page.mouse.click(...at(0.7, 0.2));
+  await page.mouse.click(...at(0.7, 0.6));
+  await page.getByLabel('Name').fill('kept');
+  await lab.view('Laboratory').click();
+  await lab.view('Draw').click();
+  await expect(page.locator('.draw-corner')).toHaveCount(2);
+  await expect(page.getByLabel('Name')).toHaveValue('kept');
+  await lab.button('Save and use').click();
+  await expect.poll(() => lab.scene.map).toBe('kept');
+  expect(lab.scene.walls).toHaveLength(2);
+  await lab.button('Dismiss the report').click();
+  await lab.view('Draw').click();
+  await lab.button('Undo').click();
+  await lab.button('Undo').click();
+  await expect(shapes).toHaveCount(0);
+  await lab.view('Laboratory').click();
+  await lab.reset({ map: 'posts' });
+  expect((await page.request.delete(`${server.url}/api/maps/kept`)).status()).toBe(204);
+});
+
 test('a link brings a drawn map to a server that does not have it', async ({ lab, server }) => {
   const { page } = lab;
   await lab.view('Draw').click();

@@ -11,6 +11,7 @@ import { createCapture } from '../features/export/capture';
 import { CaptureTools, RecordingClock } from '../features/export/CaptureTools';
 import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
+import type { DrawProps } from '../features/draw/DrawView';
 import { LazyDrawView } from '../features/draw/LazyDrawView';
 import { EvaluateView } from '../features/evaluate/EvaluateView';
 import { Header } from './Header';
@@ -42,6 +43,7 @@ export function Page(): JSX.Element {
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture, createPalette(theme));
   const opener = createMapOpener(lab);
+  const drawing: DrawProps['kept'] = {};
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
@@ -91,6 +93,7 @@ export function Page(): JSX.Element {
         </Match>
         <Match when={view() === 'draw'}>
           <LazyDrawView
+            kept={drawing}
             lab={lab}
             open={(file) => opener.open(file)}
             onLaboratory={() => {

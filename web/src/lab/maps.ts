@@ -60,14 +60,19 @@ export function reportWords(facts: MapFacts): string[] {
   return [...sentences, ...repairs.map((repair) => `Repaired: ${repair}.`)];
 }
 
+/** Throws an error with the message to show if a drawing is larger than the server takes. */
+export function refuseLarge(file: File): void {
+  if (file.size > MAX_SVG_BYTES) {
+    throw new Error('This drawing is too large: the limit is 1 MiB.');
+  }
+}
+
 /**
  * Returns what the server says about the new map; throws an error with the message to show. `fit` moves the drawing into
  * the arm's reach and shrinks it if it is larger.
  */
 export async function addMap(file: File, fit = false): Promise<MapReport> {
-  if (file.size > MAX_SVG_BYTES) {
-    throw new Error('This drawing is too large: the limit is 1 MiB.');
-  }
+  refuseLarge(file);
   const name = encodeURIComponent(mapName(file.name));
   return post<MapReport>(
     fit ? `/api/maps?name=${name}-moved&fit=true` : `/api/maps?name=${name}`,

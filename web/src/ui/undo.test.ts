@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { onward, redone, startOf, undone } from './undo';
+import { amended, onward, redone, startOf, undone } from './undo';
 
 it('goes back and forth, and a change drops what was undone', () => {
   const three = [2, 3].reduce(onward<number>, startOf(1));
@@ -10,6 +10,11 @@ it('goes back and forth, and a change drops what was undone', () => {
   expect(redone(three)).toBe(three);
   const other = onward(undone(three), 7);
   expect(other).toEqual({ past: [1, 2], present: 7, future: [] });
+});
+
+it('goes on with a change', () => {
+  const two = onward(startOf(1), 2);
+  expect(undone(amended(two, 3))).toEqual({ past: [], present: 1, future: [3] });
 });
 
 it('forgets the oldest states', () => {

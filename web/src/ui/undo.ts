@@ -18,6 +18,11 @@ export function onward<T>({ past, present }: Undo<T>, next: T): Undo<T> {
   return { past: [...past, present].slice(-MOST), present: next, future: [] };
 }
 
+/** Replaces the present: the change before goes on. */
+export function amended<T>({ past }: Undo<T>, next: T): Undo<T> {
+  return { past, present: next, future: [] };
+}
+
 export function undone<T>(undo: Undo<T>): Undo<T> {
   const before = undo.past.at(-1);
   if (before === undefined) return undo;

@@ -1,11 +1,12 @@
 // A map of one's own: drawn here, checked by the server after each change, saved and used.
 
 import { createMemo, onCleanup, type JSX } from 'solid-js';
+import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import { fixed } from '../../ui/format';
 import { createCheck } from './check';
 import { svgText } from './drawing';
-import { createEditor } from './editor';
+import { createEditor, type Editor } from './editor';
 import { onUndoKey } from './keys';
 import { SidePanel } from './SidePanel';
 import { Surface } from './Surface';
@@ -15,6 +16,8 @@ import './draw.css';
 const HELP_ID = 'draw-help';
 
 export interface DrawProps {
+  /** Keeps the drawing and its history while another view is open. */
+  readonly kept: { editor?: Editor };
   readonly lab: Session & Trial & Notices;
   /** Adds the drawing to the server's maps and loads it; returns whether it was added. */
   readonly open: (file: File) => Promise<boolean>;
@@ -22,9 +25,10 @@ export interface DrawProps {
 }
 
 export function DrawView(props: DrawProps): JSX.Element {
-  const editor = createEditor();
+  const editor = (props.kept.editor ??= createEditor());
   const svg = createMemo(() => svgText(editor.editing().drawing));
-  const { answer, isPresent } = createCheck(svg);
+  const isLive = createMemo(() => props.lab.connection().kind === 'live');
+  const { found, error, isPresent } = createCheck(svg, isLive);
   const onKeyDown = (event: KeyboardEvent): void => {
     onUndoKey(editor, event);
   };
@@ -32,7 +36,6 @@ export function DrawView(props: DrawProps): JSX.Element {
   onCleanup(() => {
     document.removeEventListener('keydown', onKeyDown);
   });
-  const check = createMemo(() => answer().data);
   const place = (): string => {
     const at = editor.pointer();
     return at ? `x ${fixed(at[0] / 1000, 3)} y ${fixed(-at[1] / 1000, 3)} m` : 'x –   y –';
@@ -43,7 +46,7 @@ export function DrawView(props: DrawProps): JSX.Element {
       <section class="panel draw-stage" aria-label="Drawing area">
         <Surface
           editor={editor}
-          passages={isPresent() ? (check()?.passages ?? []) : []}
+          passages={isPresent() ? (found()?.passages ?? []) : []}
           helpId={HELP_ID}
         />
         <footer class="panel-foot">
@@ -52,16 +55,18 @@ export function DrawView(props: DrawProps): JSX.Element {
             {place()}
           </output>
         </footer>
+        <PlaceNotice lab={props.lab} place="playback" />
       </section>
       <SidePanel
         lab={props.lab}
-        svg={svg()}
-        check={check()}
-        error={answer().error}
-        isChecked={isPresent()}
-        onDrawing={(drawing) => {
-          editor.act({ type: 'show', drawing });
+        editor={editor}
+        finish={() => {
+          editor.act({ type: 'finish' });
+          return svg();
         }}
+        check={found()}
+        error={error()}
+        isChecked={isPresent()}
         onSave={async (file) => {
           if (await props.open(file)) props.onLaboratory();
         }}

@@ -3,22 +3,20 @@
 import { For, Show, createSignal, type JSX } from 'solid-js';
 import type { MapCheck } from '../../net/protocol.gen';
 import { getText } from '../../net/requests';
-import { freeName, mapName } from '../../lab/maps';
-import { PlaceNotice } from '../../lab/PlaceNotice';
-import type { Notices, Session, Trial } from '../../lab/slices';
+import { freeName, mapName, refuseLarge } from '../../lab/maps';
+import type { Session, Trial } from '../../lab/slices';
 import { FileButton } from '../../ui/FileButton';
 import { download } from '../../ui/download';
 import { checkWords } from './check';
 import { BLANK, type Drawing } from './drawing';
+import type { Editor } from './editor';
 import { checkOf, drawingOf } from './import';
-
-const DEFAULT_NAME = 'my-maze';
 
 function Check(props: { check: MapCheck | undefined; error: string | undefined }): JSX.Element {
   return (
     <div class="draw-check" role="status" aria-label="Check">
       <Show when={props.error}>{(error) => <p class="warning">{error()}</p>}</Show>
-      <Show when={props.error === undefined && props.check}>
+      <Show when={props.check}>
         {(check) => (
           <For each={checkWords(check())}>
             {({ text, isWarning }) => <p classList={{ warning: isWarning }}>{text}</p>}
@@ -30,31 +28,31 @@ function Check(props: { check: MapCheck | undefined; error: string | undefined }
 }
 
 export function SidePanel(props: {
-  lab: Session & Trial & Notices;
-  svg: string;
+  lab: Session & Trial;
+  editor: Editor;
+  /** The whole drawing, with what was begun. */
+  finish: () => string;
   check: MapCheck | undefined;
   error: string | undefined;
   /** Whether the check is about the present drawing. */
   isChecked: boolean;
-  onDrawing: (drawing: Drawing) => void;
   /** Adds the drawing to the server's maps and loads it. */
   onSave: (file: File) => Promise<void>;
 }): JSX.Element {
   const { lab } = props;
-  const [name, setName] = createSignal(DEFAULT_NAME);
   const [isBusy, setBusy] = createSignal(false);
   /** Why the last drawing could not be opened. */
   const [refusal, setRefusal] = createSignal<string>();
-  const plainName = (): string => mapName(name()) || DEFAULT_NAME;
+  const plainName = (): string => mapName(props.editor.name()) || 'map';
   const fileOf = (name: string): File =>
-    new File([props.svg], `${name}.svg`, { type: 'image/svg+xml' });
-  const mayPass = (): boolean => props.error === undefined && (props.check?.regions ?? 0) > 0;
-  const isOff = (): boolean => !lab.canOperate() || isBusy() || !props.isChecked || !mayPass();
+    new File([props.finish()], `${name}.svg`, { type: 'image/svg+xml' });
+  const hasRoom = (): boolean => (props.check?.regions ?? 0) > 0;
+  const isOff = (): boolean => !lab.canOperate() || isBusy() || !props.isChecked || !hasRoom();
   const take = async (drawing: () => Promise<Drawing>): Promise<void> => {
     setRefusal(undefined);
     setBusy(true);
     try {
-      props.onDrawing(await drawing());
+      props.editor.act({ type: 'show', drawing: await drawing() });
     } catch (reason) {
       setRefusal(reason instanceof Error ? reason.message : String(reason));
     }
@@ -91,7 +89,12 @@ export function SidePanel(props: {
           accept=".svg,image/svg+xml"
           inputName="Drawing to go on with"
           disabled={isBusy()}
-          onFile={(file) => void take(async () => drawingOf(await checkOf(await file.text())))}
+          onFile={(file) =>
+            void take(async () => {
+              refuseLarge(file);
+              return drawingOf(await checkOf(await file.text()));
+            })
+          }
         >
           Open SVG…
         </FileButton>
@@ -109,10 +112,10 @@ export function SidePanel(props: {
         <span>Name</span>
         <input
           type="text"
-          value={name()}
+          value={props.editor.name()}
           maxLength={34}
           onInput={(event) => {
-            setName(event.currentTarget.value);
+            props.editor.rename(event.currentTarget.value);
           }}
         />
       </label>
@@ -141,7 +144,6 @@ export function SidePanel(props: {
       <Show when={!lab.canOperate()}>
         <p class="hint">You are watching: take control to save the drawing here.</p>
       </Show>
-      <PlaceNotice lab={lab} place="playback" />
     </section>
   );
 }

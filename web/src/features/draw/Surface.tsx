@@ -1,10 +1,19 @@
 // The drawing, as the SVG that it is.
 
-import { For, Show, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
+import {
+  For,
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  onCleanup,
+  onMount,
+  type JSX,
+} from 'solid-js';
 import type { NarrowPlace } from '../../net/protocol.gen';
 import { millimetres } from '../../ui/format';
 import { TESTED_WIDTH_M } from './check';
-import { type Frame, type Mm, moved, pathText, type Shape, withImages } from './drawing';
+import { type Frame, type Mm, movedInside, pathText, type Shape, withImages } from './drawing';
 import type { Editor } from './editor';
 import { pending, shift } from './editing';
 import { onKey } from './keys';
@@ -70,18 +79,24 @@ export function Surface(props: {
   const { editor } = props;
   let svg!: SVGSVGElement;
   const [mmPerPx, setMmPerPx] = createSignal(1);
+  const frame = createMemo(() => editor.editing().drawing.frame);
+  const measure = (): void => {
+    setMmPerPx(1 / (svg.getScreenCTM()?.a ?? 1));
+  };
   onMount(() => {
-    const observer = new ResizeObserver(() => {
-      setMmPerPx(1 / (svg.getScreenCTM()?.a ?? 1));
-    });
+    const observer = new ResizeObserver(measure);
     observer.observe(svg);
+    // Another frame has another scale.
+    createEffect(() => {
+      frame();
+      measure();
+    });
     const detach = attachPointer(svg, editor);
     onCleanup(() => {
       observer.disconnect();
       detach();
     });
   });
-  const frame = createMemo(() => editor.editing().drawing.frame);
   const shapes = createMemo(() => editor.editing().drawing.shapes);
   const by = createMemo(() => shift(editor.editing()));
   const begun = createMemo(() => {
@@ -125,7 +140,7 @@ export function Surface(props: {
           const isSelected = (): boolean => editor.editing().selected === index();
           const shown = (): Shape => {
             const now = isSelected() ? by() : undefined;
-            return now ? moved(shape, now) : shape;
+            return now ? movedInside(shape, now, frame()) : shape;
           };
           return <Drawn shape={shown()} class={isSelected() ? 'selected' : ''} />;
         }}

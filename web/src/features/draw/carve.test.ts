@@ -2,14 +2,11 @@ import { expect, it } from 'vitest';
 import { carved, simplified } from './carve';
 import type { Mm, Shape, Wall } from './drawing';
 
-const RUBBER: Wall = {
-  kind: 'wall',
-  points: [
-    [50, -100],
-    [50, 100],
-  ],
-  width_mm: 20,
-};
+const ACROSS: Mm[] = [
+  [50, -100],
+  [50, 100],
+];
+
 const WALL: Wall = {
   kind: 'wall',
   points: [
@@ -31,7 +28,7 @@ function areaMm2(shape: Shape | undefined): number {
 }
 
 it('cuts a wall into two, each with a round end', () => {
-  const pieces = carved([WALL], RUBBER);
+  const pieces = carved([WALL], [ACROSS], 20);
   expect(pieces).toHaveLength(2);
   // 40 mm of the wall, and half a disc.
   for (const piece of pieces) expect(areaMm2(piece)).toBeCloseTo(400 + (Math.PI * 25) / 2, -1);
@@ -39,13 +36,12 @@ it('cuts a wall into two, each with a round end', () => {
 
 it('leaves shapes that it does not touch as they are', () => {
   const away: Shape = { kind: 'post', center: [200, 0], radius_mm: 10 };
-  expect(carved([away, WALL], RUBBER)[0]).toBe(away);
+  expect(carved([away, WALL], [ACROSS], 20)[0]).toBe(away);
 });
 
 it('removes what it covers', () => {
-  expect(carved([{ kind: 'post', center: [50, 0], radius_mm: 9 }], RUBBER)).toEqual([]);
-  const dot: Wall = { kind: 'wall', points: [[0, 0]], width_mm: 40 };
-  expect(carved([{ kind: 'post', center: [3, 4], radius_mm: 10 }], dot)).toEqual([]);
+  expect(carved([{ kind: 'post', center: [50, 0], radius_mm: 9 }], [ACROSS], 20)).toEqual([]);
+  expect(carved([{ kind: 'post', center: [3, 4], radius_mm: 10 }], [[[0, 0]]], 40)).toEqual([]);
 });
 
 it('makes a hole in an area, and keeps an island in a hole', () => {
@@ -60,7 +56,7 @@ it('makes a hole in an area, and keeps an island in a hole', () => {
       ],
     ],
   };
-  const [area, ...others] = carved([square], { kind: 'wall', points: [[50, 50]], width_mm: 40 });
+  const [area, ...others] = carved([square], [[[50, 50]]], 40);
   expect(others).toEqual([]);
   expect(area?.kind === 'area' && area.rings).toHaveLength(2);
   expect(areaMm2(area)).toBeCloseTo(10_000 - Math.PI * 400, -1);
@@ -69,7 +65,7 @@ it('makes a hole in an area, and keeps an island in a hole', () => {
     const angle = (index / 39) * 2 * Math.PI;
     return [50 + 30 * Math.cos(angle), 50 + 30 * Math.sin(angle)];
   });
-  const pieces = carved([square], { kind: 'wall', points: circle, width_mm: 6 });
+  const pieces = carved([square], [circle], 6);
   expect(pieces.map((piece) => piece.kind === 'area' && piece.rings.length).sort()).toEqual([1, 2]);
 });
 
@@ -82,4 +78,32 @@ it('needs few points for a line drawn by hand', () => {
   ];
   expect(simplified(corner, 1)).toContainEqual([50, 0]);
   expect(simplified([[1, 2]], 1)).toEqual([[1, 2]]);
+  // There and back, and round to where it began.
+  const back: Mm[] = [
+    [0, 0],
+    [100, 0],
+    [200, 0],
+    [100, 0],
+    [20, 0],
+  ];
+  expect(simplified(back, 1)).toEqual([
+    [0, 0],
+    [200, 0],
+    [20, 0],
+  ]);
+  const loop: Mm[] = [
+    [0, 0],
+    [50, 0],
+    [100, 0],
+    [100, 100],
+    [0, 100],
+    [0, 0],
+  ];
+  expect(simplified(loop, 1)).toEqual([
+    [0, 0],
+    [100, 0],
+    [100, 100],
+    [0, 100],
+    [0, 0],
+  ]);
 });

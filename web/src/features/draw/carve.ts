@@ -1,5 +1,7 @@
 // The eraser, and the smoothing of lines drawn by hand. Pure.
 
+import simplify from 'simplify-js';
+
 import {
   ClipType,
   Clipper,
@@ -11,7 +13,7 @@ import {
   type PathsD,
   type PolyPathD,
 } from 'clipper2-ts';
-import type { Area, Mm, Shape, Wall } from './drawing';
+import type { Area, Mm, Shape } from './drawing';
 
 /** Decimal places of millimetres. */
 const DECIMALS = 2;
@@ -23,12 +25,10 @@ const LEAST_MM2 = 1;
 
 const pathOf = (points: readonly Mm[]): PathD => points.map(([x, y]) => ({ x, y }));
 
-function outline(shape: Shape): PathsD {
-  if (shape.kind === 'area') return shape.rings.map(pathOf);
-  const [points, width_mm] =
-    shape.kind === 'wall' ? [shape.points, shape.width_mm] : [[shape.center], 2 * shape.radius_mm];
+/** The outlines of walls of one width together. */
+function outlineOf(walls: readonly (readonly Mm[])[], width_mm: number): PathsD {
   return Clipper.inflatePathsD(
-    [pathOf(points)],
+    walls.map(pathOf),
     width_mm / 2,
     JoinType.Round,
     EndType.Round,
@@ -36,6 +36,12 @@ function outline(shape: Shape): PathsD {
     DECIMALS,
     ARC_MM,
   );
+}
+
+function outline(shape: Shape): PathsD {
+  if (shape.kind === 'area') return shape.rings.map(pathOf);
+  if (shape.kind === 'wall') return outlineOf([shape.points], shape.width_mm);
+  return outlineOf([[shape.center]], 2 * shape.radius_mm);
 }
 
 /** The outer rings of a tree, each with its holes. */
@@ -56,9 +62,16 @@ function areaMm2(paths: PathsD): number {
   return Math.abs(Clipper.areaPathsD(paths));
 }
 
-/** The shapes without what is under the eraser. A shape that it does not touch stays as it is. */
-export function carved(shapes: readonly Shape[], eraser: Wall): Shape[] {
-  const rubber = outline(eraser);
+/**
+ * The shapes without what is under the eraser, which went along several lines. A shape that it does not touch stays as it
+ * is.
+ */
+export function carved(
+  shapes: readonly Shape[],
+  lines: readonly (readonly Mm[])[],
+  width_mm: number,
+): Shape[] {
+  const rubber = outlineOf(lines, width_mm);
   return shapes.flatMap((shape): Shape[] => {
     const before = outline(shape);
     const common = Clipper.intersectD(before, rubber, FillRule.EvenOdd, DECIMALS);
@@ -78,5 +91,6 @@ export function carved(shapes: readonly Shape[], eraser: Wall): Shape[] {
 
 /** A line drawn by hand with as few points as stay within `most_mm` of it. */
 export function simplified(points: readonly Mm[], most_mm: number): Mm[] {
-  return Clipper.ramerDouglasPeuckerD(pathOf(points), most_mm).map(({ x, y }): Mm => [x, y]);
+  const all = points.map(([x, y]) => ({ x, y }));
+  return simplify(all, most_mm, true).map(({ x, y }): Mm => [x, y]);
 }

@@ -26,18 +26,28 @@ export function checkWords(check: MapCheck): Remark[] {
   return remarks;
 }
 
-/** The newest answer, and whether it is about the present drawing. */
-export function createCheck(svg: Accessor<string>): {
-  readonly answer: Accessor<Answer<MapCheck>>;
+export interface Check {
+  /** Undefined if the drawing is refused, or before the first answer. */
+  readonly found: Accessor<MapCheck | undefined>;
+  /** Why the drawing is refused, or that the server did not answer. */
+  readonly error: Accessor<string | undefined>;
+  /** Whether this is about the present drawing. */
   readonly isPresent: Accessor<boolean>;
-} {
+}
+
+/** Asks again when the connection comes back. */
+export function createCheck(svg: Accessor<string>, isLive: Accessor<boolean>): Check {
   const [answer, setAnswer] = createSignal<Answer<MapCheck>>({});
   const asker = new Asker<MapCheck>(checkOf, setAnswer, CHECKS_PER_S);
   createEffect(() => {
-    asker.ask(svg(), svg());
+    if (isLive()) asker.ask(svg(), svg());
   });
   onCleanup(() => {
     asker.forget();
   });
-  return { answer, isPresent: () => answer().key === svg() };
+  return {
+    found: () => (answer().error === undefined ? answer().data : undefined),
+    error: () => answer().error,
+    isPresent: () => answer().key === svg(),
+  };
 }

@@ -4,6 +4,7 @@ import {
   type Mm,
   mirrored,
   moved,
+  movedInside,
   pathText,
   shapeAt,
   type Shape,
@@ -85,6 +86,56 @@ it('repeats a shape on the other sides', () => {
     [50, 450],
     [-70, 450],
   ]);
+});
+
+it('does not repeat a shape on its own place', () => {
+  const { frame } = BLANK;
+  const middle: Shape = { kind: 'post', center: [-10, 375], radius_mm: 5 };
+  expect(withImages(middle, frame, 'both')).toEqual([middle]);
+  const across: Shape = {
+    kind: 'wall',
+    points: [
+      [-60, 300],
+      [40, 300],
+    ],
+    width_mm: 5,
+  };
+  expect(withImages(across, frame, 'sides')).toEqual([across]);
+  expect(withImages(across, frame, 'both')).toHaveLength(2);
+  const box: Shape = {
+    kind: 'area',
+    rings: [
+      [
+        [-60, 300],
+        [40, 300],
+        [40, 350],
+        [-60, 350],
+      ],
+    ],
+  };
+  expect(withImages(box, frame, 'sides')).toEqual([box]);
+  // The same corners, joined otherwise.
+  const zed: Shape = {
+    kind: 'wall',
+    points: [
+      [-60, 300],
+      [40, 300],
+      [-60, 450],
+      [40, 450],
+    ],
+    width_mm: 5,
+  };
+  expect(withImages(zed, frame, 'sides')).toHaveLength(2);
+});
+
+it('keeps the middle of a moved shape in the frame', () => {
+  expect(movedInside(POST, [1000, 0], BLANK.frame)).toMatchObject({ center: [280, 300] });
+  expect(movedInside(WALL, [0, -1000], BLANK.frame)).toMatchObject({
+    points: [
+      [-100, 160],
+      [-100, 260],
+    ],
+  });
 });
 
 it('finds the topmost shape at a point, but nothing in a hole', () => {

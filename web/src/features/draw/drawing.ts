@@ -79,12 +79,47 @@ export function mirrored(shape: Shape, frame: Frame, axis: 'sides' | 'ends'): Sh
   return mapped(shape, ([x, y]) => (axis === 'sides' ? [sum_x - x, y] : [x, sum_y - y]));
 }
 
-/** A shape with the copies that a symmetry asks for. */
+/** Text that is the same for a line in both directions, and for a ring from each of its points. */
+function keyOf(points: readonly Mm[], isRing: boolean): string {
+  const texts = points.map(place);
+  const least = texts.reduce((best, text, index) => (text < (texts[best] ?? '') ? index : best), 0);
+  const from = isRing ? [...texts.slice(least), ...texts.slice(0, least)] : texts;
+  const [first = '', ...others] = from;
+  const back = isRing ? [first, ...others.toReversed()] : from.toReversed();
+  return [from.join(), back.join()].sort()[0] ?? '';
+}
+
+/** Text that two shapes have in common only if they cover the same. */
+function placeKey(shape: Shape): string {
+  if (shape.kind === 'area') return shape.rings.map((ring) => keyOf(ring, true)).join(';');
+  return keyOf(shape.kind === 'wall' ? shape.points : [shape.center], false);
+}
+
+/** A shape with the copies that a symmetry asks for. A copy at the same place is left out. */
 export function withImages(shape: Shape, frame: Frame, symmetry: Symmetry): Shape[] {
   const sides = symmetry === 'sides' || symmetry === 'both';
   const ends = symmetry === 'ends' || symmetry === 'both';
   const pair = sides ? [shape, mirrored(shape, frame, 'sides')] : [shape];
-  return ends ? [...pair, ...pair.map((one) => mirrored(one, frame, 'ends'))] : pair;
+  const all = ends ? [...pair, ...pair.map((one) => mirrored(one, frame, 'ends'))] : pair;
+  const keys = all.map(placeKey);
+  return all.filter((_, index) => keys.indexOf(keys[index] ?? '') === index);
+}
+
+function middleOf(shape: Shape): Mm {
+  if (shape.kind === 'post') return shape.center;
+  const points = shape.kind === 'wall' ? shape.points : (shape.rings[0] ?? []);
+  const middle = (axis: 0 | 1): number => {
+    const values = points.map((point) => point[axis]);
+    return (Math.min(...values) + Math.max(...values)) / 2;
+  };
+  return [middle(0), middle(1)];
+}
+
+/** A shape moved, but no farther than its middle stays in the frame: there it can be selected again. */
+export function movedInside(shape: Shape, by: Mm, frame: Frame): Shape {
+  const [from, to] = [middleOf(shape), middleOf(moved(shape, by))];
+  const kept = clampedTo(frame, to);
+  return moved(shape, [kept[0] - from[0], kept[1] - from[1]]);
 }
 
 export function clampedTo(frame: Frame, [x, y]: Mm): Mm {

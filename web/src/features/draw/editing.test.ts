@@ -62,6 +62,18 @@ describe('a wall', () => {
   });
 });
 
+it('finishes what is begun before all is mirrored', () => {
+  const steps: Step[] = [click(0, 300), click(50, 300), { type: 'mirror', axis: 'sides' }];
+  expect(shapesOf(steps)).toMatchObject([
+    {
+      points: [
+        [-20, 300],
+        [-70, 300],
+      ],
+    },
+  ]);
+});
+
 describe('an area', () => {
   it('is a rectangle when dragged, and none when it is too small', () => {
     const rectangle = [
@@ -84,7 +96,11 @@ describe('an area', () => {
     ];
     const steps = [tool('area'), click(0, 300), click(40, 300), click(40, 330), click(1, 300)];
     expect(shapesOf(steps)).toEqual([{ kind: 'area', rings: [ring] }]);
-    expect(shapesOf([...steps.slice(0, 3), { type: 'finish' }])).toEqual([]);
+    // Two corners are not an area: they stay.
+    expect(run([...steps.slice(0, 3), { type: 'finish' }])).toMatchObject({
+      corners: ring.slice(0, 2),
+    });
+    expect(shapesOf([...steps.slice(0, 3), tool('wall')])).toEqual([]);
   });
 });
 
@@ -101,15 +117,13 @@ it('puts posts, dragged ones with their own size, and copies on the other side',
   expect(shapesOf([free, tool('post'), click(1.5, 299)])).toMatchObject([{ center: [1.5, 299] }]);
 });
 
-it('erases, also on the other side', () => {
+it('erases, also on the other side, and changes nothing where nothing is', () => {
   const two: Step[] = [{ type: 'symmetry', symmetry: 'sides' }, tool('post'), click(50, 300)];
   expect(shapesOf([...two, tool('erase'), click(50, 300)])).toEqual([]);
   const one: Step[] = [...two, { type: 'symmetry', symmetry: 'none' }, tool('erase')];
   expect(shapesOf([...one, click(50, 300)])).toHaveLength(1);
   const nothing = run(one);
-  expect(shapesOf([drag(-200, 300), drag(-200, 400), DROP], nothing)).toEqual(
-    nothing.drawing.shapes,
-  );
+  expect(run([drag(-200, 300), drag(-200, 400), DROP], nothing).drawing).toBe(nothing.drawing);
 });
 
 describe('a shape that is there', () => {
@@ -138,6 +152,11 @@ describe('a shape that is there', () => {
     expect(dropped.drawing.shapes[1]).toMatchObject({ center: [110, 330] });
     expect(dropped.selected).toBe(1);
     expect(run([drag(50, 500), drag(60, 500), DROP], there).drawing).toBe(there.drawing);
+  });
+
+  it('is not picked up by a drag that began beside it', () => {
+    const beside = run([drag(50, 500)], there);
+    expect(beside.trace).toEqual([]);
   });
 
   it('mirrors with all others when none is selected', () => {

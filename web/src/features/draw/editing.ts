@@ -7,7 +7,7 @@ import {
   type Drawing,
   mirrored,
   type Mm,
-  moved,
+  movedInside,
   type Shape,
   shapeAt,
   snapped,
@@ -93,11 +93,13 @@ const wallOf = ({ size_mm }: Editing, points: readonly Mm[]): Wall => ({
 
 function erased(editing: Editing, points: readonly Mm[]): Editing {
   const { frame, shapes } = editing.drawing;
-  const rubber: Wall = { kind: 'wall', points, width_mm: editing.size_mm.erase };
-  const left = withImages(rubber, frame, editing.symmetry).reduce<readonly Shape[]>(
-    (now, image) => (image.kind === 'wall' ? carved(now, image) : now),
-    shapes,
-  );
+  const line: Wall = { kind: 'wall', points: simplified(points, SMOOTH_MM), width_mm: 0 };
+  const images = withImages(line, frame, editing.symmetry);
+  const lines = images.flatMap((image) => (image.kind === 'wall' ? [image.points] : []));
+  const left = carved(shapes, lines, editing.size_mm.erase);
+  if (left.length === shapes.length && left.every((shape, index) => shape === shapes[index])) {
+    return { ...editing, ...IDLE };
+  }
   // A shape that was cut has another index, or is several.
   return { ...withShapes(editing, left), selected: undefined };
 }
@@ -183,13 +185,15 @@ function clicked(editing: Editing, pointer: Mm, slop_mm: number): Editing {
   }
 }
 
+/** A drag of the move tool begins on a shape; otherwise there is nothing to drag. */
 function dragged(editing: Editing, pointer: Mm, slop_mm: number): Editing {
   const { tool, trace, drawing } = editing;
-  if (trace.length > 0) return { ...editing, trace: [...trace, clampedTo(drawing.frame, pointer)] };
+  const at = clampedTo(drawing.frame, pointer);
+  if (trace.length > 0) return { ...editing, trace: [...trace, at] };
   const begun = tool === 'wall' || tool === 'area' ? finished(editing) : editing;
   const selected = tool === 'move' ? shapeAt(drawing, pointer, slop_mm) : editing.selected;
   if (tool === 'move' && selected === undefined) return { ...editing, selected };
-  return { ...begun, selected, trace: [clampedTo(drawing.frame, pointer)] };
+  return { ...begun, selected, trace: [at] };
 }
 
 function replaced(editing: Editing, change: (shape: Shape) => Shape): Editing {
@@ -205,7 +209,7 @@ function dropped(editing: Editing): Editing {
   if (by)
     return by[0] === 0 && by[1] === 0
       ? { ...editing, ...IDLE }
-      : replaced(editing, (shape) => moved(shape, by));
+      : replaced(editing, (shape) => movedInside(shape, by, editing.drawing.frame));
   if (tool === 'erase') return erased(editing, trace);
   if (tool === 'wall') return added(editing, wallOf(editing, simplified(trace, SMOOTH_MM)));
   const shape = pending(editing);
@@ -223,7 +227,8 @@ export function after(editing: Editing, step: Step): Editing {
     case 'drop':
       return dropped(editing);
     case 'finish':
-      return finished(editing);
+      // Two corners are not an area yet.
+      return editing.tool === 'area' && isTooSmall(corners) ? editing : finished(editing);
     case 'back':
       return { ...editing, corners: corners.slice(0, -1) };
     case 'cancel':
@@ -237,12 +242,15 @@ export function after(editing: Editing, step: Step): Editing {
         selected: undefined,
       };
     case 'nudge':
-      return selected === undefined ? editing : replaced(editing, (shape) => moved(shape, step.by));
+      return selected === undefined
+        ? editing
+        : replaced(editing, (shape) => movedInside(shape, step.by, drawing.frame));
     case 'mirror': {
+      const whole = finished(editing);
       const mirror = (shape: Shape): Shape => mirrored(shape, drawing.frame, step.axis);
       return selected === undefined
-        ? withShapes(editing, drawing.shapes.map(mirror))
-        : replaced(editing, mirror);
+        ? withShapes(whole, whole.drawing.shapes.map(mirror))
+        : replaced(whole, mirror);
     }
     case 'tool':
       return { ...finished(editing), tool: step.tool, selected: undefined };

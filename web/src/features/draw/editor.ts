@@ -1,15 +1,19 @@
 // The drawing that is being edited, with undo, and where the pointer or the keyboard's cursor is.
 
 import { createSignal, type Accessor } from 'solid-js';
-import { onward, redone, startOf, type Undo, undone } from '../../ui/undo';
+import { amended, onward, redone, startOf, type Undo, undone } from '../../ui/undo';
 import { recallDraft, rememberDraft } from './draft';
 import { BLANK, type Drawing, type Mm } from './drawing';
 import { after, begin, type Editing, type Step } from './editing';
+
+const DEFAULT_NAME = 'my-maze';
 
 export interface Editor {
   readonly editing: Accessor<Editing>;
   readonly pointer: Accessor<Mm | undefined>;
   readonly point: (at: Mm | undefined) => void;
+  readonly name: Accessor<string>;
+  readonly rename: (name: string) => void;
   readonly act: (step: Step) => void;
   readonly undo: () => void;
   readonly redo: () => void;
@@ -17,37 +21,49 @@ export interface Editor {
   readonly canRedo: Accessor<boolean>;
 }
 
-/** Goes on with the draft of the last visit, if there is one. */
+/** Begins with the draft of the last visit, if there is one. */
 export function createEditor(): Editor {
   const first = recallDraft() ?? BLANK;
   const [editing, setEditing] = createSignal(begin(first));
   const [history, setHistory] = createSignal(startOf(first));
   const [pointer, point] = createSignal<Mm>();
-  const travel = (to: (undo: Undo<Drawing>) => Undo<Drawing>): void => {
-    const next = setHistory(to);
-    setEditing((now) => after(now, { type: 'show', drawing: next.present }));
-    rememberDraft(next.present);
+  const [name, rename] = createSignal(DEFAULT_NAME);
+  let last: Step['type'] | undefined;
+  const show = (undo: Undo<Drawing>): void => {
+    last = undefined;
+    setHistory(undo);
+    setEditing((now) => after(now, { type: 'show', drawing: undo.present }));
+    rememberDraft(undo.present);
   };
   const act = (step: Step): void => {
     const before = editing().drawing;
     const { drawing } = setEditing((now) => after(now, step));
+    // Held arrow keys are one change.
+    const goesOn = step.type === 'nudge' && last === 'nudge';
+    last = step.type;
     if (drawing === before) return;
-    setHistory((undo) => onward(undo, drawing));
+    setHistory((undo) => (goesOn ? amended(undo, drawing) : onward(undo, drawing)));
     rememberDraft(drawing);
   };
+  const isDragging = (): boolean => editing().trace.length > 0;
+  const isBegun = (): boolean => editing().corners.length > 0;
+  const canRedo = (): boolean => !isBegun() && !isDragging() && history().future.length > 0;
   return {
     editing,
     pointer,
     point,
+    name,
+    rename,
     act,
     undo: () => {
-      if (editing().corners.length > 0) act({ type: 'back' });
-      else travel(undone);
+      if (isDragging()) act({ type: 'cancel' });
+      else if (isBegun()) act({ type: 'back' });
+      else show(undone(history()));
     },
     redo: () => {
-      travel(redone);
+      if (canRedo()) show(redone(history()));
     },
-    canUndo: () => editing().corners.length > 0 || history().past.length > 0,
-    canRedo: () => history().future.length > 0,
+    canUndo: () => isBegun() || history().past.length > 0,
+    canRedo,
   };
 }

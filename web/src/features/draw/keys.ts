@@ -53,6 +53,8 @@ function arrow(editor: Editor, [right, down]: Mm, step_mm: number): void {
 /** A key while the drawing has the focus. */
 export function onKey(editor: Editor, event: KeyboardEvent): void {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
+  const isDragging = editor.editing().trace.length > 0;
+  if (isDragging && event.key !== 'Escape') return;
   const direction = ARROWS[event.key];
   const tool = (Object.keys(TOOL_KEYS) as Tool[]).find(
     (name) => TOOL_KEYS[name] === event.key.toLowerCase(),

@@ -8,9 +8,15 @@ const SLOP_PX = { mouse: 4, touch: 10 } as const;
 
 type Px = readonly [number, number];
 
+interface Press {
+  /** Other pointers, such as the palm beside a pen, are ignored. */
+  readonly id: number;
+  readonly from: Px;
+  readonly isDrag: boolean;
+}
+
 export function attachPointer(svg: SVGSVGElement, editor: Editor): () => void {
-  let from: Px | undefined;
-  let isDrag = false;
+  let press: Press | undefined;
   const place = ([x, y]: Px): Mm => {
     const at = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM()?.inverse());
     return [at.x, at.y];
@@ -19,40 +25,45 @@ export function attachPointer(svg: SVGSVGElement, editor: Editor): () => void {
   const slopPx = (event: PointerEvent): number =>
     event.pointerType === 'mouse' ? SLOP_PX.mouse : SLOP_PX.touch;
   const slopMm = (event: PointerEvent): number => slopPx(event) / (svg.getScreenCTM()?.a ?? 1);
+  const drag = (at: Px, event: PointerEvent): void => {
+    editor.act({ type: 'drag', at: place(at), slop_mm: slopMm(event) });
+  };
 
   const onDown = (event: PointerEvent): void => {
-    if (!event.isPrimary || event.button !== 0) return;
+    if (press || !event.isPrimary || event.button !== 0) return;
     svg.setPointerCapture(event.pointerId);
-    [from, isDrag] = [pxOf(event), false];
-    editor.point(place(from));
+    press = { id: event.pointerId, from: pxOf(event), isDrag: false };
+    editor.point(place(press.from));
   };
   const onMove = (event: PointerEvent): void => {
-    if (!event.isPrimary) return;
+    if (press ? press.id !== event.pointerId : !event.isPrimary) return;
     const now = pxOf(event);
     editor.point(place(now));
-    if (!from) return;
-    if (!isDrag) {
+    if (!press) return;
+    if (!press.isDrag) {
+      const { id, from } = press;
       if (Math.hypot(now[0] - from[0], now[1] - from[1]) <= slopPx(event)) return;
-      isDrag = true;
-      editor.act({ type: 'drag', at: place(from), slop_mm: slopMm(event) });
+      press = { id, from, isDrag: true };
+      drag(from, event);
     }
-    editor.act({ type: 'drag', at: place(now), slop_mm: slopMm(event) });
+    // There was nothing to drag, or a key has cancelled it: nothing happens until the next press.
+    if (editor.editing().trace.length > 0) drag(now, event);
   };
   const onUp = (event: PointerEvent): void => {
-    if (!event.isPrimary || !from) return;
-    if (isDrag) editor.act({ type: 'drop' });
-    else editor.act({ type: 'click', at: place(from), slop_mm: slopMm(event) });
-    from = undefined;
+    if (press?.id !== event.pointerId) return;
+    if (press.isDrag) editor.act({ type: 'drop' });
+    else editor.act({ type: 'click', at: place(press.from), slop_mm: slopMm(event) });
+    press = undefined;
     // A finger that is lifted points nowhere.
     if (event.pointerType === 'touch') editor.point(undefined);
   };
   const onCancel = (event: PointerEvent): void => {
-    if (!event.isPrimary || !from) return;
-    from = undefined;
-    if (isDrag) editor.act({ type: 'cancel' });
+    if (press?.id !== event.pointerId) return;
+    if (press.isDrag) editor.act({ type: 'cancel' });
+    press = undefined;
   };
   const onLeave = (): void => {
-    if (!from) editor.point(undefined);
+    if (!press) editor.point(undefined);
   };
   const listeners = [
     ['pointerdown', onDown],
@@ -64,5 +75,7 @@ export function attachPointer(svg: SVGSVGElement, editor: Editor): () => void {
   for (const [name, listener] of listeners) svg.addEventListener(name, listener);
   return () => {
     for (const [name, listener] of listeners) svg.removeEventListener(name, listener);
+    // The view is left in the middle of a drag.
+    if (press?.isDrag) editor.act({ type: 'cancel' });
   };
 }
