@@ -140,10 +140,12 @@ def table(study, kept):
         own = shares[name]
         low, high = interval([resampled(own, rng) for _ in range(RESAMPLES)])
         difference = interval([resampled(own, rng) - resampled(base, rng) for _ in range(RESAMPLES)])
+        # One seed says nothing about others.
+        spread = f"{low:.1f}–{high:.1f}" if len(own) > 1 else "–"
         collided, out = (sum(counts[i] for counts in kept[name].values()) for i in (2, 3))
         compared = "–" if name == AS_SHIPPED else f"{middle(own) - middle(base):+.1f}"
-        between = "–" if name == AS_SHIPPED else f"{difference[0]:+.1f} to {difference[1]:+.1f}"
-        yield (f"| {name} | {len(own)} | {middle(own):.1f} | {low:.1f}–{high:.1f} | {compared} | {between} "
+        between = "–" if name == AS_SHIPPED or len(own) < 2 else f"{difference[0]:+.1f} to {difference[1]:+.1f}"
+        yield (f"| {name} | {len(own)} | {middle(own):.1f} | {spread} | {compared} | {between} "
                f"| {', '.join(f'{share:.1f}' for share in own)} | {collided} | {out} |")
     yield ""
 

@@ -1,8 +1,9 @@
 """Evaluates controllers on generated mazes that no training used, and writes docs/mazes.md: `make mazes`.
 
-`MAZE_TRIALS` is the number of trials on each maze, of those with disturbances a quarter. The seed is the first eight hexadecimal digits of the evaluated
-commit, so it is not chosen; `FERRY_COMMIT` names that commit when HEAD has moved on. Finished rows are kept in
-tests/results/mazes/COMMIT, so an interrupted run goes on. `POLICIES` lists further policies, trained with other seeds.
+`MAZE_TRIALS` is the number of trials on each maze, of those with disturbances a quarter. The seed is the first eight
+hexadecimal digits of the evaluated commit, so it is not chosen; `FERRY_COMMIT` names that commit when HEAD has moved on.
+Finished rows are kept in tests/results/mazes/COMMIT, so an interrupted run goes on. `POLICIES` lists further policies,
+trained with other seeds.
 """
 
 import json
@@ -94,8 +95,9 @@ def page(reports, commit):
     yield ""
     yield textwrap.fill(
         f"Mazes of the families rooms, spirals and serpentines with seeds 1 to {MAZES}, all widths, none left out: "
-        f"`ferry maps generate --family F --count {MAZES} --out DIR`. {TRIALS} trials on each, {TRIALS // 4} with disturbances, `step_limit` {STEPS}, commit "
-        f"{commit}, seed {int(commit, 16)}. The explorer was trained on tubes, trees and stones only. Path ratio: length of "
+        f"`ferry maps generate --family F --count {MAZES} --out DIR`. {TRIALS} trials on each, "
+        f"{TRIALS // 4} with disturbances, `step_limit` {STEPS}, commit {commit}, seed {int(commit, 16)}. The explorer was "
+        "trained on tubes, trees and stones only: the shipped one with seed 1, explorer-N with seed N. Path ratio: length of "
         "the tool's path over the shortest path of the bead, in trials that reached the goal; a controller that sees 20 cm "
         "must explore.", 120)
     yield ""
