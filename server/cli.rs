@@ -63,6 +63,9 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
             return Ok(ExitCode::from(usage.exit_code() as u8));
         }
     };
+    // Candle's own threads wait by spinning, even for small operations, and take cores from the others.
+    // SAFETY: no other thread runs yet that could read the environment.
+    unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     begin_logging()?;
     match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
         Command::Serve(arguments) => serve::run(&arguments),

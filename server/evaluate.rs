@@ -2,21 +2,21 @@
 
 mod comparison;
 mod course;
-mod engine;
 mod evaluation;
+mod evaluations;
 mod experiment;
 mod figure;
+mod job;
 mod manner;
 mod paper;
 mod query;
-mod queue;
 mod report;
 mod statistics;
 mod summary;
 
 pub use comparison::{Comparison, PairedMean};
-pub(crate) use engine::gentle_pool;
 pub use evaluation::{CellProgress, CellResult, Evaluation, Progress, Stage};
+pub use evaluations::{Evaluations, SubmitError};
 pub use experiment::{
     Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, episode_in, run, run_one, unrecorded,
 };
@@ -24,7 +24,6 @@ pub use figure::{FigureError, Trace};
 pub use manner::Manner;
 pub use paper::PaperRow;
 pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
-pub use queue::{Queue, SubmitError};
 pub use report::{Report, ReportError};
 pub use statistics::wilson95;
 pub use summary::{Failure, Row};

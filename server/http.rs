@@ -29,10 +29,13 @@ use tokio::sync::{Semaphore, watch};
 use tokio_util::task::TaskTracker;
 
 use crate::camera::Gpu;
-use crate::evaluate::Queue;
+use crate::evaluate::Evaluations;
+use crate::jobs::Queue;
+use crate::learn::Trainings;
+use crate::policy;
 use crate::recording::{Archive, Retention};
 use crate::scenario::Scenario;
-use crate::trial::TrialError;
+use crate::trial::{Catalog, TrialError};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 use metrics::Counters;
@@ -72,7 +75,7 @@ pub enum ServeError {
 
 /// Settings of a server.
 pub struct Settings {
-    /// Folder of recordings, saved sessions, uploaded maps and sweeps.
+    /// Folder of recordings, saved sessions, uploaded maps, policies, trainings and sweeps.
     pub data: PathBuf,
     /// Limits beyond which old recordings are deleted.
     pub retention: Retention,
@@ -108,10 +111,14 @@ pub struct Server {
     /// Recordings of the sessions.
     recordings: Arc<Archive>,
     maps: Maps,
+    /// Maps and policies.
+    catalog: Catalog,
     /// Images of maps, for value maps.
     atlases: Atlases,
-    /// Evaluations in the background.
-    evaluations: Queue,
+    /// Evaluations and trainings, in the background.
+    jobs: Arc<Queue>,
+    evaluations: Evaluations,
+    trainings: Trainings,
     sessions: Arc<Sessions>,
     /// Permits for long computations.
     workers: Arc<Semaphore>,
@@ -136,16 +143,25 @@ impl Server {
         let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
         let settings = SessionSettings { most: sessions, park_after, opening };
         let saved = SavedSessions::in_folder(data.join("sessions"), start_over);
+        let changed = maps.version.clone();
+        let policies = policy::Library::in_folder(data.join("policies"), move || {
+            changed.send_modify(|version| *version += 1);
+        });
+        let catalog = Catalog { maps: maps.all.clone(), policies: Arc::new(policies) };
         let sessions =
-            Sessions::new(gpu.clone(), recordings.clone(), maps.all.clone(), maps.changes(), settings, saved)?;
+            Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), maps.changes(), settings, saved)?;
+        let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
         Ok(Arc::new(Self {
-            evaluations: Queue::start(gpu.clone())?,
+            evaluations: Evaluations::new(jobs.clone()),
+            trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
+            jobs,
             gpu,
             access,
             counters: Arc::default(),
             recordings,
             maps,
-            atlases: Atlases::in_folder(data.join("sweeps")),
+            catalog,
+            atlases: Atlases::in_folder(sweeps),
             sessions: Arc::new(sessions),
             workers: Arc::new(Semaphore::new(WORKERS)),
             painter: Arc::new(Semaphore::new(1)),
@@ -205,7 +221,7 @@ pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
 }
 
 /// Serves until `stopping` becomes true. Then pauses every session, disconnects the browsers, closes the recordings and
-/// cancels the evaluations, all within two seconds.
+/// interrupts the job in the background, all within two seconds.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     accept::raise_file_limit();
     let sweeper = server.clone();
@@ -218,7 +234,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     let pausing = async move {
         // An error means that the sender was dropped, which also stops the server.
         drop(stopped.stopping.clone().wait_for(|&stop| stop).await);
-        stopped.evaluations.stop();
+        stopped.jobs.stop();
         // A file that is being written must not replace the last one.
         drop(saving.await);
         let hubs = stopped.sessions.hold().await;
@@ -235,10 +251,10 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), Ser
     for hub in hubs {
         closing.spawn_blocking(move || hub.shut());
     }
-    let evaluations = server.clone();
-    closing.spawn_blocking(move || evaluations.evaluations.close());
+    let jobs = server.jobs.clone();
+    closing.spawn_blocking(move || jobs.close());
     if tokio::time::timeout(CLOSE_WITHIN, closing.join_all()).await.is_err() {
-        tracing::error!("a session or an evaluation did not close in time");
+        tracing::error!("a session or a job did not close in time");
     }
     Ok(())
 }

@@ -12,18 +12,34 @@ mod loss;
 mod networks;
 mod recipe;
 mod replay;
+mod run;
 mod survey;
 pub mod sweep;
 mod terrain;
 mod training;
+mod trainings;
 
 pub use atlas::{Atlas, AtlasError};
 pub use checkpoint::CheckpointError;
 pub use curve::{Curve, FigureError};
 pub use environment::Ending;
-pub use examine::Marks;
+pub use examine::{EXAMINATION_SEED, Marks};
 pub use goals::GoalSet;
-pub use recipe::{Recipe, RecipeError};
+pub use recipe::{Recipe, RecipeError, RecipeName};
+pub use run::{Run, Saving, drive};
 pub use survey::{MazeLattice, SurveyRecipe, SurveyRun, examine as examine_surveys, examine_teacher};
 pub use terrain::{Terrain, TerrainError};
 pub use training::{Point, Spread, State, TrainingError, WINDOW};
+pub use trainings::{
+    Cells, Frame, Origin, QueryError, Settings, Status, SubmitTrainingError, Trail, Training, TrainingQuery,
+    TrainingStage, Trainings,
+};
+
+/// Git revision of the working tree, marked if it has changes; outside a repository, the program's version.
+pub fn revision() -> String {
+    let git = std::process::Command::new("git").args(["describe", "--always", "--dirty", "--exclude=*"]).output();
+    match git {
+        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).trim().to_owned(),
+        _ => concat!("version ", env!("CARGO_PKG_VERSION")).to_owned(),
+    }
+}

@@ -7,7 +7,7 @@
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
 //! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: set-up of a trial; image; position; percept.
-//! - floor 5: [`policy`]: network, weights, manifest.
+//! - floor 5: [`policy`], [`jobs`]: network, weights, manifest; the queue of background jobs.
 //! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
 //! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
 //! - floor 8: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
@@ -34,6 +34,7 @@ pub mod files;
 pub mod geometry;
 pub mod http;
 pub mod image;
+pub mod jobs;
 pub mod learn;
 pub mod magnetics;
 pub mod map;

@@ -3,6 +3,7 @@
 mod convolution;
 mod file;
 mod lattice;
+mod library;
 mod linear;
 mod modulation;
 mod network;
@@ -18,6 +19,7 @@ use crate::perception::{OBSERVATION_SIZE_PX, Observation};
 
 pub use file::{Manifest, PolicyError};
 pub use lattice::{Cell, Lattice, neighbours};
+pub use library::{ADDED_POLICIES, Added, Library, LibraryError, is_added, weights};
 pub use network::{Architecture, Fusion, HIDDEN, Initial, Network, TensorSpec};
 use survey::Plan;
 pub use survey::{Survey, SurveyParts};

@@ -16,9 +16,11 @@ mod maps;
 mod numbers;
 mod parameters;
 mod parse;
+mod policies;
 mod recordings;
 mod seed;
 mod server;
+mod trainings;
 #[cfg(test)]
 mod typescript;
 mod workspace;
@@ -37,8 +39,13 @@ pub use layers::{
 pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
 pub use numbers::{Numbers3, Numbers6, Rows3};
+pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
 pub use server::{CaseSummary, EventMessage, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
+pub use trainings::{
+    EpisodeEnding, Examination, FusionName, RecipeName, TrainingCells, TrainingEpisode, TrainingFrame, TrainingMessage,
+    TrainingPoint, TrainingQuery, TrainingReport, TrainingSettings, TrainingStage, TrainingSummary, Trainings,
+};
 pub use workspace::{ManipulabilityMap, WorkspaceMap, WorkspaceQuery};
 
 /// Protocol version. Increase it when an old page could misread the server.

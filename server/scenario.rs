@@ -17,8 +17,8 @@ pub use disturbance::{
     When,
 };
 pub use parameters::{
-    AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind, RlPolicy,
-    SetError, SwitchingLaw, Unit,
+    AddedPolicy, AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind,
+    RlPolicy, SetError, SwitchingLaw, Unit,
 };
 pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};

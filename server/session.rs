@@ -26,11 +26,11 @@ use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
-use crate::map::{Library, MapError};
+use crate::map::MapError;
 use crate::plant::PositionerKind;
 use crate::scenario::{Parameters, Scenario};
 use crate::trial::{
-    Arena, Case, CaseError, Event, Input, InputError, LogError, Moment, Sight, Sink, Trial, TrialError,
+    Arena, Case, CaseError, Catalog, Event, Input, InputError, LogError, Moment, Sight, Sink, Trial, TrialError,
 };
 
 pub use branch_point::{BranchPoint, Progress};
@@ -152,8 +152,8 @@ pub struct Scenery {
     pub kept_runs: Vec<KeptRunSummary>,
     /// The test case that was opened for this trial.
     pub case: Option<Arc<OpenedCase>>,
-    /// Maps that can be loaded.
-    pub known_maps: Arc<Library>,
+    /// Maps and policies that can be chosen.
+    pub catalog: Catalog,
     /// Map and free space.
     pub arena: Arc<Arena>,
     /// The trial's scenario.
@@ -163,14 +163,14 @@ pub struct Scenery {
 }
 
 impl Scenery {
-    fn of(trial: &Trial, known_maps: Arc<Library>, version: u64, number: u64) -> Self {
+    fn of(trial: &Trial, catalog: Catalog, version: u64, number: u64) -> Self {
         Self {
             version,
             trial: number,
             past_version: 0,
             kept_runs: Vec::new(),
             case: None,
-            known_maps,
+            catalog,
             arena: trial.arena().clone(),
             scenario: trial.scenario().clone(),
             positioner: trial.state().world.plant.positioner.kind(),
@@ -252,20 +252,21 @@ pub enum Opening {
 }
 
 impl Session {
-    /// Starts a session, paused; it may load any map of the library.
+    /// Starts a session, paused; it may use any map and policy of the catalog.
     pub fn start(
         name: &str,
-        scenario: Scenario,
+        mut scenario: Scenario,
         opening: Opening,
-        library: Arc<Library>,
+        catalog: Catalog,
         gpu: Arc<Gpu>,
         sink: Box<dyn Sink>,
     ) -> Result<Self, TrialError> {
-        let arena = Arena::of(library.find(&scenario.map)?);
+        catalog.resolve(&mut scenario.parameters)?;
+        let arena = catalog.arena(&scenario.map)?;
         let make_camera = Box::new(move |arena: &Arena| arena.camera(&gpu));
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
-        let mut worker = worker::Worker::new(scenario, arena, library, make_camera, sink, events.clone())?;
+        let mut worker = worker::Worker::new(scenario, arena, catalog, make_camera, sink, events.clone())?;
         worker.begin(opening);
         let (publish, view) = watch::channel(Arc::new(worker.view()));
         let (interrupted, resumed_tick, has_left_out) =

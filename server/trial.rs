@@ -6,6 +6,7 @@
 
 mod arena;
 mod case;
+mod catalog;
 mod decide;
 mod disturb;
 mod entry;
@@ -31,12 +32,14 @@ use crate::image::CameraFrame;
 use crate::map::MapError;
 use crate::perception::Percept;
 use crate::plant::{Plant, PlantState, Positioner, PositionerKind};
+use crate::policy::PolicyError;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ParameterError, RandomTrialError, Scenario, Stream, start_point};
 use crate::tracking::{self, TrackerParameters};
 
 pub use arena::Arena;
 pub use case::{Case, CaseError, CaseOutcome, Expectation, Timed};
+pub use catalog::Catalog;
 pub(crate) use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
@@ -45,7 +48,7 @@ pub use log::{InputLog, LogError, LogWriter};
 pub use outcome::GOAL_RADIUS_M;
 pub use phase::{LEGS_PER_GOAL, Phase, SETTLE_S, StopReason};
 pub use record::{Moment, Sight, TickRecord};
-pub use replay::{MakeCamera, ReplayError, Replayed, replay};
+pub use replay::{Deciding, MakeCamera, ReplayError, Replayed, replay};
 pub use resume::StateError;
 pub use script::Script;
 pub use sink::{Beginning, Nowhere, Sink};
@@ -63,6 +66,9 @@ pub enum TrialError {
     /// A parameter is out of range.
     #[error("parameters: {0}")]
     Parameter(#[from] ParameterError),
+    /// There is no such policy.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
     /// Start or goal is impossible.
     #[error(transparent)]
     Input(#[from] InputError),

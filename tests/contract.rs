@@ -3,14 +3,22 @@
 use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
 
+use ferry::policy::Policy;
 use serde_json::{Value, json};
 
 use crate::support::{Browser, Ferry, ferry, tool};
 
 /// Operations that never succeed here: a plain request cannot become a WebSocket, no token is set, and generated text is not
-/// a map (`leases` uploads maps).
-const NEVER_ACCEPTED: [&str; 5] =
-    ["DELETE /api/maps/{name}", "GET /api/sessions/{id}/live", "POST /api/map-checks", "POST /api/maps", "POST /login"];
+/// a map or a policy (`leases` and `trainings` upload them).
+const NEVER_ACCEPTED: [&str; 7] = [
+    "DELETE /api/maps/{name}",
+    "GET /api/sessions/{id}/live",
+    "GET /api/trainings/{id}/live",
+    "POST /api/map-checks",
+    "POST /api/maps",
+    "POST /api/policies/{file}",
+    "POST /login",
+];
 
 fn ask(ferry: &Ferry, method: &str, path: &str, body: &str) -> Value {
     let request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", ferry.address));
@@ -18,9 +26,13 @@ fn ask(ferry: &Ferry, method: &str, path: &str, body: &str) -> Value {
     serde_json::from_str(&response.body_mut().read_to_string().unwrap()).unwrap()
 }
 
-/// Prepares data for the requests: a session with a goal, a finished evaluation, and one that runs until it is cancelled.
+/// Prepares data for the requests: a session with a goal, a finished training with its policy, another policy, a finished evaluation, and one that runs until it is cancelled.
 /// Returns the id of a recording.
 async fn fill(ferry: &Ferry) -> String {
+    let training = json!({"map": "u-turn", "name": "kept", "seed": 1, "settings": {"updates": 1}});
+    ask(ferry, "POST", "/api/trainings", &training.to_string());
+    let spare = format!("http://{}/api/policies/spare", ferry.address);
+    ureq::post(spare).send(Policy::shipped_bytes("colon").unwrap().as_slice()).unwrap();
     let query =
         json!({"controllers": ["attractor", "errt"], "maps": ["posts"], "disturbances": [0], "episodes": 2, "seed": 1});
     ask(ferry, "POST", "/api/evaluations", &query.to_string());

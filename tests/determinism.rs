@@ -8,8 +8,8 @@ use ferry::image::CameraFrame;
 use ferry::plant::{BeadMotion, PositionerKind, ToolOrientation};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
 use ferry::trial::{
-    Arena, Beginning, Entry, Input, InputLog, LogWriter, LoggedBeginning, LoggedTick, Motion, ReplayError, Replayed,
-    Source, Trial, World, replay,
+    Arena, Beginning, Deciding, Entry, Input, InputLog, LogWriter, LoggedBeginning, LoggedTick, Motion, ReplayError,
+    Replayed, Source, Trial, World, replay,
 };
 use proptest::prelude::*;
 
@@ -159,7 +159,7 @@ proptest! {
         let mut make_camera = |_: &Arena| -> Result<Box<dyn ImageSource>, CameraError> {
             Ok(Box::new(Playback(frames.take().expect("one trial").into_iter())))
         };
-        prop_assert_eq!(replay(&log, Some(&mut make_camera), &mut |_| {}).unwrap(), all);
+        prop_assert_eq!(replay(&log, Some(Deciding { make_camera: &mut make_camera, policies: Arc::default() }), &mut |_| {}).unwrap(), all);
     }
 }
 

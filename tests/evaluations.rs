@@ -150,7 +150,7 @@ async fn the_queue_is_limited_and_entries_can_be_cancelled() {
         waiting.push(lab.begin(json!({})).await);
     }
     let (status, problem) = lab.ask("POST", "/api/evaluations", &query(json!({})).to_string()).await;
-    assert_eq!((status, &problem["code"]), (429, &json!("too_many_evaluations")));
+    assert_eq!((status, &problem["code"]), (429, &json!("too_many_jobs")));
 
     // A waiting evaluation is cancelled at once, a running one soon, without a row.
     let (status, left) = lab.ask("DELETE", &waiting[0], "").await;

@@ -8,7 +8,7 @@ const FLOORS: [&[&str]; 11] = [
     &["robot", "magnetics", "map"],
     &["plant"],
     &["scenario", "camera", "tracking", "perception"],
-    &["policy"],
+    &["policy", "jobs"],
     &["control"],
     &["trial"],
     &["learn", "evaluate", "session"],

@@ -30,7 +30,7 @@ fn every_shipped_policy_is_complete_and_has_a_manifest() {
 #[test]
 fn auto_takes_the_policy_of_the_drawing_not_of_the_name() {
     let drawn = |name: &str, like: &str| Arena::of(Map::from_svg(name, Map::shipped(like).unwrap().svg()).unwrap());
-    let auto = |arena: std::sync::Arc<Arena>| arena.policy(RlPolicy::Auto).unwrap().hash();
+    let auto = |arena: std::sync::Arc<Arena>| arena.policy(&RlPolicy::Auto).unwrap().hash();
     let shipped = |name: &str| Policy::shipped(name).unwrap().hash();
     assert_eq!(auto(drawn("mine", "colon")), shipped("colon"));
     assert_eq!(auto(drawn("colon", "posts")), shipped("general"));

@@ -8,7 +8,7 @@ use ferry::plant::{BeadMotion, PositionerKind};
 use ferry::recording::{Archive, Options, Recorder, Retention};
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry::session::{Command, Kept, Opening, Session};
-use ferry::trial::{Input, InputLog, LogError, Replayed, replay};
+use ferry::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -68,7 +68,8 @@ fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     let name = format!("random-{seed}");
     let recorder = Recorder::in_archive(archive, &name, options).unwrap();
     let scenario = Scenario { controller: ControllerName::ALL[seed as usize % 3], ..Scenario::idle("posts", seed) };
-    let session = Session::start(&name, scenario, Opening::Fresh, Arc::default(), gpu(), Box::new(recorder)).unwrap();
+    let session =
+        Session::start(&name, scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
     let runtime = clocked();
     let obey = |command| runtime.block_on(session.send(command));
     obey(Command::SetSpeed(8.0)).unwrap();
@@ -140,9 +141,15 @@ fn parts_have_no_gap_and_each_replays_alone() {
     let archive = Archive::new(folder.path().to_owned(), Retention::default());
     let options = Options { part: Duration::from_millis(250), ..Options::LIVE };
     let recorder = Recorder::in_archive(&archive, "main", options).unwrap();
-    let session =
-        Session::start("main", Scenario::idle("posts", 1), Opening::Fresh, Arc::default(), gpu(), Box::new(recorder))
-            .unwrap();
+    let session = Session::start(
+        "main",
+        Scenario::idle("posts", 1),
+        Opening::Fresh,
+        Catalog::default(),
+        gpu(),
+        Box::new(recorder),
+    )
+    .unwrap();
     let runtime = clocked();
     let obey = |command| runtime.block_on(session.send(command)).unwrap();
     obey(Command::Input(Input::SetGoal { x_m: 0.12, y_m: -0.33 }));
@@ -192,7 +199,7 @@ fn a_recording_whose_folder_is_gone_says_so_and_goes_on_when_it_is_back() {
         let recorder = Recorder::in_archive(&archive, "main", Options::LIVE).unwrap();
         let scenario = Scenario::idle("open", 1);
         let session =
-            Session::start("main", scenario, Opening::Fresh, Arc::default(), gpu(), Box::new(recorder)).unwrap();
+            Session::start("main", scenario, Opening::Fresh, Catalog::default(), gpu(), Box::new(recorder)).unwrap();
         let runtime = clocked();
         let obey = |command| runtime.block_on(session.send(command)).unwrap();
         obey(if runs { Command::Run } else { Command::Step(100) });

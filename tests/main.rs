@@ -32,4 +32,5 @@ mod stopping;
 mod support;
 mod surveys;
 mod tracker;
+mod trainings;
 mod viewer;

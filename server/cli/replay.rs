@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::camera::{CameraError, ImageSource};
+use crate::policy::Library;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Arena, Entry, InputLog, MakeCamera, replay};
+use crate::trial::{Arena, Deciding, Entry, InputLog, replay};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -19,6 +21,9 @@ pub struct Arguments {
     /// compared too. Images are equal only on the same machine and adapter
     #[arg(long)]
     camera: bool,
+    /// Folder of the server, for policies that the trials have selected
+    #[arg(long, default_value = "data")]
+    data: PathBuf,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
@@ -38,8 +43,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let gpu = gpu.as_ref().expect("the adapter is open if cameras are used");
         Ok(Box::new(arena.camera(gpu)?))
     };
-    let make_camera: Option<MakeCamera<'_>> = if arguments.camera { Some(&mut cameras) } else { None };
-    let replayed = replay(&log, make_camera, &mut |_| bar.inc(1));
+    let deciding = arguments.camera.then(|| {
+        let policies = Library::in_folder(arguments.data.join("policies"), || ());
+        Deciding { make_camera: &mut cameras, policies: Arc::new(policies) }
+    });
+    let replayed = replay(&log, deciding, &mut |_| bar.inc(1));
     bar.finish_and_clear();
     let replayed = replayed.with_context(|| format!("{path}"))?;
     let compared = if arguments.camera { "world and controller" } else { "world" };

@@ -1,5 +1,6 @@
 //! `ferry sweep`.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -26,7 +27,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let bar = ProgressBar::new((columns * rows) as u64)
         .with_style(ProgressStyle::with_template("images {bar:30} {pos}/{len} {eta} left")?);
     let started = Instant::now();
-    let sweep = Sweep::open(&arena, &gpu, &arguments.out, STEP_M, &|| bar.inc(1))?;
+    let sweep = Sweep::open(&arena, &gpu, &arguments.out, STEP_M, &|| {
+        bar.inc(1);
+        ControlFlow::Continue(())
+    })?;
     let taken = bar.position();
     bar.finish_and_clear();
     let obstacles = sweep.obstacle.iter().filter(|&&obstacle| obstacle).count();

@@ -2,6 +2,7 @@
 
 mod generated;
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -10,12 +11,13 @@ use anyhow::{Context, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::learn::sweep::{STEP_M, Sweep};
-use crate::learn::{Curve, GoalSet, Marks, Recipe, State, Terrain};
+use crate::learn::{
+    Curve, EXAMINATION_SEED, GoalSet, Marks, Recipe, RecipeName, Saving, State, Terrain, drive, revision,
+};
+use crate::policy::{Architecture, Policy};
 use crate::trial::Arena;
 
 const CHECKPOINT_PERIOD: Duration = Duration::from_secs(60);
-/// Seed of the final examination; no run trains with it.
-const EXAMINATION_SEED: u64 = 0x00FE_77E5;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -37,9 +39,16 @@ pub struct Arguments {
     /// Number of runs with consecutive seeds, for the paper's learning figure
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100))]
     rounds: u64,
-    /// The paper's reward, fusion and returns
+    /// Recipe from which the settings start: quick (one map in minutes), full (the shipped policies) or paper (its reward,
+    /// fusion and returns)
+    #[arg(long, default_value = "full", conflicts_with = "paper")]
+    recipe: RecipeName,
+    /// The same as --recipe paper
     #[arg(long)]
     paper: bool,
+    /// Policy whose weights it starts from: the name of a shipped one, or the path of a file
+    #[arg(long, value_name = "NAME|FILE")]
+    start_from: Option<String>,
     /// Set a number of the recipe, for example n_step=3 or architecture.dueling=false
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -52,9 +61,6 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    // Candle's own threads wait by spinning, even for small operations, and take cores from the others.
-    // SAFETY: this is the command's first action; no other thread runs yet that could read the environment.
-    unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     // Inside the pool, parallel work needs no thread switch. The global pool is used because it lasts: threads that end
     // together with the process would conflict with the graphics driver's cleanup.
     rayon::scope(|_| train(arguments))
@@ -64,7 +70,12 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if arguments.map == [generated::MAP] {
         return generated::train(arguments);
     }
-    let recipe = if arguments.paper { Recipe::paper() } else { Recipe::default() };
+    let mut recipe = Recipe::named(if arguments.paper { RecipeName::Paper } else { arguments.recipe });
+    let start = arguments.start_from.as_deref().map(start_bytes).transpose().context("--start-from")?;
+    if let Some(bytes) = &start {
+        let noisy = recipe.architecture.noisy;
+        recipe.architecture = Architecture { noisy, ..Policy::from_bytes(bytes)?.manifest().architecture };
+    }
     let recipe: Recipe = super::with_changes(&recipe, &arguments.set)?;
     recipe.check().context("--set")?;
     ensure!(!arguments.map.is_empty(), "--map: at least one map is needed");
@@ -79,7 +90,7 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             1 => arguments.out.clone(),
             _ => arguments.out.with_extension(format!("{seed}.safetensors")),
         };
-        let curve = round(arguments, &recipe, seed, &out, &terrains, &unseen)?;
+        let curve = round(arguments, &recipe, start.as_deref(), seed, &out, [&terrains, &unseen])?;
         curves.push(curve);
     }
     let figure = arguments.out.with_extension("curve.svg");
@@ -92,10 +103,10 @@ fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 fn round(
     arguments: &Arguments,
     recipe: &Recipe,
+    start: Option<&[u8]>,
     seed: u64,
     out: &Path,
-    terrains: &[Terrain],
-    unseen: &[Terrain],
+    [terrains, unseen]: [&[Terrain]; 2],
 ) -> anyhow::Result<Curve> {
     let checkpoint = out.with_extension("checkpoint");
     let (mut state, mut curve) = match arguments.resume {
@@ -103,33 +114,18 @@ fn round(
             let (state, spent_s) = State::read(&checkpoint, recipe, seed, terrains)?;
             (state, Curve::resumed(spent_s))
         }
-        false => (State::new(recipe.clone(), seed, terrains)?, Curve::default()),
+        false => (State::begin(recipe.clone(), seed, terrains, start)?, Curve::default()),
     };
-    let bar = ProgressBar::new(recipe.updates)
-        .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} updates, {msg}, {eta} left")?);
-    bar.set_position(state.memory.updates);
-    bar.reset_eta();
-    let begun = (Instant::now(), state.steps, state.memory.updates);
-    let mut kept = Instant::now();
-    let mut failure = None;
-    let mut watch = |state: &State| {
-        let elapsed_s = begun.0.elapsed().as_secs_f64();
-        curve.time(elapsed_s);
-        let rate = |now: u64, then: u64| (now - then) as f64 / elapsed_s;
+    let bar = progress(recipe.updates, state.memory.updates)?;
+    let (begun, steps, updates) = (Instant::now(), state.steps, state.memory.updates);
+    let saving = Saving { checkpoint: &checkpoint, period: CHECKPOINT_PERIOD };
+    drive(&mut state, terrains, saving, &mut curve, &mut |state, _| {
+        let rate = |now: u64, then: u64| (now - then) as f64 / begun.elapsed().as_secs_f64();
         bar.set_position(state.memory.updates);
-        bar.set_message(message(state, rate(state.steps, begun.1), rate(state.memory.updates, begun.2)));
-        if kept.elapsed() >= CHECKPOINT_PERIOD || state.is_done() {
-            failure = state.write(&checkpoint, curve.spent_s()).err();
-            kept = Instant::now();
-        }
-        failure.is_none()
-    };
-    state.run(terrains, &mut watch)?;
-    if let Some(failure) = failure {
-        return Err(failure.into());
-    }
+        bar.set_message(message(state, rate(state.steps, steps), rate(state.memory.updates, updates)));
+        true
+    })?;
     bar.finish_and_clear();
-    curve.points.clone_from(&state.curve);
     std::fs::write(out, state.policy(&revision())?).with_context(|| format!("{}", out.display()))?;
     let data = out.with_extension("curve.csv");
     std::fs::write(&data, curve.csv()).with_context(|| format!("{}", data.display()))?;
@@ -155,6 +151,25 @@ fn round(
     println!("policy      {}", out.display());
     println!("curve       {}", data.display());
     Ok(curve)
+}
+
+/// A bar for the updates of a run.
+fn progress(updates: u64, done: u64) -> anyhow::Result<ProgressBar> {
+    let bar = ProgressBar::new(updates)
+        .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} updates, {msg}, {eta} left")?);
+    bar.set_position(done);
+    bar.reset_eta();
+    Ok(bar)
+}
+
+/// The file of a policy by name or path.
+fn start_bytes(name_or_path: &str) -> anyhow::Result<Vec<u8>> {
+    match Policy::shipped_bytes(name_or_path) {
+        Ok(bytes) => Ok(bytes),
+        Err(unknown) => {
+            std::fs::read(name_or_path).map_err(|error| anyhow::anyhow!("{name_or_path}: {error}; {unknown}"))
+        }
+    }
 }
 
 fn message(state: &State, steps_per_s: f64, updates_per_s: f64) -> String {
@@ -195,18 +210,12 @@ fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<
         let arena = Arena::open(name)?;
         let bar = ProgressBar::no_length().with_style(ProgressStyle::with_template("{msg}: {pos} images taken")?);
         bar.set_message(arena.map.name().to_owned());
-        let sweep = Sweep::open(&arena, gpu, sweeps, STEP_M, &|| bar.inc(1))?;
+        let sweep = Sweep::open(&arena, gpu, sweeps, STEP_M, &|| {
+            bar.inc(1);
+            ControlFlow::Continue(())
+        })?;
         bar.finish_and_clear();
         terrains.push(Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, recipe.clearance_m)?);
     }
     Ok(terrains)
-}
-
-/// Git revision of the working tree, marked if it has changes; outside a repository, the program's version.
-fn revision() -> String {
-    let git = std::process::Command::new("git").args(["describe", "--always", "--dirty", "--exclude=*"]).output();
-    match git {
-        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).trim().to_owned(),
-        _ => concat!("version ", env!("CARGO_PKG_VERSION")).to_owned(),
-    }
 }

@@ -9,7 +9,7 @@ use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Ve
 use crate::map::Map;
 use crate::scenario::Parameters;
 
-/// An evaluation. The engine updates it; all others only read.
+/// An evaluation. Its job updates it; all others only read.
 #[derive(Debug)]
 pub struct Evaluation {
     pub id: String,
@@ -25,7 +25,7 @@ pub struct Evaluation {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Another evaluation is running.
+    /// Another job is running.
     Waiting,
     Running,
     /// All cells are complete.
@@ -127,7 +127,7 @@ impl Evaluation {
     }
 
     /// Starts the evaluation. Returns false if it was cancelled.
-    pub(super) fn begin(&self) -> bool {
+    pub(super) fn start(&self) -> bool {
         let mut progress = self.lock();
         let waits = progress.stage == Stage::Waiting;
         if waits {

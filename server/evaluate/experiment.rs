@@ -265,7 +265,7 @@ pub fn episode_in(
                 .zip(scenario.goal_m)
                 .and_then(|(start, goal)| shortest_m(&venue.room, start, goal)),
             trained_on_map: (scenario.controller == ControllerName::Rl)
-                .then(|| venue.arena.is_trained_on(scenario.parameters.rl_policy)),
+                .then(|| venue.arena.is_trained_on(&scenario.parameters.rl_policy)),
             path_ratio: scenario.goal_m.filter(|_| delivered).and_then(|goal| course.ratio(&venue.room, goal)),
             steps: counters.steps,
             switches: counters.switches,

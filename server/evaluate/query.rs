@@ -180,7 +180,7 @@ mod tests {
             (EvaluationQuery { disturbances: vec![3, 3], ..query() }, "disturbances[1]", &["\"3\""]),
             (EvaluationQuery { episodes: 0, ..query() }, "episodes", &["episodes is 0", "1 to 1000"]),
             (EvaluationQuery { episodes: 1001, ..query() }, "episodes", &["1001"]),
-            (EvaluationQuery { maps: all, disturbances: vec![0, 1], ..query() }, "maps", &["28 cells", "24"]),
+            (EvaluationQuery { maps: all, disturbances: vec![0, 1], ..query() }, "maps", &["32 cells", "24"]),
         ] {
             let error = bad.cells().and_then(|_| bad.maps(&Library::default())).unwrap_err();
             assert_eq!(error.field(), field, "{error}");

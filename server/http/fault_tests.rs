@@ -10,12 +10,12 @@ use crate::faults;
 use crate::recording::{Archive, Options, Recorder, Retention};
 use crate::scenario::{ControllerName, Scenario};
 use crate::session::{Command, CommandError, Opening, SPEED_MAX, Session};
-use crate::trial::{Input, InputLog, Nowhere, Sink};
+use crate::trial::{Catalog, Input, InputLog, Nowhere, Sink};
 
 fn start(name: &str, controller: ControllerName, sink: Box<dyn Sink>) -> Session {
     let gpu = Gpu::open(Default::default()).unwrap();
     let scenario = Scenario { controller, ..Scenario::idle("posts", 1) };
-    Session::start(name, scenario, Opening::Fresh, Arc::default(), gpu, sink).unwrap()
+    Session::start(name, scenario, Opening::Fresh, Catalog::default(), gpu, sink).unwrap()
 }
 
 async fn reason_of_end(session: &Session) -> String {
@@ -95,7 +95,7 @@ async fn a_lost_graphics_device_is_replaced_and_the_session_continues() {
         "lost device",
         scenario,
         Opening::Fresh,
-        Arc::default(),
+        Catalog::default(),
         gpu.clone(),
         Box::new(Nowhere::default()),
     );

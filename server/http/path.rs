@@ -84,6 +84,33 @@ pub struct ReportPath {
 
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
+pub struct TrainingPath {
+    /// Name of a training.
+    #[param(example = "training-1")]
+    pub id: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct FramePath {
+    /// Name of a training.
+    #[param(example = "training-1")]
+    pub id: String,
+    /// Number of a value map, from 0.
+    #[param(example = 0)]
+    pub index: usize,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct PolicyPath {
+    /// Name of a policy; to download, with `.safetensors` after it.
+    #[param(example = "my-policy")]
+    pub file: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
 pub struct RecordingPath {
     /// Id of a recording; to download, with `.rrd` or `.ferry` after it.
     pub file: String,

@@ -7,8 +7,10 @@ mod flow;
 mod health;
 pub mod maps;
 mod moments;
+mod policies;
 mod recordings;
 mod sessions;
+mod trainings;
 pub mod values;
 mod viewer;
 
@@ -24,6 +26,8 @@ use super::{Server, access, assets, live, metrics, openapi, problem};
 
 /// Largest request body.
 const BODY_LIMIT: usize = 1 << 20;
+/// Largest file of a policy that can be uploaded; those that are trained here have one megabyte.
+const POLICY_BODY_LIMIT: usize = 16 << 20;
 /// Largest request body for ten thousand poses.
 const BATCH_BODY_LIMIT: usize = 8 << 20;
 
@@ -38,6 +42,9 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(calculator::reach))
         .routes(routes!(calculator::plane))
         .layer(DefaultBodyLimit::max(BATCH_BODY_LIMIT));
+    let policies = OpenApiRouter::new()
+        .routes(routes!(policies::file, policies::add, policies::rename, policies::delete))
+        .layer(DefaultBodyLimit::max(POLICY_BODY_LIMIT));
     OpenApiRouter::with_openapi(openapi::base())
         .routes(routes!(health::health))
         .routes(routes!(metrics::metrics))
@@ -62,11 +69,20 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(evaluations::list, evaluations::create))
         .routes(routes!(evaluations::report, evaluations::cancel))
         .routes(routes!(evaluations::file))
+        .routes(routes!(trainings::list, trainings::create))
+        .routes(routes!(trainings::report, trainings::delete))
+        .routes(routes!(trainings::pause))
+        .routes(routes!(trainings::resume))
+        .routes(routes!(trainings::cells))
+        .routes(routes!(trainings::frame))
+        .routes(routes!(trainings::live))
+        .routes(routes!(policies::list))
         .routes(routes!(recordings::recordings))
         .routes(routes!(recordings::recording, recordings::rename, recordings::delete))
         .routes(routes!(viewer::file))
         .layer(DefaultBodyLimit::max(BODY_LIMIT))
         .merge(calculator)
+        .merge(policies)
 }
 
 /// Everything that is served: the routes and the pages.

@@ -15,11 +15,10 @@ use super::live::Hub;
 use super::problem::Problem;
 use super::saved_sessions::{SAVE_EVERY, SavedSessions};
 use crate::camera::Gpu;
-use crate::map::Library;
 use crate::recording::{Archive, Options, Recorder};
 use crate::scenario::Scenario;
 use crate::session::{Command, CommandError, Opening, Session};
-use crate::trial::{Nowhere, Sink, TrialError};
+use crate::trial::{Catalog, Nowhere, Sink, TrialError};
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";
@@ -49,8 +48,8 @@ pub struct SessionSettings {
 pub struct Sessions {
     gpu: Arc<Gpu>,
     archive: Arc<Archive>,
-    known_maps: Arc<Library>,
-    /// Changes whenever the list of maps changes.
+    catalog: Catalog,
+    /// Changes whenever the list of maps or policies changes.
     maps: watch::Receiver<u64>,
     settings: SessionSettings,
     saved: SavedSessions,
@@ -71,7 +70,7 @@ impl Sessions {
     pub fn new(
         gpu: Arc<Gpu>,
         archive: Arc<Archive>,
-        known_maps: Arc<Library>,
+        catalog: Catalog,
         maps: watch::Receiver<u64>,
         settings: SessionSettings,
         saved: SavedSessions,
@@ -79,7 +78,7 @@ impl Sessions {
         let sessions = Self {
             gpu,
             archive,
-            known_maps,
+            catalog,
             maps,
             settings,
             saved,
@@ -198,7 +197,7 @@ impl Sessions {
         let sink = self.sink(id);
         let is_saved = id != DEMO && !id.starts_with(NUMBERED);
         let opening = if is_saved { self.saved.opening(id, after_fault) } else { Opening::Fresh };
-        let session = Session::start(id, scenario, opening, self.known_maps.clone(), self.gpu.clone(), sink)?;
+        let session = Session::start(id, scenario, opening, self.catalog.clone(), self.gpu.clone(), sink)?;
         if is_saved {
             self.saved.opened(id, &session);
         }

@@ -1,14 +1,15 @@
 //! A policy's value map and greedy action at every place of a map.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
 use candle_core::Tensor;
 
 use super::learner::{features_of, features_of_all};
-use super::sweep::{STEP_M, Sweep, cells, center};
+use super::sweep::{STEP_M, Sweep, SweepError, cells, center};
 use super::terrain::places;
-use crate::camera::{CameraError, Gpu};
+use crate::camera::Gpu;
 use crate::geometry::{Point2, Rect};
 use crate::policy::{BATCH, Fusion, Judgement, Policy, PolicyError};
 use crate::trial::Arena;
@@ -37,7 +38,7 @@ enum Stored {
 pub enum AtlasError {
     /// The images could not be taken.
     #[error(transparent)]
-    Camera(#[from] CameraError),
+    Sweep(#[from] SweepError),
     /// No place keeps the policy's distance from walls.
     #[error("map: {map:?} has no place that keeps {clearance_m} m from the walls, as the policy requires")]
     NoRoom {
@@ -59,7 +60,7 @@ impl Atlas {
     /// [`AtlasError`].
     pub fn of(arena: &Arena, policy: Arc<Policy>, gpu: &Arc<Gpu>, folder: &Path) -> Result<Self, AtlasError> {
         let spacing_m = spacing_m(arena);
-        let sweep = Sweep::open(arena, gpu, folder, spacing_m, &|| ())?;
+        let sweep = Sweep::open(arena, gpu, folder, spacing_m, &|| ControlFlow::Continue(()))?;
         let workspace = *arena.map.workspace();
         let clearance_m = policy.manifest().clearance_m;
         let free = sweep.free(clearance_m);

@@ -30,12 +30,19 @@ impl CheckpointError {
 pub fn write(path: &Path, version: u32, spent_s: f64, run: &impl Serialize) -> Result<(), CheckpointError> {
     let io = |error| CheckpointError::Io { path: path.to_owned(), error };
     let bytes = postcard::to_stdvec(&(version, spent_s, run)).map_err(std::io::Error::other).map_err(io)?;
+    let hash = xxhash_rust::xxh3::xxh3_64(&bytes).to_le_bytes();
     let part = path.with_extension("part");
-    let mut file = File::create(&part).map_err(io)?;
-    file.write_all(&xxhash_rust::xxh3::xxh3_64(&bytes).to_le_bytes()).map_err(io)?;
-    file.write_all(&bytes).map_err(io)?;
-    file.sync_all().map_err(io)?;
-    std::fs::rename(part, path).map_err(io)
+    let written = File::create(&part).and_then(|mut file| {
+        file.write_all(&hash)?;
+        file.write_all(&bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&part, path)
+    });
+    if written.is_err() {
+        // Half a file on a full disk takes space.
+        let _ = std::fs::remove_file(&part);
+    }
+    written.map_err(io)
 }
 
 /// Reads a run and the seconds that it took.

@@ -14,6 +14,8 @@ use crate::policy::{ACTING_FRACTIONS, Fusion, Network, acting_fractions};
 
 /// Episodes that are stepped together.
 const TOGETHER: usize = 250;
+/// Seed of the last examination; no run trains with it.
+pub const EXAMINATION_SEED: u64 = 0x00FE_77E5;
 /// Random stream of examinations; training uses other streams of its seed.
 const STREAM: u64 = 1 << 40;
 

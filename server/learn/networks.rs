@@ -1,13 +1,15 @@
 //! The networks of a training run: the one that is trained, its older copy for the targets, and the average that is
 //! shipped. Every kind of training updates them in the same way.
 
-use candle_core::{Device, Result, Tensor, Var};
+use candle_core::{Device, Tensor, Var};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use crate::policy::{Architecture, Network, TensorSpec};
+use crate::policy::{Architecture, Network, PolicyError, TensorSpec, weights};
+
+type NetworkResult<T> = candle_core::Result<T>;
 
 /// All weights, in the order of [`Architecture::tensors`].
 pub type Weights = Vec<Vec<f32>>;
@@ -38,8 +40,29 @@ impl Memory {
         Self { target: online.clone(), average: online.clone(), online, adam, updates: 0, rng }
     }
 
+    /// Takes the weights in a policy's file. A policy has no scales of noise: those stay as they are.
+    ///
+    /// # Errors
+    /// [`PolicyError`], also if the file is that of another network.
+    pub fn start_from(&mut self, architecture: &Architecture, bytes: &[u8]) -> Result<(), PolicyError> {
+        let mut known = weights(bytes)?;
+        for (spec, values) in architecture.tensors().into_iter().zip(&mut self.online) {
+            match known.remove(&spec.name) {
+                Some(found) if found.len() == values.len() => *values = found,
+                Some(found) => {
+                    let found = format!("{} numbers", found.len());
+                    return Err(PolicyError::Shape { name: spec.name, found, needed: spec.shape });
+                }
+                None => {}
+            }
+        }
+        self.target.clone_from(&self.online);
+        self.average.clone_from(&self.online);
+        known.into_keys().next().map_or(Ok(()), |name| Err(PolicyError::Stray { name }))
+    }
+
     /// Random quantile fractions, `[batch, count]`.
-    pub fn draw_fractions(&mut self, batch: usize, count: usize) -> Result<Tensor> {
+    pub fn draw_fractions(&mut self, batch: usize, count: usize) -> NetworkResult<Tensor> {
         let draws = (0..batch * count).map(|_| self.rng.random::<f32>());
         Tensor::from_iter(draws, &Device::Cpu)?.reshape((batch, count))
     }
@@ -70,7 +93,7 @@ pub struct Networks {
 }
 
 /// A network with the given weights.
-pub fn network(architecture: Architecture, weights: &Weights) -> Result<Network> {
+pub fn network(architecture: Architecture, weights: &Weights) -> NetworkResult<Network> {
     let specs = architecture.tensors();
     Network::new(architecture, |name| {
         let index = position(&specs, name);
@@ -84,11 +107,11 @@ fn position(specs: &[TensorSpec], name: &str) -> usize {
 
 impl Networks {
     /// # Errors Those of candle, if the weights do not have the shapes of the network.
-    pub fn new(architecture: Architecture, memory: &Memory) -> Result<Self> {
+    pub fn new(architecture: Architecture, memory: &Memory) -> NetworkResult<Self> {
         let specs = architecture.tensors();
         let variable =
             |(spec, values): (&TensorSpec, &Vec<f32>)| Var::from_slice(values, spec.shape.clone(), &Device::Cpu);
-        let variables = specs.iter().zip(&memory.online).map(variable).collect::<Result<Vec<_>>>()?;
+        let variables = specs.iter().zip(&memory.online).map(variable).collect::<NetworkResult<Vec<_>>>()?;
         let online = Network::new(architecture, |name| {
             Ok::<_, candle_core::Error>(variables[position(&specs, name)].as_tensor().clone())
         })?;
@@ -103,13 +126,13 @@ impl Networks {
     /// Returns the norm of the gradient before clipping, and whether the target network changed.
     ///
     /// # Errors Those of candle.
-    pub fn descend(&mut self, loss: &Tensor, memory: &mut Memory, descent: &Descent) -> Result<(f64, bool)> {
+    pub fn descend(&mut self, loss: &Tensor, memory: &mut Memory, descent: &Descent) -> NetworkResult<(f64, bool)> {
         let gradients = loss.backward()?;
         let gradients = self.variables.iter().map(|variable| match gradients.get(variable) {
             Some(gradient) => gradient.flatten_all()?.to_vec1(),
             None => Ok(vec![0.0; variable.elem_count()]),
         });
-        let gradients = gradients.collect::<Result<Weights>>()?;
+        let gradients = gradients.collect::<NetworkResult<Weights>>()?;
         let progress = memory.updates as f64 / descent.updates as f64;
         let fallen = (2.0 * progress - 1.0).clamp(0.0, 1.0);
         let rate = descent.rates[0] + (descent.rates[1] - descent.rates[0]) * fallen;

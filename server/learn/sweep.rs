@@ -3,6 +3,7 @@
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -29,6 +30,19 @@ const VERSION: u32 = 3;
 const KEPT: usize = 32;
 /// A sweep has no bead: it is placed out of view.
 const OUT_OF_SIGHT_M: f64 = 100.0;
+
+/// Why a sweep has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// `progress` has stopped it.
+    #[error("the images of the map were not all taken: it was stopped")]
+    Stopped,
+}
+
+/// Called after each image; it may stop the sweep.
+pub type Progress<'a> = &'a (dyn Fn() -> ControlFlow<()> + Sync);
 
 /// One image for each cell of the workspace, taken above the cell's centre.
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
@@ -59,16 +73,11 @@ impl std::fmt::Debug for Sweep {
 }
 
 impl Sweep {
-    /// Takes all images on all CPU cores, one every `spacing_m`. Calls `progress` after each.
+    /// Takes all images on all CPU cores, one every `spacing_m`.
     ///
     /// # Errors
-    /// [`CameraError`].
-    pub fn take(
-        arena: &Arena,
-        gpu: &Arc<Gpu>,
-        spacing_m: f64,
-        progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, CameraError> {
+    /// [`SweepError`].
+    pub fn take(arena: &Arena, gpu: &Arc<Gpu>, spacing_m: f64, progress: Progress<'_>) -> Result<Self, SweepError> {
         let (columns, rows) = cells(arena, spacing_m);
         let views = (0..rows)
             .into_par_iter()
@@ -82,13 +91,15 @@ impl Sweep {
                     (0..columns)
                         .map(|column| {
                             let view = take_view(arena, camera, center(arena.map.workspace(), spacing_m, column, row))?;
-                            progress();
+                            if progress().is_break() {
+                                return Err(SweepError::Stopped);
+                            }
                             Ok(view)
                         })
-                        .collect::<Result<Vec<_>, CameraError>>()
+                        .collect::<Result<Vec<_>, SweepError>>()
                 },
             )
-            .collect::<Result<Vec<_>, CameraError>>()?;
+            .collect::<Result<Vec<_>, SweepError>>()?;
         let cells = columns * rows;
         let mut sweep = Self {
             spacing_m,
@@ -113,14 +124,14 @@ impl Sweep {
     /// is only logged.
     ///
     /// # Errors
-    /// [`CameraError`].
+    /// [`SweepError`].
     pub fn open(
         arena: &Arena,
         gpu: &Arc<Gpu>,
         folder: &Path,
         spacing_m: f64,
-        progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, CameraError> {
+        progress: Progress<'_>,
+    ) -> Result<Self, SweepError> {
         let path = folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m)));
         if let Some(kept) = read(&path, cells(arena, spacing_m)) {
             return Ok(kept);
@@ -275,6 +286,7 @@ mod tests {
         let taken = AtomicU32::new(0);
         let progress = || {
             taken.fetch_add(1, Ordering::Relaxed);
+            ControlFlow::Continue(())
         };
         let open = || Sweep::open(&arena, &gpu, folder.path(), STEP_M, &progress).unwrap();
         let sweep = open();

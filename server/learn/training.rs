@@ -14,7 +14,8 @@ use super::learner::Learner;
 use super::networks::{Memory, Weights, network};
 use super::recipe::{Recipe, RecipeError};
 use super::replay::{Replay, Transition};
-use super::sweep::STEP_M;
+use super::run::Run;
+use super::sweep::{STEP_M, SweepError};
 use super::terrain::Terrain;
 use crate::policy::{Manifest, Policy, PolicyError};
 
@@ -45,6 +46,9 @@ pub enum TrainingError {
     /// A checkpoint could not be read or written.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// The images of a map could not be taken.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// The loss or the gradient is not finite.
     #[error("training: at update {update} the loss is {loss} and the gradient {gradient}")]
     Diverged {
@@ -161,50 +165,26 @@ impl State {
         })
     }
 
+    /// A run before its first step, with the weights in a policy's file or with random ones.
+    ///
+    /// # Errors
+    /// [`TrainingError::Recipe`], [`TrainingError::Policy`].
+    pub fn begin(
+        recipe: Recipe,
+        seed: u64,
+        terrains: &[Terrain],
+        policy: Option<&[u8]>,
+    ) -> Result<Self, TrainingError> {
+        let mut state = Self::new(recipe, seed, terrains)?;
+        if let Some(bytes) = policy {
+            state.memory.start_from(&state.recipe.architecture, bytes)?;
+        }
+        Ok(state)
+    }
+
     /// The weights that are shipped.
     pub fn weights(&self) -> &Weights {
         if self.recipe.averaging > 0.0 { &self.memory.average } else { &self.memory.online }
-    }
-
-    /// Whether all updates are done.
-    pub fn is_done(&self) -> bool {
-        self.memory.updates >= self.recipe.updates
-    }
-
-    /// Runs until all updates are done or `watch` returns false. `watch` is called at the end of each point of the
-    /// curve.
-    ///
-    /// # Errors
-    /// [`TrainingError`].
-    pub fn run(&mut self, terrains: &[Terrain], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
-        let recipe = self.recipe.clone();
-        let mut learner = Learner::new(&recipe, terrains, self.memory.clone())?;
-        while learner.memory().updates < recipe.updates {
-            self.act(terrains, &mut learner)?;
-            if self.replay.len() < recipe.warm_up {
-                continue;
-            }
-            let mut ended = false;
-            for _ in 0..recipe.updates_per_step {
-                let report = learner.update(&mut self.replay)?;
-                let update = learner.memory().updates;
-                if !(report.loss.is_finite() && report.gradient.is_finite()) {
-                    let (loss, gradient) = (report.loss, report.gradient);
-                    return Err(TrainingError::Diverged { update, loss, gradient });
-                }
-                self.point.loss.add(report.loss);
-                self.point.gradient.add(report.gradient);
-                ended |= update.is_multiple_of(WINDOW) || update == recipe.updates;
-            }
-            if ended {
-                self.memory = learner.memory().clone();
-                self.end_point(terrains)?;
-                if !watch(self) {
-                    return Ok(());
-                }
-            }
-        }
-        Ok(())
     }
 
     /// One step of all lanes.
@@ -279,14 +259,6 @@ impl State {
         Ok(Policy::to_bytes(&manifest, &weights.collect::<Vec<_>>())?)
     }
 
-    /// Saves the run and `spent_s`, the seconds that it took so far.
-    ///
-    /// # Errors
-    /// [`TrainingError::Checkpoint`].
-    pub fn write(&self, path: &Path, spent_s: f64) -> Result<(), TrainingError> {
-        Ok(checkpoint::write(path, VERSION, spent_s, self)?)
-    }
-
     /// Reads a run of the same recipe, seed and maps, and the seconds that it took.
     ///
     /// # Errors
@@ -300,6 +272,53 @@ impl State {
             () if state.maps != maps(terrains) => refuse(&format!("its maps are {:?}", state.maps)),
             () => Ok((state, spent_s)),
         }
+    }
+}
+
+impl Run for State {
+    type World = Terrain;
+
+    fn advance(&mut self, terrains: &[Terrain], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
+        let recipe = self.recipe.clone();
+        let mut learner = Learner::new(&recipe, terrains, self.memory.clone())?;
+        while learner.memory().updates < recipe.updates {
+            self.act(terrains, &mut learner)?;
+            if self.replay.len() < recipe.warm_up {
+                continue;
+            }
+            let mut ended = false;
+            for _ in 0..recipe.updates_per_step {
+                let report = learner.update(&mut self.replay)?;
+                let update = learner.memory().updates;
+                if !(report.loss.is_finite() && report.gradient.is_finite()) {
+                    let (loss, gradient) = (report.loss, report.gradient);
+                    return Err(TrainingError::Diverged { update, loss, gradient });
+                }
+                self.point.loss.add(report.loss);
+                self.point.gradient.add(report.gradient);
+                ended |= update.is_multiple_of(WINDOW) || update == recipe.updates;
+            }
+            if ended {
+                self.memory = learner.memory().clone();
+                self.end_point(terrains)?;
+                if !watch(self) {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn is_done(&self) -> bool {
+        self.memory.updates >= self.recipe.updates
+    }
+
+    fn points(&self) -> &[Point] {
+        &self.curve
+    }
+
+    fn write(&self, path: &Path, spent_s: f64) -> Result<(), TrainingError> {
+        Ok(checkpoint::write(path, VERSION, spent_s, self)?)
     }
 }
 

@@ -4,13 +4,12 @@ use std::collections::BTreeSet;
 use std::sync::{PoisonError, RwLock};
 
 use super::{Map, MapError};
+use crate::files::is_name;
 
 /// Largest number of added maps.
 pub const ADDED_MAPS: usize = 32;
 /// Name of an added map that has no other name, followed by a number.
 const NUMBERED: &str = "map-";
-/// Longest name of an added map.
-const NAME_LENGTH: usize = 40;
 
 /// Maps by name, shared by all sessions. A session keeps the map that it has loaded.
 #[derive(Debug, Default)]
@@ -118,13 +117,9 @@ fn number(name: &str) -> Option<u32> {
     name.strip_prefix(NUMBERED)?.parse().ok()
 }
 
-/// Whether an added map may have this name: up to 40 of a to z, 0 to 9, - and _, not the name of a shipped map.
+/// Whether an added map may have this name: that of a file ([`is_name`]), but not of a shipped map.
 pub fn is_added(name: &str) -> bool {
-    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    (1..=NAME_LENGTH).contains(&name.len())
-        && name.chars().all(fits)
-        && !name.starts_with(['-', '_'])
-        && !Map::shipped_names().iter().any(|shipped| shipped == name)
+    is_name(name) && !Map::shipped_names().iter().any(|shipped| shipped == name)
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use crate::files::{ReadError, read_at_most};
 /// Key of the manifest in the metadata.
 const KEY: &str = "ferry";
 /// Size limit of a policy's file.
-const MAX_BYTES: u64 = 16 << 20;
+pub const MAX_BYTES: u64 = 16 << 20;
 /// Largest weight; those of shipped policies are below 10.
 const WEIGHT_MOST: f32 = 1e4;
 /// Size limit of the header; shipped policies have 3 KiB.
@@ -141,6 +141,16 @@ impl Policy {
         });
         let found = read.get(name).cloned();
         found.ok_or_else(|| PolicyError::Unknown { name: name.to_owned(), known: Self::shipped_names() })
+    }
+
+    /// The file of a shipped policy.
+    ///
+    /// # Errors
+    /// [`PolicyError::Unknown`].
+    pub fn shipped_bytes(name: &str) -> Result<Vec<u8>, PolicyError> {
+        let file = Assets::get(&format!("{name}.safetensors"));
+        let unknown = || PolicyError::Unknown { name: name.to_owned(), known: Self::shipped_names() };
+        Ok(file.ok_or_else(unknown)?.data.into_owned())
     }
 
     /// Reads a policy from a file.

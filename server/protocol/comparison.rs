@@ -64,7 +64,7 @@ impl MomentMessage {
     pub fn of(point: &BranchPoint, before: &Moment, record: &TickRecord) -> Option<Self> {
         let (decision, sight) = (record.decision.as_ref()?, record.sight.as_ref()?);
         let overlay =
-            OverlayMessage::of(before.tick, sight, decision.motion, point.arena(), point.parameters().rl_policy);
+            OverlayMessage::of(before.tick, sight, decision.motion, point.arena(), &point.parameters().rl_policy);
         Some(Self {
             tick: before.tick,
             sim_time_s: before.sim_time_s(),

@@ -26,6 +26,7 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::Map(_) | CommandError::Trial(TrialError::Map(_) | TrialError::Random(_)) => {
                 ("map_refused", Some("map"))
             }
+            CommandError::Trial(TrialError::Policy(_)) => ("unknown_policy", Some("rl_policy")),
             CommandError::Case(error) => ("bad_case", Some(error.field()).filter(|field| !field.is_empty())),
             CommandError::OtherDrawing { .. } => ("other_drawing", Some("map.name")),
             CommandError::Trial(TrialError::Parameter(error)) => ("parameter_out_of_range", Some(error.field)),

@@ -74,7 +74,7 @@ pub struct PaperRow {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EvaluationStage {
-    /// Another evaluation is running.
+    /// Another job is running.
     Waiting,
     Running,
     /// All cells are complete.

@@ -218,13 +218,13 @@ impl From<&View> for OverlayMessage {
     fn from(view: &View) -> Self {
         let (tick, sight) = &*view.sight;
         let Scenery { arena, parameters, .. } = &*view.scenery;
-        Self::of(*tick, sight, view.moment.motion, arena, parameters.rl_policy)
+        Self::of(*tick, sight, view.moment.motion, arena, &parameters.rl_policy)
     }
 }
 
 impl OverlayMessage {
     /// Converts percept and decision of `tick`; `motion` is the motion of the arm that followed.
-    pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: RlPolicy) -> Self {
+    pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: &RlPolicy) -> Self {
         let sensed = match &sight.carrier {
             Carrier::Attractor(attractor) => attractor.sensed(),
             Carrier::Rl(_) | Carrier::Errt(_) | Carrier::Replanner(_) => &[],
@@ -287,9 +287,9 @@ impl From<Flow> for FlowField {
 
 impl JudgementLayer {
     /// Layer of a policy; `None` before its first decision.
-    pub fn of(rl: &Rl, arena: &Arena, policy: RlPolicy) -> Option<Self> {
+    pub fn of(rl: &Rl, arena: &Arena, policy: &RlPolicy) -> Option<Self> {
         let Decision { judgement, action, shortcut_m, .. } = rl.decision()?;
-        let name = arena.policy_name(policy).to_owned();
+        let name = arena.policy_name(policy);
         let policy = arena.policy(policy).ok()?;
         Some(Self {
             policy: name,

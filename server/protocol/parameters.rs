@@ -20,6 +20,9 @@ fn description(parameter: &Parameter) -> String {
     }
 }
 
+/// A policy's name, and for an added one its hash.
+const POLICY: &str = "^[a-z0-9][a-z0-9_-]{0,39}(@[0-9a-f]{16})?$";
+
 fn property(parameter: &Parameter) -> ObjectBuilder {
     match parameter.kind {
         Kind::Number(number) => {
@@ -34,6 +37,7 @@ fn property(parameter: &Parameter) -> ObjectBuilder {
         }
         Kind::Flag => ObjectBuilder::new().schema_type(Type::Boolean),
         Kind::Choice(options) => choice(options),
+        Kind::Policy => ObjectBuilder::new().schema_type(Type::String).pattern(Some(POLICY)),
     }
 }
 
@@ -77,6 +81,7 @@ impl TS for Parameters {
                 Kind::Number(_) => "number".to_owned(),
                 Kind::Flag => "boolean".to_owned(),
                 Kind::Choice(options) => union(options),
+                Kind::Policy => "string".to_owned(),
             };
             format!("  /** {} */\n  {}: {kind};\n", parameter.help, parameter.name)
         });

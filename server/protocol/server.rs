@@ -84,6 +84,9 @@ pub struct SceneMessage {
     pub map: String,
     /// Maps that `load_scenario` accepts.
     pub maps: Vec<String>,
+    /// Added policies that the parameter `rl_policy` accepts, besides the shipped ones.
+    #[serde(default)]
+    pub policies: Vec<String>,
     /// The trial's scenario; controller, goal and parameters may have changed since.
     pub scenario: Scenario,
     /// The positioner of this trial.
@@ -301,7 +304,8 @@ impl From<&Scenery> for SceneMessage {
         let p = &scenery.parameters;
         Self {
             map: map.name().to_owned(),
-            maps: scenery.known_maps.names(),
+            maps: scenery.catalog.maps.names(),
+            policies: scenery.catalog.policies.added().iter().map(|one| one.reference().to_string()).collect(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
             controllers: ControllerName::OFFERED.to_vec(),

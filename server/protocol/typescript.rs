@@ -6,6 +6,7 @@ mod parameters;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde_json::json;
 use ts_rs::{Config, TS};
 
 use super::*;
@@ -14,6 +15,7 @@ use crate::control::CONTROL_PERIOD_S;
 use crate::control::transport::errt::MOST_EDGES;
 use crate::evaluate::{Comparison, PairedMean, Row};
 use crate::geometry::{Polygon, Rect};
+use crate::learn::Recipe;
 use crate::magnetics::force::FARTHEST_M;
 use crate::map::{MAX_SVG_BYTES, Map, WALL_HEIGHT_M};
 use crate::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
@@ -59,6 +61,7 @@ fn constants() -> String {
         constant("MAX_SVG_BYTES", MAX_SVG_BYTES, "Largest drawing of a map."),
         controller_labels(),
         shipped_maps(),
+        recipes(),
     ]
     .join("\n")
 }
@@ -81,6 +84,26 @@ fn shipped_maps() -> String {
     )
 }
 
+/// The settings of each recipe that the page offers.
+fn recipes() -> String {
+    let line = |(name, recipe): (&str, Recipe)| {
+        let settings = json!({
+            "updates": recipe.updates,
+            "learning_rate": recipe.learning_rate,
+            "discount": recipe.discount,
+            "exploration": recipe.exploration,
+            "noisy": recipe.architecture.noisy,
+            "progress_reward": recipe.progress_reward,
+            "step_penalty": recipe.step_penalty,
+            "n_step": recipe.n_step,
+            "fusion": recipe.architecture.fusion,
+        });
+        format!("  {name}: {settings},\n")
+    };
+    let all = [("quick", Recipe::quick()), ("full", Recipe::default()), ("paper", Recipe::paper())];
+    format!("/** Settings of the recipes. */\nexport const RECIPES = {{\n{}}} as const;\n", all.map(line).concat())
+}
+
 fn constant(name: &str, value: impl std::fmt::Display, about: &str) -> String {
     format!("/** {about} */\nexport const {name} = {value};\n")
 }
@@ -100,7 +123,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 11] {
+fn modules() -> [(&'static str, Vec<Declaration>); 13] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -130,6 +153,27 @@ fn modules() -> [(&'static str, Vec<Declaration>); 11] {
         ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
         ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),
         ("maps", declared![NarrowPlace, MapFacts, MapReport, MapCheck]),
+        (
+            "trainings",
+            declared![
+                RecipeName,
+                FusionName,
+                TrainingSettings,
+                TrainingQuery,
+                TrainingStage,
+                Examination,
+                TrainingPoint,
+                TrainingSummary,
+                TrainingReport,
+                Trainings,
+                TrainingMessage,
+                TrainingCells,
+                EpisodeEnding,
+                TrainingEpisode,
+                TrainingFrame,
+            ],
+        ),
+        ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! All parameters that the operator can change, with their ranges.
 
 mod descriptor;
+mod policy;
 mod presets;
 mod set;
 mod table;
@@ -11,6 +12,7 @@ use crate::image::CameraMount;
 use crate::plant::PlantParameters;
 
 pub use descriptor::{Bound, Group, Kind, Number, Parameter, Unit};
+pub use policy::{AddedPolicy, RlPolicy};
 pub use presets::{Preset, PresetKind};
 pub use set::SetError;
 pub use table::Parameters;
@@ -33,20 +35,6 @@ pub enum AttractorLaw {
     Literal,
     /// With contouring, a star-shaped basis and clearance.
     Improved,
-}
-
-/// Which trained policy runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RlPolicy {
-    /// The policy trained on the map, otherwise the explorer.
-    Auto,
-    /// Trained on the map `colon` only.
-    Colon,
-    /// Trained on several maps.
-    General,
-    /// Trained on generated mazes; it remembers what the camera has seen.
-    Explorer,
 }
 
 /// A parameter outside its range.
@@ -151,6 +139,9 @@ mod tests {
                     let refusal = serde_json::from_value::<Parameters>(other).unwrap_err().to_string();
                     let read: BTreeSet<_> = refusal.split('`').skip(3).step_by(2).collect();
                     assert_eq!(read, options.iter().map(|(value, _)| *value).collect(), "{name}: {refusal}");
+                }
+                Kind::Policy => {
+                    assert!(RlPolicy::OPTIONS.iter().all(|(value, _)| value.parse::<RlPolicy>().is_ok()), "{name}");
                 }
             }
         }

@@ -1,7 +1,5 @@
 //! Random commands in random order: the arm stays within its limits, and refused commands change nothing.
 
-use std::sync::Arc;
-
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tokio::sync::broadcast;
@@ -16,7 +14,7 @@ use crate::plant::{PositionerKind, TOOL_LENGTH_M, ToolOrientation};
 use crate::robot::ur5::{JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
 use crate::robot::{Joints, jacobian};
 use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, When};
-use crate::trial::{Arena, Case, Input, Nowhere, Timed};
+use crate::trial::{Arena, Case, Catalog, Input, Nowhere, Timed};
 
 const SIDE_PX: u32 = 480;
 /// Tolerance for rounding.
@@ -272,7 +270,7 @@ fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
     let (events, _) = broadcast::channel(1);
     let scenario = Scenario::idle("posts", 1);
     let sink = Box::new(Nowhere::default());
-    let mut worker = Worker::new(scenario, arena, Arc::default(), make_camera, sink, events).unwrap();
+    let mut worker = Worker::new(scenario, arena, Catalog::default(), make_camera, sink, events).unwrap();
     let (mut refused, mut accepted, mut ticks) = (0u64, 0u64, 0u64);
     let mut known = None;
     for _ in 0..commands() {

@@ -156,7 +156,7 @@ impl<E: ImageSource> Worker<E> {
             let read = caught(|| {
                 let arena = match &arena {
                     Some(arena) => arena.clone(),
-                    None => Arena::of(known(&self.scenery.known_maps, map)?),
+                    None => self.scenery.catalog.arena_of(known(&self.scenery.catalog.maps, map)?),
                 };
                 let mut trial = Trial::new(run.scenario.clone(), arena.clone())?;
                 trial.resume(*state)?;
@@ -194,7 +194,7 @@ fn known(library: &Library, logged: &LoggedMap) -> Result<Map, TrialError> {
         _ => {
             // No other drawing gets the name from now on.
             library.reserve(&logged.name);
-            Ok(Map::from_svg(&logged.name, &logged.svg)?)
+            Ok(logged.map()?)
         }
     }
 }

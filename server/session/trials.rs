@@ -14,7 +14,7 @@ use crate::trial::{Arena, Beginning, Case, Event, EventKind, Input, InputError, 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
         // Only a name: no path from a client touches the file system.
-        let arena = Arena::of(self.scenery.known_maps.find(&scenario.map)?);
+        let arena = self.scenery.catalog.arena(&scenario.map)?;
         let present = self.trial.state();
         if kept.controller {
             scenario.controller = present.controller;
@@ -24,6 +24,8 @@ impl<E: ImageSource> Worker<E> {
         }
         if kept.parameters {
             scenario.parameters = present.world.parameters.clone();
+        } else {
+            self.scenery.catalog.resolve(&mut scenario.parameters)?;
         }
         self.replace(scenario, arena, None)
     }
@@ -145,23 +147,24 @@ impl<E: ImageSource> Worker<E> {
             past_version: before.past_version,
             case: before.case.clone(),
             kept_runs: self.kept_runs.summaries(),
-            ..Scenery::of(&self.trial, before.known_maps.clone(), before.version + 1, before.trial + new_trials)
+            ..Scenery::of(&self.trial, before.catalog.clone(), before.version + 1, before.trial + new_trials)
         }
     }
 
-    pub(super) fn open(&mut self, case: Case) -> Result<(), CommandError> {
-        let known = &self.scenery.known_maps;
+    pub(super) fn open(&mut self, mut case: Case) -> Result<(), CommandError> {
+        let catalog = &self.scenery.catalog;
+        catalog.resolve(&mut case.scenario.parameters)?;
         let arena = match &case.map {
-            None => Arena::of(known.find(&case.scenario.map)?),
-            Some(own) => match known.find(&own.name) {
-                Ok(map) if map.svg() == own.svg => Arena::of(map),
+            None => catalog.arena(&case.scenario.map)?,
+            Some(own) => match catalog.maps.find(&own.name) {
+                Ok(map) if map.svg() == own.svg => catalog.arena_of(map),
                 // The experiment's link would open the other drawing.
                 Ok(_) => return Err(CommandError::OtherDrawing { name: own.name.clone() }),
                 Err(error) if !is_added(&own.name) => return Err(error.into()),
                 Err(_) => {
-                    let arena = own.arena()?;
-                    known.reserve(&own.name);
-                    arena
+                    let map = own.map()?;
+                    catalog.maps.reserve(&own.name);
+                    catalog.arena_of(map)
                 }
             },
         };

@@ -16,9 +16,10 @@ use super::{COMMAND_QUEUE, Command, CommandError, JOURNAL, Request, STEP_MAX, Sc
 use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
-use crate::map::Library;
 use crate::scenario::Scenario;
-use crate::trial::{Arena, Beginning, Event, Input, InputError, Sight, Sink, Source, Trial, TrialError, TrialState};
+use crate::trial::{
+    Arena, Beginning, Catalog, Event, Input, InputError, Sight, Sink, Source, Trial, TrialError, TrialState,
+};
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -71,14 +72,14 @@ impl<E: ImageSource> Worker<E> {
     pub(super) fn new(
         scenario: Scenario,
         arena: Arc<Arena>,
-        library: Arc<Library>,
+        catalog: Catalog,
         make_camera: MakeCamera<E>,
         sink: Box<dyn Sink>,
         events: broadcast::Sender<Event>,
     ) -> Result<Self, TrialError> {
         let mut camera = make_camera(&arena)?;
         let trial = Trial::new(scenario, arena)?;
-        let scenery = Arc::new(Scenery::of(&trial, library, 0, 0));
+        let scenery = Arc::new(Scenery::of(&trial, catalog, 0, 0));
         let sight = Arc::new((0, trial.observe(&mut camera)?));
         let mut timeline = Timeline::default();
         timeline.keep(trial.snapshot());
@@ -278,7 +279,11 @@ impl<E: ImageSource> Worker<E> {
         Ok(())
     }
 
-    fn input(&mut self, input: Input) -> Result<(), CommandError> {
+    fn input(&mut self, mut input: Input) -> Result<(), CommandError> {
+        let configures = matches!(input, Input::Configure(_));
+        if let Input::Configure(parameters) = &mut input {
+            self.scenery.catalog.resolve(parameters)?;
+        }
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs and are needed only after a rewind.
         let before = self.timeline.reaches_past(tick).then(|| hashes(self.trial.state()));
@@ -291,7 +296,7 @@ impl<E: ImageSource> Worker<E> {
             self.trial.restore(state);
             self.hand_is_stale = true;
         }
-        let configures = done?;
+        done?;
         if before.is_some_and(|before| before != hashes(self.trial.state())) {
             self.forget_after(tick);
         }
@@ -304,14 +309,9 @@ impl<E: ImageSource> Worker<E> {
         Ok(())
     }
 
-    /// Returns whether it changes the parameters.
-    fn apply(&mut self, input: Input) -> Result<bool, InputError> {
-        let configures = matches!(input, Input::Configure(_));
+    fn apply(&mut self, input: Input) -> Result<(), InputError> {
         let releases_stale_hand = self.hand_is_stale && matches!(input, Input::Release);
-        if !releases_stale_hand {
-            self.trial.operate(input, !self.running)?;
-        }
-        Ok(configures)
+        if releases_stale_hand { Ok(()) } else { self.trial.operate(input, !self.running) }
     }
 
     /// Publishes the current camera image, without a control step.

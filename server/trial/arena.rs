@@ -6,7 +6,7 @@ use crate::camera::{Camera, CameraError, Gpu, StaticScene, VIEW_PX};
 use crate::control::limits::Limits;
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
 use crate::plant::{PositionerKind, TOOL_LENGTH_M};
-use crate::policy::{Policy, PolicyError};
+use crate::policy::{Library, Policy, PolicyError};
 use crate::robot;
 use crate::scenario::{CLEARANCE_M, Parameters, RlPolicy};
 
@@ -16,8 +16,10 @@ pub struct Arena {
     pub map: Map,
     /// Free space with a clearance of [`CLEARANCE_M`] from walls.
     pub space: FreeSpace,
-    /// A policy that replaces the shipped ones.
+    /// A policy that replaces all others.
     pub policy: Option<Arc<Policy>>,
+    /// The policies that can be selected.
+    policies: Arc<Library>,
 }
 
 impl Arena {
@@ -26,47 +28,59 @@ impl Arena {
         Ok(Self::of(Map::open(name_or_path)?))
     }
 
+    /// A map with the shipped policies.
     pub fn of(map: Map) -> Arc<Self> {
-        let space = FreeSpace::new(&map, CLEARANCE_M);
-        Arc::new(Self { map, space, policy: None })
+        Self::with_policies(map, Arc::default())
     }
 
-    /// The same arena with a policy that replaces the shipped ones.
+    /// A map with the policies of a library.
+    pub fn with_policies(map: Map, policies: Arc<Library>) -> Arc<Self> {
+        let space = FreeSpace::new(&map, CLEARANCE_M);
+        Arc::new(Self { map, space, policy: None, policies })
+    }
+
+    /// The same arena with a policy that replaces all others.
     pub fn with_policy(self: Arc<Self>, policy: Policy) -> Arc<Self> {
         let mut arena = Arc::unwrap_or_clone(self);
         arena.policy = Some(Arc::new(policy));
         Arc::new(arena)
     }
 
-    /// The policy in use: the arena's own, or else the requested shipped one. `auto` takes one that was trained on the
+    /// The policy in use: the arena's own, or else the requested one. `auto` takes a shipped one that was trained on the
     /// map's drawing, whatever its name, or else the explorer.
-    pub fn policy(&self, asked: RlPolicy) -> Result<Arc<Policy>, PolicyError> {
-        match &self.policy {
-            Some(own) => Ok(own.clone()),
-            None => Policy::shipped(self.policy_name(asked)),
+    ///
+    /// # Errors
+    /// [`PolicyError::Unknown`]: an added policy may be deleted.
+    pub fn policy(&self, asked: &RlPolicy) -> Result<Arc<Policy>, PolicyError> {
+        match (&self.policy, asked) {
+            (Some(own), _) => Ok(own.clone()),
+            (None, RlPolicy::Auto) => self.policies.find(&self.automatic()),
+            (None, asked) => self.policies.find(asked),
         }
+    }
+
+    fn automatic(&self) -> RlPolicy {
+        let knows = |asked: &RlPolicy| self.policies.find(asked).is_ok_and(|policy| self.is_drawn_as_trained(&policy));
+        [RlPolicy::Colon, RlPolicy::General].into_iter().find(knows).unwrap_or(RlPolicy::Explorer)
     }
 
     /// The name of the policy in use; `own` for the arena's own.
-    pub fn policy_name(&self, asked: RlPolicy) -> &'static str {
+    pub fn policy_name(&self, asked: &RlPolicy) -> String {
         match asked {
-            _ if self.policy.is_some() => "own",
-            RlPolicy::Auto => {
-                let knows = |name: &&str| Policy::shipped(name).is_ok_and(|policy| self.is_drawn_as_trained(&policy));
-                ["colon", "general"].into_iter().find(knows).unwrap_or("explorer")
-            }
-            RlPolicy::Colon => "colon",
-            RlPolicy::General => "general",
-            RlPolicy::Explorer => "explorer",
+            _ if self.policy.is_some() => "own".to_owned(),
+            RlPolicy::Auto => self.automatic().to_string(),
+            RlPolicy::Added(added) => added.name.clone(),
+            shipped => shipped.to_string(),
         }
     }
 
-    /// Whether the policy in use was trained on this map's drawing. A policy of one's own names its maps only.
-    pub fn is_trained_on(&self, asked: RlPolicy) -> bool {
+    /// Whether the policy in use was trained on this map's drawing. A policy that is not shipped names its maps only.
+    pub fn is_trained_on(&self, asked: &RlPolicy) -> bool {
         let name_is = |name: &String| *name == self.map.name();
-        self.policy(asked).is_ok_and(|policy| match &self.policy {
-            Some(own) => own.manifest().maps.iter().any(name_is),
-            None => self.is_drawn_as_trained(&policy),
+        let is_shipped = self.policy.is_none() && !matches!(asked, RlPolicy::Added(_));
+        self.policy(asked).is_ok_and(|policy| match is_shipped {
+            true => self.is_drawn_as_trained(&policy),
+            false => policy.manifest().maps.iter().any(name_is),
         })
     }
 

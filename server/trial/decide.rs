@@ -57,7 +57,7 @@ impl Trial {
             let ControllerState { carrier, known, .. } = &mut self.state.controller_state;
             let parameters = &world.parameters;
             let policy = match carrier {
-                Carrier::Rl(_) => Some(self.arena.policy(parameters.rl_policy)),
+                Carrier::Rl(_) => Some(self.arena.policy(&parameters.rl_policy)),
                 Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
             };
             match policy.transpose() {

@@ -61,9 +61,20 @@ impl From<&Map> for LoggedMap {
 }
 
 impl LoggedMap {
+    /// The map.
+    ///
+    /// # Errors
+    /// The drawing is not a map.
+    pub fn map(&self) -> Result<Map, MapError> {
+        Map::from_svg(&self.name, &self.svg)
+    }
+
     /// The map, prepared for trials.
+    ///
+    /// # Errors
+    /// The drawing is not a map.
     pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
-        Ok(Arena::of(Map::from_svg(&self.name, &self.svg)?))
+        Ok(Arena::of(self.map()?))
     }
 }
 

@@ -7,6 +7,7 @@ use super::log::InputLog;
 use super::{Arena, InputError, Source, TickRecord, Trial, TrialError, TrialState, World};
 use crate::camera::{CameraError, ImageSource};
 use crate::map::MapError;
+use crate::policy::Library;
 
 /// Result of a replay without differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,11 +70,21 @@ pub enum ReplayError {
 /// Creates cameras for the arenas of a log.
 pub type MakeCamera<'a> = &'a mut dyn FnMut(&Arena) -> Result<Box<dyn ImageSource>, CameraError>;
 
-/// Runs a log again from its decisions. With `make_camera`, every decision is made again from the camera images, and
+/// What is needed to decide again.
+pub struct Deciding<'a> {
+    pub make_camera: MakeCamera<'a>,
+    /// Policies that the trials may have selected.
+    pub policies: Arc<Library>,
+}
+
+/// Runs a log again from its decisions. With `deciding`, every decision is made again from the camera images, and
 /// the controller's state is compared too. `watch` is called after each tick.
+///
+/// # Errors
+/// [`ReplayError`].
 pub fn replay(
     log: &InputLog,
-    mut make_camera: Option<MakeCamera<'_>>,
+    mut deciding: Option<Deciding<'_>>,
     watch: &mut dyn FnMut(&TickRecord),
 ) -> Result<Replayed, ReplayError> {
     let mut replayed = Replayed::default();
@@ -87,15 +98,17 @@ pub fn replay(
                     None => replayed.trials += 1,
                 }
                 let number = replayed.trials.max(1);
-                if let (Some(policy_hash), Some(_)) = (beginning.policy_hash, &make_camera) {
+                if let (Some(policy_hash), Some(_)) = (beginning.policy_hash, &deciding) {
                     return Err(ReplayError::Policy { trial: number, policy_hash });
                 }
                 if let Some(map) = &beginning.map {
-                    arena = Some(map.arena().map_err(|error| ReplayError::Map { trial: number, error })?);
+                    let map = map.map().map_err(|error| ReplayError::Map { trial: number, error })?;
+                    let policies = deciding.as_ref().map(|deciding| deciding.policies.clone());
+                    arena = Some(Arena::with_policies(map, policies.unwrap_or_default()));
                 }
                 // The first entry of a log always contains a map.
                 let Some(arena) = &arena else { continue };
-                running = Some(begin(beginning, arena, &mut make_camera).map_err(|error| {
+                running = Some(begin(beginning, arena, &mut deciding).map_err(|error| {
                     let tick = beginning.state.as_ref().map_or(0, |state| state.world.tick);
                     ReplayError::Trial { trial: number, tick, error }
                 })?);
@@ -114,14 +127,14 @@ pub fn replay(
 fn begin(
     beginning: &LoggedBeginning,
     arena: &Arc<Arena>,
-    make_camera: &mut Option<MakeCamera<'_>>,
+    deciding: &mut Option<Deciding<'_>>,
 ) -> Result<(Trial, Option<Box<dyn ImageSource>>), TrialError> {
     let mut trial = Trial::new(beginning.scenario.clone(), arena.clone())?;
     trial.take_events();
     if let Some(state) = &beginning.state {
         trial.resume(TrialState::clone(state))?;
     }
-    let camera = make_camera.as_mut().map(|make| make(arena)).transpose()?;
+    let camera = deciding.as_mut().map(|deciding| (deciding.make_camera)(arena)).transpose()?;
     Ok((trial, camera))
 }
 

@@ -10,7 +10,7 @@ use ferry::control::transport::{Transport, TransportInput};
 use ferry::geometry::Point2;
 use ferry::image::{CameraFrame, CameraMount};
 use ferry::learn::sweep::{STEP_M, Sweep};
-use ferry::learn::{Recipe, State, Terrain};
+use ferry::learn::{Recipe, Run, State, Terrain};
 use ferry::map::{FreeSpace, WALL_HEIGHT_M};
 use ferry::perception::{ObstacleMap, Percept, wall_spread};
 use ferry::policy::Policy;
@@ -90,13 +90,13 @@ pub fn benches(c: &mut Criterion) {
         acting(c, &arena, &frames, name);
     }
     let recipe = Recipe { updates: UPDATES, ..Recipe::default() };
-    let sweep = Sweep::take(&arena, &gpu, STEP_M, &|| ()).unwrap();
+    let sweep = Sweep::take(&arena, &gpu, STEP_M, &|| std::ops::ControlFlow::Continue(())).unwrap();
     let terrains = [Terrain::new("colon", arena.map.workspace(), &sweep, recipe.clearance_m).unwrap()];
     let pool = rayon::ThreadPoolBuilder::new().build().unwrap();
     let train = || {
         let mut state = State::new(recipe.clone(), 1, &terrains).unwrap();
         let start = Instant::now();
-        pool.install(|| state.run(&terrains, &mut |_| true)).unwrap();
+        pool.install(|| state.advance(&terrains, &mut |_| true)).unwrap();
         start.elapsed()
     };
     let took = train();

@@ -25,7 +25,7 @@ import {
 const RULES_BY_THEME = { dark: undefined, light: ['color-contrast', 'link-in-text-block'] };
 const DARK = ['dark'] as const;
 const THEMES = [...DARK, 'light'] as const;
-const VIEWS = ['Laboratory', 'Draw', 'Recordings', 'Evaluate'];
+const VIEWS = ['Laboratory', 'Draw', 'Train', 'Recordings', 'Evaluate'];
 const TAB_AREAS = ['lower', 'aside'];
 const PICTURES = fileURLToPath(new URL('../../test-output/', import.meta.url));
 

@@ -1,14 +1,13 @@
 //! `ferry train --map generated`.
 
 use std::process::ExitCode;
-use std::time::Instant;
 
 use anyhow::{Context, ensure};
-use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Arguments, CHECKPOINT_PERIOD, EXAMINATION_SEED, describe, revision};
+use super::{Arguments, CHECKPOINT_PERIOD, describe, progress};
 use crate::learn::{
-    Curve, Marks, MazeLattice, SurveyRecipe, SurveyRun, TrainingError, examine_surveys, examine_teacher,
+    Curve, EXAMINATION_SEED, Marks, MazeLattice, RecipeName, Saving, SurveyRecipe, SurveyRun, drive, examine_surveys,
+    examine_teacher, revision,
 };
 use crate::map::{Map, MazeFamily};
 
@@ -21,6 +20,8 @@ const EXAMINED: usize = 20;
 
 pub fn train(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     ensure!(!arguments.paper, "--paper: the paper's settings are for its own policy, not for --map {MAP}");
+    ensure!(arguments.recipe == RecipeName::Full, "--recipe: --map {MAP} has a recipe of its own");
+    ensure!(arguments.start_from.is_none(), "--start-from: --map {MAP} starts from random weights");
     ensure!(arguments.rounds == 1, "--rounds: --map {MAP} trains one round; give --seed instead");
     let recipe: SurveyRecipe = crate::cli::with_changes(&SurveyRecipe::default(), &arguments.set)?;
     recipe.check().context("--set")?;
@@ -74,28 +75,14 @@ fn learn(arguments: &Arguments, recipe: &SurveyRecipe, mazes: &[MazeLattice]) ->
         }
         false => (SurveyRun::new(recipe.clone(), arguments.seed, mazes)?, Curve::default()),
     };
-    let bar = ProgressBar::new(recipe.updates)
-        .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} updates, {msg}, {eta} left")?);
-    bar.set_position(run.memory.updates);
-    bar.reset_eta();
-    let begun = Instant::now();
-    let mut kept = Instant::now();
-    let mut failure: Option<TrainingError> = None;
-    run.run(mazes, &mut |run| {
-        curve.time(begun.elapsed().as_secs_f64());
+    let bar = progress(recipe.updates, run.memory.updates)?;
+    let saving = Saving { checkpoint: &checkpoint, period: CHECKPOINT_PERIOD };
+    drive(&mut run, mazes, saving, &mut curve, &mut |run, _| {
         bar.set_position(run.memory.updates);
         bar.set_message(message(run));
-        if kept.elapsed() >= CHECKPOINT_PERIOD || run.is_done() {
-            failure = run.write(&checkpoint, curve.spent_s()).err();
-            kept = Instant::now();
-        }
-        failure.is_none()
+        true
     })?;
-    if let Some(failure) = failure {
-        return Err(failure.into());
-    }
     bar.finish_and_clear();
-    curve.points.clone_from(&run.curve);
     Ok((run, curve))
 }
 

@@ -13,6 +13,7 @@ use crate::http::body::{WholeBody, attachment, parse};
 use crate::http::path::{EvaluationPath, Path, ReportPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
+use crate::jobs::QueueError;
 use crate::protocol::{EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations};
 
 /// The evaluations: running, waiting, and the last ended ones.
@@ -115,8 +116,17 @@ impl From<SubmitError> for Problem {
                 };
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, detail).field(&query.field())
             }
-            SubmitError::Full => Self::new(StatusCode::TOO_MANY_REQUESTS, "too_many_evaluations", detail),
-            SubmitError::Closing => Self::new(StatusCode::SERVICE_UNAVAILABLE, "stopping", detail),
+            SubmitError::Queue(error) => error.into(),
+        }
+    }
+}
+
+impl From<QueueError> for Problem {
+    fn from(error: QueueError) -> Self {
+        let detail = error.to_string();
+        match error {
+            QueueError::Full => Self::new(StatusCode::TOO_MANY_REQUESTS, "too_many_jobs", detail),
+            QueueError::Closing => Self::new(StatusCode::SERVICE_UNAVAILABLE, "stopping", detail),
         }
     }
 }

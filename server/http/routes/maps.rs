@@ -43,7 +43,7 @@ pub struct Maps {
     needed: String,
     /// Held while a map is added or removed, so that library and folder agree.
     changing: Mutex<()>,
-    version: watch::Sender<u64>,
+    pub version: watch::Sender<u64>,
 }
 
 /// The names of removed maps.

@@ -11,13 +11,13 @@ use axum::http::StatusCode;
 use super::sessions::view;
 use crate::camera::Gpu;
 use crate::control::transport::Carrier;
-use crate::evaluate::gentle_pool;
 use crate::geometry::Point2;
 use crate::http::Server;
 use crate::http::body::{WholeBody, parse};
 use crate::http::path::{Path, SessionPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{NotFound, OutOfRange, Unavailable};
+use crate::jobs::gentle_pool;
 use crate::learn::{Atlas, AtlasError};
 use crate::perception::Area;
 use crate::policy::{Judgement, Lattice, Policy, PolicyError, Survey};
@@ -102,7 +102,7 @@ pub async fn values(
         let message = format!("goal_m is ({x_m}, {y_m}), which is outside the workspace");
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "out_of_range", message).field("goal_m"));
     }
-    let policy = arena.policy(view.scenery.parameters.rl_policy).map_err(Problem::internal)?;
+    let policy = arena.policy(&view.scenery.parameters.rl_policy).map_err(Problem::internal)?;
     // One at a time, so that other long computations get permits.
     let judged = server.work_at(&server.painter, PAINTER_WAITS, move |server| {
         if policy.has_memory() {

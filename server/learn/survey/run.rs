@@ -16,6 +16,7 @@ use super::replay::{Entry, Step, SurveyReplay};
 use crate::learn::checkpoint::{self, CheckpointError};
 use crate::learn::environment::Ending;
 use crate::learn::networks::{Memory, Weights, network};
+use crate::learn::run::Run;
 use crate::learn::sweep::STEP_M;
 use crate::learn::training::{Point, TrainingError, WINDOW};
 use crate::policy::{Action, Manifest, Network, Policy};
@@ -65,42 +66,6 @@ impl SurveyRun {
             point: Point::default(),
             recipe,
         })
-    }
-
-    /// Whether all updates are done.
-    pub fn is_done(&self) -> bool {
-        self.memory.updates >= self.recipe.updates
-    }
-
-    /// Runs until all updates are done or `watch` returns false. `watch` is called at the end of each point of the
-    /// curve.
-    ///
-    /// # Errors
-    /// [`TrainingError`].
-    pub fn run(&mut self, mazes: &[MazeLattice], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
-        let recipe = self.recipe.clone();
-        let mut learner = SurveyLearner::new(&recipe, self.memory.clone())?;
-        while learner.memory.updates < recipe.updates {
-            self.act(mazes, &mut learner)?;
-            if self.replay.len() < recipe.warm_up {
-                continue;
-            }
-            let (loss, gradient) = learner.update(&self.replay)?;
-            let update = learner.memory.updates;
-            if !(loss.is_finite() && gradient.is_finite()) {
-                return Err(TrainingError::Diverged { update, loss, gradient });
-            }
-            self.point.loss.add(loss);
-            self.point.gradient.add(gradient);
-            if update.is_multiple_of(WINDOW) || update == recipe.updates {
-                self.memory = learner.memory.clone();
-                self.end_point(mazes)?;
-                if !watch(self) {
-                    return Ok(());
-                }
-            }
-        }
-        Ok(())
     }
 
     /// One step of all lanes.
@@ -182,14 +147,6 @@ impl SurveyRun {
         Ok(Policy::to_bytes(&manifest, &weights.collect::<Vec<_>>())?)
     }
 
-    /// Saves the run and `spent_s`, the seconds that it took so far.
-    ///
-    /// # Errors
-    /// [`TrainingError::Checkpoint`].
-    pub fn write(&self, path: &Path, spent_s: f64) -> Result<(), TrainingError> {
-        Ok(checkpoint::write(path, VERSION, spent_s, self)?)
-    }
-
     /// Reads a run of the same recipe and seed, and the seconds that it took.
     ///
     /// # Errors
@@ -202,5 +159,47 @@ impl SurveyRun {
             () if run.seed != seed => refuse(&format!("its seed is {}, not {seed}", run.seed)),
             () => Ok((run, spent_s)),
         }
+    }
+}
+
+impl Run for SurveyRun {
+    type World = MazeLattice;
+
+    fn advance(&mut self, mazes: &[MazeLattice], watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), TrainingError> {
+        let recipe = self.recipe.clone();
+        let mut learner = SurveyLearner::new(&recipe, self.memory.clone())?;
+        while learner.memory.updates < recipe.updates {
+            self.act(mazes, &mut learner)?;
+            if self.replay.len() < recipe.warm_up {
+                continue;
+            }
+            let (loss, gradient) = learner.update(&self.replay)?;
+            let update = learner.memory.updates;
+            if !(loss.is_finite() && gradient.is_finite()) {
+                return Err(TrainingError::Diverged { update, loss, gradient });
+            }
+            self.point.loss.add(loss);
+            self.point.gradient.add(gradient);
+            if update.is_multiple_of(WINDOW) || update == recipe.updates {
+                self.memory = learner.memory.clone();
+                self.end_point(mazes)?;
+                if !watch(self) {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn is_done(&self) -> bool {
+        self.memory.updates >= self.recipe.updates
+    }
+
+    fn points(&self) -> &[Point] {
+        &self.curve
+    }
+
+    fn write(&self, path: &Path, spent_s: f64) -> Result<(), TrainingError> {
+        Ok(checkpoint::write(path, VERSION, spent_s, self)?)
     }
 }

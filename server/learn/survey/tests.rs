@@ -6,6 +6,7 @@ use super::learner::taught;
 use super::teacher::Advice;
 use super::*;
 use crate::learn::environment::Ending;
+use crate::learn::run::Run;
 use crate::map::MazeFamily;
 use crate::perception::Area;
 use crate::policy::{Action, Survey};
@@ -113,19 +114,19 @@ fn imitation_teaches_and_a_resumed_run_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.checkpoint");
     let mut whole = SurveyRun::new(recipe.clone(), 3, &mazes).unwrap();
-    whole.run(&mazes, &mut |_| true).unwrap();
+    whole.advance(&mazes, &mut |_| true).unwrap();
     let losses: Vec<f64> = whole.curve.iter().map(|point| point.loss.mean().unwrap()).collect();
     assert!(losses[1] < 0.5 * losses[0], "{losses:?}");
 
     let mut half = SurveyRun::new(recipe.clone(), 3, &mazes).unwrap();
-    half.run(&mazes, &mut |run| {
+    half.advance(&mazes, &mut |run| {
         run.write(&path, 1.0).unwrap();
         false
     })
     .unwrap();
     let (mut resumed, spent_s) = SurveyRun::read(&path, &recipe, 3).unwrap();
     assert_eq!((resumed.memory.updates, spent_s), (100, 1.0));
-    resumed.run(&mazes, &mut |_| true).unwrap();
+    resumed.advance(&mazes, &mut |_| true).unwrap();
     assert_eq!(resumed.memory.online, whole.memory.online);
     assert_eq!(resumed.curve, whole.curve);
 

@@ -27,7 +27,7 @@ fn resuming_changes_nothing(recipe: &Recipe) {
     let terrains = [two_rooms()];
     let whole = on_threads(1, || {
         let mut state = State::new(recipe.clone(), 3, &terrains).unwrap();
-        state.run(&terrains, &mut |_| true).unwrap();
+        state.advance(&terrains, &mut |_| true).unwrap();
         state
     });
     assert!(whole.is_done() && whole.curve.len() == 2 && whole.episodes > 0);
@@ -37,12 +37,12 @@ fn resuming_changes_nothing(recipe: &Recipe) {
     let path = folder.path().join("run.checkpoint");
     let resumed = on_threads(2, || {
         let mut state = State::new(recipe.clone(), 3, &terrains).unwrap();
-        state.run(&terrains, &mut |_| false).unwrap();
+        state.advance(&terrains, &mut |_| false).unwrap();
         assert_eq!((state.memory.updates, state.is_done()), (WINDOW, false));
         state.write(&path, 12.5).unwrap();
         let (mut read, spent_s) = State::read(&path, recipe, 3, &terrains).unwrap();
         assert!(read == state && spent_s == 12.5);
-        read.run(&terrains, &mut |_| true).unwrap();
+        read.advance(&terrains, &mut |_| true).unwrap();
         read
     });
     // Numbers that print the same may differ, so the values are compared, not the texts.
@@ -152,7 +152,7 @@ fn a_small_run_learns_the_path_between_two_rooms() {
     for seed in [2, 3] {
         let mut state = State::new(recipe.clone(), seed, &terrains).unwrap();
         let untrained = state.examine(&terrains, GoalSet::All, EPISODES, 9).unwrap();
-        state.run(&terrains, &mut |_| true).unwrap();
+        state.advance(&terrains, &mut |_| true).unwrap();
         let trained = state.examine(&terrains, GoalSet::All, EPISODES, 9).unwrap();
         let ended = trained.reached + trained.collided + trained.timed_out;
         assert_eq!((trained.episodes, ended), (EPISODES, EPISODES));

@@ -5,7 +5,7 @@ use ts_rs::Config;
 
 use super::{declaration, keep};
 use crate::plant::{BlockOrientation, ToolOrientation};
-use crate::scenario::{Bound, Group, Kind, Parameter, Parameters, Preset};
+use crate::scenario::{Bound, Group, Kind, Parameter, Parameters, Preset, RlPolicy};
 
 fn members(group: Group) -> impl Iterator<Item = &'static Parameter> {
     Parameters::ALL.iter().filter(move |parameter| parameter.group == group)
@@ -44,6 +44,10 @@ fn field(parameter: &Parameter) -> String {
         Kind::Choice(options) => {
             properties.push(property("options", json!(options)));
             "choice"
+        }
+        Kind::Policy => {
+            properties.push(property("options", json!(RlPolicy::OPTIONS)));
+            "policy"
         }
     };
     format!("      {{ kind: '{kind}', {}, help: {} }},\n", properties.join(", "), json!(help))

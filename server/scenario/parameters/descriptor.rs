@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::RlPolicy;
 use crate::scenario::ControllerName;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub enum Kind {
     Flag,
     /// One of these; each with its label on the page.
     Choice(&'static [(&'static str, &'static str)]),
+    /// One of [`RlPolicy::OPTIONS`], or an added policy.
+    Policy,
 }
 
 /// The values of a parameter that is a number.
@@ -164,6 +167,10 @@ impl std::fmt::Display for Kind {
             Self::Choice(options) => {
                 let values: Vec<_> = options.iter().map(|(value, _)| *value).collect();
                 f.write_str(&values.join(", "))
+            }
+            Self::Policy => {
+                let values = RlPolicy::OPTIONS.map(|(value, _)| value);
+                write!(f, "{}, or NAME or NAME@HASH of an added policy", values.join(", "))
             }
         }
     }

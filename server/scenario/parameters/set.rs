@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::descriptor::Kind;
 use super::presets::{Preset, text};
-use super::{ParameterError, Parameters};
+use super::{ParameterError, Parameters, RlPolicy};
 
 /// Names at least this similar to an unknown one are suggested, from 0 to 1.
 const SIMILAR: f64 = 0.85;
@@ -88,7 +88,7 @@ fn parsed(name: &str, text: &str) -> Result<(&'static str, Value), SetError> {
     let before = match parameter.kind {
         Kind::Number(number) if number.whole => "a whole number, ",
         Kind::Number(_) => "a number, ",
-        Kind::Choice(_) => "one of ",
+        Kind::Choice(_) | Kind::Policy => "one of ",
         Kind::Flag => "",
     };
     let refused = || SetError::Value { field, text: text.to_owned(), allowed: format!("{before}{}", parameter.kind) };
@@ -106,6 +106,7 @@ fn parsed(name: &str, text: &str) -> Result<(&'static str, Value), SetError> {
         Kind::Flag => text.parse::<bool>().map_err(|_| refused())?.into(),
         Kind::Choice(options) if options.iter().any(|(option, _)| *option == text) => text.into(),
         Kind::Choice(_) => return Err(refused()),
+        Kind::Policy => text.parse::<RlPolicy>().map_err(|_| refused())?.to_string().into(),
     };
     Ok((field, value))
 }
@@ -160,8 +161,9 @@ mod tests {
         assert_eq!(refusal("errt_ways=2.5"), "errt_ways is \"2.5\", it must be a whole number, 1 to 20");
         assert_eq!(refusal("rl_shield=1"), "rl_shield is \"1\", it must be true or false");
         assert_eq!(
-            refusal("rl_policy=best"),
-            "rl_policy is \"best\", it must be one of auto, colon, general, explorer"
+            refusal("rl_policy=best@1"),
+            "rl_policy is \"best@1\", it must be one of auto, colon, general, explorer, or NAME or NAME@HASH of an added \
+             policy"
         );
         assert_eq!(
             refusal("fetch_radius_m=0.15"),

@@ -172,8 +172,7 @@ parameters! {
     }
     Rl {
         rl_policy: RlPolicy = RlPolicy::Auto,
-            Kind::Choice(&[("auto", "Auto: by map"), ("colon", "Colon"), ("general", "General"),
-                           ("explorer", "Explorer")]),
+            Kind::Policy,
             "Policy", "Which trained policy runs. Auto takes the one trained on this map, else the explorer, which \
                        remembers what the camera has seen and needs no training on the map.";
         rl_shield: bool = true, Kind::Flag,

@@ -9,6 +9,7 @@ import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { LABORATORY, LAYERS } from './laboratory';
 import { PARAMETERS, SOME_PARAMETERS } from './parameters';
 import type { Row, Section } from './row';
+import { TRAIN } from './train';
 import { DISTURB, EVALUATE, MAGNET, PLOTS, RECORDINGS, SCENE_VIEW } from './tools';
 
 const EFFECT_MS = 20_000;
@@ -26,6 +27,7 @@ const SECTIONS_BY_TEST: SectionsByTest = {
   'events and comparisons': [EVENTS, COMPARE],
   lessons: [LESSONS],
   'the map editor': [DRAW],
+  trainings: [TRAIN],
   'the parameters': PARAMETERS,
 };
 

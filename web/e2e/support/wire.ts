@@ -10,7 +10,10 @@ export type {
   Hello,
   OverlayMessage,
   Parameters,
+  Policies,
   SceneMessage,
   ServerMessage,
   StateMessage,
+  Trainings,
+  TrainingSummary,
 } from '../../src/net/protocol.gen';

@@ -21,6 +21,8 @@ import { LowerPanel } from './LowerPanel';
 import { RecordingsView } from '../features/recordings/RecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
+import { LazyTrainView } from '../features/train/LazyTrainView';
+import type { TrainProps } from '../features/train/TrainView';
 import { PlaybackBar } from '../features/playback/PlaybackBar';
 import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
@@ -44,6 +46,7 @@ export function Page(): JSX.Element {
   const capture = createCapture(lab, picture, createPalette(theme));
   const opener = createMapOpener(lab);
   const drawing: DrawProps['kept'] = {};
+  const training: TrainProps['kept'] = {};
   /** The laboratory shows what a dropped file has changed, or why it was refused. */
   const onDrop = (name: RegExp, take: (file: File) => Promise<void>): void => {
     onFileDrop(name, (file) => {
@@ -96,6 +99,16 @@ export function Page(): JSX.Element {
             kept={drawing}
             lab={lab}
             open={(file) => opener.open(file)}
+            onLaboratory={() => {
+              setView('laboratory');
+            }}
+          />
+        </Match>
+        <Match when={view() === 'train'}>
+          <LazyTrainView
+            kept={training}
+            lab={lab}
+            theme={theme}
             onLaboratory={() => {
               setView('laboratory');
             }}

@@ -2,6 +2,7 @@
 
 import { CONTROLLER_SHORTCUTS } from '../features/controller/shortcuts';
 import { DRAW_SHORTCUTS } from '../features/draw/keys';
+import { TRAIN_SHORTCUTS } from '../features/train/keys';
 import { TIME_SHORTCUTS } from '../features/playback/shortcuts';
 import type { FeatureShortcuts } from '../lab/shortcuts';
 import { WORKSPACE_SHORTCUTS } from '../plan/keyboard';
@@ -32,5 +33,6 @@ export function pageShortcuts(
     ...WORKSPACE_SHORTCUTS,
     ...ZOOM_SHORTCUTS,
     ...DRAW_SHORTCUTS,
+    ...TRAIN_SHORTCUTS,
   ];
 }

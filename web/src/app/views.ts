@@ -3,6 +3,7 @@
 export const VIEWS = [
   ['laboratory', 'Laboratory'],
   ['draw', 'Draw'],
+  ['train', 'Train'],
   ['recordings', 'Recordings'],
   ['evaluate', 'Evaluate'],
 ] as const;

@@ -7,6 +7,8 @@ import {
   type Field,
   type FlagField,
   type NumberField,
+  type PolicyField,
+  policyOptions,
   shownMost,
   shownValue,
   storedValue,
@@ -20,6 +22,8 @@ export interface Form {
   readonly values: () => Parameters;
   readonly defaults: () => Parameters;
   readonly disabled: () => boolean;
+  /** Added policies that can be chosen. */
+  readonly policies: () => readonly string[];
   /** Why a field has no effect now; undefined if it has an effect. */
   readonly idle: (name: keyof Parameters) => string | undefined;
   /** The value of a slider while the user moves it. */
@@ -97,7 +101,11 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
   );
 }
 
-function ChoiceRow(props: { form: Form; field: ChoiceField }): JSX.Element {
+function ChoiceRow(props: {
+  form: Form;
+  field: ChoiceField | PolicyField;
+  options: readonly (readonly [value: string, label: string])[];
+}): JSX.Element {
   const { form, field } = props;
   const value = (): string => form.values()[field.name];
   const id = createUniqueId();
@@ -114,7 +122,7 @@ function ChoiceRow(props: { form: Form; field: ChoiceField }): JSX.Element {
           form.edit({ [field.name]: event.currentTarget.value });
         }}
       >
-        <For each={field.options}>
+        <For each={props.options}>
           {([option, label]) => (
             <option value={option} selected={value() === option}>
               {label}
@@ -154,7 +162,12 @@ export function FieldRow(props: { form: Form; field: Field }): JSX.Element {
     case 'number':
       return <NumberRow form={form} field={field} />;
     case 'choice':
-      return <ChoiceRow form={form} field={field} />;
+      return <ChoiceRow form={form} field={field} options={field.options} />;
+    case 'policy': {
+      const options = (): ReturnType<typeof policyOptions> =>
+        policyOptions(field, form.policies(), form.values()[field.name]);
+      return <ChoiceRow form={form} field={field} options={options()} />;
+    }
     case 'flag':
       return <FlagRow form={form} field={field} />;
   }
@@ -166,6 +179,7 @@ export function createForm(lab: Session & Trial, scene: () => SceneMessage): For
     values: () => lab.edits.values() ?? scene().parameters,
     defaults: () => scene().defaults,
     disabled: () => !lab.canOperate(),
+    policies: () => scene().policies,
     idle: (name) =>
       name === 'tool_orientation' && scene().positioner === 'planar_stage'
         ? 'The planar stage always holds the magnet upright.'

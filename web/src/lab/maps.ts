@@ -1,7 +1,7 @@
 // The user's own map: its drawing is sent to the server, which reads and names it.
 
-import { post } from '../net/requests';
-import { MAX_SVG_BYTES, type MapFacts, type MapReport } from '../net/protocol.gen';
+import { getText, post } from '../net/requests';
+import { MAX_SVG_BYTES, type MapCheck, type MapFacts, type MapReport } from '../net/protocol.gen';
 import { counted, fixed, millimetres } from '../ui/format';
 
 /** Leaves room for an ending. */
@@ -65,6 +65,16 @@ export function refuseLarge(file: File): void {
   if (file.size > MAX_SVG_BYTES) {
     throw new Error('This drawing is too large: the limit is 1 MiB.');
   }
+}
+
+/** What a drawing would be as a map; throws an error with the message to show. */
+export function checkOf(svg: string): Promise<MapCheck> {
+  return post<MapCheck>('/api/map-checks', svg, 'image/svg+xml');
+}
+
+/** The walls and the size of a map of the server; throws an error with the message to show. */
+export async function checkOfMap(map: string): Promise<MapCheck> {
+  return checkOf(await getText(`/api/maps/${encodeURIComponent(map)}`));
 }
 
 /**

@@ -4,6 +4,8 @@ import {
   PRESET_KINDS,
   digits,
   type NumberField,
+  type PolicyField,
+  policyOptions,
   presetOf,
   shownMost,
   shownValue,
@@ -81,4 +83,21 @@ it('names the preset whose values the parameters have', () => {
   expect(names(poor)).toEqual(['Poor sensors', 'Ideal']);
   expect(names({ ...poor, ...mounts.presets[1]?.values })).toEqual(['Poor sensors', 'Realistic']);
   expect(names({ ...poor, tracker_dropout: 0.05 })).toEqual([undefined, 'Ideal']);
+});
+
+describe('the choice of a policy', () => {
+  const policy = fields.find((one): one is PolicyField => one.kind === 'policy');
+  if (!policy) throw new Error('there is no policy');
+  const added = ['mine@00ff00ff00ff00ff'];
+
+  it('has the shipped policies and the added ones by name', () => {
+    const options = policyOptions(policy, added, 'auto');
+    expect(options.slice(0, -1)).toEqual(policy.options);
+    expect(options.at(-1)).toEqual([added[0], 'mine']);
+  });
+
+  it('shows a policy that the server does not have any more', () => {
+    const options = policyOptions(policy, [], 'mine@00ff00ff00ff00ff');
+    expect(options.at(-1)).toEqual(['mine@00ff00ff00ff00ff', 'mine (not on this server)']);
+  });
 });

@@ -26,7 +26,7 @@ export type NumberName = {
 type FlagName = {
   [K in keyof Parameters]: Parameters[K] extends boolean ? K : never;
 }[keyof Parameters];
-type ChoiceName = Exclude<keyof Parameters, NumberName | FlagName>;
+type ChoiceName = Exclude<keyof Parameters, NumberName | FlagName | 'rl_policy'>;
 
 export interface NumberField {
   readonly kind: 'number';
@@ -54,6 +54,15 @@ export interface ChoiceField {
   readonly options: readonly (readonly [value: string, label: string])[];
 }
 
+/** One of the shipped policies, or an added one. */
+export interface PolicyField {
+  readonly kind: 'policy';
+  readonly name: 'rl_policy';
+  readonly label: string;
+  readonly help: string;
+  readonly options: readonly (readonly [value: string, label: string])[];
+}
+
 export interface FlagField {
   readonly kind: 'flag';
   readonly name: FlagName;
@@ -61,7 +70,20 @@ export interface FlagField {
   readonly help: string;
 }
 
-export type Field = NumberField | ChoiceField | FlagField;
+export type Field = NumberField | ChoiceField | PolicyField | FlagField;
+
+/** The shipped policies, the added ones, and the value itself, which may have been deleted. */
+export function policyOptions(
+  { options }: PolicyField,
+  added: readonly string[],
+  value: string,
+): readonly (readonly [value: string, label: string])[] {
+  const nameOf = (reference: string): string => reference.split('@')[0] ?? reference;
+  const known = [...options, ...added.map((one) => [one, nameOf(one)] as const)];
+  return known.some(([one]) => one === value)
+    ? known
+    : [...known, [value, `${nameOf(value)} (not on this server)`]];
+}
 
 export interface Group {
   readonly title: string;

@@ -120,6 +120,7 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
       script: [],
     },
     maps: [map],
+    policies: [],
     positioner: 'arm',
     controllers: ['rl', 'errt', 'attractor'],
     workspace: { x_min_m: -0.3, x_max_m: 0.28, y_min_m: -0.54, y_max_m: -0.21 },

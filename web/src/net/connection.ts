@@ -26,10 +26,15 @@ export interface Connection {
   send(message: ClientMessage): boolean;
 }
 
-/** Address of a session's WebSocket, on the host that served the page. */
-export function liveAddress(page: { protocol: string; host: string }, session: string): string {
-  const scheme = page.protocol === 'https:' ? 'wss:' : 'ws:';
-  return `${scheme}//${page.host}${sessionPath(session, 'live')}`;
+type Page = Pick<Location, 'protocol' | 'host'>;
+
+/** Address of a WebSocket on the host that served the page. */
+export function socketAddress({ protocol, host }: Page, path: string): string {
+  return `${protocol === 'https:' ? 'wss:' : 'ws:'}//${host}${path}`;
+}
+
+export function liveAddress(page: Page, session: string): string {
+  return socketAddress(page, sessionPath(session, 'live'));
 }
 
 /** The address of the WebSocket, and what to do before a new attempt. */

@@ -70,7 +70,7 @@ export type Parameters = {
   /** When no sample has arrived for this long, the arm holds. Latency does not count. */
   tracker_timeout_s: number;
   /** Which trained policy runs. Auto takes the one trained on this map, else the explorer, which remembers what the camera has seen and needs no training on the map. */
-  rl_policy: "auto" | "colon" | "general" | "explorer";
+  rl_policy: string;
   /** Replaces a best step that comes near a visible wall by the next best. Without it, such a step is refused and the arm holds. */
   rl_shield: boolean;
   /** Subtracted from the value of a step for each earlier visit of its cell since the last fetch or goal. It ends going to and fro. 0 is the paper. */
@@ -116,7 +116,7 @@ export const GROUPS = [
   {
     title: "RL", controller: "rl", open: true,
     fields: [
-      { kind: 'choice', name: "rl_policy", label: "Policy", options: [["auto","Auto: by map"],["colon","Colon"],["general","General"],["explorer","Explorer"]], help: "Which trained policy runs. Auto takes the one trained on this map, else the explorer, which remembers what the camera has seen and needs no training on the map." },
+      { kind: 'policy', name: "rl_policy", label: "Policy", options: [["auto","Auto: by map"],["colon","Colon"],["general","General"],["explorer","Explorer"]], help: "Which trained policy runs. Auto takes the one trained on this map, else the explorer, which remembers what the camera has seen and needs no training on the map." },
       { kind: 'flag', name: "rl_shield", label: "Shield", help: "Replaces a best step that comes near a visible wall by the next best. Without it, such a step is refused and the arm holds." },
       { kind: 'number', name: "rl_visit_penalty", label: "Visit penalty", unit: "", scale: 1, min: 0, max: 1, step: 0.01, whole: false, help: "Subtracted from the value of a step for each earlier visit of its cell since the last fetch or goal. It ends going to and fro. 0 is the paper." },
       { kind: 'flag', name: "rl_shortcut", label: "Shortcuts", help: "A policy with a memory goes straight over the next cells of its route where the way is known to be clear, instead of step by step along the axes." },

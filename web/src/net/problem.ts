@@ -6,3 +6,10 @@ export function problemText(body: unknown): string | undefined {
     ? body.detail
     : undefined;
 }
+
+/** The field of the request that a problem document names, if it names one. */
+export function problemField(body: unknown): string | undefined {
+  return typeof body === 'object' && body && 'field' in body && typeof body.field === 'string'
+    ? body.field
+    : undefined;
+}

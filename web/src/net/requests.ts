@@ -3,7 +3,7 @@
 import { createEffect, createMemo, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { askServer } from './access';
 import { browserClock, type Clock, Limiter } from './limiter';
-import { problemText } from './problem';
+import { problemField, problemText } from './problem';
 
 export interface Answer<A> {
   /** The newest answer. It is kept when a later query is refused. */
@@ -61,13 +61,28 @@ export class Asker<A> {
   }
 }
 
+/** The server refused a request or did not answer. */
+export class Refusal extends Error {
+  constructor(
+    readonly detail: string,
+    /** The field of the request that is wrong, if it is one. */
+    readonly field?: string,
+    /** The HTTP status; undefined without an answer. */
+    readonly status?: number,
+  ) {
+    super(detail);
+  }
+}
+
 async function answered(path: string, init: RequestInit): Promise<Response> {
   const response = await askServer(path, init).catch(() => {
-    throw new Error('The server did not answer.');
+    throw new Refusal('The server did not answer.');
   });
   if (!response.ok) {
+    const { status } = response;
     const problem: unknown = await response.json().catch(() => undefined);
-    throw new Error(problemText(problem) ?? `The server answered with status ${response.status}.`);
+    const detail = problemText(problem) ?? `The server answered with status ${status}.`;
+    throw new Refusal(detail, problemField(problem), status);
   }
   return response;
 }
@@ -76,22 +91,23 @@ async function request<A>(path: string, init: RequestInit): Promise<A> {
   return (await (await answered(path, init)).json()) as A;
 }
 
-/** Gets JSON from `path`; throws an error with the message to show. */
+/** Gets JSON from `path`; throws a refusal with the message to show. */
 export function get<A>(path: string): Promise<A> {
   return request(path, {});
 }
 
-/** Gets text from `path`; throws an error with the message to show. */
+/** Gets text from `path`; throws a refusal with the message to show. */
 export async function getText(path: string): Promise<string> {
   return (await answered(path, {})).text();
 }
 
-/** Posts JSON to `path` and returns the answer; throws an error with the message to show. */
-export function post<A>(path: string, body: string | Blob, type = 'application/json'): Promise<A> {
-  return request(path, { method: 'POST', headers: { 'content-type': type }, body });
+/** Posts to `path` and returns the answer; throws a refusal with the message to show. */
+export function post<A>(path: string, body?: string | Blob, type = 'application/json'): Promise<A> {
+  const sent = body === undefined ? {} : { headers: { 'content-type': type }, body };
+  return request(path, { method: 'POST', ...sent });
 }
 
-/** Changes the resource at `path` and returns it; throws an error with the message to show. */
+/** Changes the resource at `path` and returns it; throws a refusal with the message to show. */
 export function patch<A>(path: string, body: string): Promise<A> {
   return request(path, {
     method: 'PATCH',
@@ -100,7 +116,7 @@ export function patch<A>(path: string, body: string): Promise<A> {
   });
 }
 
-/** Deletes the resource at `path`; throws an error with the message to show. */
+/** Deletes the resource at `path`; throws a refusal with the message to show. */
 export async function remove(path: string): Promise<void> {
   await answered(path, { method: 'DELETE' });
 }

@@ -91,10 +91,20 @@ export function drawMap(
   view: View,
   palette: Palette,
 ): void {
-  const rect = scene.workspace;
+  drawGrid(ctx, scene.workspace, view, palette);
+  drawOutlines(ctx, scene.workspace, walls, view, palette);
+}
+
+/** The walls and the border. */
+export function drawOutlines(
+  ctx: CanvasRenderingContext2D,
+  rect: Rect,
+  walls: Path2D,
+  view: View,
+  palette: Palette,
+): void {
   const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
-  drawGrid(ctx, rect, view, palette);
   ctx.fillStyle = palette.wall;
   ctx.fill(walls, 'evenodd');
   ctx.strokeStyle = palette['wall-edge'];

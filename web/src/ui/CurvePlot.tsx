@@ -41,7 +41,7 @@ export function CurvePlot(props: {
         <span class="unit">{props.unit}</span>
         <For each={props.keys}>
           {(key) => (
-            <span class="key" data-color={key.color}>
+            <span class="key" data-color={key.color} data-dashed={key.isDashed ? '' : undefined}>
               {key.label}
             </span>
           )}

@@ -7,6 +7,12 @@ import { inside } from './plotArea';
 export interface CurveLine {
   readonly label: string;
   readonly color: keyof Palette;
+  readonly isDashed?: boolean;
+  /** Only the edge of a band: the line itself is not drawn. */
+  readonly isEdge?: boolean;
+  /** Whether the line goes on across points without a value. */
+  readonly joinsGaps?: boolean;
+  readonly hasPoints?: boolean;
 }
 
 /** An interval of x, filled. */
@@ -28,10 +34,10 @@ export interface Rule {
 export interface CurveContext {
   readonly palette: () => Palette;
   readonly lines: readonly CurveLine[];
-  /** Whether the area between the first two lines is filled. */
-  readonly fillsBetween: boolean;
+  /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
+  readonly bands: readonly (readonly [number, number])[];
   readonly xRange: () => [number, number];
-  readonly yRange: (max: number) => [number, number];
+  readonly yRange: (max: number, min: number) => [number, number];
   readonly xText: (value: number) => string;
   readonly yText: (value: number) => string;
   readonly shades: () => readonly Shade[];
@@ -100,7 +106,6 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
     ticks: { show: false },
     gap: 3,
   };
-  const [first] = context.lines;
   return new uPlot(
     {
       width: Math.max(50, root.clientWidth),
@@ -109,7 +114,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
       scales: {
         x: { time: false, range: () => context.xRange() },
-        y: { range: (_u, _min, max) => context.yRange(max) },
+        y: { range: (_u, min, max) => context.yRange(max, min) },
       },
       axes: [
         { ...axis, size: 18, space: 44, values: (_u, ticks) => ticks.map(context.xText) },
@@ -120,15 +125,17 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         ...context.lines.map((line) => ({
           label: line.label,
           stroke: () => context.palette()[line.color],
-          width: 1.5,
+          width: line.isEdge ? 0 : 1.5,
           pxAlign: 0,
-          points: { show: false },
+          spanGaps: line.joinsGaps ?? false,
+          ...(line.isDashed ? { dash: [5, 3] } : {}),
+          points: { show: line.hasPoints ?? false, size: 5 },
         })),
       ],
-      bands:
-        context.fillsBetween && first
-          ? [{ series: [1, 2], fill: () => translucent(context.palette()[first.color]) }]
-          : [],
+      bands: context.bands.map(([upper, lower]) => ({
+        series: [upper + 1, lower + 1],
+        fill: () => translucent(context.palette()[context.lines[upper]?.color ?? 'text']),
+      })),
       hooks: {
         drawAxes: [
           (u) => {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { axisLabel, centimetres, clock, fixed, newtons, speed } from './format';
+import { axisLabel, centimetres, clock, fixed, newtons, roughly, speed } from './format';
 
 describe('readouts', () => {
   it('have a true minus sign, but not on zero', () => {
@@ -26,5 +26,19 @@ describe('readouts', () => {
 
   it('name speeds as fractions and multiples', () => {
     expect([0.125, 0.5, 1, 8].map(speed)).toEqual(['1/8×', '1/2×', '1×', '8×']);
+  });
+});
+
+describe('roughly', () => {
+  it.each([
+    [0, '1 s'],
+    [3.2, '4 s'],
+    [41, '45 s'],
+    [56, '1 min'],
+    [601, '11 min'],
+    [3600, '1 h'],
+    [4000, '1 h 7 min'],
+  ])('%f s is %s', (time_s, text) => {
+    expect(roughly(time_s)).toBe(text);
   });
 });

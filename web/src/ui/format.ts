@@ -44,3 +44,13 @@ export function speed(factor: number): string {
 export function counted(count: number, noun: string): string {
   return `${count} ${noun}${count === 1 ? '' : 's'}`;
 }
+
+/** `40 s`, `3 min`, `1 h 20 min`: as coarse as an estimate. */
+export function roughly(time_s: number): string {
+  if (time_s < 10) return `${Math.max(1, Math.ceil(time_s))} s`;
+  if (time_s < 55) return `${Math.ceil(time_s / 5) * 5} s`;
+  const minutes = Math.ceil(time_s / 60);
+  if (minutes < 60) return `${minutes} min`;
+  const rest = minutes % 60;
+  return `${Math.floor(minutes / 60)} h${rest === 0 ? '' : ` ${rest} min`}`;
+}

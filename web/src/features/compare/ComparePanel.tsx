@@ -228,7 +228,7 @@ function Errors(
   const context: CurveContext = {
     palette,
     lines: KEYS,
-    fillsBetween: false,
+    bands: [],
     xRange: () => [
       0,
       Math.max(1, (lastTick(props.comparison) - props.comparison.tick) * props.tick_s),

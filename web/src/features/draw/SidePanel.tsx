@@ -2,15 +2,14 @@
 
 import { For, Show, createSignal, type JSX } from 'solid-js';
 import type { MapCheck } from '../../net/protocol.gen';
-import { getText } from '../../net/requests';
-import { freeName, mapName, refuseLarge } from '../../lab/maps';
+import { checkOf, checkOfMap, freeName, mapName, refuseLarge } from '../../lab/maps';
 import type { Session, Trial } from '../../lab/slices';
 import { FileButton } from '../../ui/FileButton';
 import { download } from '../../ui/download';
 import { checkWords } from './check';
 import { BLANK, type Drawing } from './drawing';
 import type { Editor } from './editor';
-import { checkOf, drawingOf } from './import';
+import { drawingOf } from './import';
 
 function Check(props: { check: MapCheck | undefined; error: string | undefined }): JSX.Element {
   return (
@@ -59,11 +58,7 @@ export function SidePanel(props: {
     setBusy(false);
   };
   const start = (map: string): Promise<void> =>
-    take(async () =>
-      map === ''
-        ? BLANK
-        : drawingOf(await checkOf(await getText(`/api/maps/${encodeURIComponent(map)}`))),
-    );
+    take(async () => (map === '' ? BLANK : drawingOf(await checkOfMap(map))));
   return (
     <section class="panel draw-side" aria-label="Check and use">
       <h2>Check</h2>

@@ -3,8 +3,7 @@
 import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
 import { type Answer, Asker } from '../../net/requests';
 import type { MapCheck } from '../../net/protocol.gen';
-import { faultWords, reportWords } from '../../lab/maps';
-import { checkOf } from './import';
+import { checkOf, faultWords, reportWords } from '../../lab/maps';
 
 const CHECKS_PER_S = 4;
 /** The mazes on which the controllers are tested have no narrower channels. */

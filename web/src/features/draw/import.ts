@@ -1,15 +1,9 @@
 // A map's drawing as shapes that can be edited: the server reads it, and sends its walls as outlines.
 
-import { post } from '../../net/requests';
 import type { MapCheck, Polygon, Rect } from '../../net/protocol.gen';
 import type { Area, Drawing, Frame, Mm } from './drawing';
 
 const MM_PER_M = 1000;
-
-/** What the drawing would be as a map; throws an error with the message to show. */
-export function checkOf(svg: string): Promise<MapCheck> {
-  return post<MapCheck>('/api/map-checks', svg, 'image/svg+xml');
-}
 
 /** A hundredth of a millimetre, as in the drawing's text. */
 const rounded = (m: number): number => Number((MM_PER_M * m).toFixed(2));

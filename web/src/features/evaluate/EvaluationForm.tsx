@@ -3,8 +3,9 @@
 import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { EvaluationSummary } from '../../net/protocol.gen';
-import { type EvaluationList, Refusal } from './evaluations';
-import { roughly } from './progress';
+import { Refusal } from '../../net/requests';
+import { roughly } from '../../ui/format';
+import type { EvaluationList } from './evaluations';
 import {
   type Draft,
   estimate_s,

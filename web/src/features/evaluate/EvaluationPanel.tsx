@@ -1,6 +1,7 @@
 // One evaluation: progress, rows, failures.
 
 import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
+import { roughly } from '../../ui/format';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
 import { createReport, type EvaluationList } from './evaluations';
@@ -13,7 +14,6 @@ import {
   milestone,
   numberOf,
   remaining_s,
-  roughly,
   stageWords,
   subject,
 } from './progress';

@@ -1,8 +1,8 @@
 // The server's evaluations, polled: often while one runs.
 
-import { createEffect, createSignal, onCleanup, type Accessor } from 'solid-js';
-import { askServer } from '../../net/access';
-import { problemText } from '../../net/problem';
+import { createEffect, createSignal, type Accessor } from 'solid-js';
+import { createPoll } from '../../net/poll';
+import { get, post, remove } from '../../net/requests';
 import type {
   EvaluationQuery,
   EvaluationReport,
@@ -14,31 +14,6 @@ import { isActive } from './progress';
 const BUSY_MS = 500;
 /** Another operator may start one. */
 const IDLE_MS = 3000;
-
-/** The server refused a request. */
-export class Refusal extends Error {
-  constructor(
-    readonly detail: string,
-    readonly field?: string,
-  ) {
-    super(detail);
-  }
-}
-
-async function ask<A>(method: string, path: string, body?: unknown): Promise<A> {
-  const sent =
-    body === undefined
-      ? {}
-      : { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
-  const response = await askServer(path, { method, ...sent }).catch(() => {
-    throw new Refusal('The server did not answer.');
-  });
-  const answer: unknown = await response.json().catch(() => undefined);
-  if (response.ok) return answer as A;
-  const detail = problemText(answer) ?? `The server answered with status ${response.status}.`;
-  const field = (answer as { field?: unknown } | undefined)?.field;
-  throw typeof field === 'string' ? new Refusal(detail, field) : new Refusal(detail);
-}
 
 const PATH = '/api/evaluations';
 
@@ -53,47 +28,20 @@ export interface EvaluationList {
 }
 
 export function createEvaluationList(): EvaluationList {
-  const [all, setAll] = createSignal<readonly EvaluationSummary[]>();
-  const [trouble, setTrouble] = createSignal<string>();
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  let requests = 0;
-  let isClosed = false;
-
-  const look = async (): Promise<void> => {
-    clearTimeout(timer);
-    if (isClosed) return;
-    requests += 1;
-    const number = requests;
-    try {
-      const { evaluations } = await ask<Evaluations>('GET', PATH);
-      if (number !== requests) return;
-      setAll(evaluations);
-      setTrouble(undefined);
-    } catch (reason) {
-      if (number !== requests) return;
-      setTrouble(reason instanceof Error ? reason.message : String(reason));
-    }
-    timer = setTimeout(() => void look(), all()?.some(isActive) ? BUSY_MS : IDLE_MS);
-  };
-  void look();
-  onCleanup(() => {
-    clearTimeout(timer);
-    // A pending answer is ignored.
-    requests += 1;
-    isClosed = true;
-  });
-
+  const poll = createPoll<Evaluations>(PATH, (newest) =>
+    newest?.evaluations.some(isActive) ? BUSY_MS : IDLE_MS,
+  );
   return {
-    all,
-    trouble,
+    all: () => poll.data()?.evaluations,
+    trouble: poll.error,
     start: async (query) => {
-      const { id } = await ask<EvaluationSummary>('POST', PATH, query);
-      await look();
+      const { id } = await post<EvaluationSummary>(PATH, JSON.stringify(query));
+      await poll.refresh();
       return id;
     },
     cancel: async (id) => {
-      await ask<EvaluationSummary>('DELETE', `${PATH}/${id}`);
-      await look();
+      await remove(`${PATH}/${id}`);
+      await poll.refresh();
     },
   };
 }
@@ -117,7 +65,7 @@ export function createReport(
     if (pending === version(now)) return;
     const requested = version(now);
     pending = requested;
-    void ask<EvaluationReport>('GET', `${PATH}/${now.id}`)
+    void get<EvaluationReport>(`${PATH}/${now.id}`)
       .then((answer) => {
         if (pending === requested) setReport(answer);
       })

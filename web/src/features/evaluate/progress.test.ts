@@ -6,7 +6,6 @@ import {
   milestone,
   numberOf,
   remaining_s,
-  roughly,
   secondsAnEpisode,
   stageWords,
   subject,
@@ -37,20 +36,6 @@ describe('progress', () => {
     const newer = summaryOf({ cells: [cellOf({ done: 1, elapsed_s: 7 })] });
     expect(secondsAnEpisode(cellOf(), [TWO, newer])).toBe(7);
     expect(secondsAnEpisode(cellOf({ map: 'colon', disturbances: 3 }), [TWO, newer])).toBe(3);
-  });
-});
-
-describe('roughly', () => {
-  it.each([
-    [0, '1 s'],
-    [3.2, '4 s'],
-    [41, '45 s'],
-    [56, '1 min'],
-    [601, '11 min'],
-    [3600, '1 h'],
-    [4000, '1 h 7 min'],
-  ])('%f s is %s', (time_s, text) => {
-    expect(roughly(time_s)).toBe(text);
   });
 });
 

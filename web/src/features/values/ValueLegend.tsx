@@ -3,7 +3,7 @@
 import { Show, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
 import type { ValueMap } from '../../net/protocol.gen';
-import { valueRange } from './value';
+import { valueRange } from '../../plan/values';
 import '../../ui/legend.css';
 import './values.css';
 

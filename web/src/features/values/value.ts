@@ -1,74 +1,9 @@
-// The policy's value of each place as colours, and arrows of the best steps. Pure.
+// What the values of a policy depend on. Pure.
 
-import { ACTIONS } from '../../lab/actions';
-import type { SceneMessage, ValueCell, ValueMap } from '../../net/protocol.gen';
 import type { Vec2 } from '../../lab/geometry';
-import type { Arrow } from '../../plan/arrows';
-import { type Ramp, rampColour } from '../../plan/colourRamp';
-
-/** Arrow length as a share of the distance between two arrows. */
-const LENGTH = 0.6;
-/** Smallest distance between arrows, so that they stay readable. */
-const MIN_ARROW_PX = 12;
+import type { SceneMessage } from '../../net/protocol.gen';
 
 /** What the values depend on. A reset of the trial does not change them. */
 export function valueKey(scene: SceneMessage, goal_m: Vec2): string {
   return JSON.stringify([scene.map, scene.parameters.rl_policy, goal_m]);
-}
-
-export function valueRange(map: ValueMap): [number, number] | undefined {
-  if (map.cells.length === 0) return undefined;
-  const values = map.cells.map(({ value }) => value);
-  return [Math.min(...values), Math.max(...values)];
-}
-
-/** The smallest x and the largest y of the cells' middles, and a cell's column and row counted from there. */
-function latticeOf({ cells, spacing_m }: ValueMap) {
-  const left_m = Math.min(...cells.map(({ center_m }) => center_m[0]));
-  const top_m = Math.max(...cells.map(({ center_m }) => center_m[1]));
-  return {
-    left_m,
-    top_m,
-    column: ({ center_m }: ValueCell) => Math.round((center_m[0] - left_m) / spacing_m),
-    row: ({ center_m }: ValueCell) => Math.round((top_m - center_m[1]) / spacing_m),
-  };
-}
-
-/** RGBA, one pixel per cell, upper row first. Transparent outside the cells. */
-export interface ValuePicture {
-  /** Upper left corner. */
-  readonly corner_m: Vec2;
-  readonly columns: number;
-  readonly rows: number;
-  readonly pixels: Uint8ClampedArray<ArrayBuffer>;
-}
-
-export function valuePicture(map: ValueMap, ramp: Ramp): ValuePicture | undefined {
-  const range = valueRange(map);
-  if (!range) return undefined;
-  const { left_m, top_m, column, row } = latticeOf(map);
-  const columns = 1 + Math.max(...map.cells.map(column));
-  const rows = 1 + Math.max(...map.cells.map(row));
-  const pixels = new Uint8ClampedArray(4 * columns * rows);
-  const span = range[1] - range[0];
-  for (const cell of map.cells) {
-    const color = rampColour(ramp, span > 0 ? (cell.value - range[0]) / span : 0);
-    pixels.set([...color, 255], 4 * (row(cell) * columns + column(cell)));
-  }
-  const half_m = map.spacing_m / 2;
-  return { corner_m: [left_m - half_m, top_m + half_m], columns, rows, pixels };
-}
-
-/** Arrows of the best step in each cell, or in every n-th cell along x and y if cells are small. */
-export function valueArrows(map: ValueMap, pxPerM: number): Arrow[] {
-  const every = Math.max(1, Math.ceil(MIN_ARROW_PX / (map.spacing_m * pxPerM)));
-  const half_m = (LENGTH / 2) * every * map.spacing_m;
-  const { column, row } = latticeOf(map);
-  return map.cells.flatMap((cell) => {
-    const along = ACTIONS[cell.action]?.along;
-    if (!along || column(cell) % every > 0 || row(cell) % every > 0) return [];
-    const [x_m, y_m] = cell.center_m;
-    const [dx, dy] = [along[0] * half_m, along[1] * half_m];
-    return [{ from_m: [x_m - dx, y_m - dy], to_m: [x_m + dx, y_m + dy], isSeen: true }];
-  });
 }

@@ -6,7 +6,7 @@ import { createAnswer } from '../../net/requests';
 import { sessionPath } from '../../net/session';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { ValueLegend } from './ValueLegend';
-import { createValues, drawValues } from './drawValue';
+import { createValues, drawValues } from '../../plan/drawValues';
 import { valueKey } from './value';
 import type { Pictures, Session, Trial } from '../../lab/slices';
 

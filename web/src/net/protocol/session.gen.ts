@@ -16,6 +16,10 @@ map: string,
  */
 maps: Array<string>, 
 /**
+ * Added policies that the parameter `rl_policy` accepts, besides the shipped ones.
+ */
+policies: Array<string>, 
+/**
  * The trial's scenario; controller, goal and parameters may have changed since.
  */
 scenario: Scenario, 

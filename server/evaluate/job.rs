@@ -1,0 +1,93 @@
+//! Runs an evaluation in the background.
+
+use std::time::Instant;
+
+use super::{CellResult, EvaluateError, Evaluation, Stage, Venue, Watch, run, unrecorded};
+use crate::jobs::{Job, Workshop};
+use crate::map::MapError;
+use crate::trial::Arena;
+
+impl Job for Evaluation {
+    fn is_waiting(&self) -> bool {
+        self.stage() == Stage::Waiting
+    }
+
+    fn begin(&self) -> bool {
+        self.start()
+    }
+
+    fn run(&self, workshop: &Workshop) {
+        tracing::info!(id = self.id, "evaluation begins");
+        let stage = match self.run_cells(workshop) {
+            Ok(()) => Stage::Done,
+            Err(EvaluateError::Stopped) => Stage::Cancelled,
+            Err(error) => Stage::Failed(error.to_string()),
+        };
+        tracing::info!(id = self.id, ?stage, "evaluation ends");
+        self.end(stage);
+    }
+
+    fn fail(&self, reason: String) {
+        self.end(Stage::Failed(reason));
+    }
+
+    fn interrupt(&self) {
+        self.cancel();
+    }
+}
+
+impl Evaluation {
+    fn run_cells(&self, workshop: &Workshop) -> Result<(), EvaluateError> {
+        for (index, cell) in self.cells.iter().enumerate() {
+            let began = Instant::now();
+            let map = self.map(cell).ok_or_else(|| MapError::Unknown { name: cell.map.clone() })?;
+            let venue = Venue::of(Arena::of(map.clone()));
+            let experiment = self.experiment(cell, &venue);
+            let watch = Watch {
+                stop: self.stop(),
+                progress: &|_, episode| self.note(index, began, episode),
+                recorders: &unrecorded,
+            };
+            let one = std::slice::from_ref(&experiment);
+            let episodes = workshop.pool.install(|| run(one, &workshop.gpu, &watch))?;
+            self.add(CellResult::of(cell, episodes.into_iter().flatten().collect()));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::camera::{AdapterChoice, Gpu};
+    use crate::evaluate::{Cell, EvaluationQuery};
+    use crate::map::Map;
+    use crate::scenario::ControllerName;
+
+    fn evaluation(map: &str) -> Arc<Evaluation> {
+        let cell = Cell { controller: ControllerName::Attractor, map: map.into(), disturbances: 0 };
+        let query = EvaluationQuery {
+            controllers: vec![cell.controller],
+            maps: vec![cell.map.clone()],
+            disturbances: vec![0],
+            episodes: 2,
+            seed: 1,
+        };
+        let maps = Map::shipped(map).into_iter().collect();
+        Evaluation::new("a test".into(), query, vec![cell], maps)
+    }
+
+    #[test]
+    fn an_error_only_ends_its_own_evaluation() {
+        let gpu = Gpu::open(AdapterChoice::Auto).expect("the tests need a graphics adapter");
+        let workshop = Workshop::new(&gpu).unwrap();
+        let [bad, good] = ["nowhere", "open"].map(evaluation);
+        bad.run(&workshop);
+        let Stage::Failed(message) = bad.stage() else { panic!("there is no such map") };
+        assert!(message.contains("nowhere"), "{message}");
+        good.run(&workshop);
+        assert_eq!((good.stage(), good.progress().results.len()), (Stage::Done, 1));
+    }
+}

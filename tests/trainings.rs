@@ -1,0 +1,202 @@
+//! Trainings and policies over HTTP: the same bits as on the command line, a policy that sessions can select, and clear
+//! refusals.
+
+use std::time::{Duration, Instant};
+
+use ferry::policy::{Manifest, Policy};
+use futures_util::StreamExt;
+use serde_json::{Value, json};
+
+use crate::support::{Laboratory, ferry};
+
+/// A training of a few seconds, which learns little.
+fn query(change: Value) -> Value {
+    let mut query = json!({"map": "u-turn", "name": "mine", "seed": 7, "settings": {"updates": 200}});
+    query.as_object_mut().unwrap().extend(change.as_object().unwrap().clone());
+    query
+}
+
+/// Fails after two minutes without a change.
+async fn ended(lab: &Laboratory, id: &str) -> Value {
+    let (mut last, mut since) = (Value::Null, Instant::now());
+    loop {
+        let (status, report) = lab.ask("GET", &format!("/api/trainings/{id}"), "").await;
+        assert_eq!(status, 200, "{report}");
+        if ["done", "failed", "cancelled"].contains(&report["stage"].as_str().unwrap()) {
+            return report;
+        }
+        if report != last {
+            (last, since) = (report, Instant::now());
+        }
+        assert!(since.elapsed() < Duration::from_secs(120), "no progress: {last}");
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let (status, made) = lab.ask("POST", "/api/trainings", &query(json!({})).to_string()).await;
+    assert_eq!((status, &made["id"], &made["updates_total"]), (201, &json!("training-1"), &json!(200)), "{made}");
+    let live = format!("ws://{}/api/trainings/training-1/live", lab.address);
+    let (mut live, _) = tokio_tungstenite::connect_async(live).await.unwrap();
+    let done = ended(&lab, "training-1").await;
+    assert_eq!((&done["stage"], &done["updates"], &done["frames"]), (&json!("done"), &json!(200), &json!(2)), "{done}");
+    assert_eq!(done["curve"].as_array().unwrap().len(), 2);
+    assert_eq!(done["examined"]["episodes"], 1000);
+
+    // All points came in order, each once, and then the end.
+    let mut points = Vec::new();
+    loop {
+        let message: Value = match live.next().await.unwrap().unwrap() {
+            tokio_tungstenite::tungstenite::Message::Text(text) => serde_json::from_str(&text).unwrap(),
+            _ => continue,
+        };
+        points.extend(message["points"].as_array().unwrap().iter().map(|point| point["update"].as_u64().unwrap()));
+        if message["summary"]["stage"] == "done" {
+            break;
+        }
+    }
+    assert_eq!(points, [100, 200]);
+
+    let (_, cells) = lab.ask("GET", "/api/trainings/training-1/cells", "").await;
+    let count = cells["centers_m"].as_array().unwrap().len();
+    assert!(count > 200, "{count}");
+    let (_, frame) = lab.ask("GET", "/api/trainings/training-1/frames/1", "").await;
+    for list in ["values", "actions", "quantiles", "endings"] {
+        assert_eq!(frame[list].as_array().unwrap().len(), count, "{list}");
+    }
+    assert_eq!(lab.ask("GET", "/api/trainings/training-1/frames/2", "").await.0, 404);
+
+    // The page learns of the policy, and a session takes it.
+    let reference = done["policy"].as_str().unwrap().to_owned();
+    let scene = browser.until("the policy", |m| m["type"] == "scene" && m["policies"] == json!([reference])).await;
+    let mut parameters = scene["parameters"].clone();
+    parameters["rl_policy"] = json!("mine");
+    browser.send(json!({"type": "configure", "parameters": parameters})).await;
+    browser.until("the hash", |m| m["type"] == "scene" && m["parameters"]["rl_policy"] == json!(reference)).await;
+
+    let out = lab.data.path().join("cli.safetensors");
+    let trained = ferry(&["train", "--map", "u-turn", "--recipe", "quick", "--seed", "7", "--set", "updates=200"])
+        .args(["--episodes", "10", "--sweeps"])
+        .arg(lab.data.path().join("sweeps"))
+        .arg("--out")
+        .arg(&out)
+        .output()
+        .unwrap();
+    assert!(trained.status.success(), "{}", String::from_utf8_lossy(&trained.stderr));
+    let bytes = lab.bytes("/api/policies/mine.safetensors").await;
+    assert!(bytes == std::fs::read(out).unwrap(), "the files differ");
+    lab.close().await;
+}
+
+/// A small policy: its weights do not matter here.
+fn file(seed: u64) -> Vec<u8> {
+    let bytes = Policy::shipped_bytes("colon").unwrap();
+    let weights = ferry::policy::weights(&bytes).unwrap();
+    let manifest = Manifest { seed, ..Policy::from_bytes(&bytes).unwrap().manifest().clone() };
+    let specs = manifest.architecture.tensors().into_iter();
+    let weights: Vec<_> = specs.map(|spec| (spec.clone(), weights[&spec.name].clone())).collect();
+    Policy::to_bytes(&manifest, &weights).unwrap()
+}
+
+fn upload(lab: &Laboratory, name: &str, bytes: &[u8]) -> (u16, Value) {
+    let url = format!("http://{}/api/policies/{name}", lab.address);
+    let agent = ureq::Agent::new_with_config(ureq::Agent::config_builder().http_status_as_error(false).build());
+    let mut answer = agent.post(url).content_type("application/octet-stream").send(bytes).unwrap();
+    let text = answer.body_mut().read_to_string().unwrap();
+    (answer.status().as_u16(), serde_json::from_str(&text).unwrap())
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_uploaded_policy_is_found_by_its_hash_until_it_is_deleted() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let (status, added) = upload(&lab, "first", &file(1));
+    assert_eq!((status, &added["name"], &added["is_shipped"]), (201, &json!("first"), &json!(false)), "{added}");
+    for (name, bytes, expected) in [
+        ("first", file(2), (409, "taken")),
+        ("colon", file(2), (422, "out_of_range")),
+        ("second", file(2)[..5000].to_vec(), (422, "policy_refused")),
+    ] {
+        let (status, problem) = upload(&lab, name, &bytes);
+        assert_eq!((status, problem["code"].as_str().unwrap()), expected, "{problem}");
+    }
+    let (status, renamed) = lab.ask("PATCH", "/api/policies/first", r#"{"name": "second"}"#).await;
+    assert_eq!((status, &renamed["name"]), (200, &json!("second")), "{renamed}");
+    assert_eq!(upload(&lab, "first", &file(2)).0, 201, "the name is free for another policy");
+
+    // A link that was made before still means the same policy.
+    let mut parameters = lab.default_parameters().await;
+    parameters["rl_policy"] = added["reference"].clone();
+    let scenario = json!({"type": "load_scenario", "map": "posts", "controller": "rl", "start_m": [-0.25, -0.38],
+        "goal_m": [0.12, -0.33], "parameters": parameters});
+    browser.send(scenario.clone()).await;
+    let is_set = |m: &Value| m["type"] == "scene" && m["parameters"]["rl_policy"] == renamed["reference"];
+    browser.until("the policy with its new name", is_set).await;
+    browser.send(json!({"type": "set_speed", "factor": 16})).await;
+    browser.send(json!({"type": "run"})).await;
+    browser.state("steps", |m| m["steps"].as_u64() > Some(2)).await;
+
+    assert_eq!(lab.ask("DELETE", "/api/policies/second", "").await.0, 204);
+    let held = browser.state("the arm holds", |m| m["refusal"].is_string()).await;
+    assert!(held["refusal"].as_str().unwrap().contains("second@"), "{held}");
+    browser.send(scenario).await;
+    let refused = browser.error().await;
+    assert_eq!((&refused["code"], &refused["field"]), (&json!("unknown_policy"), &json!("rl_policy")), "{refused}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_cannot_be_trained_is_refused_and_nothing_is_kept() {
+    let lab = Laboratory::open().await;
+    for (change, status, field) in [
+        (json!({"map": "nowhere"}), 422, "map"),
+        (json!({"map": "attractor-example"}), 422, "map"),
+        (json!({"name": "colon"}), 422, "name"),
+        (json!({"name": "no name"}), 422, "name"),
+        (json!({"settings": {"discount": 2}}), 422, "settings.discount"),
+        (json!({"settings": {"updates": 1_000_000}}), 422, "settings.updates"),
+        (json!({"settings": {"speed": 1}}), 400, "settings.speed"),
+        (json!({"start_from": "explorer"}), 422, "start_from"),
+        (json!({"start_from": "mine@0000000000000000"}), 422, "start_from"),
+        (json!({"goal_m": [9, 9]}), 422, "goal_m"),
+    ] {
+        let (found, problem) = lab.ask("POST", "/api/trainings", &query(change).to_string()).await;
+        assert_eq!((found, problem["field"].as_str()), (status, Some(field)), "{problem}");
+    }
+    let (_, all) = lab.ask("GET", "/api/trainings", "").await;
+    assert_eq!(all, json!({"trainings": []}));
+    for (method, path) in [("POST", "training-1/pause"), ("POST", "training-1/resume"), ("DELETE", "training-1")] {
+        assert_eq!(lab.ask(method, &format!("/api/trainings/{path}"), "").await.0, 404, "{path}");
+    }
+    let data = lab.close().await;
+    assert!(!data.path().join("trainings").exists());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_training_waits_pauses_and_is_cancelled() {
+    let lab = Laboratory::open().await;
+    let long = query(json!({"settings": {"updates": 20_000}}));
+    assert_eq!(lab.ask("POST", "/api/trainings", &long.to_string()).await.0, 201);
+    let (status, problem) = lab.ask("POST", "/api/trainings", &long.to_string()).await;
+    assert_eq!((status, &problem["field"]), (409, &json!("name")), "{problem}");
+    let second = query(json!({"name": "second"}));
+    let (_, waiting) = lab.ask("POST", "/api/trainings", &second.to_string()).await;
+    assert_eq!(waiting["stage"], "waiting");
+    assert_eq!(lab.ask("POST", "/api/trainings/training-1/pause", "").await.0, 202);
+    // A paused one makes way.
+    assert_eq!(ended(&lab, "training-2").await["stage"], "done");
+    let (_, paused) = lab.ask("GET", "/api/trainings/training-1", "").await;
+    assert_eq!(paused["stage"], "paused");
+    assert_eq!(lab.ask("POST", "/api/trainings/training-1/pause", "").await.0, 409);
+    assert_eq!(lab.ask("POST", "/api/trainings/training-1/resume", "").await.0, 202);
+    assert_eq!(lab.ask("DELETE", "/api/trainings/training-1", "").await.0, 202);
+    assert_eq!(ended(&lab, "training-1").await["stage"], "cancelled");
+    assert_eq!(lab.ask("DELETE", "/api/trainings/training-1", "").await.0, 204);
+    assert_eq!(lab.ask("GET", "/api/trainings/training-1", "").await.0, 404);
+    let data = lab.close().await;
+    let kept: Vec<_> = std::fs::read_dir(data.path().join("trainings")).unwrap().collect();
+    assert_eq!(kept.len(), 1, "{kept:?}");
+}

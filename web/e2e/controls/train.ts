@@ -1,0 +1,134 @@
+// Rows of the control table: trainings and policies.
+
+import type { Lab } from '../support/lab';
+import { clearTrainings, reachStage, startTraining } from '../support/trainings';
+import { type Row, type Section, downloads, isChecked, valueOf, view } from './row';
+
+const originOf = (lab: Lab) => new URL(lab.page.url()).origin;
+
+const typed: Row = { see: valueOf };
+const chosen: Row = { see: valueOf };
+const box: Row = { see: isChecked, isToggle: true };
+const shownUpdate = (lab: Lab) => lab.page.getByTestId('train-update').first().textContent();
+const shownName = (lab: Lab) => lab.page.locator('.train-pane h3').first().textContent();
+const panes = (lab: Lab) => lab.page.locator('.train-pane').count();
+
+const isOpen = (lab: Lab) =>
+  lab.page.locator('.train-settings').evaluate((one: HTMLDetailsElement) => one.open);
+
+async function openSettings(lab: Lab) {
+  await lab.page.locator('.train-settings').evaluate((one: HTMLDetailsElement) => {
+    one.open = true;
+  });
+}
+
+const setting = (row: Row): Row => ({ ...row, ready: openSettings });
+
+/** In turn: the first run of the section is by mouse, and each has its own server or an empty list. */
+const NAMES = ['first-training', 'second-training'] as const;
+
+export const TRAIN: Section = {
+  name: 'trainings',
+  ready: async (lab) => {
+    const { request } = lab.page;
+    await clearTrainings(request, originOf(lab));
+    for (const name of NAMES) {
+      const id = await startTraining(request, originOf(lab), name);
+      await reachStage(request, originOf(lab), id, 'done');
+    }
+    await lab.view('Train').click();
+    await lab.page.locator('.train-canvas[data-update]').waitFor();
+  },
+  after: async (lab) => {
+    await clearTrainings(lab.page.request, originOf(lab));
+  },
+  rows: {
+    'button Train': {
+      see: (lab) => lab.page.locator('main.train').count(),
+      ready: view('Evaluate'),
+    },
+    'combobox Map': chosen,
+    'textbox Policy name': {
+      see: valueOf,
+      act: async (input, locator) => {
+        await input.type(locator, `named-by-${input.name}`);
+      },
+    },
+    'combobox Start from': chosen,
+    'combobox Recipe': chosen,
+    'summary Settings': { see: isOpen, isToggle: true },
+    'spinbutton Updates': setting(typed),
+    'spinbutton Learning rate': setting(typed),
+    'spinbutton Discount': setting(typed),
+    'spinbutton Exploration': setting(typed),
+    'combobox Noisy layers': setting(chosen),
+    'spinbutton Progress reward': setting(typed),
+    'spinbutton Step penalty': setting(typed),
+    'spinbutton Steps of a return': setting(typed),
+    'combobox Fusion': setting(chosen),
+    'spinbutton Seed': setting(typed),
+    'button Reset the settings': {
+      see: (lab) => lab.spin('Seed').inputValue(),
+      ready: async (lab) => {
+        await openSettings(lab);
+        await lab.spin('Seed').fill('7');
+      },
+    },
+    'checkbox Values': box,
+    'checkbox Best steps': box,
+    'checkbox Failing starts': box,
+    'checkbox Episodes': box,
+    'application /^Plan of /': {
+      see: (_lab, locator) => locator.getAttribute('data-cell'),
+      act: async (input, locator) => {
+        const { lab, page } = input;
+        if (input.name === 'keyboard') {
+          await locator.focus();
+          await page.keyboard.press('ArrowLeft');
+          return;
+        }
+        await locator.scrollIntoViewIfNeeded();
+        const { x, y, width, height } = await lab.boxOf(locator);
+        const at = [x + 0.4 * width, y + 0.6 * height] as const;
+        await (input.name === 'touch' ? page.touchscreen.tap(...at) : page.mouse.click(...at));
+      },
+    },
+    'slider /^Value map of /': { see: shownUpdate },
+    'button /^(Play|Stop) the value maps of /': {
+      see: shownUpdate,
+      ready: (lab) =>
+        lab.page
+          .getByRole('button', { name: /^Follow/ })
+          .first()
+          .click(),
+    },
+    'button /^Follow the newest value map of /': {
+      see: (_lab, locator) => locator.getAttribute('aria-pressed'),
+      ready: async (lab) => {
+        await lab.page.getByRole('slider').first().focus();
+        await lab.page.keyboard.press('ArrowLeft');
+      },
+    },
+    'button /^Compare with /': { see: panes, isToggle: true },
+    'button /-training open (waits|takes images|learns|last examination|paused|done|cancelled|failed)$/':
+      {
+        see: shownName,
+        // The newest one is the first of the list.
+        ready: (lab) => lab.page.locator('.training-choose').last().click(),
+      },
+    'link /^Download /': { see: downloads },
+    'button /^Train ./': { elsewhere: 'trains a policy, watches it and uses it' },
+    'summary /^How .* was trained$/': { elsewhere: 'trains a policy, watches it and uses it' },
+    'button Upload policy…': { elsewhere: 'downloads, uploads, renames and deletes a policy' },
+    'button /^(Pause|Resume|Cancel|Remove) ./': {
+      elsewhere: 'pauses, resumes, cancels and removes a training',
+    },
+    // Last, because it leaves the view.
+    'button /^Use it: /': {
+      see: (lab) => lab.scene.parameters.rl_policy,
+      after: async (lab) => {
+        await lab.restoreDefaults();
+      },
+    },
+  },
+};

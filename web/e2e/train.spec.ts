@@ -1,0 +1,162 @@
+// The view Train: a policy learns a map, the user watches it, and it carries the bead.
+
+import { readFile } from 'node:fs/promises';
+import { type Lab, expect, test } from './fixtures';
+import {
+  FEW_UPDATES,
+  TRAIN_MS,
+  clearTrainings,
+  reachStage,
+  startTraining,
+} from './support/trainings';
+import { until } from './support/wait';
+
+test.describe.configure({ mode: 'serial', timeout: TRAIN_MS + 60_000 });
+
+test.afterEach(async ({ page, server }) => {
+  await clearTrainings(page.request, server.url);
+});
+
+const plan = (lab: Lab) => lab.page.getByRole('application', { name: /^Plan of / });
+const entry = (lab: Lab, name: string) =>
+  lab.page.locator('.training-entry').filter({ hasText: name });
+const submit = (lab: Lab) =>
+  lab.page.locator('.train-form').getByRole('button', { name: /^Train / });
+
+async function fillIn(lab: Lab, name: string) {
+  await lab.label('Map').selectOption('open');
+  await lab.label('Policy name').fill(name);
+  await lab.page.getByText('Settings', { exact: true }).click();
+  await lab.label('Updates').fill(String(FEW_UPDATES));
+}
+
+test('explains itself, and refuses a wrong name at its field', async ({ lab }) => {
+  const { page } = lab;
+  await lab.view('Train').click();
+  await expect(page.getByRole('region', { name: 'What happens here' })).toContainText(
+    'Press Train',
+  );
+  await lab.label('Policy name').fill('My policy');
+  await submit(lab).click();
+  await expect(lab.label('Policy name')).toHaveAttribute('aria-invalid', 'true');
+  await expect(page.locator('.train-form .refusal')).toContainText('a to z');
+  await lab.label('Policy name').fill('general');
+  await submit(lab).click();
+  // The server knows the names that are taken.
+  await expect(page.locator('.train-form .refusal')).toContainText('general');
+  // The form stays while another view is open.
+  await lab.view('Laboratory').click();
+  await lab.view('Train').click();
+  await expect(lab.label('Policy name')).toHaveValue('general');
+});
+
+test('trains a policy, watches it and uses it', async ({ lab, openLab, server }) => {
+  const { page } = lab;
+  await lab.view('Train').click();
+  await fillIn(lab, 'watched');
+  await submit(lab).click();
+  await expect(entry(lab, 'watched')).toContainText(/takes images|learns/);
+  await page.locator('.train-canvas[data-update]').waitFor({ timeout: TRAIN_MS });
+  await expect(page.getByTestId('train-starts')).toContainText(/^\d+ of \d+$/);
+  // A cell by keyboard: its value and its fan.
+  await plan(lab).focus();
+  await page.keyboard.press('ArrowLeft');
+  await expect(page.getByTestId('train-cell')).toContainText(
+    /to the goal, value .* after \d+ updates/,
+  );
+  await expect(entry(lab, 'watched')).toContainText('done', { timeout: TRAIN_MS });
+  await expect(entry(lab, 'watched')).toContainText(/\d+ of 1000 episodes/);
+  // The scrubber by keyboard.
+  const shown = page.getByTestId('train-update');
+  await expect(shown).toHaveText(`after ${FEW_UPDATES} updates`);
+  await page.getByRole('slider', { name: /^Value map of/ }).focus();
+  await page.keyboard.press('Home');
+  await expect(shown).not.toHaveText(`after ${FEW_UPDATES} updates`);
+  await page.getByRole('button', { name: /^Follow/ }).click();
+  await expect(shown).toHaveText(`after ${FEW_UPDATES} updates`);
+  // A viewer watches, and cannot touch anything.
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await viewer.view('Train').click();
+  await expect(plan(viewer)).toBeVisible();
+  await expect(submit(viewer)).toBeDisabled();
+  await expect(viewer.page.getByRole('button', { name: 'Remove watched' })).toBeDisabled();
+  await viewer.page.close();
+  // Its policy is in the table, with its origin.
+  await page.getByText('How watched was trained').click();
+  await expect(page.locator('.policies')).toContainText(`updates ${FEW_UPDATES}`);
+  await entry(lab, 'watched').getByRole('button', { name: 'Use it: watched' }).click();
+  await until('the policy', () => lab.scene.parameters.rl_policy.startsWith('watched@'));
+  await until('the map', () => lab.scene.map === 'open' && lab.state.controller === 'rl');
+  await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await lab.reset({ map: 'posts' });
+  await lab.restoreDefaults();
+  expect((await page.request.get(`${server.url}/api/policies/watched.safetensors`)).status()).toBe(
+    200,
+  );
+});
+
+test('pauses, resumes, cancels and removes a training', async ({ lab, server }) => {
+  const { page } = lab;
+  for (const name of ['one', 'two']) await startTraining(page.request, server.url, name);
+  await lab.view('Train').click();
+  await expect(entry(lab, 'two')).toContainText('Waits until one is finished.');
+  await expect(entry(lab, 'one')).toContainText('learns', { timeout: TRAIN_MS });
+  await lab.button('Pause one').click();
+  await expect(entry(lab, 'one')).toContainText('Paused after');
+  await lab.button('Resume one').click();
+  await lab.button('Cancel two').click();
+  await lab.button('Keep two').click();
+  await lab.button('Cancel two').click();
+  await lab.button('Yes, cancel two').click();
+  await expect(entry(lab, 'two')).toContainText('cancelled');
+  await page.getByRole('button', { name: 'Remove two' }).click();
+  await expect(entry(lab, 'two')).toHaveCount(0);
+  await expect(entry(lab, 'one')).toHaveCount(1);
+});
+
+test('shows two trainings side by side', async ({ lab, server }) => {
+  const { page } = lab;
+  for (const name of ['left', 'right']) {
+    const id = await startTraining(page.request, server.url, name);
+    await reachStage(page.request, server.url, id, 'done');
+  }
+  await lab.view('Train').click();
+  await lab.button('Compare with left').click();
+  await expect(page.locator('.train-pane')).toHaveCount(2);
+  await expect(page.locator('.train-keys .key')).toHaveText(['right', 'left']);
+  // The same place in both.
+  await plan(lab).first().focus();
+  await page.keyboard.press('ArrowLeft');
+  await expect(page.getByTestId('train-cell')).toHaveCount(2);
+  await lab.button('Compare with left').click();
+  await expect(page.locator('.train-pane')).toHaveCount(1);
+});
+
+test('downloads, uploads, renames and deletes a policy', async ({ lab, server }) => {
+  const { page } = lab;
+  const id = await startTraining(page.request, server.url, 'copied');
+  await reachStage(page.request, server.url, id, 'done');
+  await lab.view('Train').click();
+  const downloading = page.waitForEvent('download');
+  await page.getByRole('link', { name: 'Download copied' }).click();
+  const file = await (await downloading).path();
+  await page.getByLabel('File of a policy').setInputFiles({
+    name: 'Copied.safetensors',
+    mimeType: 'application/octet-stream',
+    buffer: await readFile(file),
+  });
+  const names = page.locator('.policy-name');
+  await expect(names.last()).toHaveText('copied-2');
+  await lab.button('Rename copied-2').click();
+  await page.keyboard.type('the copy');
+  await page.keyboard.press('Enter');
+  await expect(page.locator('.policies .refusal')).toContainText('a to z');
+  await page.keyboard.press('ControlOrMeta+a');
+  await page.keyboard.type('the-copy');
+  await page.keyboard.press('Enter');
+  await expect(names.last()).toHaveText('the-copy');
+  await lab.button('Delete the-copy').click();
+  await lab.button('Yes, delete the-copy').click();
+  await expect(names.last()).toHaveText('copied');
+});

@@ -1,0 +1,202 @@
+// The form for a new training.
+
+import { For, Show, createMemo, createSignal, createUniqueId, type JSX } from 'solid-js';
+import type { PolicySummary, RecipeName, TrainingSummary } from '../../net/protocol.gen';
+import { Refusal } from '../../net/requests';
+import type { Session, Trial } from '../../lab/slices';
+import { Fault } from './Fault';
+import { SelectField, TextField } from './fields';
+import {
+  BLANK,
+  type Draft,
+  type Faults,
+  faultsOf,
+  NAME_LENGTH,
+  queryOf,
+  RECIPE_WORDS,
+  SETTINGS,
+  settingText,
+  suggestedName,
+  withSetting,
+} from './recipes';
+import type { TrainState } from './state';
+import type { TrainingList } from './trainings';
+
+interface StartProps {
+  readonly lab: Session & Trial;
+  readonly state: TrainState;
+  readonly list: TrainingList;
+  readonly trainings: readonly TrainingSummary[];
+  readonly policies: readonly PolicySummary[];
+}
+
+export function StartPanel(props: StartProps): JSX.Element {
+  const { lab, state } = props;
+  const why = createUniqueId();
+  const [faults, setFaults] = createSignal<Faults>({});
+  const [isBusy, setBusy] = createSignal(false);
+  const draft = state.draft;
+  const maps = (): readonly string[] => lab.scene()?.maps ?? [];
+  const map = createMemo(() => {
+    const wanted = draft().map;
+    return wanted !== undefined && maps().includes(wanted) ? wanted : (lab.scene()?.map ?? '');
+  });
+  const name = createMemo(() => {
+    const taken = [
+      ...props.policies.map((policy) => policy.name),
+      ...props.trainings.map(({ query }) => query.name),
+    ];
+    return draft().name ?? suggestedName(map(), taken);
+  });
+  const starts = createMemo(() => [
+    ['', 'random weights'] as const,
+    ...props.policies
+      .filter(({ has_memory }) => !has_memory)
+      .map((policy) => [policy.reference, policy.name] as const),
+  ]);
+  // A changed field loses its fault.
+  const change = (field: string, next: Draft): void => {
+    state.setDraft(next);
+    setFaults({ ...faults(), [field]: undefined, form: undefined });
+  };
+  const changed = (): number => Object.keys(draft().settings).length;
+  const start = async (): Promise<void> => {
+    const made = queryOf(draft(), map(), name());
+    if ('faults' in made) {
+      setFaults(made.faults);
+      return;
+    }
+    setFaults({});
+    setBusy(true);
+    try {
+      const id = await props.list.start(made.query);
+      // The next one gets a name of its own.
+      const { map, startFrom, recipe, settings, seed } = draft();
+      const same = { startFrom, recipe, settings, seed };
+      state.setDraft(map === undefined ? same : { ...same, map });
+      state.compare(undefined);
+      state.choose(id);
+    } catch (reason) {
+      setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
+    }
+    setBusy(false);
+  };
+  return (
+    <form
+      class="train-form"
+      novalidate
+      onSubmit={(event) => {
+        event.preventDefault();
+        // Enter in a field submits the form even when the button is disabled.
+        if (lab.canOperate() && !isBusy()) void start();
+      }}
+    >
+      <SelectField
+        label="Map"
+        value={map()}
+        options={maps().map((one) => [one, one])}
+        fault={faults().map}
+        onInput={(value) => {
+          change('map', { ...draft(), map: value });
+        }}
+      />
+      <TextField
+        label="Policy name"
+        value={name()}
+        maxLength={NAME_LENGTH}
+        fault={faults().name}
+        onInput={(value) => {
+          change('name', { ...draft(), name: value });
+        }}
+      />
+      <SelectField
+        label="Start from"
+        value={draft().startFrom}
+        options={starts()}
+        help="A policy that is trained already learns another map faster."
+        fault={faults().start_from}
+        onInput={(startFrom) => {
+          change('start_from', { ...draft(), startFrom });
+        }}
+      />
+      <SelectField
+        label="Recipe"
+        value={draft().recipe}
+        options={RECIPE_WORDS.map(([id, label]) => [id, label])}
+        help={RECIPE_WORDS.find(([id]) => id === draft().recipe)?.[2]}
+        fault={faults().recipe}
+        onInput={(recipe) => {
+          change('recipe', { ...draft(), recipe: recipe as RecipeName, settings: {} });
+        }}
+      />
+      <details class="train-settings">
+        <summary>
+          Settings
+          <Show when={changed() > 0}>
+            <span class="count"> {changed()} changed</span>
+          </Show>
+        </summary>
+        <For each={SETTINGS}>
+          {(setting) => {
+            const field = `settings.${setting.name}`;
+            const shared = {
+              label: setting.label,
+              help: setting.help,
+              get value() {
+                return settingText(draft(), setting.name);
+              },
+              get fault() {
+                return faults()[field];
+              },
+              onInput: (text: string) => {
+                change(field, withSetting(draft(), setting.name, text));
+              },
+            };
+            return setting.kind === 'choice' ? (
+              <SelectField {...shared} options={setting.options} />
+            ) : (
+              <TextField {...shared} number={setting} />
+            );
+          }}
+        </For>
+        <TextField
+          label="Seed"
+          value={draft().seed}
+          number={{ min: 0, step: 1 }}
+          help="Everything random follows from it: the same seed gives the same training."
+          fault={faults().seed}
+          onInput={(seed) => {
+            change('seed', { ...draft(), seed });
+          }}
+        />
+        <button
+          type="button"
+          class="small"
+          onClick={() => {
+            state.setDraft({ ...draft(), settings: {}, seed: BLANK.seed });
+            setFaults({});
+          }}
+        >
+          Reset the settings
+        </button>
+      </details>
+      <div class="train-submit">
+        <button
+          type="submit"
+          class="primary"
+          aria-label={`Train ${name()}`}
+          disabled={!lab.canOperate() || isBusy()}
+          aria-describedby={lab.canOperate() ? undefined : why}
+        >
+          Train
+        </button>
+        <Show when={!lab.canOperate()}>
+          <span id={why} class="hint">
+            Only the operator can start and change trainings.
+          </span>
+        </Show>
+      </div>
+      <Fault id="training-refused" text={faults().form} />
+    </form>
+  );
+}

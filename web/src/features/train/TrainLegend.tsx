@@ -1,0 +1,89 @@
+// What the colours and marks of the plan mean, and which of them are shown.
+
+import { For, type JSX } from 'solid-js';
+import { fixed } from '../../ui/format';
+import type { Layers } from './drawFrame';
+import '../../ui/legend.css';
+
+export function ValueScale(props: { range: readonly [number, number] | undefined }): JSX.Element {
+  const text = (end: 0 | 1): string => (props.range ? fixed(props.range[end], 2) : '–');
+  return (
+    <div class="map-legend" role="group" aria-label="Values">
+      <span>Value</span>
+      <span class="number">{text(0)}</span>
+      <span class="heat-ramp" aria-hidden="true" />
+      <span class="number">{text(1)}</span>
+      <span class="aside">the same colours for all value maps</span>
+    </div>
+  );
+}
+
+const LAYERS: readonly (readonly [keyof Layers, label: string, title: string])[] = [
+  ['values', 'Values', 'What the policy expects from each cell'],
+  ['arrows', 'Best steps', 'The step with the highest value at each cell'],
+  ['starts', 'Failing starts', 'Cells from which the best steps do not lead to the goal'],
+  ['episodes', 'Episodes', 'Some episodes to the goal, again and again'],
+];
+
+export function LayerToggles(props: {
+  layers: Layers;
+  onChange: (layers: Layers) => void;
+}): JSX.Element {
+  return (
+    <fieldset class="train-layers" aria-label="Layers">
+      <For each={LAYERS}>
+        {([id, label, title]) => (
+          <label title={title}>
+            <input
+              type="checkbox"
+              checked={props.layers[id]}
+              onChange={({ currentTarget }) => {
+                props.onChange({ ...props.layers, [id]: currentTarget.checked });
+              }}
+            />
+            {label}
+          </label>
+        )}
+      </For>
+    </fieldset>
+  );
+}
+
+/** The marks, drawn as on the plan. */
+export function Marks(): JSX.Element {
+  return (
+    <ul class="train-marks" aria-label="Marks">
+      <li>
+        <svg viewBox="-7 -7 14 14" aria-hidden="true">
+          <circle class="goal" r="5" />
+          <path class="goal" d="M-3 0H3M0-3V3" />
+        </svg>
+        goal
+      </li>
+      <li>
+        <svg viewBox="-7 -7 14 14" aria-hidden="true">
+          <path class="failed" d="M-4-4L4 4M-4 4L4-4" />
+        </svg>
+        fails: into a wall
+      </li>
+      <li>
+        <svg viewBox="-7 -7 14 14" aria-hidden="true">
+          <circle class="failed" r="4" />
+        </svg>
+        fails: out of steps
+      </li>
+      <li>
+        <svg viewBox="-7 -7 14 14" aria-hidden="true">
+          <circle class="greedy" r="4.5" />
+        </svg>
+        episode with the best steps
+      </li>
+      <li>
+        <svg viewBox="-7 -7 14 14" aria-hidden="true">
+          <circle class="exploring" r="4.5" />
+        </svg>
+        episode with random steps too
+      </li>
+    </ul>
+  );
+}

@@ -1,0 +1,153 @@
+// The map from above with a value map of the training, and the episodes that move on it.
+
+import { createEffect, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
+import type { Vec2 } from '../../lab/geometry';
+import type { MapCheck, TrainingCells, TrainingFrame } from '../../net/protocol.gen';
+import { wallPath } from '../../plan/drawMap';
+import { createValues } from '../../plan/drawValues';
+import { fitView, type View, worldFromPx } from '../../plan/transform';
+import { prefersLessMotion } from '../../ui/motion';
+import type { Palette } from '../../ui/palette';
+import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
+import { around, cellAt, neighbour, valueCells } from './grid';
+
+const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
+const STEPS_PER_S = 14;
+/** The ends of the episodes are shown for as many steps. */
+const REST_STEPS = 14;
+
+const DIRECTIONS: Readonly<Partial<Record<string, Vec2>>> = {
+  ArrowRight: [1, 0],
+  ArrowLeft: [-1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+interface PlanProps {
+  readonly label: string;
+  readonly helpId: string;
+  readonly palette: Palette;
+  /** Undefined until the server has sent it. */
+  readonly map: MapCheck | undefined;
+  readonly cells: TrainingCells | undefined;
+  readonly frame: TrainingFrame | undefined;
+  readonly range: readonly [number, number] | undefined;
+  readonly layers: Layers;
+  readonly chosen: number | undefined;
+  readonly onChoose: (place: Vec2) => void;
+}
+
+/** The canvas, cleared, with one unit per CSS pixel. */
+function contextOf(
+  canvas: HTMLCanvasElement,
+  size: readonly [number, number],
+): CanvasRenderingContext2D | null {
+  const ratio = window.devicePixelRatio;
+  const [width, height] = [Math.round(size[0] * ratio), Math.round(size[1] * ratio)];
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  const ctx = canvas.getContext('2d');
+  ctx?.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx?.clearRect(0, 0, ...size);
+  return ctx;
+}
+
+export function TrainingPlan(props: PlanProps): JSX.Element {
+  let base!: HTMLCanvasElement;
+  let moving!: HTMLCanvasElement;
+  const isStill = prefersLessMotion();
+  const [size, setSize] = createSignal<readonly [number, number]>();
+  const workspace = createMemo(
+    () => props.map?.workspace ?? (props.cells ? around(props.cells) : undefined),
+  );
+  const view = createMemo<View | undefined>(() => {
+    const [rect, now] = [workspace(), size()];
+    return rect && now && fitView(rect, ...now, MARGIN);
+  });
+  const walls = createMemo(() => {
+    const now = view();
+    return now && wallPath(props.map?.outlines ?? [], now);
+  });
+  const values = createMemo(() => {
+    const [now, { cells, frame, palette, range }] = [view(), props];
+    return now && cells && frame && createValues(valueCells(cells, frame), palette, now, range);
+  });
+  const drawn = createMemo<Base | undefined>(() => {
+    const [now, rect, outlines] = [view(), workspace(), walls()];
+    if (!now || !rect || !outlines) return undefined;
+    const { palette, layers, cells, frame, chosen } = props;
+    return {
+      ...{ view: now, palette, workspace: rect, walls: outlines, layers },
+      ...{ cells, frame, chosen, values: values() },
+    };
+  });
+
+  onMount(() => {
+    const observer = new ResizeObserver(() => setSize([base.clientWidth, base.clientHeight]));
+    observer.observe(base);
+    onCleanup(() => {
+      observer.disconnect();
+    });
+    createEffect(() => {
+      const [now, px] = [drawn(), size()];
+      const ctx = px && contextOf(base, px);
+      if (ctx && now) drawBase(ctx, now);
+    });
+    createEffect(() => {
+      const [now, px] = [view(), size()];
+      const { palette, cells, frame } = props;
+      if (!now || !px) return;
+      const isShown = props.layers.episodes && cells && frame;
+      const draw = (steps: number): void => {
+        const ctx = contextOf(moving, px);
+        if (ctx && isShown) drawEpisodes(ctx, { view: now, palette }, cells, frame, steps);
+      };
+      if (!isShown || isStill()) {
+        draw(Infinity);
+        return;
+      }
+      const period = mostSteps(frame) + REST_STEPS;
+      const began_ms = performance.now();
+      let request = 0;
+      const next = (): void => {
+        draw((((performance.now() - began_ms) / 1000) * STEPS_PER_S) % period);
+        request = requestAnimationFrame(next);
+      };
+      next();
+      onCleanup(() => {
+        cancelAnimationFrame(request);
+      });
+    });
+  });
+
+  const onKeyDown = (event: KeyboardEvent): void => {
+    const direction = DIRECTIONS[event.key];
+    const { cells } = props;
+    if (!direction || !cells || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    const from = props.chosen ?? cellAt(cells, cells.goal_m);
+    const next = from === undefined ? 0 : (neighbour(cells, from, direction) ?? from);
+    const center = cells.centers_m[next];
+    if (center) props.onChoose(center);
+  };
+  return (
+    <div class="train-plan">
+      <canvas
+        ref={base}
+        class="train-canvas"
+        tabindex="0"
+        role="application"
+        aria-label={props.label}
+        aria-describedby={props.helpId}
+        data-cell={props.chosen}
+        data-update={props.frame?.update}
+        onClick={(event) => {
+          const now = view();
+          if (now) props.onChoose(worldFromPx(now, [event.offsetX, event.offsetY]));
+        }}
+        onKeyDown={onKeyDown}
+      />
+      <canvas ref={moving} class="train-episodes" aria-hidden="true" />
+    </div>
+  );
+}

@@ -1,0 +1,223 @@
+// One training: its value map, the scrubber over its value maps, and the chosen cell.
+
+import {
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  createUniqueId,
+  onCleanup,
+  type JSX,
+} from 'solid-js';
+import type { Vec2 } from '../../lab/geometry';
+import { checkOfMap } from '../../lab/maps';
+import type { MapCheck, TrainingFrame } from '../../net/protocol.gen';
+import { counted, fixed } from '../../ui/format';
+import type { Palette } from '../../ui/palette';
+import type { Theme } from '../../ui/theme';
+import { CellPanel } from './CellPanel';
+import { cellAt, startsThat } from './grid';
+import type { Live } from './live';
+import { isActive } from './progress';
+import type { TrainState } from './state';
+import { TrainingPlan } from './TrainingPlan';
+import { ValueScale } from './TrainLegend';
+
+const PLAY_MS = 350;
+
+interface PaneProps {
+  readonly live: Live;
+  /** What the training does, one sentence. */
+  readonly sentence: string;
+  readonly state: TrainState;
+  readonly palette: () => Palette;
+  readonly theme: () => Theme;
+}
+
+function Facts(props: { frame: TrainingFrame | undefined }): JSX.Element {
+  const starts = (): string =>
+    props.frame
+      ? `${startsThat(props.frame, 'reached').length} of ${props.frame.endings.length}`
+      : '–';
+  const correlation = (): string => {
+    const value = props.frame?.rank_correlation ?? null;
+    return value === null ? '–' : fixed(value, 3);
+  };
+  return (
+    <dl class="train-facts">
+      <div>
+        <dt>Starts that reach the goal</dt>
+        <dd class="number" data-testid="train-starts">
+          {starts()}
+        </dd>
+      </div>
+      <div title="Spearman’s rank correlation between values and distances">
+        <dt>Rank correlation</dt>
+        <dd class="number" data-testid="train-correlation">
+          {correlation()}
+        </dd>
+      </div>
+    </dl>
+  );
+}
+
+export function WatchPane(props: PaneProps): JSX.Element {
+  const { live, state } = props;
+  const help = createUniqueId();
+  const [map, setMap] = createSignal<MapCheck>();
+  /** Why the walls are missing. */
+  const [mapError, setMapError] = createSignal<string>();
+  checkOfMap(live.summary().query.map)
+    .then(setMap)
+    .catch((reason: unknown) => {
+      setMapError(reason instanceof Error ? reason.message : String(reason));
+    });
+  /** Index of the shown value map; undefined: the newest. */
+  const [at, setAt] = createSignal<number>();
+  const [isPlaying, setPlaying] = createSignal(false);
+  const count = createMemo(() => live.summary().frames);
+  const last = (): number => Math.max(0, count() - 1);
+  const index = createMemo(() => Math.min(at() ?? last(), last()));
+  // The one before stays until the next one has arrived.
+  const frame = createMemo<TrainingFrame | undefined>((before) => live.frame(index()) ?? before);
+  const isLoaded = (): boolean => live.frame(index()) !== undefined;
+  createEffect(() => {
+    if (!isPlaying()) return;
+    const timer = setInterval(() => {
+      // A value map that is slow to arrive is waited for.
+      if (!isLoaded()) return;
+      if (index() < last()) setAt(index() + 1);
+      else {
+        setAt(undefined);
+        setPlaying(false);
+      }
+    }, PLAY_MS);
+    onCleanup(() => {
+      clearInterval(timer);
+    });
+  });
+  const cell = createMemo(() => {
+    const [cells, place] = [live.cells(), state.place_m()];
+    return cells && place && cellAt(cells, place);
+  });
+  createEffect(() => {
+    if (cell() !== undefined) live.readAll();
+  });
+  let scrubber!: HTMLInputElement;
+  createEffect(() => {
+    // In this order: a value above the limit would be lowered to it.
+    scrubber.max = String(last());
+    scrubber.value = String(index());
+  });
+  const name = (): string => live.summary().query.name;
+  const choose = (place: Vec2): void => {
+    state.setPlace(place);
+  };
+  const empty = (): string =>
+    isActive(live.summary())
+      ? `${props.sentence} The first value map comes with the first updates.`
+      : 'This training has no value maps.';
+  const words = (): string => {
+    const now = frame();
+    return now ? `after ${counted(now.update, 'update')}` : 'no value map yet';
+  };
+  return (
+    <section class="train-pane" aria-label={name()}>
+      <h3>
+        {name()}
+        <span class="about">{live.summary().query.map}</span>
+        <Show when={live.isLost()}>
+          <span class="alarm" role="alert">
+            No connection: this is the last received state.
+          </span>
+        </Show>
+      </h3>
+      <div class="train-picture">
+        <TrainingPlan
+          label={`Plan of ${live.summary().query.map} with the values of ${name()}`}
+          helpId={help}
+          palette={props.palette()}
+          map={map()}
+          cells={live.cells()}
+          frame={frame()}
+          range={live.range()}
+          layers={state.layers()}
+          chosen={cell()}
+          onChoose={choose}
+        />
+        <Show when={count() === 0}>
+          <p class="train-veil">{empty()}</p>
+        </Show>
+      </div>
+      <ValueScale range={live.range()} />
+      <div class="train-time">
+        <button
+          type="button"
+          class="small"
+          aria-label={`${isPlaying() ? 'Stop' : 'Play'} the value maps of ${name()}`}
+          disabled={count() < 2}
+          onClick={() => {
+            if (!isPlaying() && index() === last()) setAt(0);
+            setPlaying(!isPlaying());
+          }}
+        >
+          {isPlaying() ? 'Stop' : 'Play'}
+        </button>
+        <input
+          ref={scrubber}
+          type="range"
+          min="0"
+          step="1"
+          disabled={count() < 2}
+          aria-label={`Value map of ${name()}`}
+          aria-valuetext={words()}
+          onInput={({ currentTarget }) => {
+            setPlaying(false);
+            setAt(currentTarget.valueAsNumber);
+          }}
+        />
+        <button
+          type="button"
+          class="small"
+          aria-label={`Follow the newest value map of ${name()}`}
+          aria-pressed={at() === undefined}
+          onClick={() => {
+            setPlaying(false);
+            setAt(undefined);
+          }}
+        >
+          Newest
+        </button>
+        <output class="number" aria-live="off" data-testid="train-update">
+          {words()}
+        </output>
+      </div>
+      <p class="refusal" role="alert">
+        {live.error() ?? mapError()}
+      </p>
+      <Facts frame={frame()} />
+      <p id={help} class="hint">
+        <Show when={cell() === undefined} fallback="Arrow keys choose the next cell.">
+          Click a cell, or use the arrow keys on the plan, to see how its value changes with the
+          updates.
+        </Show>
+      </p>
+      <Show when={live.cells()}>
+        {(cells) => (
+          <Show when={cell() !== undefined}>
+            <CellPanel
+              cells={cells()}
+              cell={cell() ?? 0}
+              frame={frame()}
+              frames={live.frames()}
+              count={count()}
+              total={live.summary().updates_total}
+              palette={props.palette}
+              theme={props.theme}
+            />
+          </Show>
+        )}
+      </Show>
+    </section>
+  );
+}

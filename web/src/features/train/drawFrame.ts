@@ -1,0 +1,161 @@
+// Draws a value map of a training over the walls of its map, and the episodes that move on it.
+
+import type { Vec2 } from '../../lab/geometry';
+import type {
+  EpisodeEnding,
+  Rect,
+  TrainingCells,
+  TrainingEpisode,
+  TrainingFrame,
+} from '../../net/protocol.gen';
+import { drawFloor, drawOutlines } from '../../plan/drawMap';
+import { drawGoal } from '../../plan/drawMoving';
+import { drawArrows, drawColours, type Values } from '../../plan/drawValues';
+import { pxFromWorld, type View } from '../../plan/transform';
+import type { Palette } from '../../ui/palette';
+import { placeAfter, startsThat } from './grid';
+
+type Ctx = CanvasRenderingContext2D;
+
+export interface Layers {
+  readonly values: boolean;
+  readonly arrows: boolean;
+  readonly starts: boolean;
+  readonly episodes: boolean;
+}
+
+export interface Base {
+  readonly view: View;
+  readonly palette: Palette;
+  readonly workspace: Rect;
+  readonly walls: Path2D;
+  readonly layers: Layers;
+  readonly cells: TrainingCells | undefined;
+  readonly frame: TrainingFrame | undefined;
+  readonly values: Values | undefined;
+  /** Index of the chosen cell. */
+  readonly chosen: number | undefined;
+}
+
+/** Half the side of a mark as a share of a cell: the colour around it stays visible. */
+const FAILED = 0.2;
+const LEAST_MARK_PX = 2;
+
+function cross(path: Path2D, [x, y]: Vec2, half: number): void {
+  path.moveTo(x - half, y - half);
+  path.lineTo(x + half, y + half);
+  path.moveTo(x - half, y + half);
+  path.lineTo(x + half, y - half);
+}
+
+function ring(path: Path2D, [x, y]: Vec2, radius: number): void {
+  path.moveTo(x + radius, y);
+  path.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+/** A cross for a wall, a ring for too many steps. */
+function markOf(ending: EpisodeEnding): typeof cross {
+  return ending === 'collided' ? cross : ring;
+}
+
+function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingFrame): void {
+  const { view, palette } = base;
+  const half = Math.max(LEAST_MARK_PX, FAILED * cells.spacing_m * view.pxPerM);
+  const path = new Path2D();
+  for (const ending of ['collided', 'timed_out'] as const) {
+    for (const index of startsThat(frame, ending)) {
+      const center = cells.centers_m[index];
+      if (center) markOf(ending)(path, pxFromWorld(view, center), half);
+    }
+  }
+  ctx.strokeStyle = palette.danger;
+  ctx.lineWidth = 1.5;
+  ctx.stroke(path);
+}
+
+function drawChosen(ctx: Ctx, { view, palette }: Base, cells: TrainingCells, center: Vec2): void {
+  const side = Math.max(9, cells.spacing_m * view.pxPerM + 2);
+  const [x, y] = pxFromWorld(view, center);
+  ctx.strokeStyle = palette.floor;
+  ctx.lineWidth = 5;
+  ctx.strokeRect(x - side / 2, y - side / 2, side, side);
+  ctx.strokeStyle = palette.focus;
+  ctx.lineWidth = 2.5;
+  ctx.strokeRect(x - side / 2, y - side / 2, side, side);
+}
+
+export function drawBase(ctx: Ctx, base: Base): void {
+  const { view, palette, layers, cells, frame, values } = base;
+  drawFloor(ctx, base.workspace, view, palette);
+  if (values && layers.values) drawColours(ctx, view, values);
+  drawOutlines(ctx, base.workspace, base.walls, view, palette);
+  if (values && layers.arrows) drawArrows(ctx, palette, values);
+  if (!cells) return;
+  if (frame && layers.starts) drawStarts(ctx, base, cells, frame);
+  drawGoal(ctx, view, palette, cells.goal_m);
+  const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];
+  if (center) drawChosen(ctx, base, cells, center);
+}
+
+const DOT_PX = 4.5;
+const PATH_ALPHA = 0.55;
+
+function drawEpisode(
+  ctx: Ctx,
+  base: Pick<Base, 'view' | 'palette'>,
+  cells: TrainingCells,
+  episode: TrainingEpisode,
+  steps: number,
+  isGreedy: boolean,
+): void {
+  const { view, palette } = base;
+  const at = placeAfter(cells, episode, steps);
+  if (!at) return;
+  ctx.strokeStyle = isGreedy ? palette.tool : palette.bead;
+  ctx.globalAlpha = PATH_ALPHA;
+  ctx.lineWidth = 1.5;
+  ctx.setLineDash(isGreedy ? [] : [3, 3]);
+  ctx.beginPath();
+  for (const index of episode.cells.slice(0, Math.floor(steps) + 1)) {
+    const center = cells.centers_m[index];
+    if (center) ctx.lineTo(...pxFromWorld(view, center));
+  }
+  const [x, y] = pxFromWorld(view, at);
+  ctx.lineTo(x, y);
+  ctx.stroke();
+  ctx.setLineDash([]);
+  ctx.globalAlpha = 1;
+  const isOver = steps >= episode.cells.length - 1;
+  if (isOver && episode.ending !== 'reached') {
+    const path = new Path2D();
+    markOf(episode.ending)(path, [x, y], DOT_PX);
+    ctx.strokeStyle = palette.danger;
+    ctx.lineWidth = 2.5;
+    ctx.stroke(path);
+    return;
+  }
+  ctx.beginPath();
+  ctx.arc(x, y, DOT_PX, 0, 2 * Math.PI);
+  ctx.fillStyle = isGreedy ? palette.tool : palette.floor;
+  ctx.fill();
+  ctx.strokeStyle = isGreedy ? palette.floor : palette.bead;
+  ctx.lineWidth = isGreedy ? 1.25 : 2;
+  ctx.stroke();
+}
+
+/** The episodes of a frame after a number of steps. */
+export function drawEpisodes(
+  ctx: Ctx,
+  base: Pick<Base, 'view' | 'palette'>,
+  cells: TrainingCells,
+  frame: TrainingFrame,
+  steps: number,
+): void {
+  for (const episode of frame.exploring) drawEpisode(ctx, base, cells, episode, steps, false);
+  for (const episode of frame.greedy) drawEpisode(ctx, base, cells, episode, steps, true);
+}
+
+/** Steps of the longest episode. */
+export function mostSteps({ greedy, exploring }: TrainingFrame): number {
+  return Math.max(0, ...[...greedy, ...exploring].map(({ cells }) => cells.length - 1));
+}

@@ -1,0 +1,108 @@
+// The cells of a training's map: which one is at a place, which one is beside another, and what a value map says of
+// each. Pure.
+
+import type { Vec2 } from '../../lab/geometry';
+import type {
+  EpisodeEnding,
+  Rect,
+  TrainingCells,
+  TrainingEpisode,
+  TrainingFrame,
+} from '../../net/protocol.gen';
+import type { ValueCells } from '../../plan/values';
+
+/** A place farther than this from each cell, in cells, belongs to none. */
+const MOST_CELLS = 1.5;
+/** How much a cell beside the direction of an arrow key counts as farther. */
+const ASIDE = 3;
+
+function leastOf(centers_m: readonly Vec2[], cost: (center: Vec2) => number): number | undefined {
+  let best: { readonly index: number; readonly cost: number } | undefined;
+  centers_m.forEach((center, index) => {
+    const now = cost(center);
+    if (Number.isFinite(now) && now < (best?.cost ?? Infinity)) best = { index, cost: now };
+  });
+  return best?.index;
+}
+
+/** Index of the cell at a place; undefined far from all cells. */
+export function cellAt({ centers_m, spacing_m }: TrainingCells, [x, y]: Vec2): number | undefined {
+  return leastOf(centers_m, ([x_m, y_m]) => {
+    const distance_m = Math.hypot(x_m - x, y_m - y);
+    return distance_m <= MOST_CELLS * spacing_m ? distance_m : Infinity;
+  });
+}
+
+/** The next cell in a direction, also across a wall; undefined at the end. */
+export function neighbour(
+  { centers_m, spacing_m }: TrainingCells,
+  from: number,
+  [dx, dy]: Vec2,
+): number | undefined {
+  const at = centers_m[from];
+  if (!at) return undefined;
+  return leastOf(centers_m, ([x_m, y_m]) => {
+    const along = (x_m - at[0]) * dx + (y_m - at[1]) * dy;
+    const aside = Math.abs((x_m - at[0]) * dy - (y_m - at[1]) * dx);
+    return along > spacing_m / 2 && aside <= along ? along + ASIDE * aside : Infinity;
+  });
+}
+
+/** A frame's values in the form that the plan draws. */
+export function valueCells(cells: TrainingCells, frame: TrainingFrame): ValueCells {
+  return {
+    spacing_m: cells.spacing_m,
+    cells: cells.centers_m.map((center_m, index) => ({
+      center_m,
+      value: frame.values[index] ?? 0,
+      action: frame.actions[index] ?? -1,
+    })),
+  };
+}
+
+/** The smallest rectangle around all cells, for a map whose drawing is missing. */
+export function around({ centers_m, spacing_m }: TrainingCells): Rect {
+  const half_m = spacing_m / 2;
+  const [xs, ys] = [centers_m.map(([x]) => x), centers_m.map(([, y]) => y)];
+  return {
+    x_min_m: Math.min(...xs) - half_m,
+    x_max_m: Math.max(...xs) + half_m,
+    y_min_m: Math.min(...ys) - half_m,
+    y_max_m: Math.max(...ys) + half_m,
+  };
+}
+
+/** Indices of the starts from which an episode ends so. */
+export function startsThat(frame: TrainingFrame, ending: EpisodeEnding): number[] {
+  return frame.endings.flatMap((one, index) => (one === ending ? [index] : []));
+}
+
+/** The place of an episode after a number of steps, which may be a fraction; at its end from then on. */
+export function placeAfter(
+  { centers_m }: TrainingCells,
+  { cells }: TrainingEpisode,
+  steps: number,
+): Vec2 | undefined {
+  const last = cells.length - 1;
+  const whole = Math.min(last, Math.max(0, Math.floor(steps)));
+  const from = centers_m[cells[whole] ?? -1];
+  const to = centers_m[cells[Math.min(last, whole + 1)] ?? -1];
+  if (!from || !to) return from;
+  const share = Math.min(1, Math.max(0, steps - whole));
+  return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+}
+
+/** Quantiles .05, .25, .5, .75 and .95 at a cell, over the updates. A network's quantiles may cross, so they are sorted. */
+export interface Fan {
+  readonly updates: readonly number[];
+  /** One list per quantile. */
+  readonly quantiles: readonly (readonly number[])[];
+}
+
+export function fanAt(frames: readonly TrainingFrame[], cell: number): Fan {
+  const rows = frames.map(({ quantiles }) => [...(quantiles[cell] ?? [])].sort((a, b) => a - b));
+  return {
+    updates: frames.map(({ update }) => update),
+    quantiles: [0, 1, 2, 3, 4].map((index) => rows.map((row) => row[index] ?? NaN)),
+  };
+}

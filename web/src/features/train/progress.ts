@@ -1,0 +1,80 @@
+// What a training does and when it ends, as words. Pure.
+
+import { counted, roughly } from '../../ui/format';
+import type { Examination, TrainingStage, TrainingSummary } from '../../net/protocol.gen';
+
+export function isActive({ stage }: Pick<TrainingSummary, 'stage'>): boolean {
+  return stage !== 'done' && stage !== 'cancelled' && stage !== 'failed';
+}
+
+/** Whether it takes the server's processors now. */
+const isRunning = ({ stage }: TrainingSummary): boolean =>
+  stage === 'images' || stage === 'learning' || stage === 'examination';
+
+const STAGE_WORDS: Readonly<Record<TrainingStage, string>> = {
+  waiting: 'waits',
+  images: 'takes images',
+  learning: 'learns',
+  examination: 'last examination',
+  paused: 'paused',
+  done: 'done',
+  cancelled: 'cancelled',
+  failed: 'failed',
+};
+
+export const stageWords = ({ stage }: TrainingSummary): string => STAGE_WORDS[stage];
+
+/** What the stage means, one sentence. `before` are the trainings that were requested earlier. */
+export function stageSentence(
+  summary: TrainingSummary,
+  before: readonly TrainingSummary[],
+): string {
+  switch (summary.stage) {
+    case 'waiting': {
+      const first = before.findLast((one) => isRunning(one) || one.stage === 'waiting');
+      return first
+        ? `Waits until ${first.query.name} is finished.`
+        : 'Waits for another job of the server, such as an evaluation.';
+    }
+    case 'images':
+      return 'The camera takes an image above each cell of the map.';
+    case 'learning':
+      return learningSentence(summary);
+    case 'examination':
+      return 'The last examination: 1000 episodes with random starts and goals.';
+    case 'paused':
+      return `Paused after ${counted(summary.updates, 'update')}.`;
+    case 'done':
+      return summary.examined
+        ? `${shareWords(summary.examined)} episodes of the last examination reached the goal.`
+        : 'The policy can be used.';
+    case 'cancelled':
+      return `Cancelled after ${counted(summary.updates, 'update')}.`;
+    case 'failed':
+      return summary.message ?? 'It failed for an unknown reason.';
+  }
+}
+
+function learningSentence({ left_s, episodes }: TrainingSummary): string {
+  const tried = `${counted(episodes, 'episode')} so far`;
+  return left_s === null ? `${tried}.` : `${tried}, ${leftWords(left_s)}.`;
+}
+
+/** `about 3 min left`. */
+export const leftWords = (left_s: number): string => `about ${roughly(left_s)} left`;
+
+/** `986 of 1000`. */
+export const shareWords = ({ reached, episodes }: Examination): string =>
+  `${reached} of ${episodes}`;
+
+/** `1500 of 4000 updates`. */
+export const updateWords = ({ updates, updates_total }: TrainingSummary): string =>
+  `${updates} of ${counted(updates_total, 'update')}`;
+
+/** Announcement for screen readers. It changes at each quarter and each stage. */
+export function milestone(summary: TrainingSummary, before: readonly TrainingSummary[]): string {
+  const { query, stage, updates, updates_total } = summary;
+  if (stage !== 'learning') return `${query.name}: ${stageSentence(summary, before)}`;
+  const quarters = Math.floor((4 * updates) / Math.max(1, updates_total));
+  return `${query.name}: ${25 * quarters} % of the updates.`;
+}

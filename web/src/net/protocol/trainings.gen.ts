@@ -1,0 +1,285 @@
+// Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
+
+/**
+ * Recipe from which the settings start.
+ */
+export type RecipeName = "quick" | "full" | "paper";
+
+/**
+ * How image, tool and goal come together in the network.
+ */
+export type FusionName = "early" | "late";
+
+/**
+ * Settings that differ from the recipe, named as in `ferry train --set`. A missing one is the recipe's.
+ */
+export type TrainingSettings = { 
+/**
+ * Updates of the network.
+ */
+updates: number | null, 
+/**
+ * Learning rate of Adam in the first half.
+ */
+learning_rate: number | null, 
+/**
+ * Discount per step.
+ */
+discount: number | null, 
+/**
+ * Share of random actions.
+ */
+exploration: number | null, 
+/**
+ * Whether the network's noisy layers explore.
+ */
+noisy: boolean | null, 
+/**
+ * Reward per step of true distance gained.
+ */
+progress_reward: number | null, 
+/**
+ * Subtracted at each step.
+ */
+step_penalty: number | null, 
+/**
+ * Steps of a return.
+ */
+n_step: number | null, fusion: FusionName | null, };
+
+/**
+ * Body of `POST /api/trainings`.
+ */
+export type TrainingQuery = { 
+/**
+ * Name of a map, shipped or added.
+ */
+map: string, 
+/**
+ * Name of the policy that it becomes: up to 40 of a to z, 0 to 9, - and _.
+ */
+name: string, seed: number, recipe: RecipeName, settings: TrainingSettings, 
+/**
+ * Policy whose weights it starts from; `null`: random weights.
+ */
+start_from: string | null, 
+/**
+ * Goal of the value maps; `null`: a place far from the others.
+ */
+goal_m: [number, number] | null, };
+
+export type TrainingStage = "waiting" | "images" | "learning" | "examination" | "paused" | "done" | "cancelled" | "failed";
+
+/**
+ * Episodes with random starts and goals, without exploration.
+ */
+export type Examination = { episodes: number, 
+/**
+ * Within 2 cm of the goal.
+ */
+reached: number, 
+/**
+ * Into a wall.
+ */
+collided: number, 
+/**
+ * Out of steps.
+ */
+timed_out: number, 
+/**
+ * Wilson 95 % interval of `reached / episodes`.
+ */
+reached_wilson95: [number, number], };
+
+/**
+ * A hundred updates of a training.
+ */
+export type TrainingPoint = { 
+/**
+ * Updates at the end of the point.
+ */
+update: number, 
+/**
+ * Steps of all episodes so far.
+ */
+steps: number, 
+/**
+ * Finished episodes so far.
+ */
+episodes: number, 
+/**
+ * Mean total reward of the episodes that ended in this point; `null` without any.
+ */
+reward_mean: number | null, 
+/**
+ * Standard deviation of these rewards.
+ */
+reward_deviation: number | null, loss_mean: number | null, 
+/**
+ * Episodes that ended in this point, with exploration.
+ */
+ended: number, 
+/**
+ * Number of these that reached their goal.
+ */
+reached: number, 
+/**
+ * A small examination, on some points.
+ */
+examined: Examination | null, };
+
+/**
+ * A training without its curve.
+ */
+export type TrainingSummary = { id: string, query: TrainingQuery, stage: TrainingStage, 
+/**
+ * Why it failed, if it did.
+ */
+message: string | null, updates: number, 
+/**
+ * Updates at its end.
+ */
+updates_total: number, steps: number, episodes: number, 
+/**
+ * Time spent on it, without pauses.
+ */
+elapsed_s: number, 
+/**
+ * Estimated time until its end, while it learns.
+ */
+left_s: number | null, 
+/**
+ * The last examination, of 1000 episodes; before the end, the newest small one.
+ */
+examined: Examination | null, 
+/**
+ * Rank correlation between values and distances to the goal of the value maps, of the newest one.
+ */
+rank_correlation: number | null, 
+/**
+ * Number of value maps.
+ */
+frames: number, 
+/**
+ * Its policy, as `rl_policy` takes it, once it is done.
+ */
+policy: string | null, };
+
+/**
+ * Answer of `GET /api/trainings/{id}`.
+ */
+export type TrainingReport = { curve: Array<TrainingPoint>, id: string, query: TrainingQuery, stage: TrainingStage, 
+/**
+ * Why it failed, if it did.
+ */
+message: string | null, updates: number, 
+/**
+ * Updates at its end.
+ */
+updates_total: number, steps: number, episodes: number, 
+/**
+ * Time spent on it, without pauses.
+ */
+elapsed_s: number, 
+/**
+ * Estimated time until its end, while it learns.
+ */
+left_s: number | null, 
+/**
+ * The last examination, of 1000 episodes; before the end, the newest small one.
+ */
+examined: Examination | null, 
+/**
+ * Rank correlation between values and distances to the goal of the value maps, of the newest one.
+ */
+rank_correlation: number | null, 
+/**
+ * Number of value maps.
+ */
+frames: number, 
+/**
+ * Its policy, as `rl_policy` takes it, once it is done.
+ */
+policy: string | null, };
+
+/**
+ * Answer of `GET /api/trainings`.
+ */
+export type Trainings = { 
+/**
+ * In the order of submission.
+ */
+trainings: Array<TrainingSummary>, };
+
+/**
+ * Message of the WebSocket `/api/trainings/{id}/live`, after each change.
+ */
+export type TrainingMessage = { summary: TrainingSummary, 
+/**
+ * Points since the last message; the first message has all.
+ */
+points: Array<TrainingPoint>, };
+
+/**
+ * The cells of a training's map: all lists of its value maps have this order.
+ */
+export type TrainingCells = { 
+/**
+ * Distance between two cells.
+ */
+spacing_m: number, 
+/**
+ * Goal of the value maps.
+ */
+goal_m: [number, number], centers_m: Array<[number, number]>, 
+/**
+ * Steps of the shortest path to the goal; `null` without a path.
+ */
+steps: Array<number | null>, };
+
+/**
+ * How an episode ends, or would end if it began at a cell.
+ */
+export type EpisodeEnding = "reached" | "collided" | "timed_out";
+
+/**
+ * An episode as the cells that the tool visits.
+ */
+export type TrainingEpisode = { 
+/**
+ * Indices of cells.
+ */
+cells: Array<number>, ending: EpisodeEnding, };
+
+/**
+ * A value map of a training: what its network thinks after a number of updates.
+ */
+export type TrainingFrame = { update: number, 
+/**
+ * Value of the best action, one entry per cell.
+ */
+values: Array<number>, 
+/**
+ * Index of the best action: +x, −x, +y, −y.
+ */
+actions: Array<number>, 
+/**
+ * Quantiles .05, .25, .5, .75 and .95 of the return of the best action.
+ */
+quantiles: Array<[number, number, number, number, number]>, 
+/**
+ * How an episode without exploration ends that begins at the cell.
+ */
+endings: Array<EpisodeEnding>, 
+/**
+ * Spearman's rank correlation of the values with the distances, over all cells; `null` if all values are equal.
+ */
+rank_correlation: number | null, 
+/**
+ * Episodes to the goal without exploration.
+ */
+greedy: Array<TrainingEpisode>, 
+/**
+ * Episodes to the goal with exploration, from the same starts.
+ */
+exploring: Array<TrainingEpisode>, };
