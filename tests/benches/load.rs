@@ -1,4 +1,4 @@
-//! What many browsers, a stalled one, and several sessions cost: `make soak` runs it and fails beyond the budgets.
+//! What many browsers, a stalled one, several sessions and a training cost: `make soak` runs it and fails beyond the budgets.
 //!
 //! The server is a separate process, without recordings, because they change its memory. The clients run beside it on
 //! the same cores.
@@ -27,6 +27,7 @@ const MOST_CORE_SHARE: f64 = 0.25;
 const MOST_STALLED_BYTES: f64 = 1_048_576.0;
 const MOST_P99_RATIO: f64 = 1.1;
 const MOST_INPUT_MS: f64 = 20.0;
+const MOST_MISSED_RATIO: f64 = 1.1;
 
 struct Ferry {
     child: Child,
@@ -213,6 +214,41 @@ async fn restless(mut socket: Socket) {
     }
 }
 
+/// Starts a training that outlasts the measurement, and waits until it learns.
+async fn train(ferry: &Ferry) {
+    let address = format!("http://{}/api/trainings", ferry.address);
+    let query = json!({"map": "colon", "name": "beside", "seed": 1, "settings": {"updates": 20_000}});
+    ureq::post(&address).content_type("application/json").send(query.to_string()).unwrap();
+    let learns = async {
+        loop {
+            let list = ureq::get(&address).call().unwrap().body_mut().read_to_string().unwrap();
+            let list: Value = serde_json::from_str(&list).unwrap();
+            if list["trainings"][0]["updates"].as_u64() > Some(0) {
+                break;
+            }
+            tokio::time::sleep(Duration::from_millis(200)).await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(120), learns).await.expect("it learns within two minutes");
+}
+
+/// How often the session `load-0` has skipped lost time.
+async fn missed(ferry: &Ferry) -> f64 {
+    let address = format!("http://{}/api/sessions/load-0/state", ferry.address);
+    let state = ureq::get(&address).call().unwrap().body_mut().read_to_string().unwrap();
+    serde_json::from_str::<Value>(&state).unwrap()["missed_deadlines"].as_f64().unwrap()
+}
+
+/// Input to state of one session without and beside a training, and how often each of them missed a deadline.
+async fn beside_a_training(ferry: &Ferry) -> ([Vec<f64>; 2], [f64; 2]) {
+    let alone_ms = inputs(ferry, 1).await;
+    let missed_alone = missed(ferry).await;
+    train(ferry).await;
+    let before = missed(ferry).await;
+    let beside_ms = inputs(ferry, 1).await;
+    ([alone_ms, beside_ms], [missed_alone, missed(ferry).await - before])
+}
+
 /// Milliseconds from a goal's sending to the state that shows it, of this many sessions at once.
 async fn inputs(ferry: &Ferry, count: usize) -> Vec<f64> {
     let mut sessions = Vec::new();
@@ -287,6 +323,19 @@ async fn main() -> ExitCode {
         quantile(took_ms.clone(), 0.5)
     );
     judge("input to state beside that session, p99", quantile(took_ms, 0.99), MOST_INPUT_MS, "ms");
+    drop(ferry);
+
+    let ferry = Ferry::start();
+    let ([alone_ms, beside_ms], [missed_alone, missed_beside]) = beside_a_training(&ferry).await;
+    println!(
+        "input to state without and beside a training: p50 {:.1} and {:.1} ms, p99 {:.1} ms without; missed deadlines \
+         {missed_alone} and {missed_beside}",
+        quantile(alone_ms.clone(), 0.5),
+        quantile(beside_ms.clone(), 0.5),
+        quantile(alone_ms, 0.99)
+    );
+    judge("input to state beside a training, p99", quantile(beside_ms, 0.99), MOST_INPUT_MS, "ms");
+    judge("missed deadlines, beside over without", (missed_beside + 1.0) / (missed_alone + 1.0), MOST_MISSED_RATIO, "");
     drop(ferry);
 
     let ferry = Ferry::start();

@@ -1,6 +1,7 @@
 // Does every lesson to its end: its experiments must confirm its claim.
 
 import { type Lab, expect, test } from './fixtures';
+import { TRAIN_MS, clearTrainings } from './support/trainings';
 import { until } from './support/wait';
 
 const LESSON_MS = 90_000;
@@ -102,14 +103,54 @@ for (const { title, choice, runs, action } of LESSONS) {
     }
     await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
     await lab.button('Finish').click();
-    await expect(lab.page.getByText('1 of 8 done')).toBeVisible();
+    await expect(lab.page.getByText('1 of 11 done')).toBeVisible();
     await until('the settings before the lesson', () => {
       const { parameters, defaults } = lab.scene;
       return JSON.stringify(parameters) === JSON.stringify(defaults);
     });
     await expect(lab.label('Speed')).toHaveValue('1');
     await lab.button('Start over').click();
-    await expect(lab.page.getByText('0 of 8 done')).toBeVisible();
+    await expect(lab.page.getByText('0 of 11 done')).toBeVisible();
+  });
+}
+
+const TRAINING_LESSONS = [
+  {
+    title: 'Why learning fails',
+    choice: 'The one that is rewarded only at the goal',
+    policies: ['lesson-no-exploration', 'lesson-no-discount', 'lesson-sparse'],
+  },
+  {
+    title: 'How far the goal is felt',
+    choice: 'The one with discount .97',
+    policies: ['lesson-far', 'lesson-near'],
+  },
+  {
+    title: 'Begin with what is known',
+    choice: 'The one that begins as colon',
+    policies: ['lesson-random', 'lesson-tuned'],
+  },
+];
+
+for (const { title, choice, policies } of TRAINING_LESSONS) {
+  test(`the trainings of the lesson “${title}” confirm its claim`, async ({ lab, server }) => {
+    test.setTimeout(policies.length * TRAIN_MS);
+    await lab.tab('Lessons').click();
+    await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
+    await lab.page.getByRole('radio', { name: choice }).check();
+    await next(lab);
+    for (const policy of policies) {
+      await expect(lab.button('Next')).toBeDisabled();
+      await lab.button(`Train ${policy}`).click();
+      await expect(lab.button('Next')).toBeEnabled({ timeout: TRAIN_MS });
+      await expect(lab.page.getByText(/of 1000 episodes of the last examination/)).toBeVisible();
+      await next(lab);
+    }
+    await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
+    await lab.button('Finish').click();
+    await expect(lab.page.getByText('1 of 11 done')).toBeVisible();
+    await lab.button('Start over').click();
+    await clearTrainings(lab.page.request, server.url);
   });
 }
 
@@ -139,12 +180,12 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
   await lab.button('Next').press('Enter');
   await expect(page.getByTestId('lesson-outcome')).toHaveText(second);
   await lab.button('Finish').press('Enter');
-  await expect(page.getByText('1 of 8 done')).toBeVisible();
+  await expect(page.getByText('1 of 11 done')).toBeVisible();
 
   await page.reload();
   await lab.live();
   await lab.tab('Lessons').click();
-  await expect(page.getByText('1 of 8 done')).toBeVisible();
+  await expect(page.getByText('1 of 11 done')).toBeVisible();
   await page.getByRole('button', { name: FIRST.title }).click();
   await expect(page.getByLabel(second)).toBeChecked();
 });

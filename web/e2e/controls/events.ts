@@ -184,6 +184,9 @@ const LESSON_TITLES = [
   'Why the attractor gets stuck',
   'What ERRT remembers',
   'What the policy sees',
+  'Why learning fails',
+  'How far the goal is felt',
+  'Begin with what is known',
   'Lift-off',
 ];
 const FIRST_CHOICES = /^(Right below the|A little behind|Far behind)/;
@@ -222,6 +225,9 @@ export const LESSONS: Section = {
     'button Back': { see: step, ready: goToRun },
     'button Set it up': { see: (lab) => lab.scene.trial, ready: goToRun },
     'button Set it up again': { see: (lab) => lab.scene.trial },
+    'button /^Train lesson-/': {
+      elsewhere: 'the trainings of the lesson “Why learning fails” confirm its claim',
+    },
     'button All lessons': { see: lessonHeadings, ready: openLesson },
     'button Start over': { see: (lab) => lab.button('Start over').isDisabled() },
   },

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { runsOf } from '../features/lessons/lesson';
 import { LESSONS } from '../features/lessons/lessons';
 import { PRESETS } from '../features/share/presets';
 import { experimentFrom, type Known, linkText } from '../lab/experimentLink';
@@ -24,7 +25,7 @@ const KNOWN: Known = {
 describe('links of presets and lessons', () => {
   const links = [
     ...PRESETS.map(({ name, link }) => [name, link] as const),
-    ...LESSONS.flatMap(({ title, runs }) => runs.map(({ link }) => [title, link] as const)),
+    ...LESSONS.flatMap((lesson) => runsOf(lesson).map(({ link }) => [lesson.title, link] as const)),
   ];
   it.each(links)('%s is read and written back unchanged', (_, link) => {
     const read = experimentFrom(link, KNOWN);

@@ -1,4 +1,5 @@
 import { expect, it } from 'vitest';
+import { runsOf } from '../features/lessons/lesson';
 import { LESSONS } from '../features/lessons/lessons';
 import { MAP_LAYERS } from './layers';
 
@@ -16,6 +17,6 @@ it('layers that are shown by default do not cover the map', () => {
 });
 
 it('layers include those that lessons switch on', () => {
-  const wanted = LESSONS.flatMap(({ runs }) => runs.flatMap(({ layers }) => layers));
+  const wanted = LESSONS.flatMap((lesson) => runsOf(lesson).flatMap(({ layers }) => layers));
   for (const id of wanted) expect(ids).toContain(id);
 });

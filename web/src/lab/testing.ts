@@ -6,6 +6,7 @@ import type {
   MomentMessage,
   SceneMessage,
   StateMessage,
+  TrainingSummary,
 } from '../net/protocol.gen';
 
 export function stateAt(tick: number, change: Partial<StateMessage> = {}): StateMessage {
@@ -211,6 +212,44 @@ export function momentOf(change: Partial<MomentMessage> = {}): MomentMessage {
       plan: null,
       judgement: null,
     },
+    ...change,
+  };
+}
+
+export function trainingOf(change: Partial<TrainingSummary> = {}): TrainingSummary {
+  return {
+    id: 'training-1',
+    query: {
+      map: 'posts',
+      name: 'my-posts',
+      seed: 1,
+      recipe: 'quick',
+      settings: {
+        updates: null,
+        learning_rate: null,
+        discount: null,
+        exploration: null,
+        noisy: null,
+        progress_reward: null,
+        step_penalty: null,
+        n_step: null,
+        fusion: null,
+      },
+      start_from: null,
+      goal_m: null,
+    },
+    stage: 'learning',
+    message: null,
+    updates: 1000,
+    updates_total: 4000,
+    steps: 16_000,
+    episodes: 500,
+    elapsed_s: 60,
+    left_s: 180,
+    examined: null,
+    rank_correlation: null,
+    frames: 10,
+    policy: null,
     ...change,
   };
 }

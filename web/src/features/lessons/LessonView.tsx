@@ -1,9 +1,10 @@
 // One lesson, one step at a time: predict, run, explain.
 
 import { For, Match, Show, Switch, createEffect, on, type JSX } from 'solid-js';
-import type { Lesson, Run } from './lesson';
+import { type Fact, isTrainingLesson, type Lesson, runCount, type Run } from './lesson';
 import type { Lessons } from './store';
-import type { Track } from './track';
+import { NotOperator } from './NotOperator';
+import { TrainingStep } from './TrainingStep';
 import type { Session, Trial } from '../../lab/slices';
 import '../../ui/Fact.css';
 
@@ -13,8 +14,10 @@ interface Props {
   readonly lesson: Lesson;
 }
 
-function stepNames({ runs }: Lesson): readonly string[] {
-  const named = runs.length === 1 ? ['Run'] : runs.map((_, index) => `Run ${index + 1}`);
+function stepNames(lesson: Lesson): readonly string[] {
+  const count = runCount(lesson);
+  const named =
+    count === 1 ? ['Run'] : Array.from({ length: count }, (_, index) => `Run ${index + 1}`);
   return ['Predict', ...named, 'Explain'];
 }
 
@@ -82,13 +85,7 @@ function RunStep(props: Props & { run: Run }): JSX.Element {
           )}
         </For>
       </div>
-      <Show when={!lab.canOperate()}>
-        <p class="lesson-note">
-          {lab.connection().kind === 'live'
-            ? 'You are watching: take control at the top of the page to set up the experiment.'
-            : 'No connection to the server: you cannot set up an experiment now.'}
-        </p>
-      </Show>
+      <NotOperator lab={lab} to="set up the experiment" />
       <Show when={store.isElsewhere()}>
         <p class="lesson-note">
           The page shows another experiment now. Set this one up again to continue.
@@ -128,36 +125,40 @@ function Explain(props: Props): JSX.Element {
   const { store, lesson } = props;
   const text = (id: string | undefined): string | undefined =>
     lesson.choices.find((choice) => choice.id === id)?.text;
-  /** Tracks of all runs, if all were set up since the lesson was opened. */
-  const tracks = () => {
-    const all = store.tracks().filter((track) => track !== undefined);
-    return all.length === lesson.runs.length ? all : undefined;
+  /** Outcome and facts, if all runs were done since the lesson was opened. */
+  const result = (): { outcome: string; facts: readonly Fact[] } | undefined => {
+    if (isTrainingLesson(lesson)) {
+      const measured = store.trainings.examinations();
+      return measured && { outcome: lesson.outcome(measured), facts: lesson.facts(measured) };
+    }
+    const measured = store.tracks().filter((track) => track !== undefined);
+    if (measured.length !== lesson.runs.length) return undefined;
+    return { outcome: lesson.outcome(measured), facts: lesson.facts(measured) };
   };
   const chosen = (): string | undefined => store.progress().choices[lesson.id];
-  const isRight = (measured: readonly Track[]): boolean => lesson.outcome(measured) === chosen();
   return (
     <Show
-      when={tracks()}
+      when={result()}
       fallback={
         <p class="lesson-note">You have done this lesson. Run it again to see your numbers here.</p>
       }
     >
       {(measured) => (
         <>
-          <dl class="lesson-verdict" data-right={isRight(measured())}>
-            <Show when={!isRight(measured())}>
+          <dl class="lesson-verdict" data-right={measured().outcome === chosen()}>
+            <Show when={measured().outcome !== chosen()}>
               <div>
                 <dt>Your prediction</dt>
                 <dd>{text(chosen()) ?? 'no prediction'}</dd>
               </div>
             </Show>
             <div>
-              <dt>{isRight(measured()) ? 'You were right' : 'What happened'}</dt>
-              <dd data-testid="lesson-outcome">{text(lesson.outcome(measured()))}</dd>
+              <dt>{measured().outcome === chosen() ? 'You were right' : 'What happened'}</dt>
+              <dd data-testid="lesson-outcome">{text(measured().outcome)}</dd>
             </div>
           </dl>
           <dl class="facts lesson-facts" aria-label="Measured in your run">
-            <For each={lesson.facts(measured())}>
+            <For each={measured().facts}>
               {([name, value]) => (
                 <div>
                   <dt>{name}</dt>
@@ -217,6 +218,9 @@ export function LessonView(props: Props): JSX.Element {
           </Match>
           <Match when={store.run()} keyed>
             {(run) => <RunStep lab={lab} store={store} lesson={lesson} run={run} />}
+          </Match>
+          <Match when={store.training()} keyed>
+            {(run) => <TrainingStep lab={lab} store={store} run={run} />}
           </Match>
           <Match when={store.step() === last}>
             <Explain lab={lab} store={store} lesson={lesson} />

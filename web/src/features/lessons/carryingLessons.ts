@@ -1,14 +1,14 @@
 // Lessons about the three transports, and how each one treats walls.
 
 import { centimetres } from '../../ui/format';
-import { DELIVERED, deliveryWords, type Lesson, RUNNING } from './lesson';
+import { DELIVERED, deliveryWords, type ExperimentLesson, RUNNING } from './lesson';
 
 const FACE = '#v=1&map=posts&controller=attractor&seed=1&start=-0.05,-0.3&goal=0.13,-0.3';
 const THERE = 'seed=1&start=0.19,-0.28&goal=-0.19,-0.48';
 /** A moving tool leaves its place within a second; after this time it is stuck. */
 const STUCK_S = 8;
 
-export const ATTRACTOR: Lesson = {
+export const ATTRACTOR: ExperimentLesson = {
   id: 'attractor',
   title: 'Why the attractor gets stuck',
   aim: 'See a wall that one attractor law cannot pass, and a law that can.',
@@ -67,7 +67,7 @@ export const ATTRACTOR: Lesson = {
     'Section IV-B, equation 4. Section IV-D says that the law is globally stable; this wall shows that it is not.',
 };
 
-export const ERRT: Lesson = {
+export const ERRT: ExperimentLesson = {
   id: 'errt',
   title: 'What ERRT remembers',
   aim: 'Watch a planner learn the map from the camera images.',
@@ -124,7 +124,7 @@ export const ERRT: Lesson = {
   paper: 'Section IV-C: the waypoint cache, and obstacles as a minimum number of rectangles.',
 };
 
-export const POLICY: Lesson = {
+export const POLICY: ExperimentLesson = {
   id: 'policy',
   title: 'What the policy sees',
   aim: 'Find out what a trained policy uses to find its path.',

@@ -1,6 +1,12 @@
 // The parts of a lesson. Pure.
 
-import type { ClientMessage, SceneMessage, StateMessage } from '../../net/protocol.gen';
+import type {
+  ClientMessage,
+  Examination,
+  SceneMessage,
+  StateMessage,
+  TrainingSettings,
+} from '../../net/protocol.gen';
 import type { Track } from './track';
 
 export interface Choice {
@@ -39,21 +45,53 @@ export interface Run {
 /** A measured value with its unit. */
 export type Fact = readonly [name: string, value: string];
 
-export interface Lesson {
+/** A training of the small map `u-turn`. */
+export interface TrainingRun {
+  readonly title: string;
+  /** Name of its policy. */
+  readonly policy: string;
+  /** What differs from the recipe `quick`. */
+  readonly settings: Partial<TrainingSettings>;
+  /** The policy whose weights it starts from. */
+  readonly startFrom?: string;
+  /** Instructions, one paragraph each. */
+  readonly words: readonly string[];
+}
+
+/** `M` is what is measured in a run. */
+interface Frame<M> {
   readonly id: string;
   readonly title: string;
   readonly aim: string;
   readonly minutes: number;
   readonly question: string;
   readonly choices: readonly Choice[];
-  readonly runs: readonly [Run, ...Run[]];
-  /** Id of the choice that came true. There is one track per run. */
-  readonly outcome: (tracks: readonly Track[]) => string;
-  readonly facts: (tracks: readonly Track[]) => readonly Fact[];
+  /** Id of the choice that came true. There is one measurement per run. */
+  readonly outcome: (measured: readonly M[]) => string;
+  readonly facts: (measured: readonly M[]) => readonly Fact[];
   readonly why: readonly string[];
   /** Section of the paper. */
   readonly paper: string;
 }
+
+export interface ExperimentLesson extends Frame<Track> {
+  readonly runs: readonly [Run, ...Run[]];
+}
+
+export interface TrainingLesson extends Frame<Examination> {
+  readonly trainings: readonly [TrainingRun, ...TrainingRun[]];
+}
+
+export type Lesson = ExperimentLesson | TrainingLesson;
+
+export const isTrainingLesson = (lesson: Lesson): lesson is TrainingLesson => 'trainings' in lesson;
+
+/** The experiments of a lesson. */
+export const runsOf = (lesson: Lesson): readonly Run[] =>
+  isTrainingLesson(lesson) ? [] : lesson.runs;
+
+export const runCount = (lesson: Lesson): number =>
+  isTrainingLesson(lesson) ? lesson.trainings.length : lesson.runs.length;
 
 export function allDone(run: Run, track: Track | undefined): boolean {
   return track !== undefined && run.tasks.every((task) => task.done(track));

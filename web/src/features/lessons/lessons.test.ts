@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { sceneOf, stateAt } from '../../lab/testing';
-import { allDone } from './lesson';
+import type { Examination } from '../../net/protocol.gen';
+import { allDone, type ExperimentLesson, isTrainingLesson } from './lesson';
 import { LESSONS } from './lessons';
 import { progressFrom } from './progress';
 import { startTrack, type Track } from './track';
@@ -16,11 +17,19 @@ function track(change: Partial<Track>): Track {
   return { ...START, ...change };
 }
 
-function lesson(id: string) {
+function lesson(id: string): ExperimentLesson {
   const found = LESSONS.find((one) => one.id === id);
-  if (!found) throw new Error(`no lesson ${id}`);
+  if (!found || isTrainingLesson(found)) throw new Error(`no lesson ${id}`);
   return found;
 }
+
+const examined = (reached: number): Examination => ({
+  episodes: 1000,
+  reached,
+  collided: 0,
+  timed_out: 1000 - reached,
+  reached_wilson95: [0, 1],
+});
 
 const delivered = (time_s: number, plans = 0): Partial<Track> => ({
   deliveries: [{ time_s, plans }],
@@ -32,8 +41,15 @@ describe('every lesson', () => {
     expect(new Set(ids).size).toBe(ids.length);
     expect(ids.length).toBeGreaterThanOrEqual(2);
     expect(ids.length).toBeLessThanOrEqual(4);
-    const tracks = one.runs.map(() => START);
+    expect(one.paper).toMatch(/^(Section [IV]+|Not in the paper)/);
     // For any measurement, the outcome is one of the choices, and there are facts.
+    if (isTrainingLesson(one)) {
+      const examinations = one.trainings.map(() => examined(500));
+      expect(ids).toContain(one.outcome(examinations));
+      expect(one.facts(examinations)).toHaveLength(one.trainings.length);
+      return;
+    }
+    const tracks = one.runs.map(() => START);
     expect(ids).toContain(one.outcome(tracks));
     expect(one.facts(tracks).length).toBeGreaterThan(0);
     for (const run of one.runs) {
@@ -42,7 +58,6 @@ describe('every lesson', () => {
       expect(run.tasks.filter((task) => task.done(START))).toEqual([]);
       expect(allDone(run, undefined)).toBe(false);
     }
-    expect(one.paper).toMatch(/^Section [IV]+/);
   });
 
   it('has a unique id', () => {
@@ -73,6 +88,24 @@ describe('the outcome follows from the measurements', () => {
     ['lift-off', [{ liftedAt_m: 0.05 }, {}], 'half'],
   ])('%s %j: %s', (id, changes, outcome) => {
     expect(lesson(id).outcome(changes.map(track))).toBe(outcome);
+  });
+});
+
+describe('the outcome follows from the examinations', () => {
+  it.each<[string, number[], string]>([
+    ['learning-fails', [992, 970, 167], 'sparse'],
+    ['learning-fails', [100, 970, 900], 'exploration'],
+    ['learning-fails', [992, 200, 900], 'discount'],
+    ['discount', [600, 380], 'far'],
+    ['discount', [380, 600], 'near'],
+    ['discount', [600, 590], 'same'],
+    ['fine-tuning', [160, 715], 'tuned'],
+    ['fine-tuning', [715, 160], 'random'],
+    ['fine-tuning', [715, 700], 'same'],
+  ])('%s %j: %s', (id, reached, outcome) => {
+    const found = LESSONS.find((one) => one.id === id);
+    if (!found || !isTrainingLesson(found)) throw new Error(id);
+    expect(found.outcome(reached.map(examined))).toBe(outcome);
   });
 });
 

@@ -4,6 +4,7 @@ import { ATTRACTOR, ERRT, POLICY } from './carryingLessons';
 import type { Lesson } from './lesson';
 import { LIFT_OFF, MEET_THE_MAGNET } from './magnetLessons';
 import { LOSE_THE_BEAD, THRESHOLD, TWO_LAWS } from './switchingLessons';
+import { FAR_GOAL, FINE_TUNING, LEARNING_FAILS } from './trainingLessons';
 
 export const LESSONS: readonly Lesson[] = [
   MEET_THE_MAGNET,
@@ -13,5 +14,8 @@ export const LESSONS: readonly Lesson[] = [
   ATTRACTOR,
   ERRT,
   POLICY,
+  LEARNING_FAILS,
+  FAR_GOAL,
+  FINE_TUNING,
   LIFT_OFF,
 ];

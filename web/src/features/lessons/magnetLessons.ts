@@ -3,13 +3,13 @@
 import { centimetres, fixed, millimetres } from '../../ui/format';
 import { FACTS } from './facts.gen';
 import { storedRange } from '../../lab/parameters';
-import { DELIVERED, deliveryWords, type Lesson, RUNNING } from './lesson';
+import { DELIVERED, deliveryWords, type ExperimentLesson, RUNNING } from './lesson';
 
 /** Step by which the lesson lowers the magnet, and the lowest height. */
 const LOWER_BY_M = 0.002;
 const [MIN_HEIGHT_M] = storedRange('tool_height_m');
 
-export const MEET_THE_MAGNET: Lesson = {
+export const MEET_THE_MAGNET: ExperimentLesson = {
   id: 'magnet',
   title: 'Meet the magnet',
   aim: 'See how a bead follows a magnet that never touches it.',
@@ -54,7 +54,7 @@ export const MEET_THE_MAGNET: Lesson = {
   paper: 'Section V: the magnets, and the plane 10 cm above the table.',
 };
 
-export const LIFT_OFF: Lesson = {
+export const LIFT_OFF: ExperimentLesson = {
   id: 'lift-off',
   title: 'Lift-off',
   aim: 'Find out why the magnet has to stay 10 cm above the table.',

@@ -10,7 +10,8 @@ import {
   type Accessor,
 } from 'solid-js';
 import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
-import { allDone, type Lesson, type Run } from './lesson';
+import { allDone, isTrainingLesson, type Lesson, type Run, type TrainingRun } from './lesson';
+import { createLessonTrainings, type LessonTrainings } from './lessonTrainings';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
 import { startTrack, observe, type Track } from './track';
@@ -27,6 +28,9 @@ export interface Lessons {
   /** 0 is Predict, then come the runs, then Explain. */
   readonly step: Accessor<number>;
   readonly run: Accessor<Run | undefined>;
+  /** The training of the present step, in a lesson with trainings. */
+  readonly training: Accessor<TrainingRun | undefined>;
+  readonly trainings: LessonTrainings;
   /** One per run that was set up. */
   readonly tracks: Accessor<Tracks>;
   readonly track: Accessor<Track | undefined>;
@@ -62,7 +66,15 @@ function createLessons(lab: LessonsLab): Lessons {
     setProgress(next);
     storeProgress(next);
   };
-  const run = createMemo(() => lesson()?.runs[step() - 1]);
+  const run = createMemo(() => {
+    const now = lesson();
+    return now && !isTrainingLesson(now) ? now.runs[step() - 1] : undefined;
+  });
+  const training = createMemo(() => {
+    const now = lesson();
+    return now && isTrainingLesson(now) ? now.trainings[step() - 1] : undefined;
+  });
+  const trainings = createLessonTrainings(lesson);
   const track = createMemo(() => tracks()[step() - 1]);
   const isItsTrial = createMemo(() => {
     const scene = lab.scene();
@@ -115,6 +127,8 @@ function createLessons(lab: LessonsLab): Lessons {
     left,
     step,
     run,
+    training,
+    trainings,
     tracks,
     track,
     isElsewhere: () => {
@@ -125,8 +139,10 @@ function createLessons(lab: LessonsLab): Lessons {
       const now = lesson();
       if (!now) return false;
       if (step() === 0) return progress().choices[now.id] !== undefined;
+      if (progress().done.includes(now.id)) return true;
+      if (training()) return trainings.summaries()[step() - 1]?.stage === 'done';
       const here = run();
-      return !here || allDone(here, track()) || progress().done.includes(now.id);
+      return !here || allDone(here, track());
     },
     open(next) {
       leave();

@@ -2,7 +2,7 @@
 
 import { centimetres, millimetres } from '../../ui/format';
 import { FACTS } from './facts.gen';
-import { DELIVERED, deliveryWords, type Lesson, type Run, RUNNING } from './lesson';
+import { DELIVERED, deliveryWords, type ExperimentLesson, type Run, RUNNING } from './lesson';
 
 const KICKED = '#v=1&map=open&controller=attractor&seed=1&start=-0.2,-0.36&goal=0.2,-0.36';
 const KICKS =
@@ -13,7 +13,7 @@ const SLOW = 'approach_speed_m_s=0.05&script=displace:-0.14,-0.5@step:14';
 /** This many switches are no accident. */
 const MANY_SWITCHES = 10;
 
-export const LOSE_THE_BEAD: Lesson = {
+export const LOSE_THE_BEAD: ExperimentLesson = {
   id: 'lose',
   title: 'Lose the bead',
   aim: 'Take the bead away and see how the two sub-controllers share the work.',
@@ -96,7 +96,7 @@ function kickedRun(title: string, link: string): Run {
   };
 }
 
-export const THRESHOLD: Lesson = {
+export const THRESHOLD: ExperimentLesson = {
   id: 'threshold',
   title: 'The threshold T',
   aim: 'See what a low threshold costs.',
@@ -132,7 +132,7 @@ export const THRESHOLD: Lesson = {
   paper: 'Section IV-A, switching signal: “T is an arbitrary threshold set to 10 cm”.',
 };
 
-export const TWO_LAWS: Lesson = {
+export const TWO_LAWS: ExperimentLesson = {
   id: 'chatter',
   title: 'The law to the letter',
   aim: 'See why one threshold for both directions of the switch is not enough.',

@@ -8,7 +8,7 @@ import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { TitleForm } from '../../ui/TitleForm';
 import { Curves } from './Curves';
-import { shareWords } from './progress';
+import { shareWords } from '../../lab/trainingStage';
 import { changeWords, RECIPE_WORDS } from './recipes';
 import { policyFile } from './trainings';
 

@@ -85,9 +85,13 @@ export function StartPanel(props: StartProps): JSX.Element {
     <form
       class="train-form"
       novalidate
+      onKeyDown={(event) => {
+        // A training takes minutes: only the button starts one.
+        if (event.key === 'Enter' && event.target instanceof HTMLInputElement)
+          event.preventDefault();
+      }}
       onSubmit={(event) => {
         event.preventDefault();
-        // Enter in a field submits the form even when the button is disabled.
         if (lab.canOperate() && !isBusy()) void start();
       }}
     >

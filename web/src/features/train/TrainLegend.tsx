@@ -64,13 +64,13 @@ export function Marks(): JSX.Element {
         <svg viewBox="-7 -7 14 14" aria-hidden="true">
           <path class="failed" d="M-4-4L4 4M-4 4L4-4" />
         </svg>
-        fails: into a wall
+        start that fails: into a wall
       </li>
       <li>
         <svg viewBox="-7 -7 14 14" aria-hidden="true">
           <circle class="failed" r="4" />
         </svg>
-        fails: out of steps
+        start that fails: out of steps
       </li>
       <li>
         <svg viewBox="-7 -7 14 14" aria-hidden="true">

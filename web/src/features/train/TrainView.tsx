@@ -9,7 +9,7 @@ import { Curves } from './Curves';
 import { Intro } from './Intro';
 import { createLive } from './live';
 import { PoliciesPanel } from './PoliciesPanel';
-import { milestone, stageSentence } from './progress';
+import { milestone, stageSentence } from '../../lab/trainingStage';
 import { StartPanel } from './StartPanel';
 import { createTrainState, type TrainState } from './state';
 import { TrainingEntry } from './TrainingEntry';

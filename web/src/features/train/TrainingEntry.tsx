@@ -4,7 +4,7 @@ import { Show, createSignal, type JSX } from 'solid-js';
 import type { TrainingSummary } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { Fault } from './Fault';
-import { isActive, stageSentence, stageWords, updateWords } from './progress';
+import { isActive, stageSentence, stageWords, updateWords } from '../../lab/trainingStage';
 import type { TrainingList } from './trainings';
 
 interface EntryProps {
@@ -45,6 +45,8 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
   const why = (): string | undefined =>
     props.canOperate ? undefined : 'Only the operator can do this';
   const isPaused = (): boolean => props.summary.stage === 'paused';
+  const resume = (): void => void attempt(props.list.resume(props.summary.id));
+  const pause = (): void => void attempt(props.list.pause(props.summary.id));
   return (
     <li
       ref={entry}
@@ -93,6 +95,18 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
                   </button>
                 )}
               </Show>
+              <Show when={props.summary.stage === 'failed'}>
+                <button
+                  type="button"
+                  class="small"
+                  aria-label={`Resume ${name()}`}
+                  disabled={!props.canOperate}
+                  title={why()}
+                  onClick={resume}
+                >
+                  Resume
+                </button>
+              </Show>
               <button
                 type="button"
                 class="small"
@@ -112,13 +126,10 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
             aria-label={`${isPaused() ? 'Resume' : 'Pause'} ${name()}`}
             disabled={!props.canOperate}
             title={why()}
-            onClick={() =>
-              void attempt(
-                isPaused()
-                  ? props.list.resume(props.summary.id)
-                  : props.list.pause(props.summary.id),
-              )
-            }
+            onClick={() => {
+              if (isPaused()) resume();
+              else pause();
+            }}
           >
             {isPaused() ? 'Resume' : 'Pause'}
           </button>

@@ -18,7 +18,7 @@ import type { Theme } from '../../ui/theme';
 import { CellPanel } from './CellPanel';
 import { cellAt, startsThat } from './grid';
 import type { Live } from './live';
-import { isActive } from './progress';
+import { isActive } from '../../lab/trainingStage';
 import type { TrainState } from './state';
 import { TrainingPlan } from './TrainingPlan';
 import { ValueScale } from './TrainLegend';

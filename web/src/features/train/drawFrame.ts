@@ -129,7 +129,7 @@ function drawEpisode(
   if (isOver && episode.ending !== 'reached') {
     const path = new Path2D();
     markOf(episode.ending)(path, [x, y], DOT_PX);
-    ctx.strokeStyle = palette.danger;
+    ctx.strokeStyle = isGreedy ? palette.tool : palette.bead;
     ctx.lineWidth = 2.5;
     ctx.stroke(path);
     return;

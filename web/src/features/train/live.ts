@@ -11,7 +11,7 @@ import type {
 } from '../../net/protocol.gen';
 import { get } from '../../net/requests';
 import { FrameCache } from './frames';
-import { isActive } from './progress';
+import { isActive } from '../../lab/trainingStage';
 import { trainingPath } from './trainings';
 
 export interface Followed {

@@ -1,34 +1,6 @@
 // A training for the unit tests.
 
-import type {
-  TrainingCells,
-  TrainingFrame,
-  TrainingPoint,
-  TrainingSummary,
-} from '../../net/protocol.gen';
-import { BLANK, queryOf } from './recipes';
-
-export function summaryOf(change: Partial<TrainingSummary> = {}): TrainingSummary {
-  const made = queryOf(BLANK, 'posts', 'my-posts');
-  if ('faults' in made) throw new Error('The blank draft has faults.');
-  return {
-    id: 'training-1',
-    query: made.query,
-    stage: 'learning',
-    message: null,
-    updates: 1000,
-    updates_total: 4000,
-    steps: 16_000,
-    episodes: 500,
-    elapsed_s: 60,
-    left_s: 180,
-    examined: null,
-    rank_correlation: null,
-    frames: 10,
-    policy: null,
-    ...change,
-  };
-}
+import type { TrainingCells, TrainingFrame, TrainingPoint } from '../../net/protocol.gen';
 
 export function pointOf(update: number, change: Partial<TrainingPoint> = {}): TrainingPoint {
   return {

@@ -10,7 +10,7 @@ import type {
   TrainingSummary,
 } from '../../net/protocol.gen';
 import { patch, post, remove } from '../../net/requests';
-import { isActive } from './progress';
+import { isActive } from '../../lab/trainingStage';
 
 const BUSY_MS = 1000;
 /** Another operator may start one. */

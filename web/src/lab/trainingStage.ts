@@ -1,7 +1,7 @@
 // What a training does and when it ends, as words. Pure.
 
-import { counted, roughly } from '../../ui/format';
-import type { Examination, TrainingStage, TrainingSummary } from '../../net/protocol.gen';
+import { counted, roughly } from '../ui/format';
+import type { Examination, TrainingStage, TrainingSummary } from '../net/protocol.gen';
 
 export function isActive({ stage }: Pick<TrainingSummary, 'stage'>): boolean {
   return stage !== 'done' && stage !== 'cancelled' && stage !== 'failed';

@@ -1,0 +1,43 @@
+import { describe, expect, it } from 'vitest';
+import { isActive, milestone, shareWords, stageSentence, updateWords } from './trainingStage';
+import { trainingOf } from './testing';
+
+const EXAMINED = {
+  episodes: 1000,
+  reached: 986,
+  collided: 10,
+  timed_out: 4,
+  reached_wilson95: [0.977, 0.992] as [number, number],
+};
+
+describe('a training', () => {
+  it('says how much is done and left', () => {
+    expect(updateWords(trainingOf())).toBe('1000 of 4000 updates');
+    expect(stageSentence(trainingOf(), [])).toBe('500 episodes so far, about 3 min left.');
+    expect(stageSentence(trainingOf({ left_s: null }), [])).toBe('500 episodes so far.');
+  });
+
+  it('says what it waits for', () => {
+    const waiting = trainingOf({ id: 'training-3', stage: 'waiting' });
+    const ended = trainingOf({ stage: 'done' });
+    expect(stageSentence(waiting, [trainingOf(), ended])).toBe('Waits until my-posts is finished.');
+    expect(stageSentence(waiting, [ended])).toContain('such as an evaluation');
+  });
+
+  it('says how it ended', () => {
+    const done = trainingOf({ stage: 'done', examined: EXAMINED });
+    expect(shareWords(EXAMINED)).toBe('986 of 1000');
+    expect(stageSentence(done, [])).toContain('986 of 1000 episodes');
+    expect(stageSentence(trainingOf({ stage: 'failed', message: 'No GPU.' }), [])).toBe('No GPU.');
+    expect(isActive(done)).toBe(false);
+    expect(isActive(trainingOf({ stage: 'paused' }))).toBe(true);
+  });
+
+  it('is announced at each quarter', () => {
+    expect(milestone(trainingOf({ updates: 999 }), [])).toBe('my-posts: 0 % of the updates.');
+    expect(milestone(trainingOf(), [])).toBe('my-posts: 25 % of the updates.');
+    expect(milestone(trainingOf({ stage: 'paused' }), [])).toBe(
+      'my-posts: Paused after 1000 updates.',
+    );
+  });
+});
