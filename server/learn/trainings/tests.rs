@@ -130,6 +130,24 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
 }
 
 #[test]
+fn a_training_that_cannot_be_saved_fails_and_goes_on_later() {
+    let folder = tempfile::tempdir().unwrap();
+    let laboratory = Laboratory::in_folder(folder.path());
+    let training = laboratory.trainings.submit(query("mine")).unwrap();
+    let frames = folder.path().join("trainings/training-1/frames");
+    wait(&training, |status| !status.frames.is_empty());
+    // A folder in place of the file, instead of a full disk.
+    std::fs::remove_file(&frames).unwrap();
+    std::fs::create_dir(&frames).unwrap();
+    let status = wait(&training, |status| status.stage.is_final());
+    assert!(matches!(&status.stage, TrainingStage::Failed(reason) if reason.contains("frames")), "{:?}", status.stage);
+    std::fs::remove_dir(&frames).unwrap();
+    assert!(laboratory.trainings.resume(&training).unwrap());
+    let status = wait(&training, |status| status.stage == TrainingStage::Done);
+    assert_eq!((status.points.len(), status.frames.len()), (3, 3));
+}
+
+#[test]
 fn refuses_what_cannot_be_trained_and_names_the_field() {
     let folder = tempfile::tempdir().unwrap();
     let laboratory = Laboratory::in_folder(folder.path());

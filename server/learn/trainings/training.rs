@@ -279,6 +279,9 @@ impl Training {
         }
         self.enter(TrainingStage::Examination);
         let marks = state.examine(&terrains, GoalSet::All, EXAMINED_EPISODES, EXAMINATION_SEED)?;
+        if self.lock().wish == Wish::Cancel {
+            return Ok(TrainingStage::Cancelled);
+        }
         let policy = self.publish(&state, marks, curve.spent_s())?;
         self.change(|status| {
             status.examined = Some(marks);
