@@ -12,7 +12,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::learn::sweep::{STEP_M, Sweep};
 use crate::learn::{
-    Curve, EXAMINATION_SEED, GoalSet, Marks, Recipe, RecipeName, Saving, State, Terrain, drive, revision,
+    Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, Marks, Recipe, RecipeName, Saving, State, Terrain, drive,
+    revision,
 };
 use crate::policy::{Architecture, Policy};
 use crate::trial::Arena;
@@ -148,6 +149,9 @@ fn round(
             }
         }
     }
+    if let [terrain] = terrains {
+        println!("values      {}", describe_values(&state, terrain, terrains)?);
+    }
     println!("policy      {}", out.display());
     println!("curve       {}", data.display());
     Ok(curve)
@@ -201,6 +205,20 @@ fn describe(marks: &Marks) -> String {
         f64::from(marks.steps) / f64::from(marks.reached.max(1)),
         f64::from(marks.least_steps) / f64::from(marks.reached.max(1)),
     )
+}
+
+/// What the page shows under a training's last value map.
+fn describe_values(state: &State, terrain: &Terrain, terrains: &[Terrain]) -> anyhow::Result<String> {
+    let cells = Cells::of(terrain, None);
+    let frame = Frame::of(state, terrains, &cells)?;
+    let reached = frame.endings.iter().filter(|&&ending| ending == Ending::Reached).count();
+    let correlation = frame.rank_correlation.map_or("none".to_owned(), |value| format!("{value:.3}"));
+    Ok(format!(
+        "rank correlation with the distances to ({:.3}, {:.3}): {correlation}; {reached} of {} starts reach it",
+        cells.goal_m.x,
+        cells.goal_m.y,
+        frame.endings.len()
+    ))
 }
 
 fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<Terrain>> {
