@@ -177,7 +177,7 @@ test('waits for its server, and begins again', async ({ page, watch }) => {
   lab.sent = {};
   server = await Server.start({ port });
   await expect(captionOf(page)).toHaveText(FIRST, { timeout: RECONNECT_MS });
-  expect(lab.hello.opened).not.toBe(opened);
+  await until('the new session', () => lab.hello.opened !== opened);
   await until('the part again', () => lab.sent.load_scenario && lab.sent.run);
   await begun(lab);
 });

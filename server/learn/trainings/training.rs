@@ -314,16 +314,15 @@ impl Training {
         begun: (u64, f64),
     ) -> Result<(), TrainingError> {
         let frame = Arc::new(Frame::of(state, terrains, cells)?);
-        folder::append_frame(&self.folder, &frame)?;
         let done = state.memory.updates - begun.0;
         let pace_s = (curve.spent_s() - begun.1) / done.max(1) as f64;
         self.change(|status| {
             status.points.clone_from(&state.curve);
-            status.frames.push(frame);
+            status.frames.push(frame.clone());
             status.elapsed_s = curve.spent_s();
             status.left_s = Some(pace_s * (self.updates_total - state.memory.updates) as f64);
         });
-        Ok(())
+        Ok(folder::append_frame(&self.folder, &frame)?)
     }
 
     /// Adds the policy under its name, or under one with a number if that was taken meanwhile.

@@ -231,7 +231,7 @@ export const EVALUATE: Section = {
       [
         ...['RL', 'ERRT', 'Attractor'],
         ...['attractor-example', 'attractor-example-arm', 'colon', 'colon-folds', 'open'],
-        ...['posts', 'vessels', '0', '3'],
+        ...['posts', 'u-turn', 'vessels', '0', '3'],
       ].map((name) => [`checkbox ${name}`, box]),
     ),
     'spinbutton Episodes per cell': typed,
