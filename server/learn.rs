@@ -5,11 +5,13 @@ mod atlas;
 mod checkpoint;
 mod curve;
 mod environment;
+mod error;
 mod examine;
 mod goals;
 mod learner;
 mod loss;
 mod networks;
+mod point;
 mod recipe;
 mod replay;
 mod run;
@@ -23,13 +25,15 @@ pub use atlas::{Atlas, AtlasError};
 pub use checkpoint::CheckpointError;
 pub use curve::{Curve, FigureError};
 pub use environment::Ending;
+pub use error::TrainingError;
 pub use examine::{EXAMINATION_SEED, Marks};
 pub use goals::GoalSet;
+pub use point::{Point, Spread, WINDOW};
 pub use recipe::{Recipe, RecipeError, RecipeName};
 pub use run::{Run, Saving, drive};
 pub use survey::{MazeLattice, SurveyRecipe, SurveyRun, examine as examine_surveys, examine_teacher};
 pub use terrain::{Terrain, TerrainError};
-pub use training::{Point, Spread, State, TrainingError, WINDOW};
+pub use training::State;
 pub use trainings::{
     Cells, Frame, Origin, QueryError, Settings, Status, SubmitTrainingError, Trail, Training, TrainingQuery,
     TrainingStage, Trainings,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use plotters::prelude::*;
 
-use super::training::{Point, Spread};
+use super::point::{Point, Spread};
 
 /// The curve of one run, with the time of each point.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::curve::Curve;
-use super::training::{Point, TrainingError};
+use super::error::TrainingError;
+use super::point::Point;
 
 /// A training in progress, on worlds of one kind.
 pub trait Run: Sized {

@@ -8,111 +8,25 @@ use serde::{Deserialize, Serialize};
 
 use super::checkpoint::{self, CheckpointError};
 use super::environment::{Ending, Episode};
+use super::error::TrainingError;
 use super::examine::{Marks, examine};
 use super::goals::GoalSet;
 use super::learner::Learner;
 use super::networks::{Memory, Weights, network};
-use super::recipe::{Recipe, RecipeError};
+use super::point::{Point, WINDOW};
+use super::recipe::Recipe;
 use super::replay::{Replay, Transition};
 use super::run::Run;
-use super::sweep::{STEP_M, SweepError};
+use super::sweep::STEP_M;
 use super::terrain::Terrain;
-use crate::policy::{Manifest, Policy, PolicyError};
+use crate::policy::{Manifest, Policy};
 
-/// Updates per point of the curve.
-pub const WINDOW: u64 = 100;
 /// Updates between two small examinations.
 const EXAMINED_EVERY: u64 = 1000;
 /// Episodes of a small examination.
 const EXAMINED_EPISODES: u32 = 200;
 /// Version of the checkpoint's layout.
 const VERSION: u32 = 3;
-
-/// Why a run cannot start or continue.
-#[derive(Debug, thiserror::Error)]
-pub enum TrainingError {
-    /// A number of the recipe is out of range.
-    #[error("recipe: {0}")]
-    Recipe(#[from] RecipeError),
-    /// A map has no goals to train, or none that is held out.
-    #[error("recipe: held_out_goals is {held_out}; map {map:?} then has no goals to train, or none that is held out")]
-    NoGoals { map: String, held_out: f64 },
-    /// The network failed.
-    #[error("training: {0}")]
-    Network(#[from] candle_core::Error),
-    /// The policy could not be written.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
-    /// A checkpoint could not be read or written.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
-    /// The images of a map could not be taken.
-    #[error(transparent)]
-    Sweep(#[from] SweepError),
-    /// The loss or the gradient is not finite.
-    #[error("training: at update {update} the loss is {loss} and the gradient {gradient}")]
-    Diverged {
-        update: u64,
-        loss: f64,
-        /// Norm of the gradient.
-        gradient: f64,
-    },
-}
-
-/// Mean and standard deviation of a series of values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spread {
-    count: u32,
-    sum: f64,
-    squares: f64,
-}
-
-impl Spread {
-    pub(super) fn add(&mut self, value: f64) {
-        self.count += 1;
-        self.sum += value;
-        self.squares += value * value;
-    }
-
-    /// Number of values.
-    pub fn count(&self) -> u32 {
-        self.count
-    }
-
-    /// `None` without values.
-    pub fn mean(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.sum / f64::from(self.count))
-    }
-
-    /// Standard deviation; `None` without values.
-    pub fn deviation(&self) -> Option<f64> {
-        let mean = self.mean()?;
-        Some((self.squares / f64::from(self.count) - mean * mean).max(0.0).sqrt())
-    }
-}
-
-/// [`WINDOW`] updates of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Point {
-    /// Updates at the end of the point.
-    pub update: u64,
-    /// Steps of the environment at the end of the point.
-    pub steps: u64,
-    /// Episodes finished at the end of the point.
-    pub episodes: u64,
-    /// Total rewards of the episodes that ended in this point, undiscounted, including shaping.
-    pub reward: Spread,
-    /// Losses of the updates.
-    pub loss: Spread,
-    /// Gradient norms before clipping.
-    pub gradient: Spread,
-    /// Number of the episodes of this point (with exploration) that reached their goal.
-    pub reached: u32,
-    /// Number of these that ended in a wall.
-    pub collided: u32,
-    /// A small examination of the averaged weights, on some points.
-    pub examined: Option<Marks>,
-}
 
 /// The complete state of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

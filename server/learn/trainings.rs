@@ -4,6 +4,7 @@ mod folder;
 mod frame;
 mod query;
 mod ranks;
+mod stage;
 #[cfg(test)]
 mod tests;
 mod training;
@@ -20,7 +21,8 @@ use folder::Record;
 
 pub use frame::{Cells, Frame, Trail};
 pub use query::{QueryError, Settings, TrainingQuery};
-pub use training::{Origin, Status, Training, TrainingStage};
+pub use stage::TrainingStage;
+pub use training::{Origin, Status, Training};
 
 /// Number of ended trainings that are kept; each has a few megabytes.
 const KEPT: usize = 16;

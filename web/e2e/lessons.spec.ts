@@ -126,7 +126,7 @@ const TRAINING_LESSONS = [
     policies: ['lesson-far', 'lesson-near'],
   },
   {
-    title: 'Begin with what is known',
+    title: 'A head start',
     choice: 'The one that begins as colon',
     policies: ['lesson-random', 'lesson-tuned'],
   },

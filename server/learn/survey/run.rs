@@ -15,10 +15,11 @@ use super::recipe::SurveyRecipe;
 use super::replay::{Entry, Step, SurveyReplay};
 use crate::learn::checkpoint::{self, CheckpointError};
 use crate::learn::environment::Ending;
+use crate::learn::error::TrainingError;
 use crate::learn::networks::{Memory, Weights, network};
+use crate::learn::point::{Point, WINDOW};
 use crate::learn::run::Run;
 use crate::learn::sweep::STEP_M;
-use crate::learn::training::{Point, TrainingError, WINDOW};
 use crate::policy::{Action, Manifest, Network, Policy};
 
 /// Updates between two small examinations, on mazes of the trained families.

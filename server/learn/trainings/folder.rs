@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::frame::{Cells, Frame};
 use super::query::TrainingQuery;
-use super::training::TrainingStage;
+use super::stage::TrainingStage;
 use crate::files::replace;
 use crate::learn::checkpoint::CheckpointError;
 use crate::learn::examine::Marks;
-use crate::learn::training::Point;
+use crate::learn::point::Point;
 use crate::policy::PolicyError;
 
 const RECORD: &str = "training.json";

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Point2;
+use crate::learn::error::TrainingError;
 use crate::learn::recipe::{Recipe, RecipeError, RecipeName};
 use crate::learn::terrain::TerrainError;
-use crate::learn::training::TrainingError;
 use crate::map::{Map, MapError};
 use crate::policy::{Architecture, Fusion, LibraryError, Manifest, PolicyError};
 

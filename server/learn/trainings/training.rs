@@ -10,15 +10,18 @@ use serde::{Deserialize, Serialize};
 use super::folder::{self, Record};
 use super::frame::{Cells, Frame};
 use super::query::{QueryError, TrainingQuery};
+use super::stage::TrainingStage;
 use crate::jobs::{Job, Workshop};
 use crate::learn::curve::Curve;
+use crate::learn::error::TrainingError;
 use crate::learn::examine::{EXAMINATION_SEED, Marks};
 use crate::learn::goals::GoalSet;
+use crate::learn::point::Point;
 use crate::learn::revision;
 use crate::learn::run::{Run, Saving, drive};
 use crate::learn::sweep::{STEP_M, Sweep, SweepError};
 use crate::learn::terrain::Terrain;
-use crate::learn::training::{Point, State, TrainingError};
+use crate::learn::training::State;
 use crate::map::Map;
 use crate::policy::{Library, LibraryError, Policy};
 use crate::trial::Arena;
@@ -29,32 +32,6 @@ const SAVED_EVERY: Duration = Duration::from_secs(15);
 const EXAMINED_EPISODES: u32 = 1000;
 /// Largest number of points of the curve that a policy keeps.
 const ORIGIN_POINTS: usize = 50;
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum TrainingStage {
-    /// Another job is running.
-    Waiting,
-    /// The camera takes an image above each cell.
-    Images,
-    Learning,
-    /// The last examination.
-    Examination,
-    Paused,
-    Done,
-    Cancelled,
-    Failed(String),
-}
-
-impl TrainingStage {
-    pub fn is_running(&self) -> bool {
-        matches!(self, Self::Images | Self::Learning | Self::Examination)
-    }
-
-    /// Whether it cannot go on.
-    pub fn is_final(&self) -> bool {
-        matches!(self, Self::Done | Self::Cancelled | Self::Failed(_))
-    }
-}
 
 /// What a running training shall do at its next point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

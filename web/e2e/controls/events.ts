@@ -186,7 +186,7 @@ const LESSON_TITLES = [
   'What the policy sees',
   'Why learning fails',
   'How far the goal is felt',
-  'Begin with what is known',
+  'A head start',
   'Lift-off',
 ];
 const FIRST_CHOICES = /^(Right below the|A little behind|Far behind)/;

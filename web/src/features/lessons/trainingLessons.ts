@@ -120,7 +120,7 @@ export const FAR_GOAL: TrainingLesson = {
 
 export const FINE_TUNING: TrainingLesson = {
   id: 'fine-tuning',
-  title: 'Begin with what is known',
+  title: 'A head start',
   aim: 'Train a policy further on a map that it has never seen.',
   minutes: 2,
   question: `The policy colon was trained on the map colon only. It is trained further on the small maze, for ${FEW_UPDATES} updates, and so is a network with random weights. Which one reaches more goals?`,
