@@ -133,6 +133,8 @@ impl Training {
         let mut status = self.lock();
         match status.stage {
             TrainingStage::Waiting => {
+                // With the lock held, so that it does not begin meanwhile.
+                status.stage = TrainingStage::Paused;
                 drop(status);
                 self.enter(TrainingStage::Paused);
                 true
@@ -163,6 +165,7 @@ impl Training {
         if status.stage.is_running() {
             status.wish = Wish::Cancel;
         } else {
+            status.stage = TrainingStage::Cancelled;
             drop(status);
             self.end_cancelled();
         }
@@ -327,12 +330,14 @@ impl Job for Training {
     }
 
     fn begin(&self) -> bool {
-        let begins = self.is_waiting();
-        if begins {
-            self.change(|status| status.wish = Wish::GoOn);
-            self.enter(TrainingStage::Images);
+        let mut status = self.lock();
+        if status.stage != TrainingStage::Waiting {
+            return false;
         }
-        begins
+        (status.stage, status.wish) = (TrainingStage::Images, Wish::GoOn);
+        drop(status);
+        self.enter(TrainingStage::Images);
+        true
     }
 
     fn run(&self, workshop: &Workshop) {
