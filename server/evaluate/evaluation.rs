@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::map::Map;
+use crate::policy;
 use crate::scenario::Parameters;
 
 /// An evaluation. Its job updates it; all others only read.
@@ -18,6 +19,7 @@ pub struct Evaluation {
     pub cells: Vec<Cell>,
     /// The maps of the query.
     maps: Vec<Map>,
+    pub(super) policies: Arc<policy::Library>,
     /// Cancellation flag, checked at every tick of every trial.
     stop: AtomicBool,
     progress: Mutex<Progress>,
@@ -89,10 +91,24 @@ impl Progress {
 
 impl Evaluation {
     /// A waiting evaluation; `cells` and `maps` belong to the query.
-    pub(super) fn new(id: String, query: EvaluationQuery, cells: Vec<Cell>, maps: Vec<Map>) -> Arc<Self> {
+    pub(super) fn new(
+        id: String,
+        query: EvaluationQuery,
+        cells: Vec<Cell>,
+        maps: Vec<Map>,
+        policies: Arc<policy::Library>,
+    ) -> Arc<Self> {
         let progress =
             Progress { stage: Stage::Waiting, cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
-        Arc::new(Self { id, query, cells, maps, stop: AtomicBool::new(false), progress: Mutex::new(progress) })
+        Arc::new(Self {
+            id,
+            query,
+            cells,
+            maps,
+            policies,
+            stop: AtomicBool::new(false),
+            progress: Mutex::new(progress),
+        })
     }
 
     /// The venue of a cell's trials.
@@ -160,7 +176,7 @@ impl Evaluation {
             map: cell.map.clone(),
             episodes: self.query.episodes,
             seed: self.query.seed,
-            parameters: Parameters::default(),
+            parameters: Parameters { rl_policy: self.query.rl_policy.clone(), ..Parameters::default() },
             manner: Manner::default(),
         }
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{Evaluation, EvaluationQuery, QueryError};
 use crate::jobs::{Queue, QueueError};
-use crate::map::Library;
+use crate::trial::Catalog;
 
 /// Number of ended evaluations that are kept.
 const KEPT: usize = 16;
@@ -52,16 +52,18 @@ impl Evaluations {
         Self { queue, kept: Mutex::default() }
     }
 
-    /// Adds an evaluation on maps of a library.
+    /// Adds an evaluation on maps and with a policy of a catalog.
     ///
     /// # Errors
     /// [`SubmitError`].
-    pub fn submit(&self, query: EvaluationQuery, library: &Library) -> Result<Arc<Evaluation>, SubmitError> {
+    pub fn submit(&self, mut query: EvaluationQuery, catalog: &Catalog) -> Result<Arc<Evaluation>, SubmitError> {
         let cells = query.cells()?;
         // Reads the maps without holding the lock.
-        let maps = query.maps(library)?;
+        let maps = query.maps(&catalog.maps)?;
+        query.rl_policy = catalog.policies.resolve(&query.rl_policy).map_err(QueryError::from)?;
         let mut kept = self.lock();
-        let evaluation = Evaluation::new(format!("evaluation-{}", kept.made + 1), query, cells, maps);
+        let id = format!("evaluation-{}", kept.made + 1);
+        let evaluation = Evaluation::new(id, query, cells, maps, catalog.policies.clone());
         self.queue.submit(evaluation.clone())?;
         kept.made += 1;
         kept.evaluations.push_back(evaluation.clone());

@@ -41,7 +41,7 @@ impl Evaluation {
         for (index, cell) in self.cells.iter().enumerate() {
             let began = Instant::now();
             let map = self.map(cell).ok_or_else(|| MapError::Unknown { name: cell.map.clone() })?;
-            let venue = Venue::of(Arena::of(map.clone()));
+            let venue = Venue::of(Arena::with_policies(map.clone(), self.policies.clone()));
             let experiment = self.experiment(cell, &venue);
             let watch = Watch {
                 stop: self.stop(),
@@ -64,7 +64,7 @@ mod tests {
     use crate::camera::{AdapterChoice, Gpu};
     use crate::evaluate::{Cell, EvaluationQuery};
     use crate::map::Map;
-    use crate::scenario::ControllerName;
+    use crate::scenario::{ControllerName, RlPolicy};
 
     fn evaluation(map: &str) -> Arc<Evaluation> {
         let cell = Cell { controller: ControllerName::Attractor, map: map.into(), disturbances: 0 };
@@ -74,9 +74,10 @@ mod tests {
             disturbances: vec![0],
             episodes: 2,
             seed: 1,
+            rl_policy: RlPolicy::Auto,
         };
         let maps = Map::shipped(map).into_iter().collect();
-        Evaluation::new("a test".into(), query, vec![cell], maps)
+        Evaluation::new("a test".into(), query, vec![cell], maps, Arc::default())
     }
 
     #[test]

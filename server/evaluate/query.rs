@@ -1,7 +1,8 @@
 //! The query of an evaluation, checked before anything runs.
 
 use crate::map::{Library, Map, MapError};
-use crate::scenario::ControllerName;
+use crate::policy::PolicyError;
+use crate::scenario::{ControllerName, RlPolicy};
 
 /// Maximum number of cells per evaluation.
 pub const CELL_LIMIT: usize = 24;
@@ -24,6 +25,8 @@ pub struct EvaluationQuery {
     pub episodes: u32,
     /// Seed of the trials.
     pub seed: u64,
+    /// Policy of the controller `rl`.
+    pub rl_policy: RlPolicy,
 }
 
 /// The subject of one row of the table.
@@ -51,6 +54,8 @@ pub enum QueryError {
         /// Why the map was refused.
         error: MapError,
     },
+    #[error("rl_policy: {0}")]
+    Policy(#[from] PolicyError),
     /// Out of range.
     #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
     Range { field: String, value: u32, allowed: std::ops::RangeInclusive<u32> },
@@ -65,6 +70,7 @@ impl QueryError {
             Self::Empty { field } => (*field).to_owned(),
             Self::Twice { field, index, .. } => format!("{field}[{index}]"),
             Self::Map { index, .. } => format!("maps[{index}]"),
+            Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
             Self::TooManyCells { .. } => "maps".to_owned(),
         }
@@ -144,6 +150,7 @@ mod tests {
             disturbances: vec![0, 3],
             episodes: 30,
             seed: 1,
+            rl_policy: RlPolicy::Auto,
         }
     }
 

@@ -7,7 +7,7 @@ use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
 use super::numbers::Numbers2;
 use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Stage};
-use crate::scenario::ControllerName;
+use crate::scenario::{ControllerName, RlPolicy};
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
 /// same starts, goals and seeds.
@@ -29,6 +29,11 @@ pub struct EvaluationQuery {
     /// Seed of the trials.
     #[ts(type = "number")]
     pub seed: u64,
+    /// Policy of the controller `rl`, as the parameter `rl_policy`.
+    #[serde(default)]
+    #[ts(type = "string")]
+    #[schema(value_type = String, example = "auto")]
+    pub rl_policy: RlPolicy,
 }
 
 /// The derive has no limits for the items of a list.
@@ -236,15 +241,15 @@ impl EvaluationFailure {
 
 impl From<EvaluationQuery> for evaluate::EvaluationQuery {
     fn from(value: EvaluationQuery) -> Self {
-        let EvaluationQuery { controllers, maps, disturbances, episodes, seed } = value;
-        Self { controllers, maps, disturbances, episodes, seed }
+        let EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy } = value;
+        Self { controllers, maps, disturbances, episodes, seed, rl_policy }
     }
 }
 
 impl From<evaluate::EvaluationQuery> for EvaluationQuery {
     fn from(value: evaluate::EvaluationQuery) -> Self {
-        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed } = value;
-        Self { controllers, maps, disturbances, episodes, seed }
+        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy } = value;
+        Self { controllers, maps, disturbances, episodes, seed, rl_policy }
     }
 }
 

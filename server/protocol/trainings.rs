@@ -169,7 +169,7 @@ pub struct TrainingFrame {
     pub quantiles: Vec<[f32; 5]>,
     /// How an episode without exploration ends that begins at the cell.
     pub endings: Vec<EpisodeEnding>,
-    /// Spearman's rank correlation of the values with the distances, over all cells; `null` if all values are equal.
+    /// Spearman’s rank correlation of the values with the distances, over all cells outside the goal; `null` if all values are equal.
     pub rank_correlation: Option<f64>,
     /// Episodes to the goal without exploration.
     pub greedy: Vec<TrainingEpisode>,

@@ -1,28 +1,10 @@
 // The map editor: draw a maze, check it, use it, share it.
 
 import { readFile } from 'node:fs/promises';
-import { type Page, expect } from '@playwright/test';
-import { Lab, test } from './fixtures';
+import { expect } from '@playwright/test';
+import { test } from './fixtures';
+import { check, drawAlong } from './support/drawing';
 import { must } from './support/wait';
-
-/** Draws by hand along places given in millimetres, as in the drawing. */
-async function drawAlong(page: Page, ...places: (readonly [number, number])[]) {
-  const px = await page.locator('.draw-surface').evaluate((svg: SVGSVGElement, at) => {
-    const matrix = svg.getScreenCTM() ?? undefined;
-    return at.map(([x, y]) => {
-      const point = new DOMPoint(x, y).matrixTransform(matrix);
-      return [point.x, point.y] as const;
-    });
-  }, places);
-  const [from, ...others] = px;
-  const [x, y] = must(from, 'a place');
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (const [right, down] of others) await page.mouse.move(right, down, { steps: 5 });
-  await page.mouse.up();
-}
-
-const check = (lab: Lab) => lab.page.getByRole('status', { name: 'Check' });
 
 test('draws a maze, corrects what the check finds, and RL delivers on it', async ({
   lab,

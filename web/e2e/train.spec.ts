@@ -2,6 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { type Lab, expect, test } from './fixtures';
+import { check, drawAlong } from './support/drawing';
 import {
   FEW_UPDATES,
   TRAIN_MS,
@@ -9,7 +10,7 @@ import {
   reachStage,
   startTraining,
 } from './support/trainings';
-import { until } from './support/wait';
+import { must, until } from './support/wait';
 
 test.describe.configure({ mode: 'serial', timeout: TRAIN_MS + 60_000 });
 
@@ -100,6 +101,47 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   expect((await page.request.get(`${server.url}/api/policies/watched.safetensors`)).status()).toBe(
     200,
   );
+});
+
+test('draws a maze, trains on it, uses the policy, and it delivers', async ({ lab, server }) => {
+  const { page } = lab;
+  await lab.view('Draw').click();
+  // A small floor, so that the training takes a minute.
+  await lab.label('Begin with').selectOption('u-turn');
+  await lab.button('Mirror top and bottom').click();
+  await page.getByRole('slider', { name: 'Width' }).fill('20');
+  await drawAlong(page, [-110, 385], [-75, 385]);
+  await expect(check(lab)).toContainText('2 walls');
+  await expect(check(lab)).not.toContainText('regions');
+  await lab.label('Name').fill('Drawn by hand');
+  await lab.button('Save and use').click();
+  await until('the map', () => lab.scene.map === 'drawn-by-hand');
+  await lab.button('Dismiss the report').click();
+  await lab.view('Train').click();
+  await expect(lab.label('Map')).toHaveValue('drawn-by-hand');
+  await expect(lab.label('Policy name')).toHaveValue('my-drawn-by-hand');
+  await page.getByText('Settings', { exact: true }).click();
+  await lab.label('Updates').fill('2000');
+  await submit(lab).click();
+  const trained = entry(lab, 'my-drawn-by-hand');
+  await expect(trained).toContainText('done', { timeout: TRAIN_MS });
+  const reached = /(\d+) of 1000 episodes/.exec(await trained.innerText())?.[1];
+  expect(Number(reached), 'episodes that reached the goal').toBeGreaterThanOrEqual(970);
+  const order = Number(await page.getByTestId('train-correlation').innerText());
+  expect(order, 'rank correlation').toBeGreaterThanOrEqual(0.95);
+  await lab.button('Use it: my-drawn-by-hand').click();
+  await until('RL', () => lab.state.controller === 'rl');
+  await expect(page.locator('.about-controller')).toContainText('my-drawn-by-hand');
+  await lab.speed('8');
+  const bead = await lab.bead();
+  await lab.setGoal(must(lab.freePoints(bead, 0.1, 0.2).at(-1), 'a goal behind the wall'));
+  await lab.run();
+  await lab.delivered(1);
+  await lab.pause();
+  await lab.reset({ map: 'posts' });
+  await lab.restoreDefaults();
+  const map = `${server.url}/api/maps/drawn-by-hand`;
+  expect((await page.request.delete(map)).status()).toBe(204);
 });
 
 test('pauses, resumes, cancels and removes a training', async ({ lab, server }) => {

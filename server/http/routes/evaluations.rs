@@ -32,7 +32,7 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: EvaluationQuery = parse(&body)?;
     // Reading the maps blocks.
-    let evaluation = server.work(move |server| server.evaluations.submit(query.into(), &server.maps.all)).await??;
+    let evaluation = server.work(move |server| server.evaluations.submit(query.into(), &server.catalog)).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())
@@ -111,6 +111,7 @@ impl From<SubmitError> for Problem {
             SubmitError::Query(query) => {
                 let code = match query {
                     QueryError::Map { .. } => "map_refused",
+                    QueryError::Policy(_) => "unknown_policy",
                     QueryError::TooManyCells { .. } => "too_many",
                     QueryError::Empty { .. } | QueryError::Twice { .. } | QueryError::Range { .. } => "out_of_range",
                 };

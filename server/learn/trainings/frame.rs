@@ -54,7 +54,7 @@ pub struct Frame {
     pub quantiles: Vec<[f32; 5]>,
     /// How an episode without exploration ends that begins at the cell.
     pub endings: Vec<Ending>,
-    /// Rank correlation of the values with the distances; `None` if all values are equal.
+    /// Rank correlation of the values with the distances outside the goal; `None` if all values are equal.
     pub rank_correlation: Option<f64>,
     /// Episodes to the goal without exploration.
     pub greedy: Vec<Trail>,
@@ -99,15 +99,18 @@ impl Frame {
         let judged = judge(&network(architecture, state.weights())?, &terrains[0], cells)?;
         let Judged { values, actions, quantiles } = judged;
         let trail = |start: u16| follow(&terrains[0], cells.goal, &actions, start);
-        let steps = || cells.steps.iter().zip(&values).filter_map(|(steps, value)| Some(((*steps)?, *value)));
-        let distances: Vec<f64> = steps().map(|(steps, _)| -f64::from(steps)).collect();
-        let known: Vec<f64> = steps().map(|(_, value)| f64::from(value)).collect();
+        // An episode that begins within the goal ends at once, so nothing is learned there.
+        let outside = |cell: u16| !cells.goal.is_reached_from(&terrains[0], cell);
+        let ranked =
+            || (0..).zip(&cells.steps).filter_map(|(cell, &steps)| Some((cell, steps.filter(|_| outside(cell))?)));
+        let distances: Vec<f64> = ranked().map(|(_, steps)| -f64::from(steps)).collect();
+        let expected: Vec<f64> = ranked().map(|(cell, _)| f64::from(values[usize::from(cell)])).collect();
         Ok(Self {
             update: state.memory.updates,
             endings: (0..actions.len() as u16).map(|start| trail(start).ending).collect(),
             greedy: cells.starts.iter().map(|&start| trail(start)).collect(),
             exploring: explore(state, terrains, cells)?,
-            rank_correlation: rank_correlation(&known, &distances),
+            rank_correlation: rank_correlation(&expected, &distances),
             values,
             actions,
             quantiles,

@@ -9,9 +9,10 @@ use crate::files::is_name;
 
 /// Which trained policy runs. As text: `auto`, the name of a shipped policy, or that of an added one, `NAME` or
 /// `NAME@HASH`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum RlPolicy {
     /// The policy trained on the map, otherwise the explorer.
+    #[default]
     Auto,
     /// Trained on the map `colon` only.
     Colon,

@@ -234,6 +234,10 @@ export const EVALUATE: Section = {
         ...['posts', 'u-turn', 'vessels', '0', '3'],
       ].map((name) => [`checkbox ${name}`, box]),
     ),
+    'combobox Policy of RL': {
+      see: valueOf,
+      after: (lab) => lab.label('Policy of RL').selectOption('auto'),
+    },
     'spinbutton Episodes per cell': typed,
     'spinbutton Seed': typed,
     ...REPORT_ROWS,

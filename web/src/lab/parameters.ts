@@ -72,17 +72,19 @@ export interface FlagField {
 
 export type Field = NumberField | ChoiceField | PolicyField | FlagField;
 
+/** The name in a policy's reference: `NAME` or `NAME@HASH`. */
+export const policyName = (reference: string): string => reference.split('@')[0] ?? reference;
+
 /** The shipped policies, the added ones, and the value itself, which may have been deleted. */
 export function policyOptions(
   { options }: PolicyField,
   added: readonly string[],
   value: string,
 ): readonly (readonly [value: string, label: string])[] {
-  const nameOf = (reference: string): string => reference.split('@')[0] ?? reference;
-  const known = [...options, ...added.map((one) => [one, nameOf(one)] as const)];
+  const known = [...options, ...added.map((one) => [one, policyName(one)] as const)];
   return known.some(([one]) => one === value)
     ? known
-    : [...known, [value, `${nameOf(value)} (not on this server)`]];
+    : [...known, [value, `${policyName(value)} (not on this server)`]];
 }
 
 export interface Group {

@@ -2,7 +2,7 @@
 
 import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
 import { troubleWords } from '../../lab/failure';
-import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS } from '../../lab/parameters';
+import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../../lab/parameters';
 import type { ControllerName, StateMessage } from '../../net/protocol.gen';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
@@ -50,15 +50,20 @@ function ControllerChoice(props: {
 }
 
 /** What the controller does, or what keeps it from the goal. */
-function About(props: { state: StateMessage }): JSX.Element {
+function About(props: { state: StateMessage; policy: string }): JSX.Element {
   const trouble = (): string | undefined => {
     const { controller, trouble } = props.state;
     return trouble === null ? undefined : troubleWords(CONTROLLER_LABELS[controller], trouble);
   };
+  const help = (): string => {
+    const { controller } = props.state;
+    if (controller !== 'rl' || props.policy === 'auto') return CONTROLLER_HELP[controller];
+    return `RL with the policy “${policyName(props.policy)}”: from the camera's pictures it judges four directions, step by step.`;
+  };
   return (
     <>
       <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
-        {trouble() ?? CONTROLLER_HELP[props.state.controller]}
+        {trouble() ?? help()}
       </p>
       <div class="about-others">
         <For each={CONTROLLERS.filter((name) => name !== props.state.controller)}>
@@ -88,7 +93,7 @@ export function ControllerPanel(props: {
           <Show when={lab.state()}>
             {(state) => (
               <>
-                <About state={state()} />
+                <About state={state()} policy={scene().parameters.rl_policy} />
                 <SwitchingLaw state={state()} scene={scene()} />
                 {props.children}
                 {/* Not before the rest, which would push it down. */}

@@ -1,7 +1,7 @@
 // The form for a new evaluation.
 
-import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { For, Show, createMemo, createSignal, createUniqueId, type JSX } from 'solid-js';
+import { CONTROLLER_LABELS, FIELDS, type PolicyField, policyOptions } from '../../lab/parameters';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import { roughly } from '../../ui/format';
@@ -63,6 +63,44 @@ function Choice<T extends string | number>(props: {
       </div>
       <Fault id={id} text={props.fault} />
     </fieldset>
+  );
+}
+
+function Policy(props: {
+  added: readonly string[];
+  value: string;
+  fault: string | undefined;
+  onInput: (value: string) => void;
+}): JSX.Element {
+  const id = createUniqueId();
+  const fault = createUniqueId();
+  const options = createMemo(() => {
+    const field = FIELDS.find((one): one is PolicyField => one.kind === 'policy');
+    return field ? policyOptions(field, props.added, props.value) : [];
+  });
+  return (
+    <div>
+      <div class="field">
+        <label for={id}>Policy of RL</label>
+        <select
+          id={id}
+          aria-invalid={props.fault !== undefined}
+          aria-describedby={fault}
+          onChange={({ currentTarget }) => {
+            props.onInput(currentTarget.value);
+          }}
+        >
+          <For each={options()}>
+            {([value, label]) => (
+              <option value={value} selected={value === props.value}>
+                {label}
+              </option>
+            )}
+          </For>
+        </select>
+      </div>
+      <Fault id={fault} text={props.fault} />
+    </div>
   );
 }
 
@@ -154,6 +192,16 @@ export function EvaluationForm(props: {
           change('controllers', { controllers });
         }}
       />
+      <Show when={draft().controllers.includes('rl')}>
+        <Policy
+          added={lab.scene()?.policies ?? []}
+          value={draft().rl_policy}
+          fault={faults().rl_policy}
+          onInput={(rl_policy) => {
+            change('rl_policy', { rl_policy });
+          }}
+        />
+      </Show>
       <Choice
         legend="Maps"
         all={lab.scene()?.maps ?? []}

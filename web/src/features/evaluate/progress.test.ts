@@ -49,6 +49,8 @@ describe('words', () => {
     expect(subject({ ...TWO, query: { ...TWO.query, disturbances: [1] } })).toBe(
       'RL on posts; 1 disturbance',
     );
+    const mine = { ...TWO.query, rl_policy: 'mine@0123456789abcdef' };
+    expect(subject({ ...TWO, query: mine })).toBe('RL (mine) on posts; 0 disturbances');
   });
 
   it('change at milestones only', () => {

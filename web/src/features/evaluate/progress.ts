@@ -1,7 +1,7 @@
 // Progress and remaining time of an evaluation. Pure.
 
-import { CONTROLLER_LABELS } from '../../lab/parameters';
-import type { Cell, EvaluationSummary } from '../../net/protocol.gen';
+import { CONTROLLER_LABELS, policyName } from '../../lab/parameters';
+import type { Cell, ControllerName, EvaluationSummary } from '../../net/protocol.gen';
 
 export function isActive({ stage }: EvaluationSummary): boolean {
   return stage === 'running' || stage === 'waiting';
@@ -76,7 +76,12 @@ export function stageWords(summary: EvaluationSummary): string {
 
 /** `RL, ERRT on posts; 0 and 3 disturbances`. */
 export function subject({ query }: EvaluationSummary): string {
-  const controllers = query.controllers.map((name) => CONTROLLER_LABELS[name]).join(', ');
+  const { rl_policy } = query;
+  const label = (name: ControllerName): string =>
+    name === 'rl' && rl_policy !== 'auto'
+      ? `${CONTROLLER_LABELS.rl} (${policyName(rl_policy)})`
+      : CONTROLLER_LABELS[name];
+  const controllers = query.controllers.map(label).join(', ');
   const disturbances = query.disturbances.join(' and ');
   const noun = disturbances === '1' ? 'disturbance' : 'disturbances';
   return `${controllers} on ${query.maps.join(', ')}; ${disturbances} ${noun}`;

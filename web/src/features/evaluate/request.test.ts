@@ -8,6 +8,7 @@ const PAPERS_QUERY = {
   disturbances: [0, 3],
   episodes: 30,
   seed: 1,
+  rl_policy: 'auto',
 };
 
 describe('queryOf', () => {
@@ -19,8 +20,23 @@ describe('queryOf', () => {
     });
   });
 
+  it('names a policy for RL only', () => {
+    const draft = { ...PAPERS, rl_policy: 'mine@0123456789abcdef' };
+    expect(queryOf(draft)).toMatchObject({ query: { rl_policy: draft.rl_policy } });
+    expect(queryOf({ ...draft, controllers: ['errt'] })).toMatchObject({
+      query: { rl_policy: 'auto' },
+    });
+  });
+
   it('reports every field that is empty or not a number', () => {
-    const bad = { controllers: [], maps: [], disturbances: [], episodes: '', seed: '1.5' };
+    const bad = {
+      ...PAPERS,
+      controllers: [],
+      maps: [],
+      disturbances: [],
+      episodes: '',
+      seed: '1.5',
+    };
     const made = queryOf(bad);
     expect('faults' in made && Object.keys(made.faults).sort()).toEqual(
       ['controllers', 'disturbances', 'episodes', 'maps', 'seed'].sort(),

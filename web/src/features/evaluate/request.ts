@@ -4,10 +4,11 @@ import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../n
 import { counted } from '../../ui/format';
 import { secondsAnEpisode } from './progress';
 
-export type Field = 'controllers' | 'maps' | 'disturbances' | 'episodes' | 'seed';
+export type Field = 'controllers' | 'rl_policy' | 'maps' | 'disturbances' | 'episodes' | 'seed';
 
 export interface Draft {
   readonly controllers: readonly ControllerName[];
+  readonly rl_policy: string;
   readonly maps: readonly string[];
   readonly disturbances: readonly number[];
   /** As typed; empty if it is not a number. */
@@ -18,6 +19,7 @@ export interface Draft {
 /** The paper's two experiments (§V-A). */
 export const PAPERS: Draft = {
   controllers: ['rl'],
+  rl_policy: 'auto',
   maps: ['colon'],
   disturbances: [0, 3],
   episodes: '30',
@@ -42,7 +44,7 @@ export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Fa
     faults.seed = 'The seed must be a whole number from 0 to 9007199254740991.';
   }
   if (Object.keys(faults).length > 0) return { faults };
-  const { controllers, maps, disturbances } = draft;
+  const { controllers, rl_policy, maps, disturbances } = draft;
   return {
     query: {
       controllers: [...controllers],
@@ -50,11 +52,20 @@ export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Fa
       disturbances: [...disturbances],
       episodes: Number(draft.episodes),
       seed,
+      // Without RL there is no policy to name.
+      rl_policy: controllers.includes('rl') ? rl_policy : 'auto',
     },
   };
 }
 
-const FIELDS: readonly Field[] = ['controllers', 'maps', 'disturbances', 'episodes', 'seed'];
+const FIELDS: readonly Field[] = [
+  'controllers',
+  'rl_policy',
+  'maps',
+  'disturbances',
+  'episodes',
+  'seed',
+];
 
 /** The server's refusal at the field that it names: `maps[1]` belongs to the maps. */
 export function faultsOf(refusal: { detail: string; field?: string | undefined }): Faults {

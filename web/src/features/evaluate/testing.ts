@@ -23,7 +23,14 @@ export function cellOf(change: Partial<EvaluationCell> = {}): EvaluationCell {
 export function summaryOf(change: Partial<EvaluationSummary> = {}): EvaluationSummary {
   return {
     id: 'evaluation-3',
-    query: { controllers: ['rl'], maps: ['posts'], disturbances: [0], episodes: 10, seed: 1 },
+    query: {
+      controllers: ['rl'],
+      maps: ['posts'],
+      disturbances: [0],
+      episodes: 10,
+      seed: 1,
+      rl_policy: 'auto',
+    },
     stage: 'running',
     message: null,
     cells: [cellOf()],

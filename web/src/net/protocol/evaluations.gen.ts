@@ -26,7 +26,11 @@ episodes: number,
 /**
  * Seed of the trials.
  */
-seed: number, };
+seed: number, 
+/**
+ * Policy of the controller `rl`, as the parameter `rl_policy`.
+ */
+rl_policy: string, };
 
 /**
  * The subject of one row of the table.

@@ -272,7 +272,7 @@ quantiles: Array<[number, number, number, number, number]>,
  */
 endings: Array<EpisodeEnding>, 
 /**
- * Spearman's rank correlation of the values with the distances, over all cells; `null` if all values are equal.
+ * Spearman’s rank correlation of the values with the distances, over all cells outside the goal; `null` if all values are equal.
  */
 rank_correlation: number | null, 
 /**
