@@ -2,6 +2,8 @@
 
 mod query;
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
@@ -9,7 +11,7 @@ use utoipa::ToSchema;
 use super::numbers::Numbers2;
 use crate::evaluate::wilson95;
 use crate::learn::sweep::STEP_M;
-use crate::learn::{self, Ending, Marks, Point, Status, Training};
+use crate::learn::{self, Ending, Frame, Marks, Point, Status, Training};
 
 pub use query::{FusionName, RecipeName, TrainingQuery, TrainingSettings};
 
@@ -97,6 +99,9 @@ pub struct TrainingSummary {
     pub rank_correlation: Option<f64>,
     /// Number of value maps.
     pub frames: u32,
+    /// Smallest and greatest value of all value maps so far.
+    #[schema(value_type = Option<Numbers2>)]
+    pub value_range: Option<[f32; 2]>,
     /// Its policy, as `rl_policy` takes it, once it is done.
     pub policy: Option<String>,
 }
@@ -238,9 +243,15 @@ impl TrainingSummary {
             examined: status.examined.or_else(newest).as_ref().map(Examination::from),
             rank_correlation: status.frames.last().and_then(|frame| frame.rank_correlation),
             frames: status.frames.len() as u32,
+            value_range: value_range(&status.frames),
             policy: status.policy.clone(),
         }
     }
+}
+
+fn value_range(frames: &[Arc<Frame>]) -> Option<[f32; 2]> {
+    let values = || frames.iter().flat_map(|frame| frame.values.iter().copied());
+    Some([values().reduce(f32::min)?, values().reduce(f32::max)?])
 }
 
 impl From<&Training> for TrainingReport {

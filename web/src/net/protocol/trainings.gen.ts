@@ -161,6 +161,10 @@ rank_correlation: number | null,
  */
 frames: number, 
 /**
+ * Smallest and greatest value of all value maps so far.
+ */
+value_range: [number, number] | null, 
+/**
  * Its policy, as `rl_policy` takes it, once it is done.
  */
 policy: string | null, };
@@ -197,6 +201,10 @@ rank_correlation: number | null,
  * Number of value maps.
  */
 frames: number, 
+/**
+ * Smallest and greatest value of all value maps so far.
+ */
+value_range: [number, number] | null, 
 /**
  * Its policy, as `rl_policy` takes it, once it is done.
  */
