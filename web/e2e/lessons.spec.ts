@@ -143,7 +143,9 @@ for (const { title, choice, policies } of TRAINING_LESSONS) {
       await expect(lab.button('Next')).toBeDisabled();
       await lab.button(`Train ${policy}`).click();
       await expect(lab.button('Next')).toBeEnabled({ timeout: TRAIN_MS });
-      await expect(lab.page.getByText(/of 1000 episodes of the last examination/)).toBeVisible();
+      await expect(
+        lab.page.getByText(/of 1000 episodes with random starts and goals/),
+      ).toBeVisible();
       await next(lab);
     }
     await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));

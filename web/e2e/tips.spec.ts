@@ -33,21 +33,23 @@ test('opens on a goal in the colon, with a tip', async ({ page, watch }) => {
 
 test('shows one tip at a time, and none twice', async ({ page, session }) => {
   const lab = await Lab.attach(page, session.url);
+  // Without a goal, nothing would move.
+  await isTip(page, 'Click a free place to set the goal.');
+  await lab.setGoal(freePointNearBead(lab));
   await isTip(page, /^Press Run/);
   await lab.run();
   await isTip(page, /^Drag the bead/);
   // A later tip can be done first.
   await lab.controller('ERRT');
   await isTip(page, /^Drag the bead/);
+  await lab.delivered(1);
   // As far as the magnet does not reach.
   await lab.startDrag(must(lab.freePoints(lab.state.bead_m, 0.2, 0.35)[0], 'a place far away'));
-  await isTip(page, /Click a free place/);
+  await isTip(page, /^Choose 3-D/);
   await page.mouse.up();
   await lab.pause();
   await page.reload();
   await lab.live();
-  await isTip(page, /Click a free place/);
-  await lab.setGoal(freePointNearBead(lab));
   await isTip(page, /^Choose 3-D/);
   await lab.radio('3-D').check();
   await expect(tip(page)).toHaveCount(0);
@@ -58,6 +60,7 @@ test('shows one tip at a time, and none twice', async ({ page, session }) => {
 
 test('does not ask for what is so already', async ({ page, session, openLab }) => {
   const first = await openLab();
+  await first.setGoal(freePointNearBead(first));
   await first.run();
   await first.releaseControl();
   // Free control goes to the next browser that connects.

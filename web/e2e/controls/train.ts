@@ -119,11 +119,20 @@ export const TRAIN: Section = {
     'link /^Download /': { see: downloads },
     'button /^Train ./': { elsewhere: 'trains a policy, watches it and uses it' },
     'summary /^How .* was trained$/': { elsewhere: 'trains a policy, watches it and uses it' },
+    'summary How does it learn?': {
+      see: (lab) =>
+        lab.page.locator('.train-intro details').evaluate((one: HTMLDetailsElement) => one.open),
+      isToggle: true,
+    },
     'button Upload policy…': { elsewhere: 'downloads, uploads, renames and deletes a policy' },
     'button /^(Pause|Resume|Cancel|Remove) ./': {
       elsewhere: 'pauses, resumes, cancels and removes a training',
     },
-    // Last, because it leaves the view.
+    // Last, because they leave the view.
+    'button /^Evaluate ./': {
+      see: (lab) => lab.page.locator('main.train').count(),
+      after: (lab) => lab.view('Train').click(),
+    },
     'button /^Use it: /': {
       see: (lab) => lab.scene.parameters.rl_policy,
       after: async (lab) => {

@@ -13,6 +13,7 @@ import { openCase } from '../features/events/cases';
 import { ControllerPanel } from '../features/controller/ControllerPanel';
 import type { DrawProps } from '../features/draw/DrawView';
 import { LazyDrawView } from '../features/draw/LazyDrawView';
+import { fillIn } from '../features/evaluate/draft';
 import { EvaluateView } from '../features/evaluate/EvaluateView';
 import { Header } from './Header';
 import { MAP_LAYERS } from './layers';
@@ -70,7 +71,14 @@ export function Page(): JSX.Element {
             above={<ExperimentNotice lab={lab} links={links} />}
             choices={
               <>
-                <OpenMap lab={lab} opener={opener} />
+                <OpenMap
+                  lab={lab}
+                  opener={opener}
+                  onTrain={() => {
+                    training.train?.showMap();
+                    setView('train');
+                  }}
+                />
                 <PresetSelect lab={lab} links={links} />
               </>
             }
@@ -111,6 +119,10 @@ export function Page(): JSX.Element {
             theme={theme}
             onLaboratory={() => {
               setView('laboratory');
+            }}
+            onEvaluate={(policy, map) => {
+              fillIn(policy, map);
+              setView('evaluate');
             }}
           />
         </Match>

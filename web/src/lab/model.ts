@@ -13,6 +13,7 @@ import {
   type ServerMessage,
   type StateMessage,
 } from '../net/protocol.gen';
+import { withoutHashes } from '../net/problem';
 import type { Notice } from '../ui/NoticeBar';
 import { isSameEvent } from './eventStory';
 import { HAND_SILENT, type Place, PLACE_OF_COMMAND, placeOfError } from './places';
@@ -195,13 +196,20 @@ function withMessage(model: Model, message: ServerMessage): Model {
       const marked = { ...model, marks };
       // The log has the past of a run already.
       if (message.again) return marked;
-      return withLine(marked, message.kind, message.text, message.sim_time_s, message);
+      return withLine(
+        marked,
+        message.kind,
+        withoutHashes(message.text),
+        message.sim_time_s,
+        message,
+      );
     }
     case 'comparison':
       return message.trial === model.scene?.trial ? { ...model, comparison: message } : model;
     case 'error': {
       const place = placeOfError(message, model);
-      const logged = withLine(model, 'error', message.message, model.state?.sim_time_s);
+      const text = withoutHashes(message.message);
+      const logged = withLine(model, 'error', text, model.state?.sim_time_s);
       return withNotice(
         {
           ...logged,
@@ -210,7 +218,7 @@ function withMessage(model: Model, message: ServerMessage): Model {
         },
         place,
         'error',
-        message.message,
+        text,
       );
     }
   }

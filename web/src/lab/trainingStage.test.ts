@@ -1,5 +1,13 @@
 import { describe, expect, it } from 'vitest';
-import { isActive, milestone, shareWords, stageSentence, updateWords } from './trainingStage';
+import {
+  intervalWords,
+  isActive,
+  milestone,
+  progressWords,
+  shareWords,
+  stageSentence,
+  updateWords,
+} from './trainingStage';
 import { trainingOf } from './testing';
 
 const EXAMINED = {
@@ -15,6 +23,9 @@ describe('a training', () => {
     expect(updateWords(trainingOf())).toBe('1000 of 4000 updates');
     expect(stageSentence(trainingOf(), [])).toBe('500 episodes so far, about 3 min left.');
     expect(stageSentence(trainingOf({ left_s: null }), [])).toBe('500 episodes so far.');
+    expect(progressWords(trainingOf())).toBe('learns, 25 %, about 3 min left');
+    expect(progressWords(trainingOf({ left_s: null }))).toBe('learns, 25 %');
+    expect(progressWords(trainingOf({ stage: 'images' }))).toBe('takes images');
   });
 
   it('says what it waits for', () => {
@@ -27,7 +38,8 @@ describe('a training', () => {
   it('says how it ended', () => {
     const done = trainingOf({ stage: 'done', examined: EXAMINED });
     expect(shareWords(EXAMINED)).toBe('986 of 1000');
-    expect(stageSentence(done, [])).toContain('986 of 1000 episodes');
+    expect(intervalWords(EXAMINED)).toBe('95 % interval: 97.7 to 99.2 %');
+    expect(stageSentence(done, [])).toContain('986 of 1000 episodes with random starts and goals');
     expect(stageSentence(trainingOf({ stage: 'failed', message: 'No GPU.' }), [])).toBe('No GPU.');
     expect(isActive(done)).toBe(false);
     expect(isActive(trainingOf({ stage: 'paused' }))).toBe(true);

@@ -1,6 +1,6 @@
 // What a training does and when it ends, as words. Pure.
 
-import { counted, roughly } from '../ui/format';
+import { counted, fixed, roughly } from '../ui/format';
 import type { Examination, TrainingStage, TrainingSummary } from '../net/protocol.gen';
 
 export function isActive({ stage }: Pick<TrainingSummary, 'stage'>): boolean {
@@ -8,8 +8,9 @@ export function isActive({ stage }: Pick<TrainingSummary, 'stage'>): boolean {
 }
 
 /** Whether it takes the server's processors now. */
-const isRunning = ({ stage }: TrainingSummary): boolean =>
-  stage === 'images' || stage === 'learning' || stage === 'examination';
+export function isRunning({ stage }: Pick<TrainingSummary, 'stage'>): boolean {
+  return stage === 'images' || stage === 'learning' || stage === 'examination';
+}
 
 const STAGE_WORDS: Readonly<Record<TrainingStage, string>> = {
   waiting: 'waits',
@@ -46,7 +47,7 @@ export function stageSentence(
       return `Paused after ${counted(summary.updates, 'update')}.`;
     case 'done':
       return summary.examined
-        ? `${shareWords(summary.examined)} episodes of the last examination reached the goal.`
+        ? `${shareWords(summary.examined)} episodes with random starts and goals reached the goal.`
         : 'The policy can be used.';
     case 'cancelled':
       return `Cancelled after ${counted(summary.updates, 'update')}.`;
@@ -62,6 +63,20 @@ function learningSentence({ left_s, episodes }: TrainingSummary): string {
 
 /** `about 3 min left`. */
 export const leftWords = (left_s: number): string => `about ${roughly(left_s)} left`;
+
+/** `learns, 25 %, about 3 min left`; without numbers in the other stages. */
+export function progressWords(summary: TrainingSummary): string {
+  const { stage, updates, updates_total, left_s } = summary;
+  if (stage !== 'learning') return stageWords(summary);
+  const share = Math.floor((100 * updates) / Math.max(1, updates_total));
+  const left = left_s === null ? [] : [leftWords(left_s)];
+  return [stageWords(summary), `${share} %`, ...left].join(', ');
+}
+
+/** `95 % interval: 97.7 to 99.2 %`. */
+export function intervalWords({ reached_wilson95: [low, high] }: Examination): string {
+  return `95 % interval: ${fixed(100 * low, 1)} to ${fixed(100 * high, 1)} %`;
+}
 
 /** `986 of 1000`. */
 export const shareWords = ({ reached, episodes }: Examination): string =>

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { type Answer, Asker } from './requests';
-import { problemText } from './problem';
+import { problemText, withoutHashes } from './problem';
 
 /** A server that answers when the test decides, and a clock that does not advance. */
 function bench() {
@@ -92,5 +92,12 @@ describe('the text of a refusal', () => {
     expect(problemText({ detail: 'count must be from 2', field: 'count' })).toMatch(/^count/);
     expect(problemText({ title: 'Bad' })).toBeUndefined();
     expect(problemText(undefined)).toBeUndefined();
+  });
+
+  it('has names in place of references', () => {
+    expect(withoutHashes('"mine@0123456789abcdef" or other@fedcba9876543210')).toBe(
+      '"mine" or other',
+    );
+    expect(withoutHashes('a@b.org')).toBe('a@b.org');
   });
 });

@@ -8,6 +8,8 @@ interface ConfirmProps {
   readonly verb: string;
   /** What it does it to. */
   readonly of: string;
+  /** A sentence before the question. */
+  readonly warning?: string | undefined;
   readonly disabled?: boolean;
   readonly title?: string | undefined;
   /** True if it was done. */
@@ -19,6 +21,7 @@ function Question(
   props: ConfirmProps & { isBusy: boolean; onAnswer: () => void; onKeep: () => void },
 ): JSX.Element {
   let keep!: HTMLButtonElement;
+  const warning = (): string => (props.warning === undefined ? '' : `${props.warning} `);
   onMount(() => {
     keep.focus();
   });
@@ -26,12 +29,15 @@ function Question(
     <span
       class="confirm"
       role="group"
-      aria-label={`${props.verb} ${props.of}?`}
+      aria-label={`${warning()}${props.verb} ${props.of}?`}
       onKeyDown={(event) => {
         if (event.key === 'Escape') props.onKeep();
       }}
     >
-      <span>{props.verb}?</span>
+      <span>
+        {warning()}
+        {props.verb}?
+      </span>
       <button
         type="button"
         class="small danger"

@@ -36,8 +36,12 @@ export interface CurveContext {
   readonly lines: readonly CurveLine[];
   /** Pairs of lines, upper one first, with the area between them filled in the colour of the upper one. */
   readonly bands: readonly (readonly [number, number])[];
+  /** Pairs of lines whose points are joined by an error bar in the colour of the upper one. */
+  readonly bars?: readonly (readonly [number, number])[];
   readonly xRange: () => [number, number];
   readonly yRange: (max: number, min: number) => [number, number];
+  /** Where the axis has its numbers, of which `most` have room; without, at round ones. */
+  readonly xSplits?: (most: number) => number[];
   readonly xText: (value: number) => string;
   readonly yText: (value: number) => string;
   readonly shades: () => readonly Shade[];
@@ -46,6 +50,12 @@ export interface CurveContext {
 }
 
 const FONT = '10px system-ui, sans-serif';
+const GAP_PX = 3;
+/** Least distance of two numbers on the x axis. */
+const SPACE_PX = 44;
+/** Of the y axis, unless its numbers need more. */
+const LEAST_WIDTH_PX = 34;
+const CAP_PX = 3;
 const SHADE_ALPHA = 0.14;
 /** Two hexadecimal digits of opacity. */
 const FILL_ALPHA = '24';
@@ -98,14 +108,50 @@ function drawRules(u: uPlot, context: CurveContext): void {
   });
 }
 
+function drawBars(u: uPlot, context: CurveContext): void {
+  inside(u, (ctx, ratio) => {
+    ctx.lineWidth = 1.5 * ratio;
+    for (const [upper, lower] of context.bars ?? []) {
+      const [highs, lows] = [u.data[upper + 1], u.data[lower + 1]];
+      ctx.strokeStyle = context.palette()[context.lines[upper]?.color ?? 'text'];
+      ctx.beginPath();
+      u.data[0].forEach((x, index) => {
+        const ends = [highs?.[index], lows?.[index]];
+        const px = u.valToPos(x, 'x', true);
+        const [top, bottom] = ends.map((y) =>
+          typeof y === 'number' ? u.valToPos(y, 'y', true) : NaN,
+        );
+        if (top === undefined || bottom === undefined || Number.isNaN(top + bottom)) return;
+        ctx.moveTo(px, top);
+        ctx.lineTo(px, bottom);
+        for (const end of [top, bottom]) {
+          ctx.moveTo(px - CAP_PX * ratio, end);
+          ctx.lineTo(px + CAP_PX * ratio, end);
+        }
+      });
+      ctx.stroke();
+    }
+  });
+}
+
+/** As wide as its longest number. */
+function widthPx({ ctx }: uPlot, texts: readonly string[]): number {
+  ctx.save();
+  ctx.font = FONT;
+  const widths = texts.map((text) => ctx.measureText(text).width);
+  ctx.restore();
+  return Math.max(LEAST_WIDTH_PX, Math.ceil(Math.max(...widths) + 2 * GAP_PX));
+}
+
 export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
   const axis = {
     stroke: () => context.palette().muted,
     font: FONT,
     grid: { stroke: () => context.palette().grid, width: 1 },
     ticks: { show: false },
-    gap: 3,
+    gap: GAP_PX,
   };
+  const { xSplits } = context;
   return new uPlot(
     {
       width: Math.max(50, root.clientWidth),
@@ -117,8 +163,21 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         y: { range: (_u, min, max) => context.yRange(max, min) },
       },
       axes: [
-        { ...axis, size: 18, space: 44, values: (_u, ticks) => ticks.map(context.xText) },
-        { ...axis, size: 34, space: 18, values: (_u, ticks) => ticks.map(context.yText) },
+        {
+          ...axis,
+          size: 18,
+          space: SPACE_PX,
+          values: (_u, ticks) => ticks.map(context.xText),
+          ...(xSplits && {
+            splits: (u) => xSplits(u.bbox.width / window.devicePixelRatio / SPACE_PX),
+          }),
+        },
+        {
+          ...axis,
+          size: (u, texts: readonly string[] | null) => widthPx(u, texts ?? []),
+          space: 18,
+          values: (_u, ticks) => ticks.map(context.yText),
+        },
       ],
       series: [
         {},
@@ -144,6 +203,7 @@ export function createCurve(root: HTMLElement, context: CurveContext): uPlot {
         ],
         draw: [
           (u) => {
+            drawBars(u, context);
             drawRules(u, context);
           },
         ],

@@ -10,6 +10,7 @@ import type {
   StateMessage,
 } from '../../net/protocol.gen';
 import { TERMS } from '../../lab/terms';
+import { withoutHashes } from '../../net/problem';
 import { Fact } from '../../ui/Fact';
 import '../../ui/Fact.css';
 import './SwitchingLaw.css';
@@ -203,7 +204,7 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
         {props.state.reason}
       </p>
       <Show when={props.state.refusal}>
-        {(refusal) => <p class="refusal">Holding: {refusal()}</p>}
+        {(refusal) => <p class="refusal">Holding: {withoutHashes(refusal())}</p>}
       </Show>
       <p class="rule">{ruleText(props.scene.parameters)}</p>
     </div>

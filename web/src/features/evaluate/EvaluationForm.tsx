@@ -1,18 +1,24 @@
 // The form for a new evaluation.
 
 import { For, Show, createMemo, createSignal, createUniqueId, type JSX } from 'solid-js';
-import { CONTROLLER_LABELS, FIELDS, type PolicyField, policyOptions } from '../../lab/parameters';
+import {
+  CONTROLLERS,
+  CONTROLLER_LABELS,
+  FIELDS,
+  type PolicyField,
+  policyOptions,
+} from '../../lab/parameters';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import { roughly } from '../../ui/format';
 import type { EvaluationList } from './evaluations';
+import { draft, setDraft } from './draft';
 import {
   type Draft,
   estimate_s,
   type Faults,
   faultsOf,
   type Field,
-  PAPERS,
   queryOf,
   sizeWords,
   toggled,
@@ -21,9 +27,6 @@ import type { Session, Trial } from '../../lab/slices';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
-
-/** Outside of the component, so that it survives a change to the laboratory and back. */
-const [draft, setDraft] = createSignal<Draft>(PAPERS);
 
 function Fault(props: { id: string; text: string | undefined }): JSX.Element {
   return (
@@ -184,7 +187,7 @@ export function EvaluationForm(props: {
     >
       <Choice
         legend="Controllers"
-        all={lab.scene()?.controllers ?? []}
+        all={CONTROLLERS}
         chosen={draft().controllers}
         label={(name) => CONTROLLER_LABELS[name]}
         fault={faults().controllers}

@@ -1,14 +1,23 @@
 // Loads a map from a file on the user's computer.
 
-import { For, Show, type JSX } from 'solid-js';
+import { For, Show, onCleanup, type JSX } from 'solid-js';
 import type { Session } from '../../lab/slices';
 import { isOutOfReach, reportWords } from '../../lab/maps';
 import { FileButton } from '../../ui/FileButton';
 import type { MapOpener } from './opener';
 import './maps.css';
 
-export function OpenMap(props: { lab: Session; opener: MapOpener }): JSX.Element {
+export function OpenMap(props: {
+  lab: Session;
+  opener: MapOpener;
+  /** Opens the view Train with the map. */
+  onTrain: () => void;
+}): JSX.Element {
   const { lab, opener } = props;
+  // Another view is opened.
+  onCleanup(() => {
+    opener.dismiss();
+  });
   const isOff = (): boolean => !lab.canOperate() || opener.isBusy();
   return (
     <div class="open-map">
@@ -51,6 +60,16 @@ export function OpenMap(props: { lab: Session; opener: MapOpener }): JSX.Element
                 Move into reach
               </button>
             </Show>
+            <button
+              type="button"
+              class="small"
+              title="Opens the view Train: a policy learns this map"
+              onClick={() => {
+                props.onTrain();
+              }}
+            >
+              Train a policy on it
+            </button>
           </div>
         )}
       </Show>

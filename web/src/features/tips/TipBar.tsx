@@ -40,12 +40,14 @@ export function TipBar(props: { lab: Session & Trial; scene: boolean }): JSX.Ele
       if (after.size > done().size) store(after);
     }),
   );
-  const tip = (): TipId | undefined => (lab.canOperate() ? nextTip(done()) : undefined);
+  const hasGoal = (): boolean => lab.goal() !== undefined;
+  const tip = (): TipId | undefined =>
+    shown() && lab.canOperate() ? nextTip(done(), hasGoal()) : undefined;
   return (
     <Show when={tip()}>
       {(id) => (
         <p class="tip" role="status">
-          <span>{tipText(id(), IS_TOUCH)}</span>
+          <span>{tipText(id(), hasGoal(), IS_TOUCH)}</span>
           <button
             type="button"
             class="small"

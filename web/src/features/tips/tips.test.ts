@@ -1,13 +1,19 @@
 import { describe, expect, it } from 'vitest';
-import { type Shown, TIP_IDS, doneAfter, nextTip, tipsFrom } from './tips';
+import { type Shown, TIP_IDS, doneAfter, nextTip, tipText, tipsFrom } from './tips';
 
 const BEFORE: Shown = { running: false, fetching: false, goal: '', controller: 'rl', scene: false };
 
 describe('tips', () => {
   it('come one at a time', () => {
-    expect(nextTip(new Set())).toBe('run');
-    expect(nextTip(new Set(['run', 'goal']))).toBe('drag');
-    expect(nextTip(new Set(TIP_IDS))).toBeUndefined();
+    expect(nextTip(new Set(), true)).toBe('run');
+    expect(nextTip(new Set(['run', 'goal']), true)).toBe('drag');
+    expect(nextTip(new Set(TIP_IDS), true)).toBeUndefined();
+  });
+
+  it('begin with the goal if it is not set', () => {
+    expect(nextTip(new Set(), false)).toBe('goal');
+    expect(tipText('goal', false, true)).toBe('Tap a free place to set the goal.');
+    expect(nextTip(new Set(['goal']), false)).toBe('controller');
   });
 
   it.each([

@@ -27,8 +27,11 @@ export function doneAfter(done: ReadonlySet<TipId>, now: Shown, before: Shown): 
   return new Set(TIP_IDS.filter((id) => done.has(id) || DONE[id](now, before)));
 }
 
-export function nextTip(done: ReadonlySet<TipId>): TipId | undefined {
-  return TIP_IDS.find((id) => !done.has(id));
+/** Without a goal the arm does not move: running and dragging would show nothing. */
+const NEEDS_GOAL: ReadonlySet<TipId> = new Set(['run', 'drag']);
+
+export function nextTip(done: ReadonlySet<TipId>, hasGoal: boolean): TipId | undefined {
+  return TIP_IDS.find((id) => !done.has(id) && (hasGoal || !NEEDS_GOAL.has(id)));
 }
 
 /** Reads the stored tips; unknown names are ignored. */
@@ -38,14 +41,17 @@ export function tipsFrom(text: string | null): Set<TipId> {
 }
 
 /** `isTouch`: a finger taps, a mouse clicks. */
-export function tipText(id: TipId, isTouch: boolean): string {
+export function tipText(id: TipId, hasGoal: boolean, isTouch: boolean): string {
+  const click = isTouch ? 'Tap' : 'Click';
   switch (id) {
     case 'run':
       return 'Press Run, then drag the bead away.';
     case 'drag':
       return 'Drag the bead far out of the blue circle: the magnet loses it, and the arm fetches it.';
     case 'goal':
-      return `The arm fetches the lost bead. ${isTouch ? 'Tap' : 'Click'} a free place to set another goal.`;
+      return hasGoal
+        ? `The arm fetches the lost bead. ${click} a free place to set another goal.`
+        : `${click} a free place to set the goal.`;
     case 'controller':
       return 'Choose another controller. Or open Compare, which runs all three side by side.';
     case 'scene':

@@ -8,7 +8,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import { counted, fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
-import { rangeAround, updateText } from './curves';
+import { rangeAround, ROOM, updateSplits, updateText } from './curves';
 import { fanAt } from './grid';
 
 const LINE = { color: 'rl', joinsGaps: true } as const;
@@ -42,7 +42,8 @@ export function CellPanel(props: {
       [0, 1],
       [2, 3],
     ],
-    xRange: () => [0, props.total],
+    xRange: () => [0, ROOM * props.total],
+    xSplits: (most) => updateSplits(props.total, most),
     yRange: rangeAround,
     xText: updateText,
     yText: (value) => fixed(value, 2),
@@ -94,7 +95,7 @@ export function CellPanel(props: {
       />
       <p class="rule">
         {pointedWords() ??
-          'The return is the sum of all later rewards; later ones count less. Dark band: half of the returns. Light band: 90 % of them.'}
+          'The return is the sum of all later rewards; later ones count less. Inner band: half of the returns. Outer band: 90 % of them.'}
       </p>
     </div>
   );

@@ -7,7 +7,17 @@ import { fixed } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import type { TrainingPoint } from '../../net/protocol.gen';
-import { columnsOf, type Kind, KINDS, rangeAround, readWords, updateText } from './curves';
+import {
+  columnsOf,
+  firstWords,
+  type Kind,
+  KINDS,
+  rangeAround,
+  ROOM,
+  readWords,
+  updateSplits,
+  updateText,
+} from './curves';
 
 /** One training of the plots. */
 export interface Curve {
@@ -15,6 +25,8 @@ export interface Curve {
   readonly points: readonly TrainingPoint[];
   /** Updates at its end. */
   readonly total: number;
+  /** Whether no point follows. */
+  readonly isOver: boolean;
 }
 
 type Style = Required<Pick<CurveLine, 'color' | 'isDashed'>>;
@@ -45,12 +57,17 @@ function Plot(props: CurvesProps & { kind: Kind }): JSX.Element {
       props.curves.map(({ points }) => points),
     ),
   );
+  const total = (): number => Math.max(...props.curves.map((curve) => curve.total));
   const lines = props.curves.flatMap((curve, training) => linesOf(kind, curve, training));
+  const edges = props.curves.map((_, training) => [3 * training, 3 * training + 1] as const);
   const context: CurveContext = {
     palette: () => props.palette(),
     lines,
-    bands: props.curves.map((_, training) => [3 * training, 3 * training + 1]),
-    xRange: () => [0, Math.max(...props.curves.map(({ total }) => total))],
+    bands: edges,
+    // A band needs two points.
+    ...(kind.isSparse && { bars: edges }),
+    xRange: () => [0, ROOM * total()],
+    xSplits: (most) => updateSplits(total(), most),
     yRange: (max, min) => (kind.range ? [...kind.range] : rangeAround(max, min)),
     xText: updateText,
     yText: (value) => fixed(value, kind.range ? 0 : 2),
@@ -59,17 +76,25 @@ function Plot(props: CurvesProps & { kind: Kind }): JSX.Element {
     onCursor: setPointed,
   };
   const names = (): string[] => props.curves.map(({ name }) => name);
-  const last = (): string => readWords(kind, names(), data(), data()[0].length - 1);
+  const read = (index: number): string | undefined => readWords(kind, names(), data(), index);
+  const last = createMemo(() => {
+    const indices = data()[0].map((_, index) => index);
+    return indices.reverse().map(read).find(Boolean);
+  });
   const words = (): string => {
+    if (kind.isSparse && last() === undefined) {
+      const isOver = props.curves.every((curve) => curve.isOver);
+      return firstWords(total(), isOver);
+    }
     const index = pointed();
-    return index === undefined ? kind.help : readWords(kind, names(), data(), index);
+    return (index === undefined ? undefined : read(index)) ?? kind.help;
   };
   return (
     <div class="train-curve">
       <CurvePlot
         title={kind.title}
         unit={kind.unit}
-        name={`${kind.title}, ${kind.unit}, over the updates. ${data()[0].length === 0 ? 'No points yet.' : last()}`}
+        name={`${kind.title}, ${kind.unit}, over the updates. ${last() ?? 'No points yet.'}`}
         theme={props.theme}
         keys={[]}
         context={context}

@@ -2,10 +2,9 @@
 
 import type { JSX } from 'solid-js';
 
-export function Intro(): JSX.Element {
+function HowItLearns(): JSX.Element {
   return (
-    <section class="panel train-intro" aria-label="What happens here">
-      <h2>Train a policy of your own</h2>
+    <>
       <p>
         A <strong>policy</strong> is a neural network that looks at the camera image and chooses the
         next step of the tool: right, left, up or down. At first it knows nothing.
@@ -27,10 +26,31 @@ export function Intro(): JSX.Element {
           everywhere.
         </li>
       </ol>
+    </>
+  );
+}
+
+export function Intro(): JSX.Element {
+  return (
+    <section class="panel train-intro" aria-label="What happens here">
+      <h2>Train a policy of your own</h2>
+      <HowItLearns />
       <p>
         Press <strong>Train</strong>. With the recipe <em>Quick</em> it takes a few minutes, and you
         can watch it here. The finished policy carries the bead in the laboratory.
       </p>
+    </section>
+  );
+}
+
+/** The same after the first training. */
+export function FoldedIntro(): JSX.Element {
+  return (
+    <section class="panel train-intro" aria-label="What happens here">
+      <details>
+        <summary>How does it learn?</summary>
+        <HowItLearns />
+      </details>
     </section>
   );
 }

@@ -8,6 +8,7 @@ import { FileButton } from '../../ui/FileButton';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { PolicyRow } from './PolicyRow';
+import { policyOf } from './policyUse';
 import { nameFault } from './recipes';
 import type { PolicyList } from './trainings';
 import './policies.css';
@@ -28,6 +29,7 @@ export function PoliciesPanel(props: {
   const names = createMemo(() => all().map(({ name }) => name), [], {
     equals: (a, b) => a.join() === b.join(),
   });
+  const used = createMemo(() => policyOf(all(), lab.scene()?.parameters.rl_policy)?.name);
   const byName = (name: string): PolicySummary | undefined =>
     all().find((policy) => policy.name === name);
   const attempt = async (change: () => Promise<void>): Promise<boolean> => {
@@ -104,7 +106,7 @@ export function PoliciesPanel(props: {
                     <PolicyRow
                       policy={policy()}
                       canOperate={lab.canOperate()}
-                      isUsed={lab.scene()?.parameters.rl_policy === policy().reference}
+                      isUsed={used() === name}
                       palette={props.palette}
                       theme={props.theme}
                       onUse={() => {

@@ -7,8 +7,10 @@ import { roughly } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
 import { TitleForm } from '../../ui/TitleForm';
-import { Curves } from './Curves';
+import { policyName } from '../../lab/parameters';
 import { shareWords } from '../../lab/trainingStage';
+import { Curves } from './Curves';
+import { withLast } from './curves';
 import { changeWords, RECIPE_WORDS } from './recipes';
 import { policyFile } from './trainings';
 
@@ -30,7 +32,7 @@ interface RowProps extends PolicyDeeds {
 
 function originWords({ query, elapsed_s }: PolicyOrigin): string {
   const recipe = RECIPE_WORDS.find(([id]) => id === query.recipe)?.[1].toLowerCase() ?? '';
-  const start = query.start_from ?? 'random weights';
+  const start = query.start_from === null ? 'random weights' : policyName(query.start_from);
   const changes = changeWords(query);
   const changed = changes.length > 0 ? ` with ${changes.join(', ')}` : '';
   return `Recipe ${recipe}${changed}; from ${start}; trained in about ${roughly(elapsed_s)}.`;
@@ -49,7 +51,12 @@ function Origin(props: RowProps & { origin: PolicyOrigin }): JSX.Element {
       <Show when={isOpen()}>
         <Curves
           curves={[
-            { name: props.policy.name, points: props.origin.curve, total: props.policy.updates },
+            {
+              name: props.policy.name,
+              points: withLast(props.origin.curve, props.policy.updates, props.origin.examined),
+              total: props.policy.updates,
+              isOver: true,
+            },
           ]}
           palette={props.palette}
           theme={props.theme}
@@ -140,6 +147,7 @@ export function PolicyRow(props: RowProps): JSX.Element {
             <ConfirmButton
               verb="Delete"
               of={name()}
+              warning={props.isUsed ? 'The laboratory uses it.' : undefined}
               disabled={!props.canOperate}
               title={why()}
               onYes={props.onDelete}

@@ -5,6 +5,7 @@ import type { PolicySummary, RecipeName, TrainingSummary } from '../../net/proto
 import { Refusal } from '../../net/requests';
 import type { Session, Trial } from '../../lab/slices';
 import { Fault } from './Fault';
+import { faultWords } from './faults';
 import { SelectField, TextField } from './fields';
 import {
   BLANK,
@@ -21,6 +22,7 @@ import {
 } from './recipes';
 import type { TrainState } from './state';
 import type { TrainingList } from './trainings';
+import { showWrongField } from './wrongField';
 
 interface StartProps {
   readonly lab: Session & Trial;
@@ -28,11 +30,20 @@ interface StartProps {
   readonly list: TrainingList;
   readonly trainings: readonly TrainingSummary[];
   readonly policies: readonly PolicySummary[];
+  /** The new training is shown. */
+  readonly onStarted: () => void;
 }
+
+type Options = readonly (readonly [value: string, label: string])[];
+
+/** The lists are polled: options that stay the same must not be replaced while the user chooses. */
+const sameOptions = { equals: (a: Options, b: Options) => a.join('\n') === b.join('\n') };
 
 export function StartPanel(props: StartProps): JSX.Element {
   const { lab, state } = props;
   const why = createUniqueId();
+  let form!: HTMLFormElement;
+  let folded!: HTMLDetailsElement;
   const [faults, setFaults] = createSignal<Faults>({});
   const [isBusy, setBusy] = createSignal(false);
   const draft = state.draft;
@@ -48,22 +59,31 @@ export function StartPanel(props: StartProps): JSX.Element {
     ];
     return draft().name ?? suggestedName(map(), taken);
   });
-  const starts = createMemo(() => [
-    ['', 'random weights'] as const,
-    ...props.policies
-      .filter(({ has_memory }) => !has_memory)
-      .map((policy) => [policy.reference, policy.name] as const),
-  ]);
+  const mapOptions = createMemo<Options>(() => maps().map((one) => [one, one]), [], sameOptions);
+  const starts = createMemo<Options>(
+    () => [
+      ['', 'random weights'],
+      ...props.policies
+        .filter(({ has_memory }) => !has_memory)
+        .map((policy) => [policy.reference, policy.name] as const),
+    ],
+    [],
+    sameOptions,
+  );
   // A changed field loses its fault.
   const change = (field: string, next: Draft): void => {
     state.setDraft(next);
     setFaults({ ...faults(), [field]: undefined, form: undefined });
   };
+  const refuse = (wrong: Faults): void => {
+    setFaults(wrong);
+    showWrongField(form);
+  };
   const changed = (): number => Object.keys(draft().settings).length;
   const start = async (): Promise<void> => {
     const made = queryOf(draft(), map(), name());
     if ('faults' in made) {
-      setFaults(made.faults);
+      refuse(made.faults);
       return;
     }
     setFaults({});
@@ -76,13 +96,16 @@ export function StartPanel(props: StartProps): JSX.Element {
       state.setDraft(map === undefined ? same : { ...same, map });
       state.compare(undefined);
       state.choose(id);
+      folded.open = false;
+      props.onStarted();
     } catch (reason) {
-      setFaults(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
+      refuse(reason instanceof Refusal ? faultsOf(reason) : { form: String(reason) });
     }
     setBusy(false);
   };
   return (
     <form
+      ref={form}
       class="train-form"
       novalidate
       onKeyDown={(event) => {
@@ -98,7 +121,7 @@ export function StartPanel(props: StartProps): JSX.Element {
       <SelectField
         label="Map"
         value={map()}
-        options={maps().map((one) => [one, one])}
+        options={mapOptions()}
         fault={faults().map}
         onInput={(value) => {
           change('map', { ...draft(), map: value });
@@ -133,7 +156,7 @@ export function StartPanel(props: StartProps): JSX.Element {
           change('recipe', { ...draft(), recipe: recipe as RecipeName, settings: {} });
         }}
       />
-      <details class="train-settings">
+      <details ref={folded} class="train-settings">
         <summary>
           Settings
           <Show when={changed() > 0}>
@@ -166,8 +189,8 @@ export function StartPanel(props: StartProps): JSX.Element {
         <TextField
           label="Seed"
           value={draft().seed}
-          number={{ min: 0, step: 1 }}
-          help="Everything random follows from it: the same seed gives the same training."
+          number={{ min: 0, step: 1, isWhole: true }}
+          help="The same seed and the same settings give the same training."
           fault={faults().seed}
           onInput={(seed) => {
             change('seed', { ...draft(), seed });
@@ -199,6 +222,8 @@ export function StartPanel(props: StartProps): JSX.Element {
             Only the operator can start and change trainings.
           </span>
         </Show>
+        {/* Announced at the field itself. */}
+        <Show when={faultWords(faults())}>{(words) => <p class="refusal">{words()}</p>}</Show>
       </div>
       <Fault id="training-refused" text={faults().form} />
     </form>

@@ -5,7 +5,11 @@ import { fixed } from '../../ui/format';
 import type { Layers } from './drawFrame';
 import '../../ui/legend.css';
 
-export function ValueScale(props: { range: readonly [number, number] | undefined }): JSX.Element {
+export function ValueScale(props: {
+  range: readonly [number, number] | undefined;
+  /** Whether more value maps follow. */
+  isGrowing: boolean;
+}): JSX.Element {
   const text = (end: 0 | 1): string => (props.range ? fixed(props.range[end], 2) : '–');
   return (
     <div class="map-legend" role="group" aria-label="Values">
@@ -13,7 +17,9 @@ export function ValueScale(props: { range: readonly [number, number] | undefined
       <span class="number">{text(0)}</span>
       <span class="heat-ramp" aria-hidden="true" />
       <span class="number">{text(1)}</span>
-      <span class="aside">the same colours for all value maps</span>
+      <span class="aside">
+        the same colours for all value maps{props.isGrowing ? ' so far' : ''}
+      </span>
     </div>
   );
 }
@@ -21,7 +27,7 @@ export function ValueScale(props: { range: readonly [number, number] | undefined
 const LAYERS: readonly (readonly [keyof Layers, label: string, title: string])[] = [
   ['values', 'Values', 'What the policy expects from each cell'],
   ['arrows', 'Best steps', 'The step with the highest value at each cell'],
-  ['starts', 'Failing starts', 'Cells from which the best steps do not lead to the goal'],
+  ['starts', 'Failing starts', 'Cells from which the best steps do not lead to the shown goal'],
   ['episodes', 'Episodes', 'Some episodes to the goal, again and again'],
 ];
 
@@ -85,5 +91,24 @@ export function Marks(): JSX.Element {
         episode with random steps too
       </li>
     </ul>
+  );
+}
+
+/** How to read the numbers and the marks. */
+export function Readings(): JSX.Element {
+  return (
+    <>
+      <p class="hint">
+        A start fails if the best steps from there end at a wall, or go back and forth between two
+        places until the steps run out. In the laboratory a policy that goes back and forth may
+        still deliver: there, steps to places that it has visited before count less (parameter{' '}
+        <em>Visit penalty</em>).
+      </p>
+      <p class="hint">
+        Rank correlation 1: the order of the values is exactly that of the true distances. 0: they
+        have nothing in common. Negative: the opposite order. It can be low although the best steps
+        are right.
+      </p>
+    </>
   );
 }

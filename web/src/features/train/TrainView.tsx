@@ -1,19 +1,22 @@
 // The Train view: a policy learns a map, and you watch it.
 
-import { For, Show, createEffect, createMemo, mapArray, type JSX } from 'solid-js';
-import type { Session, Trial } from '../../lab/slices';
-import type { TrainingSummary } from '../../net/protocol.gen';
+import { For, Show, createEffect, createMemo, createSignal, mapArray, type JSX } from 'solid-js';
+import type { Notices, Session, Trial } from '../../lab/slices';
+import type { PolicySummary, TrainingSummary } from '../../net/protocol.gen';
 import { createPalette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
+import { colourRange } from './colourRange';
 import { Curves } from './Curves';
-import { Intro } from './Intro';
+import { withLast } from './curves';
+import { FoldedIntro, Intro } from './Intro';
 import { createLive } from './live';
 import { PoliciesPanel } from './PoliciesPanel';
-import { milestone, stageSentence } from '../../lab/trainingStage';
+import { isActive, milestone, stageSentence } from '../../lab/trainingStage';
+import { type Policy, policyOf } from './policyUse';
 import { StartPanel } from './StartPanel';
 import { createTrainState, type TrainState } from './state';
 import { TrainingEntry } from './TrainingEntry';
-import { LayerToggles, Marks } from './TrainLegend';
+import { LayerToggles, Marks, Readings } from './TrainLegend';
 import { createPolicyList, createTrainingList } from './trainings';
 import { usePolicy } from './usePolicy';
 import { WatchPane } from './WatchPane';
@@ -23,9 +26,18 @@ import './watch.css';
 export interface TrainProps {
   /** Keeps the form and the selection while another view is open. */
   readonly kept: { train?: TrainState };
-  readonly lab: Session & Trial;
+  readonly lab: Session & Trial & Notices;
   readonly theme: () => Theme;
   readonly onLaboratory: () => void;
+  /** Opens the view Evaluate with a policy, by its reference, and a map. */
+  readonly onEvaluate: (policy: string, map: string) => void;
+}
+
+/** The new training, the first of the list, and its value map. */
+function bringIntoView(view: HTMLElement, list: HTMLElement): void {
+  // Where the view scrolls itself, its top has both; where the page scrolls, the form is above them.
+  if (view.scrollHeight > view.clientHeight) view.scrollTop = 0;
+  else list.scrollIntoView({ block: 'start' });
 }
 
 export function TrainView(props: TrainProps): JSX.Element {
@@ -56,9 +68,18 @@ export function TrainView(props: TrainProps): JSX.Element {
       return createLive(createMemo<TrainingSummary>((last) => byId(id) ?? last, first));
     }),
   );
-  const use = (reference: string, maps: readonly string[]): void => {
-    usePolicy(lab, reference, maps);
+  const range = createMemo(() => colourRange(lives().map((live) => live.summary())), undefined, {
+    equals: (a, b) => a?.join() === b?.join(),
+  });
+  const use = (policy: Policy, maps: readonly string[]): void => {
+    usePolicy(lab, policy, maps);
     props.onLaboratory();
+    // Where the page scrolls, the button may be far down.
+    window.scrollTo(0, 0);
+  };
+  const evaluate = (policy: Policy, map: string): void => {
+    props.onEvaluate(policy.reference, map);
+    window.scrollTo(0, 0);
   };
   const choose = (id: string): void => {
     if (state.compared() === id) state.compare(undefined);
@@ -69,12 +90,24 @@ export function TrainView(props: TrainProps): JSX.Element {
     return summary ? milestone(summary, before(summary.id)) : '';
   });
   const finished = createMemo(() => all().filter(({ stage }) => stage === 'done').length);
+  /** Number of finished trainings whose policies can be in the list. */
+  const [listed, setListed] = createSignal(0);
   // A finished training is a new policy.
   createEffect(() => {
-    if (finished() > 0) void policies.refresh();
+    const now = finished();
+    if (now > 0) void policies.refresh().then(() => setListed(now));
   });
+  const trained = ({ policy }: TrainingSummary): PolicySummary | undefined =>
+    policyOf(policies.all() ?? [], policy ?? undefined);
+  const isDeleted = (summary: TrainingSummary): boolean =>
+    summary.policy !== null &&
+    policies.trouble() === undefined &&
+    listed() === finished() &&
+    trained(summary) === undefined;
+  let view!: HTMLElement;
+  let entries!: HTMLElement;
   return (
-    <main class="view train">
+    <main ref={view} class="view train">
       <div class="train-left">
         <section class="panel" aria-label="New training">
           <header class="panel-head">
@@ -86,9 +119,12 @@ export function TrainView(props: TrainProps): JSX.Element {
             list={list}
             trainings={all()}
             policies={policies.all() ?? []}
+            onStarted={() => {
+              bringIntoView(view, entries);
+            }}
           />
         </section>
-        <section class="panel" aria-label="Trainings">
+        <section ref={entries} class="panel" aria-label="Trainings">
           <header class="panel-head">
             <h2>Trainings</h2>
           </header>
@@ -111,6 +147,7 @@ export function TrainView(props: TrainProps): JSX.Element {
                       isCompared={beside() === id}
                       canCompare={shown() !== id}
                       canOperate={lab.canOperate()}
+                      isDeleted={isDeleted(summary())}
                       onChoose={() => {
                         choose(id);
                       }}
@@ -118,8 +155,13 @@ export function TrainView(props: TrainProps): JSX.Element {
                         state.choose(shown());
                         state.compare(beside() === id ? undefined : id);
                       }}
-                      onUse={(reference) => {
-                        use(reference, [summary().query.map]);
+                      onUse={() => {
+                        const policy = trained(summary());
+                        if (policy) use(policy, [summary().query.map]);
+                      }}
+                      onEvaluate={() => {
+                        const policy = trained(summary());
+                        if (policy) evaluate(policy, summary().query.map);
                       }}
                     />
                   )}
@@ -155,6 +197,7 @@ export function TrainView(props: TrainProps): JSX.Element {
                     <WatchPane
                       live={live}
                       sentence={stageSentence(live.summary(), before(live.summary().id))}
+                      range={range()}
                       state={state}
                       palette={palette}
                       theme={props.theme}
@@ -162,10 +205,7 @@ export function TrainView(props: TrainProps): JSX.Element {
                   )}
                 </For>
               </div>
-              <p class="hint">
-                Rank correlation 1: the order of the values is exactly that of the true distances.
-                0: they have nothing in common.
-              </p>
+              <Readings />
             </section>
             <section class="panel" aria-label="Curves">
               <header class="panel-head">
@@ -179,10 +219,14 @@ export function TrainView(props: TrainProps): JSX.Element {
                         return live.summary().query.name;
                       },
                       get points() {
-                        return live.points();
+                        const { stage, updates, examined } = live.summary();
+                        return withLast(live.points(), updates, stage === 'done' ? examined : null);
                       },
                       get total() {
                         return live.summary().updates_total;
+                      },
+                      get isOver() {
+                        return !isActive(live.summary());
                       },
                     }))}
                     palette={palette}
@@ -191,14 +235,15 @@ export function TrainView(props: TrainProps): JSX.Element {
                 )}
               </Show>
             </section>
+            <FoldedIntro />
           </Show>
           <PoliciesPanel
             lab={lab}
             list={policies}
             palette={palette}
             theme={props.theme}
-            onUse={({ reference, maps }) => {
-              use(reference, maps);
+            onUse={(policy) => {
+              use(policy, policy.maps);
             }}
           />
         </div>

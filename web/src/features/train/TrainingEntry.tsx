@@ -1,11 +1,12 @@
 // A training in the list: what it does, and what can be done with it.
 
-import { Show, createSignal, type JSX } from 'solid-js';
+import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import type { TrainingSummary } from '../../net/protocol.gen';
 import { ConfirmButton } from '../../ui/ConfirmButton';
 import { Fault } from './Fault';
 import { isActive, stageSentence, stageWords, updateWords } from '../../lab/trainingStage';
 import type { TrainingList } from './trainings';
+import { isOpen, type Wish } from './wish';
 
 interface EntryProps {
   readonly summary: TrainingSummary;
@@ -17,14 +18,20 @@ interface EntryProps {
   /** Whether it can be shown beside the shown one. */
   readonly canCompare: boolean;
   readonly canOperate: boolean;
+  /** Whether its policy was deleted after the training. */
+  readonly isDeleted: boolean;
   readonly onChoose: () => void;
   readonly onCompare: () => void;
-  readonly onUse: (reference: string) => void;
+  readonly onUse: () => void;
+  /** Opens the view Evaluate with its policy. */
+  readonly onEvaluate: () => void;
 }
 
 export function TrainingEntry(props: EntryProps): JSX.Element {
   const [refusal, setRefusal] = createSignal<string>();
+  const [wish, setWish] = createSignal<Wish>();
   let entry!: HTMLLIElement;
+  let choose!: HTMLButtonElement;
   const name = (): string => props.summary.query.name;
   const attempt = async (change: Promise<void>): Promise<boolean> => {
     setRefusal(undefined);
@@ -45,8 +52,28 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
   const why = (): string | undefined =>
     props.canOperate ? undefined : 'Only the operator can do this';
   const isPaused = (): boolean => props.summary.stage === 'paused';
-  const resume = (): void => void attempt(props.list.resume(props.summary.id));
-  const pause = (): void => void attempt(props.list.pause(props.summary.id));
+  createEffect(() => {
+    const now = wish();
+    if (now && !isOpen(now, props.summary.stage)) setWish(undefined);
+  });
+  const request = async (words: Wish['words'], change: Promise<void>): Promise<boolean> => {
+    setWish({ words, from: props.summary.stage });
+    const isTaken = await attempt(change);
+    if (!isTaken) setWish(undefined);
+    return isTaken;
+  };
+  const pauseOrResume = (): void => {
+    const { id } = props.summary;
+    if (wish()) return;
+    if (isActive(props.summary) && !isPaused()) void request('pausing…', props.list.pause(id));
+    else void request('resuming…', props.list.resume(id));
+  };
+  const cancel = (): Promise<boolean> => {
+    const answer = request('cancelling…', props.list.discard(props.summary.id));
+    // The button with the focus is removed.
+    choose.focus();
+    return answer;
+  };
   return (
     <li
       ref={entry}
@@ -55,6 +82,7 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
       data-stage={props.summary.stage}
     >
       <button
+        ref={choose}
         type="button"
         class="training-choose"
         aria-current={props.isShown ? 'true' : undefined}
@@ -62,9 +90,9 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
           props.onChoose();
         }}
       >
-        <strong>{name()}</strong>
+        <strong title={name()}>{name()}</strong>
         <span class="about">{props.summary.query.map}</span>
-        <span class="training-stage">{stageWords(props.summary)}</span>
+        <span class="training-stage">{wish()?.words ?? stageWords(props.summary)}</span>
       </button>
       <progress
         max={Math.max(1, props.summary.updates_total)}
@@ -79,21 +107,33 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
           when={isActive(props.summary)}
           fallback={
             <>
-              <Show when={props.summary.policy}>
-                {(reference) => (
-                  <button
-                    type="button"
-                    class="small"
-                    aria-label={`Use it: ${name()}`}
-                    disabled={!props.canOperate}
-                    title={why()}
-                    onClick={() => {
-                      props.onUse(reference());
-                    }}
-                  >
-                    Use it
-                  </button>
-                )}
+              <Show when={props.isDeleted}>
+                <span class="about">policy deleted</span>
+              </Show>
+              <Show when={props.summary.policy !== null && !props.isDeleted}>
+                <button
+                  type="button"
+                  class="small"
+                  aria-label={`Use it: ${name()}`}
+                  disabled={!props.canOperate}
+                  title={why()}
+                  onClick={() => {
+                    props.onUse();
+                  }}
+                >
+                  Use it
+                </button>
+                <button
+                  type="button"
+                  class="small"
+                  aria-label={`Evaluate ${name()}`}
+                  title="Many random trials with this policy on its map"
+                  onClick={() => {
+                    props.onEvaluate();
+                  }}
+                >
+                  Evaluate
+                </button>
               </Show>
               <Show when={props.summary.stage === 'failed'}>
                 <button
@@ -101,8 +141,9 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
                   class="small"
                   aria-label={`Resume ${name()}`}
                   disabled={!props.canOperate}
+                  aria-disabled={wish() !== undefined}
                   title={why()}
-                  onClick={resume}
+                  onClick={pauseOrResume}
                 >
                   Resume
                 </button>
@@ -125,21 +166,33 @@ export function TrainingEntry(props: EntryProps): JSX.Element {
             class="small"
             aria-label={`${isPaused() ? 'Resume' : 'Pause'} ${name()}`}
             disabled={!props.canOperate}
+            aria-disabled={wish() !== undefined}
             title={why()}
-            onClick={() => {
-              if (isPaused()) resume();
-              else pause();
-            }}
+            onClick={pauseOrResume}
           >
             {isPaused() ? 'Resume' : 'Pause'}
           </button>
-          <ConfirmButton
-            verb="Cancel"
-            of={name()}
-            disabled={!props.canOperate}
-            title={why()}
-            onYes={() => attempt(props.list.discard(props.summary.id))}
-          />
+          <Show
+            when={wish()}
+            fallback={
+              <ConfirmButton
+                verb="Cancel"
+                of={name()}
+                disabled={!props.canOperate}
+                title={why()}
+                onYes={cancel}
+              />
+            }
+          >
+            <button
+              type="button"
+              class="small"
+              aria-label={`Cancel ${name()}`}
+              aria-disabled="true"
+            >
+              Cancel
+            </button>
+          </Show>
         </Show>
         <Show when={props.canCompare}>
           <button

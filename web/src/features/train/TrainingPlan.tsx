@@ -2,14 +2,19 @@
 
 import { createEffect, createMemo, createSignal, onCleanup, onMount, type JSX } from 'solid-js';
 import type { Vec2 } from '../../lab/geometry';
-import type { MapCheck, TrainingCells, TrainingFrame } from '../../net/protocol.gen';
+import {
+  GOAL_RADIUS_M,
+  type MapCheck,
+  type TrainingCells,
+  type TrainingFrame,
+} from '../../net/protocol.gen';
 import { wallPath } from '../../plan/drawMap';
 import { createValues } from '../../plan/drawValues';
 import { fitView, type View, worldFromPx } from '../../plan/transform';
 import { prefersLessMotion } from '../../ui/motion';
 import type { Palette } from '../../ui/palette';
 import { type Base, drawBase, drawEpisodes, type Layers, mostSteps } from './drawFrame';
-import { around, cellAt, neighbour, valueCells } from './grid';
+import { around, cellAt, grown, neighbour, valueCells } from './grid';
 
 const MARGIN = { left: 6, right: 6, top: 6, bottom: 6 };
 const STEPS_PER_S = 14;
@@ -60,8 +65,16 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
   const workspace = createMemo(
     () => props.map?.workspace ?? (props.cells ? around(props.cells) : undefined),
   );
+  const shown = createMemo(() => {
+    const [rect, { cells }] = [workspace(), props];
+    return rect && cells ? grown(rect, cells.goal_m, GOAL_RADIUS_M) : rect;
+  });
+  const shape = (): string | undefined => {
+    const rect = shown();
+    return rect && String((rect.x_max_m - rect.x_min_m) / (rect.y_max_m - rect.y_min_m));
+  };
   const view = createMemo<View | undefined>(() => {
-    const [rect, now] = [workspace(), size()];
+    const [rect, now] = [shown(), size()];
     return rect && now && fitView(rect, ...now, MARGIN);
   });
   const walls = createMemo(() => {
@@ -135,6 +148,7 @@ export function TrainingPlan(props: PlanProps): JSX.Element {
       <canvas
         ref={base}
         class="train-canvas"
+        style={{ 'aspect-ratio': shape() }}
         tabindex="0"
         role="application"
         aria-label={props.label}

@@ -12,13 +12,15 @@ import {
 import type { Vec2 } from '../../lab/geometry';
 import { checkOfMap } from '../../lab/maps';
 import type { MapCheck, TrainingFrame } from '../../net/protocol.gen';
-import { counted, fixed } from '../../ui/format';
+import { isActive, progressWords } from '../../lab/trainingStage';
+import { counted } from '../../ui/format';
 import type { Palette } from '../../ui/palette';
 import type { Theme } from '../../ui/theme';
+import { IS_TOUCH } from '../../ui/touch';
 import { CellPanel } from './CellPanel';
-import { cellAt, startsThat } from './grid';
+import { Facts } from './Facts';
+import { cellAt } from './grid';
 import type { Live } from './live';
-import { isActive } from '../../lab/trainingStage';
 import type { TrainState } from './state';
 import { TrainingPlan } from './TrainingPlan';
 import { ValueScale } from './TrainLegend';
@@ -29,36 +31,11 @@ interface PaneProps {
   readonly live: Live;
   /** What the training does, one sentence. */
   readonly sentence: string;
+  /** The values of the first and the last colour. */
+  readonly range: readonly [number, number] | undefined;
   readonly state: TrainState;
   readonly palette: () => Palette;
   readonly theme: () => Theme;
-}
-
-function Facts(props: { frame: TrainingFrame | undefined }): JSX.Element {
-  const starts = (): string =>
-    props.frame
-      ? `${startsThat(props.frame, 'reached').length} of ${props.frame.endings.length}`
-      : '–';
-  const correlation = (): string => {
-    const value = props.frame?.rank_correlation ?? null;
-    return value === null ? '–' : fixed(value, 3);
-  };
-  return (
-    <dl class="train-facts">
-      <div>
-        <dt>Starts that reach the goal</dt>
-        <dd class="number" data-testid="train-starts">
-          {starts()}
-        </dd>
-      </div>
-      <div title="Spearman’s rank correlation between values and distances">
-        <dt>Rank correlation</dt>
-        <dd class="number" data-testid="train-correlation">
-          {correlation()}
-        </dd>
-      </div>
-    </dl>
-  );
 }
 
 export function WatchPane(props: PaneProps): JSX.Element {
@@ -119,13 +96,15 @@ export function WatchPane(props: PaneProps): JSX.Element {
       : 'This training has no value maps.';
   const words = (): string => {
     const now = frame();
-    return now ? `after ${counted(now.update, 'update')}` : 'no value map yet';
+    if (now) return `after ${counted(now.update, 'update')}`;
+    return isActive(live.summary()) ? 'no value map yet' : '–';
   };
   return (
     <section class="train-pane" aria-label={name()}>
       <h3>
         {name()}
         <span class="about">{live.summary().query.map}</span>
+        <span class="train-now about number">{progressWords(live.summary())}</span>
         <Show when={live.isLost()}>
           <span class="alarm" role="alert">
             No connection: this is the last received state.
@@ -140,7 +119,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
           map={map()}
           cells={live.cells()}
           frame={frame()}
-          range={live.range()}
+          range={props.range}
           layers={state.layers()}
           chosen={cell()}
           onChoose={choose}
@@ -149,7 +128,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
           <p class="train-veil">{empty()}</p>
         </Show>
       </div>
-      <ValueScale range={live.range()} />
+      <ValueScale range={props.range} isGrowing={isActive(live.summary())} />
       <div class="train-time">
         <button
           type="button"
@@ -195,11 +174,16 @@ export function WatchPane(props: PaneProps): JSX.Element {
       <p class="refusal" role="alert">
         {live.error() ?? mapError()}
       </p>
-      <Facts frame={frame()} />
+      <Facts summary={live.summary()} points={live.points()} frame={frame()} />
       <p id={help} class="hint">
-        <Show when={cell() === undefined} fallback="Arrow keys choose the next cell.">
-          Click a cell, or use the arrow keys on the plan, to see how its value changes with the
-          updates.
+        <Show
+          when={cell() === undefined}
+          fallback={
+            IS_TOUCH ? 'Tap another cell to see its values.' : 'Arrow keys choose the next cell.'
+          }
+        >
+          {IS_TOUCH ? 'Tap a cell' : 'Click a cell, or use the arrow keys on the plan,'} to see how
+          its value changes with the updates.
         </Show>
       </p>
       <Show when={live.cells()}>

@@ -1,11 +1,27 @@
 import { describe, expect, it } from 'vitest';
-import { columnsOf, KINDS, rangeAround, readWords, updateText } from './curves';
+import {
+  columnsOf,
+  firstWords,
+  KINDS,
+  newestExamination,
+  rangeAround,
+  readWords,
+  updateSplits,
+  updateText,
+  withLast,
+} from './curves';
+import { trainingOf } from '../../lab/testing';
 import { pointOf } from './testing';
 
 const kind = (id: string) => {
   const found = KINDS.find((one) => one.id === id);
   if (!found) throw new Error(id);
   return found;
+};
+
+const EXAMINED = {
+  ...{ episodes: 200, reached: 100, collided: 100, timed_out: 0 },
+  reached_wilson95: [0.43, 0.57] as [number, number],
 };
 
 describe('the columns', () => {
@@ -20,15 +36,14 @@ describe('the columns', () => {
       'After 100 updates: a 0.010, b 0.500',
     );
     expect(readWords(kind('loss'), ['a', 'b'], columns, 1)).toBe('After 200 updates: a 0.010');
+    const none = columnsOf(kind('examination'), [a, b]);
+    expect(readWords(kind('examination'), ['a', 'b'], none, 1)).toBeUndefined();
   });
 
   it('have a band around the reward and the examinations', () => {
     expect(kind('reward').values(pointOf(100))).toEqual([0.7, 0.3, 0.5]);
     expect(kind('reward').values(pointOf(100, { reward_mean: null }))).toEqual([null, null, null]);
-    const examined = {
-      ...{ episodes: 200, reached: 100, collided: 100, timed_out: 0 },
-      reached_wilson95: [0.43, 0.57] as [number, number],
-    };
+    const examined = EXAMINED;
     const [high, low, share] = kind('examination').values(pointOf(100, { examined }));
     expect([high, low, share].map((value) => Math.round(value ?? NaN))).toEqual([57, 43, 50]);
   });
@@ -39,7 +54,51 @@ describe('the columns', () => {
   });
 });
 
+describe('the last examination', () => {
+  const points = [pointOf(100), pointOf(200)];
+
+  it('is at the end of the points', () => {
+    const all = withLast(points, 200, EXAMINED);
+    expect(all.map(({ examined }) => examined)).toEqual([null, EXAMINED]);
+    expect(all[1]).toMatchObject(pointOf(200, { examined: EXAMINED }));
+    const columns = columnsOf(kind('examination'), [all]);
+    expect(readWords(kind('examination'), ['a'], columns, 1)).toBe(
+      'After 200 updates: a 50 (43 to 57) %',
+    );
+  });
+
+  it('has a point of its own if the updates end between two points', () => {
+    const all = withLast(points, 250, EXAMINED);
+    expect(all.map(({ update }) => update)).toEqual([100, 200, 250]);
+    expect(columnsOf(kind('exploring'), [all])[3]?.at(-1)).toBeNull();
+    expect(withLast(points, 250, null)).toBe(points);
+  });
+
+  it('is the newest one when it is done', () => {
+    const small = { ...EXAMINED, reached: 20 };
+    const curve = [pointOf(1000, { examined: small }), pointOf(1100)];
+    expect(newestExamination(trainingOf(), curve)).toEqual({ examined: small, update: 1000 });
+    expect(newestExamination(trainingOf(), [pointOf(100)])).toBeUndefined();
+    const done = trainingOf({ stage: 'done', updates: 1100, examined: EXAMINED });
+    expect(newestExamination(done, curve)).toEqual({ examined: EXAMINED, update: 1100 });
+  });
+
+  it('is announced before there is one', () => {
+    expect(firstWords(4000, false)).toContain('after 1000 updates');
+    expect(firstWords(500, false)).toContain('at the end');
+    expect(firstWords(500, true)).toContain('ended before');
+  });
+});
+
 describe('an axis', () => {
+  it('ends with a number if a round step fits', () => {
+    expect(updateSplits(1500, 9)).toEqual([0, 250, 500, 750, 1000, 1250, 1500]);
+    expect(updateSplits(1500, 4)).toEqual([0, 500, 1000, 1500]);
+    expect(updateSplits(8000, 6)).toEqual([0, 2000, 4000, 6000, 8000]);
+    expect(updateSplits(1234, 5)).toEqual([0, 250, 500, 750, 1000]);
+    expect(updateSplits(1, 5)).toEqual([0, 1]);
+  });
+
   it('has room around the values, also without values', () => {
     expect(rangeAround(1, 0)).toEqual([-0.06, 1.06]);
     expect(rangeAround(NaN, NaN)).toEqual([0, 1]);

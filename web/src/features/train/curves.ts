@@ -1,7 +1,7 @@
 // The curves of one training or two, as columns of a plot. Pure.
 
 import { fixed } from '../../ui/format';
-import type { TrainingPoint } from '../../net/protocol.gen';
+import type { Examination, TrainingPoint, TrainingSummary } from '../../net/protocol.gen';
 
 type Column = (number | null)[];
 
@@ -14,6 +14,7 @@ export interface Kind {
   /** Ends of the axis; without, around the values. */
   readonly range?: readonly [number, number];
   readonly digits: number;
+  readonly suffix?: string;
   /** Whether only some points have a value. */
   readonly isSparse?: true;
   readonly help: string;
@@ -50,6 +51,7 @@ export const KINDS: readonly Kind[] = [
     values: ({ reached, ended }) => [null, null, ended === 0 ? null : (100 * reached) / ended],
     range: [0, 100],
     digits: 0,
+    suffix: ' %',
     help: 'Share of the episodes of the training that reached their goals, random steps included.',
   },
   {
@@ -66,10 +68,52 @@ export const KINDS: readonly Kind[] = [
         : [null, null, null],
     range: [0, 100],
     digits: 0,
+    suffix: ' %',
     isSparse: true,
-    help: 'The same without random steps. Band: the 95 % interval, because few episodes are examined.',
+    help: 'The same without random steps, with random starts and goals. Bar: the 95 % interval. The last examination has the most episodes.',
   },
 ];
+
+/** The points with the last examination, which is not part of them. */
+export function withLast(
+  points: readonly TrainingPoint[],
+  update: number,
+  examined: Examination | null,
+): readonly TrainingPoint[] {
+  if (!examined) return points;
+  const last = points.at(-1);
+  if (last?.update === update) return [...points.slice(0, -1), { ...last, examined }];
+  const { steps = 0, episodes = 0 } = last ?? {};
+  const nothing = { reward_mean: null, reward_deviation: null, loss_mean: null };
+  return [...points, { update, steps, episodes, ...nothing, ended: 0, reached: 0, examined }];
+}
+
+export interface Examined {
+  readonly examined: Examination;
+  /** Updates before it. */
+  readonly update: number;
+}
+
+/** The last examination once a training is done, before that the newest small one. */
+export function newestExamination(
+  { stage, updates, examined }: TrainingSummary,
+  points: readonly TrainingPoint[],
+): Examined | undefined {
+  if (stage === 'done' && examined) return { examined, update: updates };
+  const point = points.findLast((one) => one.examined !== null);
+  return point?.examined ? { examined: point.examined, update: point.update } : undefined;
+}
+
+/** Updates between two examinations. */
+const EXAMINED_EVERY = 1000;
+
+/** When the first examination comes, while there is no point. */
+export function firstWords(total: number, isOver: boolean): string {
+  if (isOver) return 'It ended before its first examination.';
+  return total < EXAMINED_EVERY
+    ? 'No examination yet: the only one comes at the end.'
+    : `No examination yet: the first comes after ${EXAMINED_EVERY} updates.`;
+}
 
 /** The updates of all trainings together, and for each training its columns: upper edge, lower edge, line. */
 export function columnsOf(
@@ -95,21 +139,42 @@ export function rangeAround(max: number, min: number): [number, number] {
   return [min - room, max + room];
 }
 
+/** Ends of the axis of updates, as a multiple of the last one: its mark is inside the plot. */
+export const ROOM = 1.02;
+
+const ROUND = [1, 2, 2.5, 5];
+
+/** Where the axis of `total` updates has numbers, `most` of them at most: with the end among them if a round step fits. */
+export function updateSplits(total: number, most: number): number[] {
+  const steps = [1, 10, 100, 1000, 10_000].flatMap((ten) => ROUND.map((one) => one * ten));
+  const wide = steps.filter((step) => Number.isInteger(step) && total / step <= Math.max(1, most));
+  const step = wide.find((one) => total % one === 0 && total / one >= 2) ?? wide[0] ?? total;
+  return Array.from({ length: Math.floor(total / step) + 1 }, (_, index) => index * step);
+}
+
 /** `500`, `1.5k`: as an axis shows updates. */
 export function updateText(updates: number): string {
   return updates >= 1000 && updates % 100 === 0 ? `${updates / 1000}k` : String(updates);
 }
 
-/** The values at one update, for each training. */
+/** The values at one update, for each training that has one; undefined without. */
 export function readWords(
   kind: Kind,
   names: readonly string[],
   columns: readonly (readonly (number | null)[])[],
   index: number,
-): string {
+): string | undefined {
   const parts = names.flatMap((name, training) => {
-    const value = columns[3 * training + 3]?.[index] ?? null;
-    return value === null ? [] : [`${name} ${fixed(value, kind.digits)}`];
+    const [high, low, value] = [1, 2, 3].map((part) => columns[3 * training + part]?.[index]);
+    if (typeof value !== 'number') return [];
+    const text = (one: number): string => fixed(one, kind.digits);
+    const interval =
+      kind.isSparse && typeof low === 'number' && typeof high === 'number'
+        ? ` (${text(low)} to ${text(high)})`
+        : '';
+    return [`${name} ${text(value)}${interval}${kind.suffix ?? ''}`];
   });
-  return `After ${columns[0]?.[index] ?? 0} updates: ${parts.join(', ')}`;
+  return parts.length === 0
+    ? undefined
+    : `After ${columns[0]?.[index] ?? 0} updates: ${parts.join(', ')}`;
 }

@@ -37,9 +37,11 @@ export interface Base {
   readonly chosen: number | undefined;
 }
 
-/** Half the side of a mark as a share of a cell: the colour around it stays visible. */
-const FAILED = 0.2;
-const LEAST_MARK_PX = 2;
+/** A mark is in the corner of its cell, beside the arrow: its place and half its side as shares of a cell. */
+const CORNER = 0.33;
+const FAILED = 0.11;
+const LEAST_MARK_PX = 0.9;
+const MOST_MARK_PX = 3;
 
 function cross(path: Path2D, [x, y]: Vec2, half: number): void {
   path.moveTo(x - half, y - half);
@@ -60,16 +62,19 @@ function markOf(ending: EpisodeEnding): typeof cross {
 
 function drawStarts(ctx: Ctx, base: Base, cells: TrainingCells, frame: TrainingFrame): void {
   const { view, palette } = base;
-  const half = Math.max(LEAST_MARK_PX, FAILED * cells.spacing_m * view.pxPerM);
+  const side = cells.spacing_m * view.pxPerM;
+  const half = Math.min(MOST_MARK_PX, Math.max(LEAST_MARK_PX, FAILED * side));
   const path = new Path2D();
   for (const ending of ['collided', 'timed_out'] as const) {
     for (const index of startsThat(frame, ending)) {
       const center = cells.centers_m[index];
-      if (center) markOf(ending)(path, pxFromWorld(view, center), half);
+      if (!center) continue;
+      const [x, y] = pxFromWorld(view, center);
+      markOf(ending)(path, [x + CORNER * side, y + CORNER * side], half);
     }
   }
   ctx.strokeStyle = palette.danger;
-  ctx.lineWidth = 1.5;
+  ctx.lineWidth = Math.min(1.5, 0.9 * half);
   ctx.stroke(path);
 }
 
@@ -89,9 +94,9 @@ export function drawBase(ctx: Ctx, base: Base): void {
   drawFloor(ctx, base.workspace, view, palette);
   if (values && layers.values) drawColours(ctx, view, values);
   drawOutlines(ctx, base.workspace, base.walls, view, palette);
+  if (cells && frame && layers.starts) drawStarts(ctx, base, cells, frame);
   if (values && layers.arrows) drawArrows(ctx, palette, values);
   if (!cells) return;
-  if (frame && layers.starts) drawStarts(ctx, base, cells, frame);
   drawGoal(ctx, view, palette, cells.goal_m);
   const center = base.chosen === undefined ? undefined : cells.centers_m[base.chosen];
   if (center) drawChosen(ctx, base, cells, center);

@@ -2,6 +2,7 @@
 
 import { For, Show, createUniqueId, type JSX } from 'solid-js';
 import { Fault } from './Fault';
+import { stepped, type Steps } from './steps';
 
 interface FieldProps {
   readonly label: string;
@@ -61,7 +62,7 @@ export function SelectField(
 export function TextField(
   props: FieldProps & {
     maxLength?: number;
-    number?: { readonly min: number; readonly max?: number; readonly step: number };
+    number?: Steps;
   },
 ): JSX.Element {
   return (
@@ -93,11 +94,18 @@ export function TextField(
               value={props.value}
               min={number().min}
               max={number().max}
-              step={number().step}
+              // Every value is valid; `number().step` is only for the arrow keys.
+              step={number().isWhole ? 1 : 'any'}
               aria-invalid={props.fault !== undefined}
               aria-describedby={about}
               onInput={({ currentTarget }) => {
                 props.onInput(currentTarget.value);
+              }}
+              onKeyDown={(event) => {
+                const isUp = event.key === 'ArrowUp';
+                if (!isUp && event.key !== 'ArrowDown') return;
+                event.preventDefault();
+                props.onInput(stepped(event.currentTarget.value, number(), isUp));
               }}
             />
           )}

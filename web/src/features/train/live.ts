@@ -78,8 +78,6 @@ export interface Live {
   frame(index: number): TrainingFrame | undefined;
   /** All value maps that have been read. */
   readonly frames: Accessor<readonly TrainingFrame[]>;
-  /** Smallest and greatest value of all that have been read. */
-  readonly range: Accessor<readonly [number, number] | undefined>;
   /** Reads all value maps, also those to come. */
   readAll(): void;
 }
@@ -136,17 +134,6 @@ export function createLive(listed: Accessor<TrainingSummary>): Live {
     version();
     return cache.all();
   });
-  const range = createMemo<readonly [number, number] | undefined>((before) => {
-    let [least, greatest] = before ?? [Infinity, -Infinity];
-    for (const { values } of frames()) {
-      for (const value of values) {
-        if (value < least) least = value;
-        if (value > greatest) greatest = value;
-      }
-    }
-    if (least > greatest) return undefined;
-    return before?.[0] === least && before[1] === greatest ? before : [least, greatest];
-  });
   return {
     summary,
     points: () => followed()?.points ?? [],
@@ -160,7 +147,6 @@ export function createLive(listed: Accessor<TrainingSummary>): Live {
       return found;
     },
     frames,
-    range,
     readAll: () => {
       setReadingAll(true);
     },

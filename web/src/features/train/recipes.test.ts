@@ -18,6 +18,7 @@ const made = (draft: Draft) => queryOf(draft, 'posts', 'my-posts');
 describe('a name', () => {
   it('is suggested from the map, and free', () => {
     expect(suggestedName('posts', [])).toBe('my-posts');
+    expect(suggestedName('my-u', [])).toBe('my-u');
     expect(suggestedName('posts', ['my-posts', 'my-posts-2'])).toBe('my-posts-3');
     expect(nameFault(suggestedName('m'.repeat(40), [suggestedName('m'.repeat(40), [])]))).toBe(
       undefined,
@@ -94,6 +95,7 @@ describe('a refusal', () => {
     const detail = 'no';
     expect(faultsOf({ detail, field: 'settings.discount' })).toEqual({ 'settings.discount': 'no' });
     expect(faultsOf({ detail, field: 'name' })).toEqual({ name: 'no' });
+    expect(faultsOf({ detail: 'name: no', field: 'name' })).toEqual({ name: 'no' });
     expect(faultsOf({ detail, field: 'goal_m' })).toEqual({ form: 'no' });
     expect(faultsOf({ detail })).toEqual({ form: 'no' });
   });

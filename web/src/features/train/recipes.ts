@@ -165,8 +165,9 @@ export const nameFault = (name: string): string | undefined =>
 
 /** A name that no other policy has. */
 export function suggestedName(map: string, taken: readonly string[]): string {
+  const mine = map.startsWith('my-') ? map : `my-${map}`;
   // Leaves room for a number.
-  return freeName(`my-${map}`.slice(0, NAME_LENGTH - 4), taken);
+  return freeName(mine.slice(0, NAME_LENGTH - 4), taken);
 }
 
 /** A setting as the form shows it. */
@@ -249,7 +250,10 @@ const FIELDS: readonly string[] = [
 /** The server's refusal at the field that it names. */
 export function faultsOf(refusal: { detail: string; field?: string | undefined }): Faults {
   const field = FIELDS.find((one) => one === refusal.field) ?? 'form';
-  return { [field]: refusal.detail };
+  // The server's text begins with its own name of the field.
+  const own = `${refusal.field ?? ''}: `;
+  const { detail } = refusal;
+  return { [field]: detail.startsWith(own) ? detail.slice(own.length) : detail };
 }
 
 /** The settings of a training that differ from its recipe, as words. */

@@ -19,6 +19,8 @@ export interface TrainState {
   /** The place whose cell is shown, in both trainings. */
   readonly place_m: Accessor<Vec2 | undefined>;
   readonly setPlace: Setter<Vec2 | undefined>;
+  /** Fills in the map of the session, and a name for its policy. */
+  showMap(): void;
 }
 
 export function createTrainState(): TrainState {
@@ -35,5 +37,9 @@ export function createTrainState(): TrainState {
   return {
     ...{ draft, setDraft, chosen, choose, compared, compare },
     ...{ layers, setLayers, place_m, setPlace },
+    showMap: () => {
+      const { startFrom, recipe, settings, seed } = draft();
+      setDraft({ startFrom, recipe, settings, seed });
+    },
   };
 }
