@@ -45,6 +45,11 @@ impl Rect {
         (self.x_min_m..=self.x_max_m).contains(&point.x) && (self.y_min_m..=self.y_max_m).contains(&point.y)
     }
 
+    /// The point inside that is nearest to `point`.
+    pub fn nearest(&self, point: Point2<f64>) -> Point2<f64> {
+        Point2::new(point.x.clamp(self.x_min_m, self.x_max_m), point.y.clamp(self.y_min_m, self.y_max_m))
+    }
+
     /// Width and height.
     pub fn size_m(&self) -> Vector2<f64> {
         Vector2::new(self.x_max_m - self.x_min_m, self.y_max_m - self.y_min_m)

@@ -36,12 +36,18 @@ pub enum ControllerName {
     Attractor,
     /// The shortest path over what the camera has observed: a reference for evaluations, not from the paper.
     Replanner,
+    /// A person: the tool goes where the hand at the page points.
+    You,
 }
 
 impl ControllerName {
-    pub const ALL: [Self; 4] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner];
-    /// Those of the paper, which the page offers.
+    pub const ALL: [Self; 5] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner, Self::You];
+    /// Those that need no person.
+    pub const AUTOMATIC: [Self; 4] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner];
+    /// Those of the paper.
     pub const OFFERED: [Self; 3] = [Self::Rl, Self::Errt, Self::Attractor];
+    /// Those that the page offers for a session.
+    pub const SELECTABLE: [Self; 4] = [Self::Rl, Self::Errt, Self::Attractor, Self::You];
 
     /// The name in files and commands.
     pub fn as_str(self) -> &'static str {
@@ -50,6 +56,7 @@ impl ControllerName {
             Self::Errt => "errt",
             Self::Attractor => "attractor",
             Self::Replanner => "replanner",
+            Self::You => "you",
         }
     }
 
@@ -60,6 +67,7 @@ impl ControllerName {
             Self::Errt => "ERRT",
             Self::Attractor => "Attractor",
             Self::Replanner => "Replanner",
+            Self::You => "You",
         }
     }
 }

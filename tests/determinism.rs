@@ -65,6 +65,7 @@ fn input() -> impl Strategy<Value = Input> {
         (0..ControllerName::ALL.len()).prop_map(|index| Input::SelectController(ControllerName::ALL[index])),
         place().prop_map(|(x_m, y_m)| Input::Place { x_m, y_m }),
         disturbance().prop_map(Input::Disturb),
+        (place(), any::<bool>()).prop_map(|((x_m, y_m), approach)| Input::Steer { x_m, y_m, approach }),
         (any::<bool>(), any::<bool>()).prop_map(|(rolls, tilted)| Input::Configure(Box::new(Parameters {
             bead_motion: if rolls { BeadMotion::Rolling } else { BeadMotion::Sliding },
             tool_orientation: if tilted { ToolOrientation::Paper } else { ToolOrientation::Vertical },

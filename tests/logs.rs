@@ -27,19 +27,20 @@ fn place(rng: &mut impl Rng) -> (f64, f64) {
 /// A random input of an operator; many are refused.
 fn action(rng: &mut impl Rng, tick: u64) -> Command {
     let (x_m, y_m) = place(rng);
-    Command::Input(match rng.random_range(0..15) {
+    Command::Input(match rng.random_range(0..16) {
         0 | 1 => Input::SetGoal { x_m, y_m },
         2 | 3 => Input::Drag { x_m, y_m, lift: rng.random() },
         4 => Input::Release,
         5 => Input::ClearGoal,
         6 => Input::Place { x_m, y_m },
-        7 => Input::SelectController(ControllerName::ALL[rng.random_range(0..3)]),
+        7 => Input::SelectController(ControllerName::ALL[rng.random_range(0..ControllerName::ALL.len())]),
         8 => Input::Disturb(Disturbance::Displace { x_m, y_m }),
         9 => Input::Disturb(Disturbance::Impulse { x_n_s: x_m * 1e-2, y_n_s: y_m * 1e-2 }),
         10 => Input::Configure(Box::new(Parameters {
             bead_motion: if rng.random() { BeadMotion::Rolling } else { BeadMotion::Sliding },
             ..Parameters::default()
         })),
+        15 => Input::Steer { x_m, y_m, approach: rng.random() },
         11 => return Command::Rewind(rng.random_range(0..=tick)),
         12 => return Command::Reset(rng.random::<bool>().then_some(x_m.to_bits() >> 12)),
         13 => {

@@ -144,7 +144,7 @@ fn all_three_controllers_work_under_the_realistic_mount() {
     let trials: u64 = std::env::var("FERRY_TRIALS").map_or(6, |count| count.parse().unwrap());
     for map in ["posts", "colon"] {
         let venue = Venue::of(Arena::open(map).unwrap());
-        for controller in ControllerName::ALL {
+        for controller in ControllerName::AUTOMATIC {
             let delivered = |parameters: &Parameters| {
                 let one = |index| {
                     let arena = &venue.arena;

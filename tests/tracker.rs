@@ -81,7 +81,7 @@ fn lose(name: &str, parameters: &Parameters) {
     let trials = std::env::var("FERRY_LOSSES").map_or(4, |count| count.parse().unwrap());
     let durations_s = [3.0, 5.0, 10.0];
     for map in ["colon", "posts"] {
-        for controller in ControllerName::ALL {
+        for controller in ControllerName::AUTOMATIC {
             let all = losses(map, controller, parameters, durations_s, trials);
             for (number, for_s) in durations_s.into_iter().enumerate() {
                 let pairs: Vec<[&Loss; 2]> = all.iter().map(|(plain, blind)| [plain, &blind[number]]).collect();

@@ -105,8 +105,7 @@ impl Limits {
 
     /// The point of the workspace nearest to `wanted`. A flight stays inside the workspace.
     pub fn keep_in(&self, wanted: Point2<f64>) -> Point2<f64> {
-        let w = &self.workspace;
-        Point2::new(wanted.x.clamp(w.x_min_m, w.x_max_m), wanted.y.clamp(w.y_min_m, w.y_max_m))
+        self.workspace.nearest(wanted)
     }
 }
 

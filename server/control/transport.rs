@@ -6,6 +6,7 @@ pub mod planning;
 mod progress;
 pub mod replanner;
 pub mod rl;
+pub mod you;
 
 use serde::{Deserialize, Serialize};
 
@@ -79,6 +80,7 @@ pub enum Carrier {
     Errt(Box<errt::Errt>),
     Attractor(attractor::Attractor),
     Replanner(replanner::Replanner),
+    You(you::You),
 }
 
 impl Carrier {
@@ -89,6 +91,7 @@ impl Carrier {
             ControllerName::Errt => Self::Errt(Box::new(errt::Errt::new(seed))),
             ControllerName::Attractor => Self::Attractor(attractor::Attractor::default()),
             ControllerName::Replanner => Self::Replanner(replanner::Replanner::default()),
+            ControllerName::You => Self::You(you::You::default()),
         }
     }
 
@@ -99,6 +102,7 @@ impl Carrier {
             Self::Errt(errt) => errt.trouble(),
             Self::Attractor(attractor) => attractor.trouble(),
             Self::Replanner(replanner) => replanner.trouble(),
+            Self::You(you) => you.trouble(),
         }
     }
 
@@ -108,6 +112,7 @@ impl Carrier {
             Self::Errt(errt) => errt.as_mut(),
             Self::Attractor(attractor) => attractor,
             Self::Replanner(replanner) => replanner,
+            Self::You(you) => you,
         }
     }
 }

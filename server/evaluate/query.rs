@@ -54,6 +54,8 @@ pub enum QueryError {
         /// Why the map was refused.
         error: MapError,
     },
+    #[error("controllers[{index}] is \"you\": an evaluation has no person")]
+    Person { index: usize },
     #[error("rl_policy: {0}")]
     Policy(#[from] PolicyError),
     /// Out of range.
@@ -70,6 +72,7 @@ impl QueryError {
             Self::Empty { field } => (*field).to_owned(),
             Self::Twice { field, index, .. } => format!("{field}[{index}]"),
             Self::Map { index, .. } => format!("maps[{index}]"),
+            Self::Person { index } => format!("controllers[{index}]"),
             Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
             Self::TooManyCells { .. } => "maps".to_owned(),
@@ -81,6 +84,9 @@ impl EvaluationQuery {
     /// The cells of the query, with the controllers of a map next to each other.
     pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
         distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
+        if let Some(index) = self.controllers.iter().position(|name| *name == ControllerName::You) {
+            return Err(QueryError::Person { index });
+        }
         distinct("maps", &self.maps, Clone::clone)?;
         distinct("disturbances", &self.disturbances, u32::to_string)?;
         let cells = self.controllers.len() * self.maps.len() * self.disturbances.len();
@@ -179,6 +185,7 @@ mod tests {
         let all = Map::shipped_names();
         for (bad, field, parts) in [
             (EvaluationQuery { controllers: vec![], ..query() }, "controllers", &["controllers is empty"][..]),
+            (EvaluationQuery { controllers: vec![ControllerName::You], ..query() }, "controllers[0]", &["\"you\""]),
             (EvaluationQuery { maps: vec![], ..query() }, "maps", &["maps is empty"]),
             (EvaluationQuery { maps: vec!["posts".into(), "posts".into()], ..query() }, "maps[1]", &["\"posts\""]),
             (EvaluationQuery { maps: vec!["nowhere".into()], ..query() }, "maps[0]", &["nowhere", "colon", "posts"]),

@@ -58,8 +58,7 @@ impl Plant {
         if is_lifted {
             // Over walls, but not over the table's edge.
             let next_m = bead.position_m + bead.velocity_m_s * dt_s;
-            let w = map.workspace();
-            bead.position_m = Point2::new(next_m.x.clamp(w.x_min_m, w.x_max_m), next_m.y.clamp(w.y_min_m, w.y_max_m));
+            bead.position_m = map.workspace().nearest(next_m);
             if bead.position_m != next_m {
                 bead.velocity_m_s = Vector2::zeros();
             }

@@ -42,6 +42,15 @@ pub enum ClientMessage {
     Configure {
         parameters: Parameters,
     },
+    /// Points the tool of the controller `you` to a place; it goes there, within the limits of every controller. With
+    /// `approach` the hand also steers while sub-controller 1 is active.
+    Steer {
+        x_m: f64,
+        y_m: f64,
+        #[serde(default)]
+        #[ts(optional, as = "Option<bool>")]
+        approach: bool,
+    },
     Run {},
     Pause {},
     /// Advances this many ticks of 8 ms while paused.
@@ -137,6 +146,7 @@ impl ClientMessage {
             Self::Release {} => Command::Input(Input::Release),
             Self::SelectController { controller } => Command::Input(Input::SelectController(controller)),
             Self::Configure { parameters } => Command::Input(Input::Configure(Box::new(parameters))),
+            Self::Steer { x_m, y_m, approach } => Command::Input(Input::Steer { x_m, y_m, approach }),
             Self::Run {} => Command::Run,
             Self::Pause {} => Command::Pause,
             Self::Step { ticks } => Command::Step(ticks),

@@ -227,7 +227,7 @@ impl OverlayMessage {
     pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: &RlPolicy) -> Self {
         let sensed = match &sight.carrier {
             Carrier::Attractor(attractor) => attractor.sensed(),
-            Carrier::Rl(_) | Carrier::Errt(_) | Carrier::Replanner(_) => &[],
+            Carrier::Rl(_) | Carrier::Errt(_) | Carrier::Replanner(_) | Carrier::You(_) => &[],
         };
         let obstacles = sensed.iter().map(|o| SensedObstacle {
             center_m: o.center_m.coords.into(),
@@ -248,11 +248,11 @@ impl OverlayMessage {
             blocks: BlocksLayer::from(sight),
             plan: match &sight.carrier {
                 Carrier::Errt(errt) => Some(PlanLayer::of(errt, &sight.known)),
-                Carrier::Rl(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
+                Carrier::Rl(_) | Carrier::Attractor(_) | Carrier::Replanner(_) | Carrier::You(_) => None,
             },
             judgement: match &sight.carrier {
                 Carrier::Rl(rl) => JudgementLayer::of(rl, arena, policy),
-                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
+                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) | Carrier::You(_) => None,
             },
         }
     }

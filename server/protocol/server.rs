@@ -222,6 +222,9 @@ pub struct StateMessage {
     pub hand_m: Option<[f64; 2]>,
     /// Force of the hand's spring on the bead; 0 if not held.
     pub hand_force_n: f64,
+    /// Where a person points the tool, with the controller `you`.
+    #[schema(value_type = Option<Numbers2>)]
+    pub steer_m: Option<[f64; 2]>,
     /// Joint angles; `null` for the planar stage.
     #[schema(value_type = Option<Numbers6>)]
     pub joints_rad: Option<[f64; 6]>,
@@ -308,7 +311,7 @@ impl From<&Scenery> for SceneMessage {
             policies: scenery.catalog.policies.added().iter().map(|one| one.reference().to_string()).collect(),
             scenario: scenery.scenario.clone(),
             positioner: scenery.positioner,
-            controllers: ControllerName::OFFERED.to_vec(),
+            controllers: ControllerName::SELECTABLE.to_vec(),
             workspace: *map.workspace(),
             walls: map.walls().to_vec(),
             seed: scenery.scenario.seed,
@@ -351,6 +354,7 @@ impl From<&View> for StateMessage {
             goal_m: m.goal_m.map(|goal| [goal.x, goal.y, 0.0]),
             hand_m: m.hand.map(|hand| hand.target_m.coords.into()),
             hand_force_n: m.hand_force_n,
+            steer_m: m.steering.map(|steering| steering.target_m.coords.into()),
             joints_rad: m.positioner.joints_rad(),
             mode: m.switching.mode.index(),
             reason: m.reason(),

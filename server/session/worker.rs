@@ -281,6 +281,7 @@ impl<E: ImageSource> Worker<E> {
 
     fn input(&mut self, mut input: Input) -> Result<(), CommandError> {
         let configures = matches!(input, Input::Configure(_));
+        let steers = matches!(input, Input::Steer { .. });
         if let Input::Configure(parameters) = &mut input {
             self.scenery.catalog.resolve(parameters)?;
         }
@@ -303,7 +304,8 @@ impl<E: ImageSource> Worker<E> {
         if configures {
             self.scenery = Arc::new(self.next_scenery(0));
         }
-        if !self.running {
+        // The tool follows the hand at the next control step: until then the camera sees the same.
+        if !self.running && !steers {
             self.observe();
         }
         Ok(())

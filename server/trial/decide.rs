@@ -12,6 +12,9 @@ use crate::image::CameraFrame;
 use crate::map::WALL_HEIGHT_M;
 use crate::perception::{BeadView, Percept, wall_spread};
 
+/// A step by hand that is shorter is a rest.
+const REST_M: f64 = 1e-3;
+
 impl Trial {
     /// Decides from a frame and its percept. Changes only the controller state; [`Self::carry_out`] changes the world.
     ///
@@ -41,24 +44,33 @@ impl Trial {
             return hold;
         }
         if switching.mode == Mode::Approach {
-            return Decision { motion: Motion::Track, ..hold };
+            return match self.flight_by_hand(tool) {
+                None => Decision { motion: Motion::Track, ..hold },
+                Some(Ok(step)) => Decision { motion: Motion::Segment(step), ..hold },
+                Some(Err(refusal)) => Decision { refusal: Some(refusal), ..hold },
+            };
         }
         let fetched = switching.switched;
-        let (Some(goal), false) = (world.goal_m, matches!(world.phase, Phase::Stopped(_)) && !fetched) else {
-            return hold;
+        // A person steers without a goal, too, and out of a goal that is reached.
+        let by_hand = matches!(controller_state.carrier, Carrier::You(_));
+        let goal = match world.goal_m {
+            _ if matches!(world.phase, Phase::Stopped(_)) && !fetched => return hold,
+            Some(goal) => goal,
+            None if by_hand => tool.xy(),
+            None => return hold,
         };
         if fetched {
             self.state.controller_state.carrier.transport().start_leg();
         }
         let world = &self.state.world;
-        let proposed = if (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
+        let proposed = if !by_hand && (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
             Ok(settle_step(tool.xy(), goal, world.parameters.transport_speed_m_s))
         } else {
             let ControllerState { carrier, known, .. } = &mut self.state.controller_state;
             let parameters = &world.parameters;
             let policy = match carrier {
                 Carrier::Rl(_) => Some(self.arena.policy(&parameters.rl_policy)),
-                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
+                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) | Carrier::You(_) => None,
             };
             match policy.transpose() {
                 Ok(policy) => {
@@ -76,6 +88,15 @@ impl Trial {
             Ok(step) => Decision { motion: Motion::Segment(step), ..hold },
             Err(refusal) => Decision { refusal: Some(refusal), ..hold },
         }
+    }
+
+    /// The step of sub-controller 1 if a person steers it, too.
+    fn flight_by_hand(&self, tool: Point3<f64>) -> Option<Result<TargetStep, Refusal>> {
+        let Carrier::You(you) = &self.state.controller_state.carrier else { return None };
+        let world = &self.state.world;
+        let step = you.flight(tool.xy(), world.parameters.approach_speed_m_s)?;
+        let place = Point3::new(step.target_m.x, step.target_m.y, tool.z);
+        Some(self.arena.limits(&world.parameters).position(place, &world.reference).map(|_| step))
     }
 
     /// Without the tracker the active sub-controller stays, and the arm holds or looks for the bead.
@@ -151,6 +172,10 @@ impl Trial {
 
     /// Counts the control step, or stops the trial if no step is left. A step without the tracker has its own count.
     fn count(&mut self) {
+        // A person may rest: only steps that move the tool count.
+        let tool = self.tool_m().xy();
+        let rests = matches!(self.state.controller_state.carrier, Carrier::You(_))
+            && matches!(self.state.world.motion, Motion::Segment(step) if (step.target_m - tool).norm() < REST_M);
         let World { counters, phase, refusal, goal_m, parameters, .. } = &mut self.state.world;
         let is_active = goal_m.is_some() && matches!(phase, Phase::Approaching | Phase::Transporting);
         let limit = parameters.step_limit;
@@ -164,7 +189,7 @@ impl Trial {
             }
             return;
         }
-        if !is_active {
+        if !is_active || rests {
             return;
         }
         let is_transport = *phase == Phase::Transporting;

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Event, EventKind, Phase, Trial};
+use super::{Event, EventKind, Phase, Trial, TrialState};
 use crate::control::Refusal;
 use crate::control::transport::Carrier;
+use crate::control::transport::you::Steering;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
 use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
@@ -40,6 +41,13 @@ pub enum Input {
     Configure(Box<Parameters>),
     /// Applies a disturbance now.
     Disturb(Disturbance),
+    /// Points the tool of the controller `you` to a place; it goes there, within its limits.
+    Steer {
+        x_m: f64,
+        y_m: f64,
+        /// Whether the hand also steers while sub-controller 1 is active.
+        approach: bool,
+    },
 }
 
 /// Why an input was refused. The trial did not change.
@@ -63,6 +71,9 @@ pub enum InputError {
     /// A disturbance is invalid.
     #[error("disturbance: {0}")]
     Disturbance(#[from] DisturbanceError),
+    /// Only a person is steered.
+    #[error("steer: the controller is {}, only You can be steered", .0.label())]
+    NotYou(ControllerName),
     /// Too many inputs are waiting for the next tick of a paused session.
     #[error("the session is paused and {WAITING_MOST} inputs wait for its next tick; run it first")]
     TooManyWait,
@@ -78,6 +89,7 @@ impl InputError {
             Self::Reach { .. } => "out_of_reach",
             Self::Parameter(_) => "parameter_out_of_range",
             Self::Disturbance(_) => "disturbance_out_of_range",
+            Self::NotYou(_) => "not_you",
             Self::TooManyWait => "too_many_wait",
         }
     }
@@ -90,7 +102,7 @@ impl InputError {
             | Self::Reach { field, .. } => field,
             Self::Parameter(error) => error.field,
             Self::Disturbance(error) => error.field,
-            Self::TooManyWait => "type",
+            Self::NotYou(_) | Self::TooManyWait => "type",
         }
     }
 }
@@ -158,8 +170,19 @@ impl Trial {
                 Self::check_disturbance(disturbance, &self.arena.map)?;
                 self.apply_disturbance(disturbance);
             }
+            Input::Steer { x_m, y_m, approach } => self.steer(Point2::new(*x_m, *y_m), *approach)?,
         }
         self.inputs.push(input);
+        Ok(())
+    }
+
+    /// The hand may point anywhere finite; the tool stays inside the workspace.
+    fn steer(&mut self, pointer: Point2<f64>, approach: bool) -> Result<(), InputError> {
+        check_finite("steer", pointer)?;
+        let target_m = self.arena.map.workspace().nearest(pointer);
+        let TrialState { controller, controller_state, .. } = &mut self.state;
+        let Carrier::You(you) = &mut controller_state.carrier else { return Err(InputError::NotYou(*controller)) };
+        you.steer(Steering { target_m, approach });
         Ok(())
     }
 
@@ -197,8 +220,7 @@ impl Trial {
     /// The pointer may be anywhere finite; the bead goes where walls let it.
     fn drag(&mut self, pointer: Point2<f64>, lift: bool) -> Result<(), InputError> {
         check_finite("drag", pointer)?;
-        let w = self.arena.map.workspace();
-        let target_m = Point2::new(pointer.x.clamp(w.x_min_m, w.x_max_m), pointer.y.clamp(w.y_min_m, w.y_max_m));
+        let target_m = self.arena.map.workspace().nearest(pointer);
         let world = &mut self.state.world;
         let taken = world.plant.hand.is_none();
         let put_down = world.plant.hand.is_some_and(|hand| hand.lift) && !lift;
@@ -216,8 +238,7 @@ impl Trial {
 
     fn place(&mut self, pointer: Point2<f64>) -> Result<(), InputError> {
         check_finite("drag", pointer)?;
-        let w = self.arena.map.workspace();
-        let wanted = Point2::new(pointer.x.clamp(w.x_min_m, w.x_max_m), pointer.y.clamp(w.y_min_m, w.y_max_m));
+        let wanted = self.arena.map.workspace().nearest(pointer);
         let (x_m, y_m) = (wanted.x, wanted.y);
         let fit =
             contact::nearest_fit(&self.arena.map, wanted).ok_or(InputError::InWall { field: "drag", x_m, y_m })?;
@@ -292,5 +313,36 @@ mod tests {
         let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
         assert_eq!(trial.tick(Source::Camera(&mut camera)).unwrap().inputs.len(), WAITING_MOST + 1);
         trial.apply(goal).unwrap();
+    }
+
+    #[test]
+    fn the_hand_leads_the_tool_of_you_and_of_no_other_controller() {
+        let begin = |controller| {
+            let scenario = Scenario { controller, start_m: Some(Point2::new(0.0, -0.35)), ..Scenario::idle("open", 1) };
+            Trial::new(scenario, Arena::open("open").unwrap()).unwrap()
+        };
+        let steer = |x_m: f64, approach| Input::Steer { x_m, y_m: -0.35, approach };
+        let mut other = begin(ControllerName::Errt);
+        let before = other.state().world_hash();
+        assert_eq!(other.apply(steer(0.1, false)), Err(InputError::NotYou(ControllerName::Errt)));
+        assert_eq!(other.state().world_hash(), before);
+
+        let mut trial = begin(ControllerName::You);
+        let mut camera = trial.arena().camera(&crate::camera::Gpu::open(Default::default()).unwrap()).unwrap();
+        let mut run = |trial: &mut Trial, ticks: u32| {
+            (0..ticks).for_each(|_| drop(trial.tick(Source::Camera(&mut camera)).unwrap()));
+            trial.tool_m().x
+        };
+        assert!(matches!(trial.apply(steer(f64::NAN, false)), Err(InputError::NotFinite { field: "steer", .. })));
+        let start_m = run(&mut trial, 100);
+        trial.apply(steer(0.03, false)).unwrap();
+        // Without a goal, too.
+        assert!((run(&mut trial, 250) - 0.03).abs() < 2e-3);
+        // The bead is far away: sub-controller 1 flies to it, unless the hand steers that, too.
+        trial.apply(Input::Place { x_m: -0.2, y_m: -0.35 }).unwrap();
+        let mut by_hand = trial.clone();
+        by_hand.apply(steer(0.2, true)).unwrap();
+        assert!(run(&mut trial, 250) < start_m - 0.1);
+        assert!((run(&mut by_hand, 250) - 0.2).abs() < 2e-3);
     }
 }

@@ -6,6 +6,7 @@ use super::state::{Counters, TrialState, WorldHashes};
 use super::{Decision, Event, Input, Motion, Phase, Trial};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::switching;
+use crate::control::transport::you::Steering;
 use crate::control::transport::{Carrier, Trouble};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
@@ -89,6 +90,8 @@ pub struct Moment {
     /// Target of the hand, while it holds the bead.
     pub hand: Option<Hand>,
     pub hand_force_n: f64,
+    /// Where a person points the tool, if one does.
+    pub steering: Option<Steering>,
     pub positioner: Positioner,
     /// Active sub-controller, and why.
     pub switching: switching::Decision,
@@ -147,6 +150,10 @@ impl Trial {
             goal_m: world.goal_m,
             hand: world.plant.hand,
             hand_force_n: Plant::hand_force_n(&world.plant),
+            steering: match &self.state.controller_state.carrier {
+                Carrier::You(you) => you.steering(),
+                Carrier::Rl(_) | Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
+            },
             positioner: world.plant.positioner,
             switching: world.switching,
             controller: self.state.controller,

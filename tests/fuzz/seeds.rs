@@ -54,6 +54,7 @@ fn messages() -> Vec<ClientMessage> {
         ClientMessage::Release {},
         ClientMessage::SelectController { controller: ControllerName::Rl },
         ClientMessage::Configure { parameters: Parameters::default() },
+        ClientMessage::Steer { x_m, y_m, approach: false },
         ClientMessage::Run {},
         ClientMessage::Pause {},
         ClientMessage::Step { ticks: 31 },
@@ -116,6 +117,7 @@ fn inputs() -> Vec<Input> {
         Input::Release,
         Input::Configure(Box::new(Parameters { friction: 0.3, ..Parameters::default() })),
         Input::Disturb(Disturbance::Displace { x_m: -0.03, y_m: -0.33 }),
+        Input::Steer { x_m: 0.02, y_m: -0.32, approach: true },
     ]
 }
 
@@ -141,7 +143,10 @@ fn trial(controller: ControllerName) -> Vec<Entry> {
         if tick % 4 == 0
             && let Some(input) = inputs.next()
         {
-            trial.apply(input).unwrap();
+            let steers = matches!(input, Input::Steer { .. });
+            // Only You is steered.
+            let refused = trial.apply(input).is_err();
+            assert_eq!(refused, steers && controller != ControllerName::You);
         }
         let record = trial.tick(Source::Camera(&mut Spots)).unwrap();
         if !(2..30).contains(&tick) {

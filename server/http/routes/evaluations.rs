@@ -113,7 +113,10 @@ impl From<SubmitError> for Problem {
                     QueryError::Map { .. } => "map_refused",
                     QueryError::Policy(_) => "unknown_policy",
                     QueryError::TooManyCells { .. } => "too_many",
-                    QueryError::Empty { .. } | QueryError::Twice { .. } | QueryError::Range { .. } => "out_of_range",
+                    QueryError::Person { .. }
+                    | QueryError::Empty { .. }
+                    | QueryError::Twice { .. }
+                    | QueryError::Range { .. } => "out_of_range",
                 };
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, detail).field(&query.field())
             }

@@ -92,4 +92,11 @@ pub enum Input {
     Configure(Box<Parameters>),
     /// Applies a disturbance now.
     Disturb(Disturbance),
+    /// Points the tool of the controller `you` to a place; it goes there, within its limits.
+    Steer {
+        x_m: f64,
+        y_m: f64,
+        /// Whether the hand also steers while sub-controller 1 is active.
+        approach: bool,
+    },
 }

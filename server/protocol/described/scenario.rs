@@ -73,6 +73,8 @@ pub enum ControllerName {
     Attractor,
     /// The shortest path over what the camera has observed: a reference for evaluations, not from the paper.
     Replanner,
+    /// A person: the tool goes where the hand at the page points.
+    You,
 }
 
 #[derive(Serialize, Deserialize, TS, ToSchema)]

@@ -9,6 +9,7 @@ import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { LABORATORY, LAYERS } from './laboratory';
 import { PARAMETERS, SOME_PARAMETERS } from './parameters';
 import type { Row, Section } from './row';
+import { STEER } from './steer';
 import { TRAIN } from './train';
 import { DISTURB, EVALUATE, MAGNET, PLOTS, RECORDINGS, SCENE_VIEW } from './tools';
 
@@ -19,7 +20,7 @@ type SectionsByTest = Readonly<Record<string, readonly Section[]>>;
 
 /** The sections of each test. Small sections share a test, because opening a page takes longer than they do. */
 const SECTIONS_BY_TEST: SectionsByTest = {
-  'the laboratory': LABORATORY,
+  'the laboratory': [...LABORATORY, STEER],
   'the layers and the link': [LAYERS, SHARE],
   'plots, magnet and disturbances': [PLOTS, MAGNET, DISTURB],
   'the 3-D view': [SCENE_VIEW],
@@ -46,13 +47,15 @@ function parse(key: string) {
   return { role, name, pattern };
 }
 
+const literal = (text: string) => text.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&');
+
 function locate(page: Page, key: string): Locator {
   const { role, name, pattern } = parse(key);
   // Chromium gives summaries a role that getByRole does not know.
   if (role === 'summary') {
     return page
       .locator('summary')
-      .filter({ hasText: new RegExp(`^${name}( \\d+ changed|\\d+ changed)?$`) });
+      .filter({ hasText: new RegExp(`^${literal(name)}( \\d+ changed|\\d+ changed)?$`) });
   }
   // Several controls may match a pattern; the first is used. A full name has one control only.
   if (pattern) return page.getByRole(role as AriaRole, { name: pattern }).first();
@@ -63,7 +66,7 @@ function locate(page: Page, key: string): Locator {
 async function nextNumber(locator: Locator) {
   const { value, step, max } = await locator.evaluate((one: HTMLInputElement) => ({
     value: one.valueAsNumber,
-    step: Number(one.step) || 1,
+    step: one.step === 'any' ? Number(one.max) / 10 : Number(one.step) || 1,
     max: one.max === '' ? Infinity : Number(one.max),
   }));
   const next = value + step <= max + 1e-9 ? value + step : value - step;

@@ -9,7 +9,7 @@ const GOAL_RADIUS_M = 0.02;
 const DELIVERY_MS = 60_000;
 const OPEN_MS = 30_000;
 
-export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor';
+export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor' | 'You';
 
 export class Lab extends Messages {
   readonly canvas: Locator;

@@ -9,6 +9,7 @@ import type {
   Hello,
   OverlayMessage,
   SceneMessage,
+  SeenMessage,
   ServerMessage,
   StateMessage,
 } from './wire';
@@ -22,6 +23,7 @@ export class Messages {
   readonly events: EventMessage[] = [];
   overlay: OverlayMessage | undefined;
   comparison: ComparisonMessage | undefined;
+  private lastSeen: SeenMessage | undefined;
   private lastHello: Hello | undefined;
   private lastScene: SceneMessage | undefined;
   private lastState: StateMessage | undefined;
@@ -38,6 +40,15 @@ export class Messages {
 
   get scene() {
     return must(this.lastScene, 'the message scene');
+  }
+
+  /** The obstacle map, with the state of each cell, row by row. */
+  get obstacles() {
+    const seen = must(this.lastSeen, 'the message seen');
+    return {
+      ...seen,
+      cells: seen.runs.flatMap(([state, count]) => Array<number>(count).fill(state)),
+    };
   }
 
   get state() {
@@ -73,6 +84,9 @@ export class Messages {
         break;
       case 'overlay':
         this.overlay = message;
+        break;
+      case 'seen':
+        this.lastSeen = message;
         break;
       case 'comparison':
         this.comparison = message;

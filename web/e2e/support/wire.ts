@@ -12,6 +12,7 @@ export type {
   Parameters,
   Policies,
   SceneMessage,
+  SeenMessage,
   ServerMessage,
   StateMessage,
   Trainings,

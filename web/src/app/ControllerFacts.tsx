@@ -3,7 +3,8 @@
 import { Match, Show, Switch, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ValueFans } from '../features/values/ValueFans';
-import type { Pictures, Trial } from '../lab/slices';
+import type { ByHand, Pictures, Trial } from '../lab/slices';
+import { YouFacts } from '../features/steer/YouFacts';
 import type { ControllerName } from '../net/protocol.gen';
 import './ControllerFacts.css';
 
@@ -12,31 +13,37 @@ const NONE_YET: Record<ControllerName, string | undefined> = {
   errt: 'There is no plan yet.',
   replanner: 'There is no plan yet.',
   attractor: undefined,
+  you: undefined,
 };
 
-export function ControllerFacts(props: { lab: Trial & Pictures }): JSX.Element {
+export function ControllerFacts(props: { lab: Trial & Pictures & ByHand }): JSX.Element {
   const { lab } = props;
   return (
     <Show when={lab.state()}>
       {(state) => (
-        <Show when={NONE_YET[state().controller]}>
-          {(none) => (
-            <div class="controller-facts" data-controller={state().controller}>
-              <Switch fallback={<p class="none-yet">{none()}</p>}>
-                <Match when={lab.overlay()?.plan}>
-                  {(plan) => <PlannerFacts plan={plan()} state={state()} />}
-                </Match>
-                <Match when={lab.overlay()?.judgement}>
-                  {(judgement) => (
-                    <Show when={lab.scene()}>
-                      {(scene) => <ValueFans judgement={judgement()} map={scene().map} />}
-                    </Show>
-                  )}
-                </Match>
-              </Switch>
-            </div>
-          )}
-        </Show>
+        <>
+          <Show when={state().controller === 'you'}>
+            <YouFacts lab={lab} />
+          </Show>
+          <Show when={NONE_YET[state().controller]}>
+            {(none) => (
+              <div class="controller-facts" data-controller={state().controller}>
+                <Switch fallback={<p class="none-yet">{none()}</p>}>
+                  <Match when={lab.overlay()?.plan}>
+                    {(plan) => <PlannerFacts plan={plan()} state={state()} />}
+                  </Match>
+                  <Match when={lab.overlay()?.judgement}>
+                    {(judgement) => (
+                      <Show when={lab.scene()}>
+                        {(scene) => <ValueFans judgement={judgement()} map={scene().map} />}
+                      </Show>
+                    )}
+                  </Match>
+                </Switch>
+              </div>
+            )}
+          </Show>
+        </>
       )}
     </Show>
   );

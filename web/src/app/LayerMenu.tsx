@@ -2,7 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import { createPopover } from '../ui/popover';
-import { LAYER_GROUPS, type MapLayer } from '../plan/layer';
+import { hiddenBecause, LAYER_GROUPS, type MapLayer } from '../plan/layer';
 import type { Lab } from '../lab/slices';
 import './LayerMenu.css';
 
@@ -46,8 +46,9 @@ export function LayerMenu(props: {
               <fieldset>
                 <legend>{group}</legend>
                 <For each={props.layers.filter((layer) => layer.group === group)}>
-                  {({ id, label, swatch, unavailable }) => {
-                    const reason = (): string | undefined => unavailable?.(props.lab);
+                  {(layer) => {
+                    const { id, label, swatch } = layer;
+                    const reason = (): string | undefined => hiddenBecause(layer, props.lab);
                     return (
                       <label title={reason()}>
                         <input

@@ -8,7 +8,12 @@ import type { Lab } from '../lab/slices';
 import './WorkspaceHead.css';
 
 /** Radio buttons, so that arrow keys switch between them. */
-function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void }): JSX.Element {
+function ViewSwitch(props: {
+  mode: ViewMode;
+  /** Fog and camera have no 3-D view. */
+  isFixed: boolean;
+  onMode: (mode: ViewMode) => void;
+}): JSX.Element {
   return (
     <fieldset class="view-switch" role="radiogroup" aria-label="View">
       <For each={VIEW_MODES}>
@@ -18,6 +23,7 @@ function ViewSwitch(props: { mode: ViewMode; onMode: (mode: ViewMode) => void })
               type="radio"
               name="workspace-view"
               checked={props.mode === id}
+              disabled={props.isFixed}
               onChange={() => {
                 props.onMode(id);
               }}
@@ -38,6 +44,8 @@ export function WorkspaceHead(props: {
   disturbId: string;
   disturbing: boolean;
   onDisturbing: (on: boolean) => void;
+  /** The next click on the workspace sets the goal. */
+  onPickGoal: () => void;
 }): JSX.Element {
   const { lab } = props;
   const hasArm = (): boolean => lab.scene()?.positioner !== 'planar_stage';
@@ -60,18 +68,32 @@ export function WorkspaceHead(props: {
         >
           Present
         </a>
-        <ViewSwitch mode={props.mode} onMode={props.onMode} />
+        <ViewSwitch
+          mode={lab.sight() === 'all' ? props.mode : 'plan'}
+          isFixed={lab.sight() !== 'all'}
+          onMode={props.onMode}
+        />
         <LayerMenu lab={lab} layers={props.layers} />
-        <button
-          type="button"
-          class="small"
-          disabled={!lab.canOperate() || !lab.state()?.goal_m}
-          onClick={() => {
-            lab.send({ type: 'clear_goal' });
-          }}
+        <Show
+          when={lab.steering.isActive() && !lab.state()?.goal_m}
+          fallback={
+            <button
+              type="button"
+              class="small"
+              disabled={!lab.canOperate() || !lab.state()?.goal_m}
+              onClick={() => {
+                lab.send({ type: 'clear_goal' });
+              }}
+            >
+              Clear goal
+            </button>
+          }
         >
-          Clear goal
-        </button>
+          {/* A press steers here, so that a click cannot set the goal. */}
+          <button type="button" class="small" onClick={props.onPickGoal}>
+            Set goal
+          </button>
+        </Show>
         <button
           type="button"
           class="small"

@@ -1,15 +1,15 @@
 // The workspace in the plan view or the 3-D view. A click sets the goal; dragging the bead disturbs it.
 
-import { For, Show, createMemo, createSignal } from 'solid-js';
+import { For, Match, Show, Switch, createMemo, createSignal } from 'solid-js';
 import type { JSX } from 'solid-js';
 import { fixed } from '../ui/format';
 import { createPalette } from '../ui/palette';
-import { IS_TOUCH } from '../ui/touch';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
 import { DisturbBar } from '../features/disturb/DisturbBar';
 import { MarksLegend } from '../features/marks/MarksLegend';
 import { FailureCard } from '../features/failure/FailureCard';
+import { CameraView } from '../features/steer/CameraView';
 import { TipBar } from '../features/tips/TipBar';
 import { PlanView } from '../plan/PlanView';
 import { ScenePanel } from '../scene/ScenePanel';
@@ -19,6 +19,7 @@ import { MAP_LAYERS } from './layers';
 import { createInteraction } from '../plan/interaction';
 import { storedViewMode, storeViewMode, type ViewMode } from './viewMode';
 import { WorkspaceHead } from './WorkspaceHead';
+import { WorkspaceHint } from './WorkspaceHint';
 import { insidePolygon } from '../lab/geometry';
 import type { Lab } from '../lab/slices';
 import './WorkspacePanel.css';
@@ -45,7 +46,9 @@ export function WorkspacePanel(props: {
     const scene = lab.scene();
     const at = interaction.at();
     if (!at || !scene) return undefined;
-    return { at, wall: scene.walls.some((wall) => insidePolygon(wall, at)) };
+    // In fog the page tells no walls.
+    const wall = lab.sight() === 'all' && scene.walls.some((one) => insidePolygon(one, at));
+    return { at, wall };
   });
   const spoken = createMemo(() => {
     const at = interaction.cursor();
@@ -80,21 +83,30 @@ export function WorkspacePanel(props: {
         disturbId="disturb"
         disturbing={disturbing()}
         onDisturbing={setDisturbing}
+        onPickGoal={() => {
+          interaction.picker.start(interaction.setGoal);
+        }}
       />
       <Show when={disturbing()}>
         <DisturbBar lab={lab} id="disturb" picker={interaction.picker} />
       </Show>
       <div class="stage">
-        <Show when={mode() === 'scene'} fallback={<PlanView {...surfaceProps} />}>
-          <ScenePanel
-            {...surfaceProps}
-            onPlan={() => {
-              choose('plan');
-            }}
-          />
-        </Show>
+        <Switch fallback={<PlanView {...surfaceProps} />}>
+          <Match when={lab.sight() === 'camera'}>
+            <CameraView {...surfaceProps} notices={lab} />
+          </Match>
+          {/* The 3-D view has no fog. */}
+          <Match when={lab.sight() === 'all' && mode() === 'scene'}>
+            <ScenePanel
+              {...surfaceProps}
+              onPlan={() => {
+                choose('plan');
+              }}
+            />
+          </Match>
+        </Switch>
         <Show when={lab.state() && stale()}>{(reason) => <p class="veil">{reason()}</p>}</Show>
-        <Show when={!interaction.picker.isPicking()}>
+        <Show when={!interaction.picker.isPicking() && !lab.steering.isActive()}>
           <TipBar lab={lab} scene={mode() === 'scene'} />
         </Show>
         <Show when={interaction.picker.isPicking()}>
@@ -109,23 +121,7 @@ export function WorkspacePanel(props: {
       <For each={menu}>{(layer) => <Show when={layer.isShown()}>{layer.legend?.()}</Show>}</For>
       <footer class="panel-foot">
         <p id={HELP_ID} class="hint">
-          <Show
-            when={mode() === 'scene'}
-            fallback={
-              IS_TOUCH
-                ? 'Tap to set a goal. Drag the bead to disturb it.'
-                : 'Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Keys: arrows, Enter, D.'
-            }
-          >
-            {IS_TOUCH
-              ? 'Tap to set a goal. Drag the bead to disturb it. Drag elsewhere to turn the view, pinch to zoom.'
-              : 'Click to set a goal. Drag the bead to disturb it (Shift: lift over walls). Drag elsewhere to turn the view, use the wheel to zoom. Keys: arrows, Enter, D.'}
-            <span class="visually-hidden">
-              {' '}
-              Brackets turn the view, Page Up and Page Down tilt it, plus and minus zoom, Home
-              resets it. The right mouse button moves it.
-            </span>
-          </Show>
+          <WorkspaceHint steers={lab.steering.isActive()} scene={mode() === 'scene'} />
         </p>
         <Show when={mode() === 'plan'}>
           <MarksLegend isShown={(id) => lab.layers().has(id)} />

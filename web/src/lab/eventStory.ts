@@ -89,6 +89,10 @@ function transport(moment: MomentMessage): string {
     }
     case 'replanner':
       return `${name} followed the shortest path around the obstacles seen so far.`;
+    case 'you':
+      return overlay.target_m
+        ? `Your hand led the tool to ${place(overlay.target_m)}.`
+        : 'Your hand did not move the tool.';
     case 'rl': {
       const judged = overlay.judgement;
       const action = judged && ACTIONS[judged.taken];

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { blocksPath, type Homography, pictureFromTable } from './homography';
+import { blocksPath, type Homography, pictureFromTable, tableFromPicture } from './homography';
 
 /** 480 px for 20 cm around (0.1, −0.3), seen vertically from above. */
 const ABOVE: Homography = [
@@ -23,6 +23,15 @@ describe('the picture of the table', () => {
   it('is NaN at the horizon', () => {
     const level: Homography = [ABOVE[0], ABOVE[1], [0, 0, 0]];
     expect(pictureFromTable(level, [0.1, -0.3])).toEqual([NaN, NaN]);
+  });
+
+  it('leads back to the table', () => {
+    const leaning: Homography = [ABOVE[0], ABOVE[1], [1, 0.5, 1]];
+    const [x_m, y_m] = tableFromPicture(leaning, pictureFromTable(leaning, [0.13, -0.28])) ?? [];
+    expect(x_m).toBeCloseTo(0.13);
+    expect(y_m).toBeCloseTo(-0.28);
+    const level: Homography = [ABOVE[0], ABOVE[1], [0, 0, 0]];
+    expect(tableFromPicture(level, [10, 10])).toBeUndefined();
   });
 
   it('shows blocks at their pixels', () => {

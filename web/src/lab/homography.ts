@@ -15,6 +15,22 @@ export function pictureFromTable(homography: Homography, [x_m, y_m]: Vec2): Vec2
   return [column / factor, row / factor];
 }
 
+/** The point of the table at a column and row; undefined where the picture shows none. */
+export function tableFromPicture(
+  homography: Homography,
+  [column, row]: Vec2,
+): [number, number] | undefined {
+  const [[a, b, c], [d, e, f], [g, h, i]] = homography;
+  // Two linear equations for x and y.
+  const [p, q, r] = [a - column * g, b - column * h, column * i - c];
+  const [s, t, u] = [d - row * g, e - row * h, row * i - f];
+  const determinant = p * t - q * s;
+  const x_m = (r * t - q * u) / determinant;
+  const y_m = (p * u - r * s) / determinant;
+  const isBefore = g * x_m + h * y_m + i > 0;
+  return Number.isFinite(x_m) && Number.isFinite(y_m) && isBefore ? [x_m, y_m] : undefined;
+}
+
 /** A rectangle of the table as an SVG path in the image. */
 function rectPath(homography: Homography, rect: Rect): string {
   const corners: Vec2[] = [

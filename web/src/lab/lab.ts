@@ -1,6 +1,6 @@
 // Assembles the slices: connection → model → one animation frame → panels.
 
-import { batch, createMemo, createSignal } from 'solid-js';
+import { batch, createEffect, createMemo, createSignal } from 'solid-js';
 import { openPage } from '../net/access';
 import { connect, liveAddress, type Picture } from '../net/connection';
 import {
@@ -18,7 +18,9 @@ import { enqueue, frameScheduler } from './inbox';
 import { createKeeper } from './keepControl';
 import { createLayerChoice, type KnownLayer } from './layers';
 import { EMPTY, type Input, type Model, reduce } from './model';
+import type { Sight } from './sight';
 import type { Lab } from './slices';
+import { createSteering } from './steering';
 import { tabStorage } from '../ui/storage';
 
 export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
@@ -112,6 +114,12 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     if (message.type === 'fork') comparison.show();
   };
   const comparison = createComparison(part('comparison'), () => scene()?.tick_s ?? Infinity);
+  const [sight, setSight] = createSignal<Sight>('all');
+  const steering = createSteering({ scene, state, canOperate, send });
+  // The choice belongs to the controller You: with another one, the page has no way back.
+  createEffect(() => {
+    if (state()?.controller !== 'you') setSight('all');
+  });
   const edits = createEdits({ scene, refusals, canOperate, send });
   return {
     session: name,
@@ -144,6 +152,9 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     observation,
     overlay: part('overlay'),
     obstacleMap: part('obstacleMap'),
+    steering,
+    sight,
+    setSight,
     comparison,
     ...createLayerChoice(knownLayers),
     opened,

@@ -4,7 +4,7 @@ import type { SeenMessage } from '../net/protocol.gen';
 import type { Vec2 } from './geometry';
 
 /** A cell's state; free is 1, an obstacle 2. */
-const UNKNOWN = 0;
+export const UNKNOWN = 0;
 
 /** State of each cell, row by row from the smallest x and y. */
 export function seenCells(seen: SeenMessage): Uint8Array {

@@ -18,6 +18,7 @@ export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
     'Attractor: no plan. It heads for the goal, and walls in view bend its motion. It can get stuck.',
   replanner:
     'Replanner: the shortest path around the walls that it has seen, and a new one at each new wall. A reference for evaluations.',
+  you: 'You: your hand points the tool to a place, and it goes there as fast as the controllers may.',
 };
 
 export type NumberName = {

@@ -12,6 +12,7 @@ export const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   drag: 'workspace',
   release: 'workspace',
   disturb: 'workspace',
+  steer: 'workspace',
   select_controller: 'controller',
   configure: 'controller',
   run: 'playback',

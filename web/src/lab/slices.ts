@@ -10,6 +10,8 @@ import type { History } from './history';
 import type { Layers } from './layers';
 import type { Model } from './model';
 import type { Place } from './places';
+import type { Sight } from './sight';
+import type { Steering } from './steering';
 
 export type { Layers };
 
@@ -63,6 +65,13 @@ export interface Pictures {
   readonly obstacleMap: Accessor<Model['obstacleMap']>;
 }
 
+export interface ByHand {
+  readonly steering: Steering;
+  /** How much of the table the page shows. */
+  readonly sight: Accessor<Sight>;
+  setSight(sight: Sight): void;
+}
+
 export interface Compared {
   readonly comparison: Comparison;
 }
@@ -73,4 +82,5 @@ export interface OpenTab {
   openTab(tab: string | undefined): void;
 }
 
-export interface Lab extends Session, Trial, Events, Notices, Pictures, Compared, Layers, OpenTab {}
+export interface Lab
+  extends Session, Trial, Events, Notices, Pictures, ByHand, Compared, Layers, OpenTab {}

@@ -26,6 +26,7 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
     goal_m: null,
     hand_m: null,
     hand_force_n: 0,
+    steer_m: null,
     joints_rad: [0, 0, 0, 0, 0, 0],
     mode: 1,
     reason: 'No goal.',
@@ -249,6 +250,7 @@ export function trainingOf(change: Partial<TrainingSummary> = {}): TrainingSumma
     examined: null,
     rank_correlation: null,
     frames: 10,
+    value_range: null,
     policy: null,
     ...change,
   };

@@ -84,6 +84,7 @@ export const CONTROLLER_LABELS = {
   errt: 'ERRT',
   attractor: 'Attractor',
   replanner: 'Replanner',
+  you: 'You',
 } as const;
 
 /** Controllers that the page offers. */

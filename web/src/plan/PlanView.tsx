@@ -14,6 +14,7 @@ import {
 import type { Palette } from '../ui/palette';
 import { fitView, tableViewOf, type View } from './transform';
 import { createBaseMap } from './baseMap';
+import { fogPath } from './fog';
 import type { LiveLayer } from './layer';
 import { paint, type Picture } from './paint';
 import type { Interaction } from './interaction';
@@ -22,13 +23,13 @@ import type { ViewPicture } from './viewPicture';
 import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
 import { attachZoom } from './zooming';
 import './plan.css';
-import type { Layers, Trial } from '../lab/slices';
+import type { ByHand, Layers, Pictures, Trial } from '../lab/slices';
 
 /** Space for the numbers of the axes, in pixels. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
 export interface SurfaceProps {
-  readonly lab: Trial & Layers;
+  readonly lab: Trial & Layers & Pictures & ByHand;
   readonly interaction: Interaction;
   readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
@@ -71,6 +72,12 @@ export function PlanView(props: SurfaceProps): JSX.Element {
       return draw ? [draw] : [];
     }),
   );
+  const fog = createMemo(() => {
+    const [now, workspace] = [view(), lab.scene()?.workspace];
+    return now && workspace && lab.sight() !== 'all'
+      ? fogPath(lab.obstacleMap(), workspace, now)
+      : undefined;
+  });
   const picture = createMemo<Picture | undefined>(() => {
     const mapNow = baseMap();
     return (
@@ -81,7 +88,9 @@ export function PlanView(props: SurfaceProps): JSX.Element {
         history: lab.history,
         drag: hand.drag(),
         grabRadiusPx: reachPx(),
-        cursor: focused() ? cursor() : undefined,
+        cursor: focused() && !lab.steering.isActive() ? cursor() : undefined,
+        steer_m: lab.steering.target() ?? lab.state()?.steer_m ?? undefined,
+        fog: fog(),
       }
     );
   });

@@ -5,7 +5,8 @@ import { attachKeyboard } from './keyboard';
 import { attachPointer } from './pointer';
 import type { Interaction } from './interaction';
 import type { Vec2 } from '../lab/geometry';
-import type { Trial } from '../lab/slices';
+import { attachSteering } from './steerInput';
+import type { ByHand, Trial } from '../lab/slices';
 import './ViewCanvas.css';
 
 export interface Size {
@@ -14,7 +15,7 @@ export interface Size {
 }
 
 export function ViewCanvas(props: {
-  lab: Trial;
+  lab: Trial & Pick<ByHand, 'steering'>;
   interaction: Interaction;
   label: string;
   class: string;
@@ -33,6 +34,18 @@ export function ViewCanvas(props: {
       props.onSize({ width: canvas.clientWidth, height: canvas.clientHeight });
     });
     observer.observe(canvas);
+    const steered = new AbortController();
+    attachSteering(
+      canvas,
+      lab.steering,
+      {
+        view: interaction.view,
+        isPicking: interaction.picker.isPicking,
+        onPointing: (px) => interaction.setPointing({ px, reachPx: 0 }),
+        turned: (arrow) => props.turned?.(arrow) ?? arrow,
+      },
+      steered.signal,
+    );
     const detach = attachPointer(
       canvas,
       lab,
@@ -57,6 +70,7 @@ export function ViewCanvas(props: {
     onCleanup(() => {
       observer.disconnect();
       detach();
+      steered.abort();
       interaction.leave();
     });
     props.onCanvas(canvas);
@@ -74,6 +88,7 @@ export function ViewCanvas(props: {
 
   const cursorName = (): string => {
     if (interaction.hand.drag().kind === 'held') return 'holding';
+    if (lab.steering.isActive()) return 'steering';
     return interaction.reachPx() === undefined ? 'free' : 'near-bead';
   };
 

@@ -73,6 +73,24 @@ export function drawBead(
   cross(ctx, pxFromWorld(view, state.bead_tracked_m), TRACKED_PX);
 }
 
+/** A dashed line from the tool to where the hand points it. */
+export function drawSteering(ctx: Ctx, view: View, palette: Palette, tool: Vec2, to: Vec2): void {
+  const [from, at] = [pxFromWorld(view, tool), pxFromWorld(view, to)];
+  ctx.save();
+  ctx.strokeStyle = palette.you;
+  ctx.lineWidth = 1.5;
+  ctx.setLineDash([5, 4]);
+  ctx.beginPath();
+  ctx.moveTo(...from);
+  ctx.lineTo(...at);
+  ctx.stroke();
+  ctx.setLineDash([]);
+  ctx.lineWidth = 2;
+  circle(ctx, at, 6);
+  ctx.stroke();
+  ctx.restore();
+}
+
 export function drawTool(ctx: Ctx, view: View, palette: Palette, tool: Vec2): void {
   const at = pxFromWorld(view, tool);
   ctx.strokeStyle = palette.floor;

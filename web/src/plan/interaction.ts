@@ -27,6 +27,7 @@ export interface Interaction {
   readonly at: Accessor<Vec2 | undefined>;
   /** Gives the place to the picker if it waits for one, otherwise sets the goal. */
   readonly place: (at: Vec2) => void;
+  readonly setGoal: (at: Vec2) => void;
   /** Called when a view closes. */
   leave(): void;
 }
@@ -43,10 +44,12 @@ export function createInteraction(lab: Session & Trial & Notices, grabPx?: numbe
     const { x_min_m, x_max_m, y_min_m, y_max_m } = workspace;
     return x_m >= x_min_m && x_m <= x_max_m && y_m >= y_min_m && y_m <= y_max_m;
   };
-  const place = (at: Vec2): void => {
+  const setGoal = (at: Vec2): void => {
     // Beside the table, a click means nothing.
-    if (picker.offer(at) || !isOnTable(at) || !hand.mayAct()) return;
-    lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+    if (isOnTable(at) && hand.mayAct()) lab.send({ type: 'set_goal', x_m: at[0], y_m: at[1] });
+  };
+  const place = (at: Vec2): void => {
+    if (!picker.offer(at)) setGoal(at);
   };
   const hand = createHand(lab, place);
   const reachPx = createMemo(() => {
@@ -68,6 +71,7 @@ export function createInteraction(lab: Session & Trial & Notices, grabPx?: numbe
     grabPx,
     reachPx,
     place,
+    setGoal,
     cursor,
     setCursor,
     focused,

@@ -19,7 +19,7 @@ export const WORKSPACE_SHORTCUTS: readonly Shortcut[] = [
 ];
 
 const STEP_M = 0.005;
-const ARROWS: Partial<Record<string, Vec2>> = {
+export const ARROWS: Partial<Record<string, Vec2>> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
   ArrowUp: [0, 1],

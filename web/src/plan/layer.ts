@@ -63,6 +63,8 @@ export interface MapLayer {
   readonly shownAtFirst?: true;
   /** `aboveWalls` may draw outside the workspace. */
   readonly isUnclipped?: true;
+  /** Shows only what sensors tell, so that it may be drawn over fog. */
+  readonly isSensed?: true;
   /** Why the layer cannot be shown now; undefined if it can. */
   readonly unavailable?: (lab: Lab) => string | undefined;
   create(context: LayerContext): LayerParts;
@@ -72,6 +74,12 @@ export interface MapLayer {
 export type LiveLayer<L extends MapLayer = MapLayer> = L &
   LayerParts & { readonly isShown: Accessor<boolean> };
 
+/** Why a layer is not shown now, whatever the user chose; undefined if it can be shown. */
+export function hiddenBecause(layer: MapLayer, lab: Lab): string | undefined {
+  if (lab.sight() !== 'all' && !layer.isSensed) return 'Hidden in fog: no sensor tells it.';
+  return layer.unavailable?.(lab);
+}
+
 export function createLayers<L extends MapLayer>(
   layers: readonly L[],
   lab: Lab,
@@ -79,7 +87,7 @@ export function createLayers<L extends MapLayer>(
 ): readonly LiveLayer<L>[] {
   return layers.map((layer) => {
     const isShown = createMemo(
-      () => lab.layers().has(layer.id) && layer.unavailable?.(lab) === undefined,
+      () => lab.layers().has(layer.id) && hiddenBecause(layer, lab) === undefined,
     );
     return { ...layer, ...layer.create({ lab, palette, isShown }), isShown };
   });

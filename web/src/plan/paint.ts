@@ -5,7 +5,8 @@ import type { History } from '../lab/history';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import { type BaseMap, drawClipped, paintBaseMap } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
-import { drawBead, drawGoal, drawTool } from './drawMoving';
+import { drawBead, drawGoal, drawSteering, drawTool } from './drawMoving';
+import { drawFog } from './fog';
 import type { Draw, MovingPicture } from './layer';
 import { clampToRect, type Vec2 } from '../lab/geometry';
 
@@ -19,6 +20,10 @@ export interface Picture {
   /** Radius of the ring that shows that the bead can be grabbed; undefined if it cannot. */
   readonly grabRadiusPx: number | undefined;
   readonly cursor: Vec2 | undefined;
+  /** Where the hand points the tool. */
+  readonly steer_m: Vec2 | undefined;
+  /** Covers what the camera has not seen; the bead is then drawn where the tracker reports it. */
+  readonly fog: Path2D | undefined;
 }
 
 type Ctx = CanvasRenderingContext2D;
@@ -40,6 +45,12 @@ export function handOf(
   return drag.kind === 'held' ? clampToRect(scene.workspace, drag.at) : (state.hand_m ?? undefined);
 }
 
+/** The bead where the tracker reports it. */
+function asTracked(state: StateMessage): StateMessage {
+  const [x, y] = state.bead_tracked_m;
+  return { ...state, bead_m: [x, y, state.bead_m[2]] };
+}
+
 function paintSpring(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: number): void {
   const { drag } = picture;
   const { view, palette, scene } = picture.map;
@@ -59,8 +70,10 @@ function paintState(ctx: Ctx, picture: Picture, state: StateMessage, widthPx: nu
   const moving = { view, palette, scene, state, history: picture.history };
   for (const draw of picture.moving) drawClipped(ctx, moving, draw);
   if (state.goal_m) drawGoal(ctx, view, palette, [state.goal_m[0], state.goal_m[1]]);
+  if (picture.steer_m) drawSteering(ctx, view, palette, tool, picture.steer_m);
   drawTool(ctx, view, palette, tool);
-  drawBead(ctx, view, palette, scene, state, picture.grabRadiusPx);
+  const shown = picture.fog ? asTracked(state) : state;
+  drawBead(ctx, view, palette, scene, shown, picture.grabRadiusPx);
   paintSpring(ctx, picture, state, widthPx);
 }
 
@@ -81,6 +94,7 @@ export function paint(
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, size.width, size.height);
   paintBaseMap(ctx, picture.map);
+  if (picture.fog) drawFog(ctx, picture.map, picture.fog);
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
   if (picture.cursor) drawCursor(ctx, picture.map.view, picture.map.palette, picture.cursor);
 }

@@ -25,11 +25,13 @@ export class Marks {
   private readonly cursor: Strokes;
   private readonly spot: Strokes;
   private readonly plumb: Strokes;
+  private readonly steering: Strokes;
 
   constructor(paints: Paints, scene: SceneMessage, layers: readonly LoadedLayer[]) {
     this.objects = layers.map(({ id, create }) => ({ id, ...create(paints, scene) }));
     this.tracked = new Strokes(paints, 'text', 2, { width_px: 1, opacity: 0.8, through: true });
     this.cursor = new Strokes(paints, 'focus', 4, { width_px: 2, through: true });
+    this.steering = new Strokes(paints, 'you', 25, { width_px: 2, through: true });
     this.plumb = new Strokes(paints, 'tool', 1, { width_px: 1.25, opacity: 0.8 });
     this.spot = new Strokes(paints, 'tool', 24, { width_px: 1.5, opacity: 0.9, through: true });
 
@@ -45,7 +47,13 @@ export class Marks {
     air.add(this.plumb.object);
     this.group.renderOrder = ORDER.marks;
     this.group.add(this.goal, air);
-    for (const { object } of [...this.objects, this.tracked, this.cursor, this.spot]) {
+    for (const { object } of [
+      ...this.objects,
+      this.tracked,
+      this.cursor,
+      this.spot,
+      this.steering,
+    ]) {
       this.group.add(object);
     }
   }
@@ -65,6 +73,13 @@ export class Marks {
       .done();
     // Marks the tool's place on the table, which is hard to see in perspective.
     this.spot.clear().circle(x, y, TOOL_UP_M, CROSS_M, 24).done();
+    const steering = this.steering.clear();
+    if (state.steer_m) {
+      const [toX, toY] = state.steer_m;
+      steering.move(x, y, TOOL_UP_M).line(toX, toY, TOOL_UP_M);
+      steering.circle(toX, toY, TOOL_UP_M, CROSS_M, 24);
+    }
+    steering.done();
     this.plumb.clear().move(x, y, z).line(x, y, TOOL_UP_M).done();
   }
 

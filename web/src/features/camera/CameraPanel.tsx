@@ -2,6 +2,7 @@
 
 import { Show, createEffect, createSignal, type JSX } from 'solid-js';
 import { counted, fixed } from '../../ui/format';
+import { createCameraBitmap } from '../../lab/cameraBitmap';
 import { blocksPath, patchPath } from '../../lab/homography';
 import { CAMERA_PX, OBSERVATION_PX, OBSTACLE_MEAN } from '../../net/protocol.gen';
 import type { Notices, Pictures } from '../../lab/slices';
@@ -28,28 +29,11 @@ function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
   let cameraCanvas!: HTMLCanvasElement;
   let channel0!: HTMLCanvasElement;
   let channel1!: HTMLCanvasElement;
-  const [seen, setSeen] = createSignal(false);
-
-  let decoding = false;
+  const bitmap = createCameraBitmap(lab);
   createEffect(() => {
-    const picture = lab.camera();
-    // While an image is decoded, the signal keeps only the newest one.
-    if (picture && !decoding) void decode(picture.bytes);
+    const picture = bitmap();
+    if (picture) cameraCanvas.getContext('2d')?.drawImage(picture, 0, 0, CAMERA_PX, CAMERA_PX);
   });
-  async function decode(bytes: Uint8Array<ArrayBuffer>): Promise<void> {
-    decoding = true;
-    try {
-      const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/jpeg' }));
-      cameraCanvas.getContext('2d')?.drawImage(bitmap, 0, 0, CAMERA_PX, CAMERA_PX);
-      bitmap.close();
-      setSeen(true);
-    } catch {
-      lab.notify('session', 'A camera image could not be decoded.');
-    }
-    decoding = false;
-    const newest = lab.camera();
-    if (newest && newest.bytes !== bytes) void decode(newest.bytes);
-  }
 
   createEffect(() => {
     const picture = lab.observation();
@@ -88,7 +72,7 @@ function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
             <path class="blocks" d={blocks()} />
             <Show when={lab.overlay()}>{(overlay) => <path d={patchPath(overlay())} />}</Show>
           </svg>
-          <Show when={!seen()}>
+          <Show when={!bitmap()}>
             <p class="placeholder">No image yet</p>
           </Show>
         </div>

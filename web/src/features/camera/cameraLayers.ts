@@ -7,6 +7,7 @@ import type { Pictures } from '../../lab/slices';
 
 export const CAMERA_LAYER: MapLayer & InScene = {
   id: 'camera',
+  isSensed: true,
   label: 'Camera field',
   swatch: ['tool'],
   group: 'Camera',
@@ -17,6 +18,7 @@ export const CAMERA_LAYER: MapLayer & InScene = {
 
 export const SENSED_LAYER: MapLayer = {
   id: 'sensed',
+  isSensed: true,
   label: 'Sensed',
   swatch: ['sensed'],
   group: 'Camera',

@@ -4,6 +4,7 @@ import { drawCapture } from './drawCapture';
 
 export const CAPTURE_LAYER: MapLayer & InScene = {
   id: 'capture',
+  isSensed: true,
   label: 'Capture',
   swatch: ['tool'],
   group: 'Motion',

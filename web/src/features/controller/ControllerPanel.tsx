@@ -65,11 +65,14 @@ function About(props: { state: StateMessage; policy: string }): JSX.Element {
       <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
         {trouble() ?? help()}
       </p>
-      <div class="about-others">
-        <For each={CONTROLLERS.filter((name) => name !== props.state.controller)}>
-          {(name) => <p>{CONTROLLER_HELP[name]}</p>}
-        </For>
-      </div>
+      {/* Below You, steering needs the room. */}
+      <Show when={props.state.controller !== 'you'}>
+        <div class="about-others">
+          <For each={CONTROLLERS.filter((name) => name !== props.state.controller)}>
+            {(name) => <p>{CONTROLLER_HELP[name]}</p>}
+          </For>
+        </div>
+      </Show>
     </>
   );
 }

@@ -148,6 +148,7 @@ export const CARRIERS: Readonly<Record<ControllerName, string>> = {
   errt: 'ERRT, a planner',
   attractor: 'Attractor dynamics',
   replanner: 'The shortest path',
+  you: 'A visitor',
 };
 
 /** What a screen shows that only watches: another one runs the programme. */

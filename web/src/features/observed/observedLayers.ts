@@ -10,6 +10,7 @@ import type { Pictures } from '../../lab/slices';
 
 export const SEEN_LAYER: MapLayer = {
   id: 'seen',
+  isSensed: true,
   label: 'Seen so far',
   swatch: ['unseen', 'sensed'],
   group: 'Camera',
@@ -44,6 +45,7 @@ function ofBlocks(
     label,
     swatch,
     group: 'Camera',
+    isSensed: true,
     create: ({ lab }: LayerContext<Pictures>) => ({
       aboveWalls: () => () => {
         const overlay = lab.overlay();

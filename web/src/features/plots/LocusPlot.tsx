@@ -11,7 +11,8 @@ import { LOCUS_LETTER } from './parts';
 import { nearestIndex } from './sample';
 import { TERMS } from '../../lab/terms';
 import type { Vec2 } from '../../lab/geometry';
-import type { Trial } from '../../lab/slices';
+import { shownWalls } from '../../lab/sight';
+import type { ByHand, Trial } from '../../lab/slices';
 import '../../ui/plot.css';
 
 const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
@@ -19,7 +20,7 @@ const INSETS = { left: 3, right: 3, top: 3, bottom: 3 };
 const REACH_PX = 24;
 
 export function LocusPlot(props: {
-  lab: Trial;
+  lab: Trial & ByHand;
   figure: Figure;
   palette: () => Palette;
   onDraw: (draw: () => void) => void;
@@ -35,8 +36,7 @@ export function LocusPlot(props: {
   });
   const walls = createMemo(() => {
     const now = view();
-    const scene = lab.scene();
-    return now && scene ? wallPath(scene.walls, now) : undefined;
+    return now && wallPath(shownWalls(lab), now);
   });
 
   const draw = (): void => {

@@ -14,12 +14,13 @@ import type { PlotContext } from './timePlot';
 import { clock } from '../../ui/format';
 import { createPalette, type Palette } from '../../ui/palette';
 import type { PanelProps, TabPanel } from '../../lab/panel';
-import type { Events, Notices, Trial } from '../../lab/slices';
+import { shownWalls } from '../../lab/sight';
+import type { ByHand, Events, Notices, Trial } from '../../lab/slices';
 import './plots.css';
 
 /** Time window and files, in the tab bar. */
 function Tools(props: {
-  lab: Trial & Notices;
+  lab: Trial & Notices & ByHand;
   figure: Figure;
   palette: () => Palette;
 }): JSX.Element {
@@ -43,7 +44,7 @@ function Tools(props: {
       sample,
       threshold_m: scene.parameters.threshold_m,
       workspace: scene.workspace,
-      walls: scene.walls,
+      walls: shownWalls(lab),
       goal_m: goal_m ? [goal_m[0], goal_m[1]] : undefined,
     });
   };
@@ -102,7 +103,7 @@ function Tools(props: {
   );
 }
 
-function PlotsPanel(props: PanelProps<Trial & Events & Notices>): JSX.Element {
+function PlotsPanel(props: PanelProps<Trial & Events & Notices & ByHand>): JSX.Element {
   const { lab } = props;
   const palette = createPalette(() => props.theme());
   const figure = createFigure(lab);

@@ -165,6 +165,10 @@ hand_m: [number, number] | null,
  */
 hand_force_n: number, 
 /**
+ * Where a person points the tool, with the controller `you`.
+ */
+steer_m: [number, number] | null, 
+/**
  * Joint angles; `null` for the planar stage.
  */
 joints_rad: [number, number, number, number, number, number] | null, 

@@ -1,0 +1,272 @@
+// The controller You: a person steers the tool by mouse, touch, keys and gamepad, and sees what the controllers see.
+
+import { type Lab, expect, test } from './fixtures';
+import { type Point, distance } from './support/table';
+import { must, until } from './support/wait';
+
+const DELIVERY_MS = 60_000;
+/** On a path, the hand points this far ahead of the tool. */
+const AHEAD_M = 0.02;
+
+const tool = (lab: Lab): Point => [lab.state.tool_m[0], lab.state.tool_m[1]];
+
+/** A trial with the controller You and a goal that was chosen with the button. */
+async function begin(lab: Lab, goal: Point, speed = '4') {
+  await lab.reset({ speed, map: lab.scene.map });
+  await lab.radio('You').check();
+  await until('You', () => lab.state.controller === 'you');
+  await lab.button('Set goal').click();
+  await lab.click(goal);
+  await until('the goal', () => lab.state.goal_m && distance(lab.state.goal_m, goal) < 0.005);
+  await lab.run();
+}
+
+/** A place near the bead with nothing in between. */
+const goalNear = async (lab: Lab) => lab.freePoints(await lab.bead(), 0.06, 0.15)[0];
+
+const toGo = (lab: Lab, goal: Point): Point => [
+  goal[0] - lab.state.tool_m[0],
+  goal[1] - lab.state.tool_m[1],
+];
+
+test('delivers by mouse, and the tool goes no further than the hand points', async ({ lab }) => {
+  const { mouse } = lab.page;
+  await lab.reset();
+  const goal = await goalNear(lab);
+  await begin(lab, goal, '1');
+  const start = tool(lab);
+  // A press steers and sets no other goal, also on the bead.
+  const near: Point = [start[0] + (goal[0] - start[0]) / 4, start[1] + (goal[1] - start[1]) / 4];
+  await mouse.move(...(await lab.px(near)));
+  await mouse.down();
+  await until('the hand', () => lab.state.steer_m && distance(lab.state.steer_m, near) < 0.003);
+  await mouse.up();
+  await until('the place', () => distance(tool(lab), near) < 0.004);
+  await lab.later(125);
+  expect(distance(tool(lab), near)).toBeLessThan(0.004);
+  expect(lab.state.hand_m).toBeNull();
+  await mouse.move(...(await lab.px(near)));
+  await mouse.down();
+  await mouse.move(...(await lab.px(goal)), { steps: 5 });
+  await lab.delivered(1);
+  await mouse.up();
+});
+
+test('delivers by touch', async ({ openLab }) => {
+  const lab = await openLab({ hasTouch: true, viewport: { width: 820, height: 1180 } });
+  await lab.reset();
+  const goal = await goalNear(lab);
+  await begin(lab, goal);
+  const client = await lab.page.context().newCDPSession(lab.page);
+  const touch = async (type: 'touchStart' | 'touchMove' | 'touchEnd', at?: Point) => {
+    const [x, y] = at ? await lab.px(at) : [0, 0];
+    await client.send('Input.dispatchTouchEvent', { type, touchPoints: at ? [{ x, y }] : [] });
+  };
+  await touch('touchStart', tool(lab));
+  await touch('touchMove', goal);
+  await lab.delivered(1);
+  await touch('touchEnd');
+});
+
+test('delivers by arrow keys, and stops when they are released', async ({ lab }) => {
+  const { keyboard } = lab.page;
+  await lab.reset();
+  const goal = await goalNear(lab);
+  await begin(lab, goal, '1');
+  await lab.canvas.focus();
+  const pressed = new Set<string>();
+  const hold = async (wanted: readonly string[]) => {
+    for (const key of [...pressed].filter((key) => !wanted.includes(key))) {
+      await keyboard.up(key);
+      pressed.delete(key);
+    }
+    for (const key of wanted.filter((key) => !pressed.has(key))) {
+      await keyboard.down(key);
+      pressed.add(key);
+    }
+  };
+  const toward = (): string[] => {
+    const [x, y] = toGo(lab, goal);
+    const keys = [];
+    if (Math.abs(x) > 0.004) keys.push(x > 0 ? 'ArrowRight' : 'ArrowLeft');
+    if (Math.abs(y) > 0.004) keys.push(y > 0 ? 'ArrowUp' : 'ArrowDown');
+    return keys;
+  };
+  const start_m = Math.hypot(...toGo(lab, goal));
+  await until('half of the path', async () => {
+    await hold(toward());
+    return Math.hypot(...toGo(lab, goal)) < start_m / 2;
+  });
+  await hold([]);
+  await lab.later(60);
+  const stopped = tool(lab);
+  await lab.later(125);
+  expect(distance(tool(lab), stopped)).toBeLessThan(0.002);
+  await until('a delivery', async () => {
+    await hold(toward());
+    return lab.state.deliveries > 0;
+  });
+  await hold([]);
+});
+
+test('delivers by gamepad', async ({ lab }) => {
+  const { page } = lab;
+  await page.evaluate(() => {
+    const pad = {
+      id: 'Test pad',
+      axes: [0, 0, 0, 0],
+      buttons: Array.from({ length: 17 }, () => ({ pressed: false })),
+    };
+    Object.assign(window, { pad });
+    navigator.getGamepads = () => [pad as unknown as Gamepad];
+  });
+  /** Up is negative on a stick. */
+  const push = ([x, y]: Point, isHeld = false) =>
+    page.evaluate(
+      ([right, down, held]) => {
+        const { pad } = window as unknown as {
+          pad: { axes: number[]; buttons: { pressed: boolean }[] };
+        };
+        [pad.axes[0], pad.axes[1]] = [right, down];
+        pad.buttons[0] = { pressed: held };
+      },
+      [x, -y, isHeld] as const,
+    );
+  await lab.reset();
+  const goal = await goalNear(lab);
+  await begin(lab, goal, '1');
+  await expect(page.getByTestId('gamepad')).toContainText('stick');
+  const toward = (share: number): Point => {
+    const [x, y] = toGo(lab, goal);
+    const scale = share / Math.max(1e-9, Math.hypot(x, y));
+    return [x * scale, y * scale];
+  };
+  await push(toward(0.15));
+  const start = tool(lab);
+  await lab.later(60);
+  expect(distance(tool(lab), start), 'in the dead zone').toBeLessThan(0.001);
+  await until('half of the path', async () => {
+    await push(toward(1));
+    return distance(tool(lab), start) > distance(start, goal) / 2;
+  });
+  await push(toward(1), true);
+  await lab.later(60);
+  const held = tool(lab);
+  await lab.later(125);
+  expect(distance(tool(lab), held), 'held by the button').toBeLessThan(0.002);
+  await until('a delivery', async () => {
+    await push(Math.hypot(...toGo(lab, goal)) > 0.004 ? toward(1) : [0, 0]);
+    return lab.state.deliveries > 0;
+  });
+});
+
+test('delivers through the colon, along the path that ERRT took', async ({ lab }) => {
+  const { mouse } = lab.page;
+  test.setTimeout(3 * DELIVERY_MS);
+  await lab.reset({ speed: '8', map: 'colon' });
+  await lab.controller('ERRT');
+  const goal = must(lab.freePoints(await lab.bead(), 0.15, 0.25)[0], 'a goal');
+  await lab.setGoal(goal);
+  await lab.run();
+  const path: Point[] = [tool(lab)];
+  await until(
+    'a delivery',
+    () => {
+      const at = tool(lab);
+      if (distance(at, must(path.at(-1), 'a place')) > 0.004) path.push(at);
+      return lab.state.deliveries > 0;
+    },
+    DELIVERY_MS,
+  );
+  path.push(goal);
+  await lab.pause();
+  await begin(lab, goal, '2');
+  let next = 0;
+  await mouse.move(...(await lab.px(tool(lab))));
+  await mouse.down();
+  const px = await Promise.all(path.map((place) => lab.px(place)));
+  await until(
+    'a delivery by hand',
+    async () => {
+      while (next < path.length - 1 && distance(must(path[next], 'a place'), tool(lab)) < AHEAD_M)
+        next += 1;
+      await mouse.move(...must(px[next], 'a place'));
+      return lab.state.deliveries > 0;
+    },
+    DELIVERY_MS,
+  );
+  await mouse.up();
+  await lab.pause();
+});
+
+test('in fog, the page shows nothing that the camera has not seen', async ({ lab }) => {
+  const { page } = lab;
+  await lab.reset({ map: 'colon' });
+  const goal = lab.freePoints(await lab.bead(), 0.06, 0.12)[0];
+  await begin(lab, goal);
+  await lab.label('What you see').selectOption('seen');
+  await page.mouse.move(...(await lab.px(goal)));
+  await page.mouse.down();
+  await lab.later(250);
+  await page.mouse.up();
+  await lab.pause();
+  await lab.drawn();
+  // The pixels of all cells that the obstacle map does not know have one colour, that of the fog.
+  const { cells, columns, rows } = lab.obstacles;
+  const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;
+  const marks = [tool(lab), lab.state.bead_tracked_m, goal, must(lab.state.steer_m, 'the hand')];
+  const unseen: Point[] = [];
+  // A pixel may belong to two cells, so the neighbours count, too.
+  const around = [-1, 0, 1].flatMap((row) => [-1, 0, 1].map((column) => row * columns + column));
+  cells.forEach((_, cell) => {
+    const isUnseen = around.every((step) => (cells[cell + step] ?? 0) === 0);
+    const x = x_min_m + (((cell % columns) + 0.5) * (x_max_m - x_min_m)) / columns;
+    const y = y_min_m + ((Math.floor(cell / columns) + 0.5) * (y_max_m - y_min_m)) / rows;
+    // Goal, tool and the line of the hand are drawn above the fog.
+    const isNear = marks.some((mark) => distance(mark, [x, y]) < 0.04);
+    // The border of the workspace is drawn.
+    const isInside = Math.min(x - x_min_m, x_max_m - x, y - y_min_m, y_max_m - y) > 0.004;
+    if (isUnseen && !isNear && isInside) unseen.push([x, y]);
+  });
+  expect(unseen.length).toBeGreaterThan(500);
+  expect(unseen.length).toBeLessThan(cells.length - 500);
+  for (const layer of ['Camera field', 'Capture']) await lab.layer(layer, false);
+  const colours = await lab.canvas.evaluate((canvas: HTMLCanvasElement, places) => {
+    const { pxPerM, originX, originY } = canvas.dataset;
+    const ratio = window.devicePixelRatio;
+    const { width, height } = canvas;
+    const pixels = canvas.getContext('2d')?.getImageData(0, 0, width, height).data;
+    const found = new Set<string>();
+    for (const [x, y] of places) {
+      const column = Math.round((Number(originX) + x * Number(pxPerM)) * ratio);
+      const row = Math.round((Number(originY) - y * Number(pxPerM)) * ratio);
+      const at = 4 * (row * width + column);
+      found.add(String(pixels?.slice(at, at + 4)));
+    }
+    return [...found];
+  }, unseen);
+  expect(colours).toHaveLength(1);
+  for (const layer of ['Camera field', 'Capture']) await lab.layer(layer, true);
+  // The readout tells no walls, and the camera's picture can take the place of the map.
+  await lab.label('What you see').selectOption('camera');
+  await expect(page.locator('.camera-canvas')).toBeVisible();
+  await page.locator('.camera-canvas').click({ position: { x: 200, y: 200 } });
+  await until('the hand', () => lab.state.steer_m);
+  await lab.controller('Attractor');
+  await expect(page.locator('.plan-canvas')).toBeVisible();
+  await lab.reset({ map: 'posts' });
+});
+
+test('a viewer cannot steer, and a refused message changes nothing', async ({ lab, openLab }) => {
+  await lab.reset();
+  await begin(lab, await goalNear(lab));
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  await expect(viewer.page.getByTestId('steer-how')).toHaveText('Only the operator steers.');
+  await viewer.click(lab.freePoints(tool(lab), 0.05, 0.1)[0]);
+  await viewer.drawn();
+  expect(viewer.sent.steer).toBeUndefined();
+  await viewer.page.close();
+  await lab.controller('RL');
+  await lab.pause();
+});

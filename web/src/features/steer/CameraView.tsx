@@ -1,0 +1,90 @@
+// The camera's picture in place of the map: the hand sees what the controllers see.
+
+import { createEffect, createMemo, createSignal, onCleanup, type JSX } from 'solid-js';
+import { createCameraBitmap } from '../../lab/cameraBitmap';
+import type { TableView, Vec2 } from '../../lab/geometry';
+import { type Homography, pictureFromTable, tableFromPicture } from '../../lab/homography';
+import type { Notices } from '../../lab/slices';
+import { CAMERA_PX } from '../../net/protocol.gen';
+import type { SurfaceProps } from '../../plan/PlanView';
+import { type Size, ViewCanvas } from '../../plan/ViewCanvas';
+import './steer.css';
+
+/** The square of the picture inside the canvas. */
+function squareIn({ width, height }: Size): { left: number; top: number; side: number } {
+  const side = Math.min(width, height);
+  return { left: (width - side) / 2, top: (height - side) / 2, side };
+}
+
+function viewThrough(homography: Homography, size: Size): TableView {
+  const { left, top, side } = squareIn(size);
+  const scale = side / CAMERA_PX;
+  return {
+    toPx: (point) => {
+      const [column, row] = pictureFromTable(homography, point);
+      return [left + column * scale, top + row * scale];
+    },
+    toWorld: ([x, y]) => tableFromPicture(homography, [(x - left) / scale, (y - top) / scale]),
+  };
+}
+
+export function CameraView(
+  props: Pick<SurfaceProps, 'lab' | 'interaction' | 'palette' | 'helpId' | 'onPicture'> & {
+    notices: Notices;
+  },
+): JSX.Element {
+  const { lab, interaction, palette } = props;
+  const bitmap = createCameraBitmap({ ...props.notices, camera: lab.camera });
+  const [canvas, setCanvas] = createSignal<HTMLCanvasElement>();
+  const [size, setSize] = createSignal<Size>({ width: 0, height: 0 });
+  const view = createMemo(() => {
+    const overlay = lab.overlay();
+    return overlay && size().width > 0
+      ? viewThrough(overlay.picture_from_table, size())
+      : undefined;
+  });
+  createEffect(() => {
+    interaction.setView(view());
+  });
+  const paint = (onto: HTMLCanvasElement, ratio: number): void => {
+    const { width, height } = size();
+    [onto.width, onto.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    const ctx = onto.getContext('2d');
+    const picture = bitmap();
+    if (!ctx || !picture) return;
+    const { left, top, side } = squareIn({ width, height });
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.drawImage(picture, left, top, side, side);
+    const to: Vec2 | null | undefined = lab.steering.target() ?? lab.state()?.steer_m;
+    const px = to && view()?.toPx(to);
+    if (!px) return;
+    ctx.strokeStyle = palette().you;
+    ctx.lineWidth = 2;
+    ctx.beginPath();
+    ctx.arc(...px, 7, 0, 2 * Math.PI);
+    ctx.stroke();
+  };
+  createEffect(() => {
+    const onto = canvas();
+    if (onto) paint(onto, window.devicePixelRatio);
+  });
+  createEffect(() => {
+    const own = canvas();
+    if (!own || size().width === 0) return;
+    props.onPicture?.({ size: size(), draw: () => own });
+  });
+  onCleanup(() => props.onPicture?.(undefined));
+  return (
+    <div class="camera-surface">
+      <ViewCanvas
+        lab={lab}
+        interaction={interaction}
+        label="Workspace"
+        class="camera-canvas"
+        helpId={props.helpId}
+        onCanvas={setCanvas}
+        onSize={setSize}
+      />
+    </div>
+  );
+}

@@ -1,0 +1,67 @@
+// What the controller You needs: how to steer, what is shown, and who fetches the bead.
+
+import { For, Show, createUniqueId, type JSX } from 'solid-js';
+import type { ByHand } from '../../lab/slices';
+import { SIGHTS, type Sight } from '../../lab/sight';
+import { IS_TOUCH } from '../../ui/touch';
+import { followGamepads } from './pollGamepad';
+import './steer.css';
+
+export function YouFacts(props: { lab: ByHand }): JSX.Element {
+  const { lab } = props;
+  const id = createUniqueId();
+  const gamepad = followGamepads(lab);
+  const help = (): string => SIGHTS.find(([name]) => name === lab.sight())?.[2] ?? '';
+  const how = (): string => {
+    if (!lab.steering.isActive()) return 'Only the operator steers.';
+    return IS_TOUCH
+      ? 'Press the map and move the finger: the tool follows.'
+      : 'Press the map and move the pointer: the tool follows. Or focus the map and hold the arrow keys.';
+  };
+  return (
+    <section class="you" aria-label="Steering">
+      <p class="hint" data-testid="steer-how">
+        {how()}
+      </p>
+      <Show when={lab.steering.isActive()}>
+        <p class="hint" data-testid="gamepad">
+          {gamepad() === undefined
+            ? 'Gamepad: press a button to connect it.'
+            : 'Gamepad: stick or cross; the first button stops the tool.'}
+        </p>
+      </Show>
+      <label class="you-approach">
+        <input
+          type="checkbox"
+          checked={lab.steering.approach()}
+          disabled={!lab.steering.isActive()}
+          onChange={(event) => {
+            lab.steering.setApproach(event.currentTarget.checked);
+          }}
+        />
+        Fetch a lost bead by hand, too
+      </label>
+      <div class="field">
+        <label for={id}>What you see</label>
+        <select
+          id={id}
+          aria-describedby={`${id}-help`}
+          onChange={(event) => {
+            lab.setSight(event.currentTarget.value as Sight);
+          }}
+        >
+          <For each={SIGHTS}>
+            {([name, label]) => (
+              <option value={name} selected={lab.sight() === name}>
+                {label}
+              </option>
+            )}
+          </For>
+        </select>
+      </div>
+      <p class="hint" id={`${id}-help`}>
+        {help()}
+      </p>
+    </section>
+  );
+}

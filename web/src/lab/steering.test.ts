@@ -1,0 +1,73 @@
+import { createRoot, createSignal } from 'solid-js';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { ClientMessage } from '../net/protocol.gen';
+import { createSteering, joined } from './steering';
+import { sceneOf, stateAt } from './testing';
+
+describe('joined', () => {
+  it('adds directions and keeps a length of at most 1', () => {
+    expect(joined([])).toEqual([0, 0]);
+    expect(joined([[0.5, 0]])).toEqual([0.5, 0]);
+    const [x, y] = joined([
+      [1, 0],
+      [0, 1],
+    ]);
+    expect(Math.hypot(x, y)).toBeCloseTo(1);
+    expect(x).toBeCloseTo(y);
+  });
+});
+
+describe('steering', () => {
+  beforeEach(() => {
+    vi.useFakeTimers();
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+  });
+
+  const open = (controller: 'you' | 'rl') => {
+    const sent: ClientMessage[] = [];
+    const [state, setState] = createSignal(stateAt(0, { controller, tool_m: [0.1, -0.3, 0.1] }));
+    const steering = createRoot(() =>
+      createSteering({
+        scene: () => sceneOf('posts', 0),
+        state,
+        canOperate: () => true,
+        send: (message) => sent.push(message),
+      }),
+    );
+    return { steering, sent, setState };
+  };
+
+  it('points inside the workspace', () => {
+    const { steering, sent } = open('you');
+    steering.point([5, -0.3]);
+    expect(sent).toEqual([{ type: 'steer', x_m: 0.28, y_m: -0.3, approach: false }]);
+    expect(steering.target()).toEqual([0.28, -0.3]);
+  });
+
+  it('leans ahead of the tool until the direction ends, and then stops it', () => {
+    const { steering, sent, setState } = open('you');
+    steering.lean('keys', [1, 0]);
+    vi.advanceTimersByTime(60);
+    setState(stateAt(0, { controller: 'you', tool_m: [0.12, -0.3, 0.1] }));
+    vi.advanceTimersByTime(60);
+    const xs = sent.map((one) => (one.type === 'steer' ? one.x_m : NaN));
+    expect(xs.at(0)).toBeCloseTo(0.125);
+    expect(xs.at(-1)).toBeCloseTo(0.145);
+    steering.lean('keys', [0, 0]);
+    vi.advanceTimersByTime(500);
+    expect(sent.at(-1)).toMatchObject({ x_m: 0.12 });
+    const count = sent.length;
+    vi.advanceTimersByTime(1000);
+    expect(sent).toHaveLength(count);
+  });
+
+  it('does nothing for another controller', () => {
+    const { steering, sent } = open('rl');
+    steering.point([0.1, -0.3]);
+    steering.lean('gamepad', [0, 1]);
+    vi.advanceTimersByTime(200);
+    expect(sent).toEqual([]);
+  });
+});
