@@ -95,7 +95,10 @@ export function TrainView(props: TrainProps): JSX.Element {
   // A finished training is a new policy.
   createEffect(() => {
     const now = finished();
-    if (now > 0) void policies.refresh().then(() => setListed(now));
+    if (now === 0) return;
+    void policies.refresh().then(() => {
+      if (now === finished()) setListed(now);
+    });
   });
   const trained = ({ policy }: TrainingSummary): PolicySummary | undefined =>
     policyOf(policies.all() ?? [], policy ?? undefined);
@@ -198,6 +201,7 @@ export function TrainView(props: TrainProps): JSX.Element {
                       live={live}
                       sentence={stageSentence(live.summary(), before(live.summary().id))}
                       range={range()}
+                      isGrowing={lives().some((one) => isActive(one.summary()))}
                       state={state}
                       palette={palette}
                       theme={props.theme}

@@ -33,6 +33,8 @@ interface PaneProps {
   readonly sentence: string;
   /** The values of the first and the last colour. */
   readonly range: readonly [number, number] | undefined;
+  /** Whether more value maps may widen the range. */
+  readonly isGrowing: boolean;
   readonly state: TrainState;
   readonly palette: () => Palette;
   readonly theme: () => Theme;
@@ -128,7 +130,7 @@ export function WatchPane(props: PaneProps): JSX.Element {
           <p class="train-veil">{empty()}</p>
         </Show>
       </div>
-      <ValueScale range={props.range} isGrowing={isActive(live.summary())} />
+      <ValueScale range={props.range} isGrowing={props.isGrowing} />
       <div class="train-time">
         <button
           type="button"
