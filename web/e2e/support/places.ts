@@ -109,6 +109,8 @@ export const controllers: Places = async function* (lab) {
 /** A refusal, the help, a running session, and the page of a viewer. */
 export const refusalsHelpAndRoles: Places = async function* (lab) {
   const { page } = lab;
+  // With You, a press steers and sets no goal.
+  await lab.controller('RL');
   await lab.click(lab.wallPoint());
   await lab.notice('workspace').waitFor();
   yield { name: 'refusal', panel: page.locator('section.panel.workspace') };

@@ -71,6 +71,10 @@ export function TrainView(props: TrainProps): JSX.Element {
   const range = createMemo(() => colourRange(lives().map((live) => live.summary())), undefined, {
     equals: (a, b) => a?.join() === b?.join(),
   });
+  /** Until the list of policies has arrived, the policy is known by its training. */
+  const usable = (summary: TrainingSummary): Policy | undefined =>
+    trained(summary) ??
+    (summary.policy === null ? undefined : { name: summary.query.name, reference: summary.policy });
   const use = (policy: Policy, maps: readonly string[]): void => {
     usePolicy(lab, policy, maps);
     props.onLaboratory();
@@ -159,11 +163,11 @@ export function TrainView(props: TrainProps): JSX.Element {
                         state.compare(beside() === id ? undefined : id);
                       }}
                       onUse={() => {
-                        const policy = trained(summary());
+                        const policy = usable(summary());
                         if (policy) use(policy, [summary().query.map]);
                       }}
                       onEvaluate={() => {
-                        const policy = trained(summary());
+                        const policy = usable(summary());
                         if (policy) evaluate(policy, summary().query.map);
                       }}
                     />
