@@ -26,6 +26,7 @@ macro_rules! fault_point {
 }
 
 pub mod camera;
+pub mod challenge;
 pub mod cli;
 pub mod control;
 pub mod evaluate;

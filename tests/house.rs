@@ -11,7 +11,7 @@ const FLOORS: [&[&str]; 11] = [
     &["policy", "jobs"],
     &["control"],
     &["trial"],
-    &["learn", "evaluate", "session"],
+    &["challenge", "learn", "evaluate", "session"],
     &["recording", "protocol"],
     &["http"],
     &["cli", "main", "lib"],

@@ -35,17 +35,11 @@ impl Course {
     /// The tool's path length divided by the shortest path with the same progress toward the goal, summed over legs.
     /// `None` with almost no progress. `space` is the free space of the bead.
     pub(super) fn ratio(&self, space: &FreeSpace, goal: Point2<f64>) -> Option<f64> {
-        let left_m = |from: Point2<f64>| shortest_m(space, from, goal);
+        let left_m = |from: Point2<f64>| space.shortest_m(from, goal);
         let mut progress_m = 0.0;
         for &[start, end] in &self.legs {
             progress_m += left_m(start)? - left_m(end)?;
         }
         (progress_m >= LEAST_PROGRESS_M).then(|| self.way_m / progress_m)
     }
-}
-
-/// Length of the shortest path, if there is one. `space` is the free space of the bead.
-pub(super) fn shortest_m(space: &FreeSpace, from: Point2<f64>, to: Point2<f64>) -> Option<f64> {
-    let path = space.taut_path(from, to)?;
-    Some(path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum())
 }

@@ -8,7 +8,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::Cell;
-use super::course::{Course, shortest_m};
+use super::course::Course;
 use super::figure::Trace;
 use super::manner::Manner;
 use crate::camera::{Camera, CameraError, Gpu, ImageSource, Subject};
@@ -263,7 +263,7 @@ pub fn episode_in(
             shortest_m: scenario
                 .start_m
                 .zip(scenario.goal_m)
-                .and_then(|(start, goal)| shortest_m(&venue.room, start, goal)),
+                .and_then(|(start, goal)| venue.room.shortest_m(start, goal)),
             trained_on_map: (scenario.controller == ControllerName::Rl)
                 .then(|| venue.arena.is_trained_on(&scenario.parameters.rl_policy)),
             path_ratio: scenario.goal_m.filter(|_| delivered).and_then(|goal| course.ratio(&venue.room, goal)),

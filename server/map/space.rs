@@ -145,6 +145,12 @@ impl FreeSpace {
         Some(f64::from(length_um) * 1e-6)
     }
 
+    /// Length of the shortest path, if there is one.
+    pub fn shortest_m(&self, from: Point2<f64>, to: Point2<f64>) -> Option<f64> {
+        let path = self.taut_path(from, to)?;
+        Some(path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum())
+    }
+
     /// The shortest path on the grid, pulled taut: from each point straight to the farthest visible one. If `from` or
     /// `to` is not free, the nearest free point is used. `None` without a path.
     pub fn taut_path(&self, from: Point2<f64>, to: Point2<f64>) -> Option<Vec<Point2<f64>>> {
