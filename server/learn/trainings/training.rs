@@ -173,8 +173,9 @@ impl Training {
     }
 
     fn end_cancelled(&self) {
-        self.change(|status| status.stage = TrainingStage::Cancelled);
+        // Before others learn that it has ended: then nothing is left.
         folder::remove(&self.folder);
+        self.change(|status| status.stage = TrainingStage::Cancelled);
     }
 
     /// Changes the status and saves it.
