@@ -1,6 +1,15 @@
 // The active controller, its reasons, and its parameters.
 
-import { For, Show, createEffect, createMemo, on, type JSX } from 'solid-js';
+import {
+  For,
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  on,
+  onCleanup,
+  type JSX,
+} from 'solid-js';
 import { troubleWords } from '../../lab/failure';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../../lab/parameters';
 import type { ControllerName, StateMessage } from '../../net/protocol.gen';
@@ -10,13 +19,20 @@ import { SwitchingLaw } from './SwitchingLaw';
 import type { Notices, Session, Trial } from '../../lab/slices';
 import './ControllerPanel.css';
 
-function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }): JSX.Element {
+/** A choice is shown at once. If the server has not followed by then, its controller is shown again. */
+const CHOICE_MS = 1000;
+
+function ControllerRadio(props: {
+  lab: Session & Trial;
+  name: ControllerName;
+  isChosen: boolean;
+  onChoose(): void;
+}): JSX.Element {
   const { lab } = props;
   let input!: HTMLInputElement;
-  const active = createMemo(() => lab.state()?.controller === props.name);
   // After a refusal the click has to be undone, although nothing changed on the server.
   createEffect(
-    on([active, lab.refusals], ([now]) => {
+    on([() => props.isChosen, lab.refusals], ([now]) => {
       input.checked = now;
     }),
   );
@@ -29,7 +45,7 @@ function ControllerRadio(props: { lab: Session & Trial; name: ControllerName }):
         value={props.name}
         disabled={!lab.canOperate()}
         onChange={() => {
-          lab.send({ type: 'select_controller', controller: props.name });
+          props.onChoose();
         }}
       />
       {CONTROLLER_LABELS[props.name]}
@@ -42,9 +58,41 @@ function ControllerChoice(props: {
   names: readonly ControllerName[];
 }): JSX.Element {
   const { lab } = props;
+  // Between the arrow keys, states arrive with the choice before.
+  const [choice, setChoice] = createSignal<ControllerName>();
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const settle = (): void => {
+    clearTimeout(timer);
+    setChoice(undefined);
+  };
+  const active = createMemo(() => lab.state()?.controller);
+  createEffect(
+    on(active, (now) => {
+      if (now === choice()) settle();
+    }),
+  );
+  createEffect(on(lab.refusals, settle));
+  onCleanup(settle);
+  const choose = (name: ControllerName): void => {
+    settle();
+    setChoice(name);
+    timer = setTimeout(settle, CHOICE_MS);
+    lab.send({ type: 'select_controller', controller: name });
+  };
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">
-      <For each={props.names}>{(name) => <ControllerRadio lab={lab} name={name} />}</For>
+      <For each={props.names}>
+        {(name) => (
+          <ControllerRadio
+            lab={lab}
+            name={name}
+            isChosen={(choice() ?? active()) === name}
+            onChoose={() => {
+              choose(name);
+            }}
+          />
+        )}
+      </For>
     </fieldset>
   );
 }
