@@ -1,6 +1,9 @@
 //! Challenges: a trial that a person steers, drawn from a name, and the judgement of attempts at it.
 
 mod attempt;
+mod boards;
+mod ghosts;
+mod loss;
 mod score;
 
 use std::str::FromStr;
@@ -9,14 +12,19 @@ use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::map::MapError;
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters, RandomTrialError, Scenario};
 use crate::trial::Arena;
 
-pub use attempt::{Attempt, AttemptError, INPUTS_MOST};
-pub use score::{LOST_BEAD_S, Sample, Score, WALL_S};
+pub use attempt::{Attempt, AttemptError, INPUTS_MOST, Run};
+pub use boards::{BoardError, Boards, Entry, Kept, Signature};
+pub use ghosts::Ghost;
+pub use loss::Loss;
+pub use score::{LOST_BEAD_S, Mishap, Referee, SAMPLE_TICKS, Sample, Score, Trace, WALL_S};
 
 /// An attempt that has not delivered by then has no score.
 pub const TIME_LIMIT_S: f64 = 60.0;
+pub const TICKS_MOST: u64 = (TIME_LIMIT_S / SERVO_PERIOD_S) as u64;
 /// Control steps of a leg: an attempt ends by its time, not by its steps.
 const STEP_LIMIT: u32 = 1000;
 /// Draws of start and goal until their distance fits.
@@ -24,7 +32,7 @@ const DRAWS: u64 = 500;
 /// Characters of the part of a name from which everything random follows.
 const SEED_MOST: usize = 24;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Difficulty {
     /// Round posts, nothing disturbs.
     Easy,
@@ -71,7 +79,7 @@ impl Difficulty {
 }
 
 /// Name of a challenge, `DIFFICULTY-SEED`, such as `easy-2026-11-26`, `hard-2026-w48` or `medium-anything`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ChallengeName {
     pub difficulty: Difficulty,
     /// 1 to 24 of a to z, 0 to 9 and -.

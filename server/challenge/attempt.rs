@@ -3,14 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::score::Referee;
-use super::{Challenge, Sample, Score, TIME_LIMIT_S};
+use super::{Challenge, Score, TICKS_MOST, TIME_LIMIT_S, Trace};
 use crate::camera::ImageSource;
-use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::trial::{Case, Input, InputError, Source, Timed, Trial, TrialError};
 
 /// Largest number of inputs: sixty a second until the time limit, and as many again.
 pub const INPUTS_MOST: usize = 2 * 60 * TIME_LIMIT_S as usize;
-const TICKS_MOST: u64 = (TIME_LIMIT_S / SERVO_PERIOD_S) as u64;
 
 /// A log with its claim.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,8 +75,7 @@ impl AttemptError {
 pub struct Run {
     pub score: Score,
     pub world_hash: String,
-    /// Tool and bead, five times per second.
-    pub samples: Vec<Sample>,
+    pub trace: Trace,
 }
 
 impl Challenge {
@@ -125,7 +122,7 @@ impl Challenge {
                 return Err(AttemptError::AfterDelivery { index, tick: timed.tick, delivered: score.tick });
             }
             let world_hash = format!("{:016x}", record.world.total());
-            return Ok(Run { score, world_hash, samples: referee.samples });
+            return Ok(Run { score, world_hash, trace: referee.into_trace() });
         }
         Err(AttemptError::NotDelivered)
     }

@@ -12,8 +12,8 @@ use crate::trial::TickRecord;
 pub const WALL_S: f64 = 1.0;
 /// Added for each bead that was lost, beyond those that a disturbance took away.
 pub const LOST_BEAD_S: f64 = 5.0;
-/// Ticks between two samples of the ghost: .2 s.
-const SAMPLE_TICKS: u64 = 25;
+/// Ticks between two samples: .2 s.
+pub const SAMPLE_TICKS: u64 = 25;
 
 /// What counts: less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,39 +34,89 @@ impl Score {
     }
 }
 
-/// Where tool and bead were, to draw a ghost.
+/// Where tool and bead were.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     pub tool_m: Point2<f64>,
     pub bead_m: Point2<f64>,
 }
 
+/// Something that costs time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mishap {
+    /// A wall stopped the tool.
+    Wall,
+    /// The bead was lost without a disturbance.
+    LostBead,
+    /// A disturbance took the bead away.
+    Disturbance,
+}
+
+/// The course of a run, to draw it as a ghost and to explain its score.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trace {
+    /// Every [`SAMPLE_TICKS`] from tick 1, and at the delivery.
+    pub samples: Vec<Sample>,
+    /// With their ticks, in order.
+    pub mishaps: Vec<(u64, Mishap)>,
+}
+
 /// Counts while an attempt runs.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Referee {
+pub struct Referee {
     walls: u32,
-    approaches: u32,
+    lost_beads: u32,
+    disturbances: u32,
+    /// Disturbances after which no bead was lost yet.
+    excuses: u32,
     is_at_wall: bool,
-    pub samples: Vec<Sample>,
+    trace: Trace,
 }
 
 impl Referee {
     /// The score at the tick of the first delivery; `None` before.
-    pub(super) fn watch(&mut self, record: &TickRecord) -> Option<Score> {
+    pub fn watch(&mut self, record: &TickRecord) -> Option<Score> {
         let moment = &record.moment;
+        let new = moment.counters.disturbances.saturating_sub(self.disturbances);
+        self.disturbances = moment.counters.disturbances;
+        self.excuses += new;
+        self.trace.mishaps.extend((0..new).map(|_| (record.tick, Mishap::Disturbance)));
         if let Some(decision) = &record.decision {
             let is_at_wall = matches!(decision.refusal, Some(Refusal::Obstacle { .. }));
-            self.walls += u32::from(is_at_wall && !self.is_at_wall);
+            if is_at_wall && !self.is_at_wall {
+                self.walls += 1;
+                self.trace.mishaps.push((record.tick, Mishap::Wall));
+            }
             self.is_at_wall = is_at_wall;
             let switching = decision.switching;
-            self.approaches += u32::from(switching.switched && switching.mode == Mode::Approach);
+            if switching.switched && switching.mode == Mode::Approach {
+                if self.excuses > 0 {
+                    self.excuses -= 1;
+                } else {
+                    self.lost_beads += 1;
+                    self.trace.mishaps.push((record.tick, Mishap::LostBead));
+                }
+            }
         }
         let delivered = moment.counters.deliveries > 0;
         if record.tick % SAMPLE_TICKS == 1 || delivered {
-            self.samples.push(Sample { tool_m: moment.tool_m.xy(), bead_m: moment.bead_m.xy() });
+            self.trace.samples.push(Sample { tool_m: moment.tool_m.xy(), bead_m: moment.bead_m.xy() });
         }
-        let lost_beads = self.approaches.saturating_sub(moment.counters.disturbances);
-        delivered.then_some(Score { tick: record.tick, walls: self.walls, lost_beads })
+        delivered.then(|| self.so_far(record.tick))
+    }
+
+    /// The score if the delivery were now.
+    pub fn so_far(&self, tick: u64) -> Score {
+        Score { tick, walls: self.walls, lost_beads: self.lost_beads }
+    }
+
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    pub fn into_trace(self) -> Trace {
+        self.trace
     }
 }
 

@@ -59,7 +59,7 @@ fn an_attempt_has_the_same_score_when_it_runs_again_after_a_journey_as_json() {
         let run = challenge.judge(&sent, &mut camera).unwrap();
         assert_eq!((run.score, &run.world_hash), (first.score, &first.world_hash));
         assert!((5.0..60.0).contains(&run.score.total_s()), "{}: {}", challenge.name, run.score.total_s());
-        assert_eq!(run.samples.len() as u64, run.score.tick.div_ceil(25) + u64::from(run.score.tick % 25 != 1));
+        assert_eq!(run.trace.samples.len() as u64, run.score.tick.div_ceil(25) + u64::from(run.score.tick % 25 != 1));
     }
 }
 
