@@ -9,6 +9,7 @@ mod score;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::map::MapError;
@@ -79,7 +80,8 @@ impl Difficulty {
 }
 
 /// Name of a challenge, `DIFFICULTY-SEED`, such as `easy-2026-11-26`, `hard-2026-w48` or `medium-anything`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct ChallengeName {
     pub difficulty: Difficulty,
     /// 1 to 24 of a to z, 0 to 9 and -.
@@ -106,6 +108,20 @@ impl FromStr for ChallengeName {
         let is_seed = (1..=SEED_MOST).contains(&seed.len()) && seed.bytes().all(is_allowed);
         let difficulty = known.filter(|_| is_seed).ok_or_else(refused)?;
         Ok(Self { difficulty, seed: seed.to_owned() })
+    }
+}
+
+impl TryFrom<String> for ChallengeName {
+    type Error = NotAChallenge;
+
+    fn try_from(text: String) -> Result<Self, NotAChallenge> {
+        text.parse()
+    }
+}
+
+impl From<ChallengeName> for String {
+    fn from(name: ChallengeName) -> Self {
+        name.to_string()
     }
 }
 

@@ -40,6 +40,7 @@ use crate::trial::{Catalog, TrialError};
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 use metrics::Counters;
 use problem::Problem;
+use routes::challenges::Contests;
 use routes::maps::Maps;
 use routes::values::Atlases;
 use saved_sessions::SavedSessions;
@@ -75,7 +76,7 @@ pub enum ServeError {
 
 /// Settings of a server.
 pub struct Settings {
-    /// Folder of recordings, saved sessions, uploaded maps, policies, trainings and sweeps.
+    /// Folder of recordings, saved sessions, uploaded maps, policies, trainings, sweeps and challenges.
     pub data: PathBuf,
     /// Limits beyond which old recordings are deleted.
     pub retention: Retention,
@@ -117,6 +118,7 @@ pub struct Server {
     atlases: Atlases,
     /// Evaluations and trainings, in the background.
     jobs: Arc<Queue>,
+    contests: Contests,
     evaluations: Evaluations,
     trainings: Trainings,
     sessions: Arc<Sessions>,
@@ -124,6 +126,8 @@ pub struct Server {
     workers: Arc<Semaphore>,
     /// Permit for taking the images of a whole map.
     painter: Arc<Semaphore>,
+    /// Permit for running challenges.
+    judge: Arc<Semaphore>,
     /// Open WebSockets.
     sockets: TaskTracker,
     /// Becomes true when the server stops; every WebSocket watches it.
@@ -152,6 +156,7 @@ impl Server {
             Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), maps.changes(), settings, saved)?;
         let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
         Ok(Arc::new(Self {
+            contests: Contests::in_folder(data.join("challenges")),
             evaluations: Evaluations::new(jobs.clone()),
             trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
             jobs,
@@ -165,6 +170,7 @@ impl Server {
             sessions: Arc::new(sessions),
             workers: Arc::new(Semaphore::new(WORKERS)),
             painter: Arc::new(Semaphore::new(1)),
+            judge: Arc::new(Semaphore::new(1)),
             sockets: TaskTracker::new(),
             stopping,
         }))

@@ -5,6 +5,7 @@
 //! [`BINARY_CAMERA_JPEG`] or [`BINARY_OBSERVATION`], three bytes of zero, the tick as u32
 //! little-endian, then the payload.
 
+mod challenges;
 mod client;
 mod comparison;
 mod described;
@@ -25,6 +26,11 @@ mod trainings;
 mod typescript;
 mod workspace;
 
+pub use challenges::{
+    AttemptAnswer, AttemptMessage, AttemptQuery, AttemptReport, AttemptScore, AttemptStanding, BoardEntry,
+    ChallengeReport, ChallengeSummary, Challenges, DifficultyName, GhostMessage, Ghosts, LossMessage, MishapKind,
+    MishapMessage, Period, TraceMessage,
+};
 pub use client::ClientMessage;
 pub use comparison::{Branch, ComparisonMessage, MomentMessage};
 pub use error::ErrorMessage;

@@ -7,9 +7,11 @@ mod branch_point;
 #[cfg(test)]
 mod command_tests;
 mod idle;
+mod inputs;
 mod kept_runs;
 mod opened_case;
 mod pacing;
+mod playing;
 mod recall;
 mod saved;
 mod stepping;
@@ -26,6 +28,7 @@ use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
+use crate::challenge::{Challenge, ChallengeError, ChallengeName};
 use crate::map::MapError;
 use crate::plant::PositionerKind;
 use crate::scenario::{Parameters, Scenario};
@@ -37,6 +40,7 @@ pub use branch_point::{BranchPoint, Progress};
 pub use kept_runs::KeptRunSummary;
 pub use opened_case::OpenedCase;
 pub use pacing::{SPEED_MAX, SPEED_MIN};
+pub use playing::{Ended, Played, Standing, Void};
 pub use saved::Saved;
 
 /// Maximum number of waiting commands.
@@ -68,6 +72,8 @@ pub enum Command {
         scenario: Box<Scenario>,
         kept: Kept,
     },
+    /// A new trial of this challenge, paused, at real speed; a reset without a seed begins it again.
+    Play(ChallengeName),
     /// A new trial of this case; its inputs are applied at their ticks.
     Open(Box<Case>),
     /// Back to the last control step at or before this tick; pauses. What lies after it is kept as a run when the trial
@@ -116,6 +122,12 @@ pub enum CommandError {
     /// The start of the trial is no longer kept.
     #[error("the start of the trial is no longer kept; reset, and save a case within ten minutes")]
     Forgotten,
+    /// The challenge could not be drawn.
+    #[error(transparent)]
+    Challenge(#[from] ChallengeError),
+    /// No challenge is being played.
+    #[error("no challenge is being played in this session")]
+    NoChallenge,
     /// No kept run has this number.
     #[error("run is {number}, there is no kept run of this number")]
     NoRun { number: u32 },
@@ -152,6 +164,8 @@ pub struct Scenery {
     pub kept_runs: Vec<KeptRunSummary>,
     /// The test case that was opened for this trial.
     pub case: Option<Arc<OpenedCase>>,
+    /// The challenge that is being played.
+    pub challenge: Option<Arc<Challenge>>,
     /// Maps and policies that can be chosen.
     pub catalog: Catalog,
     /// Map and free space.
@@ -170,6 +184,7 @@ impl Scenery {
             past_version: 0,
             kept_runs: Vec::new(),
             case: None,
+            challenge: None,
             catalog,
             arena: trial.arena().clone(),
             scenario: trial.scenario().clone(),
@@ -203,6 +218,8 @@ pub struct View {
     pub sight: Arc<(u64, Sight)>,
     /// Events of the trial, oldest first, at most [`JOURNAL`]; without those that a rewind undid.
     pub journal: Arc<Vec<Event>>,
+    /// The attempt at the challenge that is being played.
+    pub attempt: Option<Standing>,
     /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
@@ -236,6 +253,7 @@ enum Request {
     Execute { command: Command, answer: oneshot::Sender<Result<(), CommandError>> },
     Recall { tick: u64, moment: Recalled, answer: oneshot::Sender<Result<BranchPoint, CommandError>> },
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
+    Played { answer: oneshot::Sender<Result<Played, CommandError>> },
     Save { answer: oneshot::Sender<Saved> },
 }
 
@@ -302,6 +320,13 @@ impl Session {
     pub async fn case(&self) -> Result<Case, CommandError> {
         let (answer, answered) = oneshot::channel();
         self.enqueue(Request::Case { answer })?;
+        answer_of(answered).await
+    }
+
+    /// The attempt at the challenge that is being played. The session does not change.
+    pub async fn played(&self) -> Result<Played, CommandError> {
+        let (answer, answered) = oneshot::channel();
+        self.enqueue(Request::Played { answer })?;
         answer_of(answered).await
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const FLOORS: [&[&str]; 11] = [
+const FLOORS: [&[&str]; 12] = [
     &["geometry", "image", "files", "faults"],
     &["robot", "magnetics", "map"],
     &["plant"],
@@ -11,7 +11,8 @@ const FLOORS: [&[&str]; 11] = [
     &["policy", "jobs"],
     &["control"],
     &["trial"],
-    &["challenge", "learn", "evaluate", "session"],
+    &["challenge"],
+    &["learn", "evaluate", "session"],
     &["recording", "protocol"],
     &["http"],
     &["cli", "main", "lib"],

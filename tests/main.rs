@@ -3,6 +3,7 @@
 mod access;
 mod calculator;
 mod cases;
+mod challenges;
 mod circles;
 mod commands;
 mod comparisons;

@@ -111,6 +111,14 @@ pub struct PolicyPath {
 
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
+pub struct ChallengePath {
+    /// Name of a challenge: `easy`, `medium` or `hard`, then `-`, then 1 to 24 of a to z, 0 to 9 and -.
+    #[param(example = "easy-2026-11-26")]
+    pub name: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
 pub struct RecordingPath {
     /// Id of a recording; to download, with `.rrd` or `.ferry` after it.
     pub file: String,

@@ -1,6 +1,7 @@
 //! All routes, one file per resource.
 
 mod calculator;
+pub mod challenges;
 pub mod description;
 mod evaluations;
 mod flow;
@@ -76,6 +77,11 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(trainings::cells))
         .routes(routes!(trainings::frame))
         .routes(routes!(trainings::live))
+        .routes(routes!(challenges::list))
+        .routes(routes!(challenges::report))
+        .routes(routes!(challenges::ghosts))
+        .routes(routes!(challenges::add))
+        .routes(routes!(challenges::attempt))
         .routes(routes!(policies::list))
         .routes(routes!(recordings::recordings))
         .routes(routes!(recordings::recording, recordings::rename, recordings::delete))

@@ -6,6 +6,7 @@ use utoipa::ToSchema;
 
 use super::numbers::Numbers2;
 use super::seed;
+use crate::challenge::ChallengeName;
 use crate::geometry::Point2;
 use crate::plant::PositionerKind;
 use crate::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted};
@@ -100,6 +101,12 @@ pub enum ClientMessage {
         #[ts(optional, as = "Option<Vec<Scripted>>")]
         script: Vec<Scripted>,
     },
+    /// Begins a challenge, such as `easy-2026-11-26`: a new trial at real speed, paused. `reset` without a seed begins it again.
+    PlayChallenge {
+        #[ts(type = "string")]
+        #[schema(value_type = String, example = "easy-2026-11-26")]
+        challenge: ChallengeName,
+    },
     /// Opens a test case: a new trial of its scenario, in which its inputs are applied at their ticks. `case` is the
     /// file as text, because a JavaScript number cannot represent every seed.
     OpenCase {
@@ -178,6 +185,7 @@ impl ClientMessage {
                 };
                 Command::Load { scenario: Box::new(scenario), kept }
             }
+            Self::PlayChallenge { challenge } => Command::Play(challenge),
             Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
             Self::ReturnTo { run } => Command::Return(run),

@@ -35,6 +35,8 @@ impl From<&CommandError> for ErrorMessage {
             }
             CommandError::Trial(_) => ("trial_failed", None),
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
+            CommandError::Challenge(_) => ("map_refused", Some("challenge")),
+            CommandError::NoChallenge => ("no_challenge", None),
             CommandError::NoRun { .. } => ("no_run", Some("run")),
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),

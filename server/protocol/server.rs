@@ -5,7 +5,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::numbers::{Numbers2, Numbers3, Numbers6};
-use super::{ComparisonMessage, ErrorMessage, OverlayMessage, SeenMessage};
+use super::{AttemptStanding, ComparisonMessage, ErrorMessage, OverlayMessage, SeenMessage};
 use crate::geometry::{Point2, Polygon, Rect};
 use crate::plant::{BEAD_RADIUS_M, PositionerKind};
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -110,6 +110,9 @@ pub struct SceneMessage {
     /// The test case that was opened for this trial.
     #[serde(default)]
     pub case: Option<CaseSummary>,
+    /// Name of the challenge that is being played.
+    #[serde(default)]
+    pub challenge: Option<String>,
     /// Number of the trial; each new trial has another one.
     #[ts(type = "number")]
     pub trial: u64,
@@ -266,6 +269,9 @@ pub struct StateMessage {
     pub deliveries: u32,
     /// Disturbances by hand or script since the reset.
     pub disturbances: u32,
+    /// The attempt at the challenge that is being played.
+    #[serde(default)]
+    pub attempt: Option<AttemptStanding>,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
     /// `recording`, or why nothing is recorded.
@@ -321,6 +327,7 @@ impl From<&Scenery> for SceneMessage {
             camera_sees_m: camera_sees_m(p),
             kept_runs: scenery.kept_runs.iter().map(KeptRun::from).collect(),
             case: scenery.case.as_deref().map(CaseSummary::from),
+            challenge: scenery.challenge.as_ref().map(|challenge| challenge.name.to_string()),
             trial: scenery.trial,
             capture_m: p.plant().capture_m(p.tool_height_m, CAPTURE_DIRECTIONS),
             tick_s: SERVO_PERIOD_S,
@@ -374,6 +381,7 @@ impl From<&View> for StateMessage {
             switches: m.counters.switches,
             deliveries: m.counters.deliveries,
             disturbances: m.counters.disturbances,
+            attempt: view.attempt.as_ref().map(AttemptStanding::from),
             world_hash: format!("{:016x}", view.world_hash),
             recording: view.recording.clone(),
             ended: view.ended.clone(),

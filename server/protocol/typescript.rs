@@ -123,7 +123,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 13] {
+fn modules() -> [(&'static str, Vec<Declaration>); 14] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -171,6 +171,29 @@ fn modules() -> [(&'static str, Vec<Declaration>); 13] {
                 EpisodeEnding,
                 TrainingEpisode,
                 TrainingFrame,
+            ],
+        ),
+        (
+            "challenges",
+            declared![
+                DifficultyName,
+                Period,
+                AttemptScore,
+                BoardEntry,
+                ChallengeSummary,
+                Challenges,
+                ChallengeReport,
+                MishapKind,
+                MishapMessage,
+                TraceMessage,
+                GhostMessage,
+                Ghosts,
+                LossMessage,
+                AttemptMessage,
+                AttemptReport,
+                AttemptQuery,
+                AttemptAnswer,
+                AttemptStanding,
             ],
         ),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),

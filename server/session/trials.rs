@@ -55,6 +55,7 @@ impl<E: ImageSource> Worker<E> {
         let trial = Trial::new(scenario, arena)?;
         let sight = trial.observe(&mut self.camera).map_err(TrialError::from)?;
         self.leave();
+        self.playing = None;
         self.trial = trial;
         self.running = false;
         self.hand_is_stale = false;
@@ -127,6 +128,7 @@ impl<E: ImageSource> Worker<E> {
     /// Puts a run in the place of the present one, which is kept.
     pub(super) fn take_up(&mut self, run: KeptRun, (camera, trial, sight): (E, Trial, Sight)) {
         self.leave();
+        self.playing = None;
         self.trial = trial;
         self.camera = camera;
         self.running = false;
@@ -146,6 +148,7 @@ impl<E: ImageSource> Worker<E> {
         Scenery {
             past_version: before.past_version,
             case: before.case.clone(),
+            challenge: before.challenge.clone().filter(|_| self.playing.is_some()),
             kept_runs: self.kept_runs.summaries(),
             ..Scenery::of(&self.trial, before.catalog.clone(), before.version + 1, before.trial + new_trials)
         }

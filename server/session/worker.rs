@@ -11,15 +11,14 @@ use tokio::sync::{broadcast, oneshot, watch};
 
 use super::kept_runs::KeptRuns;
 use super::pacing::{LOOK_EVERY, Pace, SPEED_MAX, SPEED_MIN};
+use super::playing::{Playing, Void};
 use super::timeline::Timeline;
 use super::{COMMAND_QUEUE, Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
 use crate::scenario::Scenario;
-use crate::trial::{
-    Arena, Beginning, Catalog, Event, Input, InputError, Sight, Sink, Source, Trial, TrialError, TrialState,
-};
+use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -54,7 +53,8 @@ pub(super) struct Worker<E> {
     pub(super) running: bool,
     /// Whether the trial's hand comes from a rewind and no longer belongs to a pointer.
     pub(super) hand_is_stale: bool,
-    pace: Pace,
+    pub(super) pace: Pace,
+    pub(super) playing: Option<Playing>,
     pub(super) journal: Arc<Vec<Event>>,
     /// Ticks that are left of a `Step`. They run in slices, between which requests are answered.
     pub(super) stepping: u32,
@@ -100,6 +100,7 @@ impl<E: ImageSource> Worker<E> {
             running: false,
             hand_is_stale: false,
             pace,
+            playing: None,
             journal: Arc::default(),
             stepping: 0,
             stepped: None,
@@ -122,6 +123,7 @@ impl<E: ImageSource> Worker<E> {
             scenery: self.scenery.clone(),
             sight: self.sight.clone(),
             journal: self.journal.clone(),
+            attempt: self.playing.as_ref().map(|playing| playing.standing(self.trial.state().world.tick)),
             recording: self.sink.status(),
             ended: None,
         }
@@ -210,6 +212,9 @@ impl<E: ImageSource> Worker<E> {
             Request::Case { answer } => {
                 let _ = answer.send(self.case());
             }
+            Request::Played { answer } => {
+                let _ = answer.send(self.played());
+            }
             Request::Save { answer } => {
                 let _ = answer.send(self.saved());
             }
@@ -228,6 +233,9 @@ impl<E: ImageSource> Worker<E> {
                 self.pace.restart(Instant::now());
             }
             Command::Pause => {
+                if self.trial.state().world.tick > 0 {
+                    self.spoil(Void::Paused);
+                }
                 self.running = false;
                 self.stepping = 0;
             }
@@ -236,6 +244,7 @@ impl<E: ImageSource> Worker<E> {
                     let allowed = format!("1 to {STEP_MAX}");
                     return Err(CommandError::Range { field: "ticks", value: f64::from(ticks), allowed });
                 }
+                self.spoil(Void::Paused);
                 self.running = false;
                 self.stepping = ticks;
             }
@@ -244,9 +253,15 @@ impl<E: ImageSource> Worker<E> {
                     let allowed = format!("{SPEED_MIN} to {SPEED_MAX}");
                     return Err(CommandError::Range { field: "factor", value: factor, allowed });
                 }
+                if factor != 1.0 {
+                    self.spoil(Void::Speed);
+                }
                 self.pace.set_factor(factor, Instant::now());
             }
             Command::Reset(seed) => {
+                if let Some(name) = self.challenge_name().filter(|_| seed.is_none()) {
+                    return self.play(name);
+                }
                 let old = self.trial.scenario();
                 let scenario = Scenario {
                     seed: seed.unwrap_or(old.seed),
@@ -256,6 +271,7 @@ impl<E: ImageSource> Worker<E> {
                 };
                 self.set_up(scenario, self.trial.arena().clone(), self.scenery.case.clone())?;
             }
+            Command::Play(name) => self.play(name)?,
             Command::Load { scenario, kept } => self.load(*scenario, kept)?,
             Command::Open(case) => self.open(*case)?,
             Command::Rewind(tick) => {
@@ -268,6 +284,7 @@ impl<E: ImageSource> Worker<E> {
                 if self.end.is_none() {
                     self.end = Some(self.present());
                 }
+                self.spoil(Void::Rewound);
                 self.trial.restore(state);
                 self.hand_is_stale = self.trial.state().world.plant.hand.is_some() && !self.case_holds();
                 self.scenery = Arc::new(self.next_scenery(0));
@@ -279,57 +296,12 @@ impl<E: ImageSource> Worker<E> {
         Ok(())
     }
 
-    fn input(&mut self, mut input: Input) -> Result<(), CommandError> {
-        let configures = matches!(input, Input::Configure(_));
-        let steers = matches!(input, Input::Steer { .. });
-        if let Input::Configure(parameters) = &mut input {
-            self.scenery.catalog.resolve(parameters)?;
-        }
-        let tick = self.trial.state().world.tick;
-        // Hashes cost more than most inputs and are needed only after a rewind.
-        let before = self.timeline.reaches_past(tick).then(|| hashes(self.trial.state()));
-        let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
-        if !matches!(input, Input::Release) {
-            self.drop_stale_hand()?;
-        }
-        let done = self.apply(input);
-        if let (Err(_), Some(state)) = (&done, as_it_was) {
-            self.trial.restore(state);
-            self.hand_is_stale = true;
-        }
-        done?;
-        if before.is_some_and(|before| before != hashes(self.trial.state())) {
-            self.forget_after(tick);
-        }
-        if configures {
-            self.scenery = Arc::new(self.next_scenery(0));
-        }
-        // The tool follows the hand at the next control step: until then the camera sees the same.
-        if !self.running && !steers {
-            self.observe();
-        }
-        Ok(())
-    }
-
-    fn apply(&mut self, input: Input) -> Result<(), InputError> {
-        let releases_stale_hand = self.hand_is_stale && matches!(input, Input::Release);
-        if releases_stale_hand { Ok(()) } else { self.trial.operate(input, !self.running) }
-    }
-
     /// Publishes the current camera image, without a control step.
     pub(super) fn observe(&mut self) {
         match self.trial.observe(&mut self.camera) {
             Ok(sight) => self.sight = Arc::new((self.trial.state().world.tick, sight)),
             Err(error) => self.broken = Some(error.into()),
         }
-    }
-
-    /// The hand of a rewound state releases the bead as soon as the session continues.
-    fn drop_stale_hand(&mut self) -> Result<(), InputError> {
-        if std::mem::take(&mut self.hand_is_stale) {
-            self.trial.apply(Input::Release)?;
-        }
-        Ok(())
     }
 
     pub(super) fn tick(&mut self) -> Result<(), TrialError> {
@@ -345,6 +317,7 @@ impl<E: ImageSource> Worker<E> {
             self.sink.begin(&self.trial, Beginning::Resumed);
         }
         self.timeline.note(record.tick - 1, &record.inputs);
+        self.referee(&record);
         for event in record.events.drain(..) {
             self.report(event);
         }
@@ -367,7 +340,7 @@ impl<E: ImageSource> Worker<E> {
     }
 
     /// Drops everything after a tick. What a rewind has left behind becomes a run.
-    fn forget_after(&mut self, tick: u64) {
+    pub(super) fn forget_after(&mut self, tick: u64) {
         if let Some(end) = self.end.take()
             && self.timeline.reaches_past(tick)
         {
@@ -394,6 +367,6 @@ impl<E: ImageSource> Worker<E> {
     }
 }
 
-fn hashes(state: &TrialState) -> (u64, u64) {
+pub(super) fn hashes(state: &TrialState) -> (u64, u64) {
     (state.world_hash(), state.controller_hash())
 }

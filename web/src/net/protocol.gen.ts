@@ -13,6 +13,7 @@ export * from './protocol/report.gen';
 export * from './protocol/recordings.gen';
 export * from './protocol/maps.gen';
 export * from './protocol/trainings.gen';
+export * from './protocol/challenges.gen';
 export * from './protocol/policies.gen';
 
 /** Version of the messages. */

@@ -1,6 +1,7 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { Parameters } from '../parameters.gen';
+import type { AttemptStanding } from './challenges.gen';
 import type { ControllerName, Polygon, PositionerKind, Rect, Scenario } from './experiment.gen';
 
 /**
@@ -47,6 +48,10 @@ kept_runs: Array<KeptRun>,
  * The test case that was opened for this trial.
  */
 case: CaseSummary | null, 
+/**
+ * Name of the challenge that is being played.
+ */
+challenge: string | null, 
 /**
  * Number of the trial; each new trial has another one.
  */
@@ -244,6 +249,10 @@ deliveries: number,
  * Disturbances by hand or script since the reset.
  */
 disturbances: number, 
+/**
+ * The attempt at the challenge that is being played.
+ */
+attempt: AttemptStanding | null, 
 /**
  * Hash of the plant's state, in hex.
  */

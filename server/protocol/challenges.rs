@@ -1,0 +1,402 @@
+//! Challenges.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use super::numbers::Numbers2;
+use crate::challenge::{
+    self, Attempt, Challenge, ChallengeName, Difficulty, Entry, Ghost, LOST_BEAD_S, Loss, Mishap, SAMPLE_TICKS, Score,
+    TIME_LIMIT_S, Trace, WALL_S,
+};
+use crate::geometry::Point2;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::ControllerName;
+use crate::session::{Ended, Played, Standing};
+use crate::trial::Case;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DifficultyName {
+    /// Round posts, nothing disturbs.
+    Easy,
+    /// The colon.
+    Medium,
+    /// The colon with folds; the bead is moved away twice.
+    Hard,
+}
+
+/// How long a challenge is offered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Period {
+    Day,
+    Week,
+}
+
+/// What counts in an attempt: less is better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AttemptScore {
+    /// Tick of the delivery.
+    #[ts(type = "number")]
+    pub tick: u64,
+    /// How many times a wall stopped the tool.
+    pub walls: u32,
+    /// How many beads were lost without a disturbance.
+    pub lost_beads: u32,
+}
+
+/// A line of a board.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct BoardEntry {
+    pub player: String,
+    pub class: Option<String>,
+    /// UTC, RFC 3339.
+    pub at: String,
+    pub score: AttemptScore,
+    /// Seconds until the delivery, with the penalties.
+    pub total_s: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct ChallengeSummary {
+    pub name: String,
+    pub difficulty: DifficultyName,
+    /// `null` for one that is not offered today.
+    pub period: Option<Period>,
+    /// People on its board.
+    pub entries: usize,
+    pub best: Option<BoardEntry>,
+}
+
+/// Answer of `GET /api/challenges`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct Challenges {
+    /// Those of the day, those of the week, then the others that have a board.
+    pub challenges: Vec<ChallengeSummary>,
+}
+
+/// Answer of `GET /api/challenges/{name}`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct ChallengeReport {
+    pub name: String,
+    pub difficulty: DifficultyName,
+    pub map: String,
+    /// Start of the bead.
+    #[schema(value_type = Numbers2)]
+    pub start_m: [f64; 2],
+    #[schema(value_type = Numbers2)]
+    pub goal_m: [f64; 2],
+    /// Shortest path of the bead.
+    pub path_m: f64,
+    /// How often the bead is moved away.
+    pub disturbances: u32,
+    /// An attempt that has not delivered by then has no score.
+    pub time_limit_s: f64,
+    /// Penalty for each time that a wall stops the tool.
+    pub wall_s: f64,
+    /// Penalty for each bead that is lost without a disturbance.
+    pub lost_bead_s: f64,
+    /// Best first.
+    pub board: Vec<BoardEntry>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MishapKind {
+    /// A wall stopped the tool.
+    Wall,
+    /// The bead was lost without a disturbance.
+    LostBead,
+    /// A disturbance took the bead away.
+    Disturbance,
+}
+
+/// Something that costs time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
+pub struct MishapMessage {
+    #[ts(type = "number")]
+    pub tick: u64,
+    pub kind: MishapKind,
+}
+
+/// Places every .2 s, beginning at tick 1; the last ones are those of the delivery.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct TraceMessage {
+    #[schema(value_type = Vec<Numbers2>)]
+    pub tool_m: Vec<[f64; 2]>,
+    #[schema(value_type = Vec<Numbers2>)]
+    pub bead_m: Vec<[f64; 2]>,
+    pub mishaps: Vec<MishapMessage>,
+}
+
+/// A run on the challenge, by a controller or by the best person.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct GhostMessage {
+    pub controller: ControllerName,
+    /// Name of the person; `null` for a controller.
+    pub player: Option<String>,
+    /// `null` if it has not delivered in time.
+    pub score: Option<AttemptScore>,
+    /// Seconds with the penalties; `null` without a delivery.
+    pub total_s: Option<f64>,
+    pub trace: TraceMessage,
+}
+
+/// Answer of `GET /api/challenges/{name}/ghosts`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct Ghosts {
+    /// Seconds between two places of a trace.
+    pub sample_s: f64,
+    pub ghosts: Vec<GhostMessage>,
+}
+
+/// The part of an attempt in which it lost the most time, compared with the fastest ghost.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct LossMessage {
+    #[ts(type = "number")]
+    pub from_tick: u64,
+    #[ts(type = "number")]
+    pub to_tick: u64,
+    /// The bead at `from_tick`.
+    #[schema(value_type = Numbers2)]
+    pub place_m: [f64; 2],
+    pub lost_s: f64,
+    pub walls: u32,
+    pub lost_beads: u32,
+    pub disturbances: u32,
+}
+
+/// An input log with its claim.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AttemptMessage {
+    #[ts(type = "unknown")]
+    pub log: Case,
+    pub score: AttemptScore,
+    /// Hash of the world at the tick of the delivery, 16 hexadecimal digits.
+    pub world_hash: String,
+}
+
+/// Answer of `GET /api/sessions/{id}/attempt`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct AttemptReport {
+    pub challenge: String,
+    pub trace: TraceMessage,
+    /// Shortest path that the bead still has.
+    pub remaining_m: f64,
+    pub loss: Option<LossMessage>,
+    /// Whom the loss is compared with; `null` if nobody delivered.
+    pub compared_with: Option<ControllerName>,
+    /// What `POST /api/challenges/{name}/attempts` takes; `null` without a delivery.
+    pub attempt: Option<AttemptMessage>,
+}
+
+/// Body of `POST /api/challenges/{name}/attempts`.
+#[derive(Clone, Debug, PartialEq, Deserialize, TS, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AttemptQuery {
+    /// The session in which it was played, and still is.
+    #[schema(example = "main")]
+    pub session: String,
+    #[schema(min_length = 1, max_length = 24)]
+    pub player: String,
+    /// Name of a class.
+    #[serde(default)]
+    #[ts(optional)]
+    #[schema(min_length = 1, max_length = 24)]
+    pub class: Option<String>,
+    pub attempt: AttemptMessage,
+}
+
+/// Answer of `POST /api/challenges/{name}/attempts`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct AttemptAnswer {
+    pub total_s: f64,
+    /// Whether it is the person's best and therefore on the board.
+    pub is_kept: bool,
+    /// Place on the board, from 1, of the person's best; `null` if it is not on it.
+    pub place: Option<usize>,
+    /// People on the board.
+    pub entries: usize,
+}
+
+/// The attempt that is being played, as `state.attempt`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct AttemptStanding {
+    pub walls: u32,
+    pub lost_beads: u32,
+    /// Seconds with the penalties so far.
+    pub total_s: f64,
+    pub is_delivered: bool,
+    /// Not delivered within the time limit.
+    pub is_time_up: bool,
+    /// Why it does not count.
+    pub void: Option<String>,
+}
+
+fn pair(point: Point2<f64>) -> [f64; 2] {
+    point.coords.into()
+}
+
+impl From<Difficulty> for DifficultyName {
+    fn from(difficulty: Difficulty) -> Self {
+        match difficulty {
+            Difficulty::Easy => Self::Easy,
+            Difficulty::Medium => Self::Medium,
+            Difficulty::Hard => Self::Hard,
+        }
+    }
+}
+
+impl From<Score> for AttemptScore {
+    fn from(Score { tick, walls, lost_beads }: Score) -> Self {
+        Self { tick, walls, lost_beads }
+    }
+}
+
+impl From<&Attempt> for AttemptMessage {
+    fn from(attempt: &Attempt) -> Self {
+        let Attempt { log, score, world_hash } = attempt.clone();
+        Self { log, score: score.into(), world_hash }
+    }
+}
+
+impl From<AttemptMessage> for Attempt {
+    fn from(message: AttemptMessage) -> Self {
+        let AttemptMessage { log, score: AttemptScore { tick, walls, lost_beads }, world_hash } = message;
+        Self { log, score: Score { tick, walls, lost_beads }, world_hash }
+    }
+}
+
+impl From<&Entry> for BoardEntry {
+    fn from(entry: &Entry) -> Self {
+        let challenge::Signature { player, class, at } = entry.signature.clone();
+        Self { player, class, at, score: entry.score.into(), total_s: entry.score.total_s() }
+    }
+}
+
+impl From<&Trace> for TraceMessage {
+    fn from(trace: &Trace) -> Self {
+        let mishap = |&(tick, mishap): &(u64, Mishap)| {
+            let kind = match mishap {
+                Mishap::Wall => MishapKind::Wall,
+                Mishap::LostBead => MishapKind::LostBead,
+                Mishap::Disturbance => MishapKind::Disturbance,
+            };
+            MishapMessage { tick, kind }
+        };
+        Self {
+            tool_m: trace.samples.iter().map(|sample| pair(sample.tool_m)).collect(),
+            bead_m: trace.samples.iter().map(|sample| pair(sample.bead_m)).collect(),
+            mishaps: trace.mishaps.iter().map(mishap).collect(),
+        }
+    }
+}
+
+impl From<&Ghost> for GhostMessage {
+    fn from(ghost: &Ghost) -> Self {
+        Self {
+            controller: ghost.controller,
+            player: None,
+            score: ghost.score.map(AttemptScore::from),
+            total_s: ghost.score.map(|score| score.total_s()),
+            trace: TraceMessage::from(&ghost.trace),
+        }
+    }
+}
+
+impl From<&Entry> for GhostMessage {
+    fn from(entry: &Entry) -> Self {
+        Self {
+            controller: ControllerName::You,
+            player: Some(entry.signature.player.clone()),
+            score: Some(entry.score.into()),
+            total_s: Some(entry.score.total_s()),
+            trace: TraceMessage::from(&*entry.trace),
+        }
+    }
+}
+
+impl From<&Loss> for LossMessage {
+    fn from(loss: &Loss) -> Self {
+        let &Loss { from_tick, to_tick, place_m, lost_s, walls, lost_beads, disturbances } = loss;
+        Self { from_tick, to_tick, place_m: pair(place_m), lost_s, walls, lost_beads, disturbances }
+    }
+}
+
+impl From<&Standing> for AttemptStanding {
+    fn from(standing: &Standing) -> Self {
+        Self {
+            walls: standing.score.walls,
+            lost_beads: standing.score.lost_beads,
+            total_s: standing.score.total_s(),
+            is_delivered: standing.is_delivered,
+            is_time_up: standing.is_time_up,
+            void: standing.void.map(|why| why.to_string()),
+        }
+    }
+}
+
+impl ChallengeSummary {
+    /// `board`: best first.
+    pub fn of(name: &ChallengeName, period: Option<Period>, board: &[Entry]) -> Self {
+        Self {
+            name: name.to_string(),
+            difficulty: name.difficulty.into(),
+            period,
+            entries: board.len(),
+            best: board.first().map(BoardEntry::from),
+        }
+    }
+}
+
+impl ChallengeReport {
+    /// `board`: best first.
+    pub fn of(challenge: &Challenge, board: &[Entry]) -> Self {
+        let scenario = &challenge.scenario;
+        Self {
+            name: challenge.name.to_string(),
+            difficulty: challenge.name.difficulty.into(),
+            map: scenario.map.clone(),
+            start_m: scenario.start_m.map_or([0.0; 2], pair),
+            goal_m: scenario.goal_m.map_or([0.0; 2], pair),
+            path_m: challenge.path_m,
+            disturbances: scenario.disturbances,
+            time_limit_s: TIME_LIMIT_S,
+            wall_s: WALL_S,
+            lost_bead_s: LOST_BEAD_S,
+            board: board.iter().map(BoardEntry::from).collect(),
+        }
+    }
+}
+
+impl Ghosts {
+    /// `best`: of the board.
+    pub fn of(ghosts: &[Ghost], best: Option<&Entry>) -> Self {
+        let sample_s = SAMPLE_TICKS as f64 * SERVO_PERIOD_S;
+        Self { sample_s, ghosts: ghosts.iter().map(GhostMessage::from).chain(best.map(GhostMessage::from)).collect() }
+    }
+}
+
+impl AttemptReport {
+    /// Compares the attempt with the fastest of the ghosts. Blocks for some milliseconds.
+    pub fn of(played: &Played, ghosts: &[Ghost]) -> Self {
+        let Played { challenge, trace, ended, .. } = played;
+        let delivered = ghosts.iter().filter_map(|ghost| Some((ghost.score?.total_s(), ghost)));
+        let fastest = delivered.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, ghost)| ghost);
+        let bead = trace.samples.last().map(|sample| sample.bead_m).or(challenge.scenario.start_m);
+        Self {
+            challenge: challenge.name.to_string(),
+            trace: TraceMessage::from(trace),
+            remaining_m: bead.map_or(challenge.path_m, |bead| challenge.remaining_m(bead)),
+            loss: challenge.loss(trace, fastest.map(|ghost| &ghost.trace)).as_ref().map(LossMessage::from),
+            compared_with: fastest.map(|ghost| ghost.controller),
+            attempt: match ended {
+                Some(Ended::Delivered(attempt)) => Some(AttemptMessage::from(&**attempt)),
+                Some(Ended::TimeUp) | None => None,
+            },
+        }
+    }
+}

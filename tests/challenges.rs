@@ -1,0 +1,159 @@
+//! Challenges over HTTP and the WebSocket: an attempt is played in real time, judged, and put on the board.
+
+use ferry::challenge::Challenge;
+use ferry::geometry::Point2;
+use serde_json::{Value, json};
+
+use crate::support::{Browser, Laboratory};
+
+const NAME: &str = "easy-2026-11-26";
+const AHEAD_M: f64 = 0.02;
+
+/// The place on the shortest path to the goal that is a little ahead of the tool.
+fn ahead(challenge: &Challenge, tool_m: Point2<f64>) -> Point2<f64> {
+    let goal = challenge.scenario.goal_m.unwrap();
+    let path = challenge.arena.space.taut_path(tool_m, goal).unwrap();
+    let mut left_m = AHEAD_M;
+    for pair in path.windows(2) {
+        let leg = pair[1] - pair[0];
+        if leg.norm() > left_m {
+            return pair[0] + leg.normalize() * left_m;
+        }
+        left_m -= leg.norm();
+    }
+    goal
+}
+
+/// Plays until the delivery; returns the last state.
+async fn play(browser: &mut Browser, challenge: &Challenge) -> Value {
+    browser.send(json!({"type": "play_challenge", "challenge": challenge.name.to_string()})).await;
+    browser.until("the scene", |m| m["type"] == "scene" && m["challenge"] == challenge.name.to_string()).await;
+    browser.send(json!({"type": "run"})).await;
+    let mut next = 1;
+    loop {
+        let state = browser.state("the next fifth of a second", |m| m["tick"].as_u64().unwrap() >= next).await;
+        if state["attempt"]["is_delivered"] == true {
+            return state;
+        }
+        assert_eq!(state["attempt"]["void"], Value::Null, "{state}");
+        next = state["tick"].as_u64().unwrap() + 25;
+        let [x_m, y_m] = [0, 1].map(|index| state["tool_m"][index].as_f64().unwrap());
+        let place = ahead(challenge, Point2::new(x_m, y_m));
+        browser.send(json!({"type": "steer", "x_m": place.x, "y_m": place.y})).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_attempt_that_was_played_counts_once_and_a_changed_one_does_not() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let challenge = Challenge::of(NAME.parse().unwrap()).unwrap();
+    let post = |name: &str, body: Value| {
+        let (path, body) = (format!("/api/challenges/{name}/attempts"), body.to_string());
+        let lab = &lab;
+        async move { lab.ask("POST", &path, &body).await }
+    };
+    let last = play(&mut browser, &challenge).await;
+    assert_eq!(last["running"], false, "the session pauses at the delivery");
+
+    let (status, report) = lab.ask("GET", "/api/sessions/main/attempt", "").await;
+    assert_eq!((status, &report["challenge"]), (200, &json!(NAME)), "{report}");
+    let attempt = report["attempt"].clone();
+    assert_eq!(attempt["score"]["walls"], last["attempt"]["walls"]);
+    assert!(report["remaining_m"].as_f64().unwrap() < 0.03, "{report}");
+    let query = |player: &str, attempt: &Value| json!({"session": "main", "player": player, "attempt": attempt});
+
+    let edited = |pointer: &str, value: Value| {
+        let mut edited = attempt.clone();
+        *edited.pointer_mut(pointer).unwrap() = value;
+        edited
+    };
+    let tick = attempt["score"]["tick"].as_u64().unwrap();
+    for (forged, field) in [
+        (edited("/log/inputs/0/input/steer/x_m", json!(0.01)), "attempt.log"),
+        (edited("/log/scenario/seed", json!(1)), "attempt.log"),
+        (edited("/log/about", json!("better")), "attempt.log"),
+        (edited("/score/tick", json!(tick - 125)), "attempt.score.tick"),
+        (edited("/world_hash", json!("0000000000000000")), "attempt.world_hash"),
+    ] {
+        let (status, problem) = post(NAME, query("Eve", &forged)).await;
+        assert_eq!((status, &problem["field"]), (422, &json!(field)), "{problem}");
+    }
+    let (status, problem) = post("easy-other", query("Eve", &attempt)).await;
+    assert_eq!((status, &problem["code"]), (422, &json!("other_challenge")), "{problem}");
+    let (status, problem) = post(NAME, query("", &attempt)).await;
+    assert_eq!((status, &problem["field"]), (422, &json!("player")), "{problem}");
+    let stranger = json!({"session": "other", "player": "Eve", "attempt": attempt});
+    let (status, problem) = post(NAME, stranger).await;
+    assert_eq!((status, &problem["field"]), (422, &json!("session")), "{problem}");
+    assert!(!lab.data.path().join("challenges").exists(), "a refused attempt leaves nothing");
+
+    let (status, answer) = post(NAME, query("Ada", &attempt)).await;
+    assert_eq!((status, &answer["place"], &answer["is_kept"]), (201, &json!(1), &json!(true)), "{answer}");
+    assert_eq!(answer["total_s"], last["attempt"]["total_s"], "the page showed the same score");
+    let (status, problem) = post(NAME, query("Eve", &attempt)).await;
+    assert_eq!((status, &problem["code"]), (409, &json!("again")), "{problem}");
+
+    let (_, board) = lab.ask("GET", &format!("/api/challenges/{NAME}"), "").await;
+    assert_eq!((board["board"].as_array().unwrap().len(), &board["board"][0]["player"]), (1, &json!("Ada")), "{board}");
+    let (_, ghosts) = lab.ask("GET", &format!("/api/challenges/{NAME}/ghosts"), "").await;
+    let whose: Vec<_> = ghosts["ghosts"].as_array().unwrap().iter().map(|ghost| ghost["controller"].clone()).collect();
+    assert_eq!(whose, ["rl", "errt", "attractor", "you"], "{ghosts}");
+    assert_eq!(ghosts["ghosts"][3]["player"], "Ada");
+    let (_, list) = lab.ask("GET", "/api/challenges", "").await;
+    let all = list["challenges"].as_array().unwrap();
+    assert!(all.iter().any(|one| one["name"] == NAME && one["entries"] == 1), "{list}");
+
+    // Rewinding after the end changes nothing: the attempt is over.
+    browser.send(json!({"type": "rewind", "tick": 0})).await;
+    let state = browser.state("the start", |m| m["tick"] == 0).await;
+    assert_eq!(state["attempt"]["is_delivered"], true, "{state}");
+    // Another map ends the challenge.
+    browser.send(json!({"type": "load_scenario", "map": "open"})).await;
+    browser.state("no attempt", |m| m["attempt"].is_null()).await;
+    let (status, problem) = lab.ask("GET", "/api/sessions/main/attempt", "").await;
+    assert_eq!((status, &problem["code"]), (422, &json!("no_challenge")), "{problem}");
+    lab.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_attempt_that_was_not_played_in_one_go_does_not_count() {
+    let lab = Laboratory::open().await;
+    let mut browser = lab.browser().await;
+    let goal = json!({"type": "set_goal", "x_m": 0.12, "y_m": -0.33});
+    for (commands, why) in [
+        (vec![json!({"type": "run"}), json!({"type": "pause"})], "it was paused"),
+        (vec![json!({"type": "step", "ticks": 10})], "it was paused"),
+        (vec![json!({"type": "set_speed", "factor": 0.5})], "it did not run at real speed"),
+        (vec![json!({"type": "run"}), json!({"type": "rewind", "tick": 0})], "it was rewound"),
+        (vec![goal], "something else than the tool was moved or set"),
+        (
+            vec![json!({"type": "select_controller", "controller": "rl"})],
+            "something else than the tool was moved or set",
+        ),
+    ] {
+        browser.send(json!({"type": "play_challenge", "challenge": NAME})).await;
+        browser
+            .state("a new attempt", |m| m["tick"] == 0 && m["attempt"]["void"].is_null() && !m["attempt"].is_null())
+            .await;
+        for command in &commands {
+            browser.send(command.clone()).await;
+            if command["type"] == "run" {
+                browser.state("it runs", |m| m["tick"].as_u64().unwrap() > 3).await;
+            }
+        }
+        let state = browser.state(why, |m| !m["attempt"]["void"].is_null()).await;
+        assert_eq!(state["attempt"]["void"], why, "{commands:?}");
+        // A reset begins the challenge again.
+        browser.send(json!({"type": "reset"})).await;
+        let fits = |m: &Value| m["tick"] == 0 && m["attempt"]["void"].is_null() && m["controller"] == "you";
+        let state = browser.state("the same challenge again", fits).await;
+        assert_eq!(state["attempt"]["is_delivered"], false, "{state}");
+    }
+    browser.send(json!({"type": "play_challenge", "challenge": "expert-1"})).await;
+    let error = browser.error().await;
+    assert_eq!((&error["code"], &error["field"]), (&json!("malformed"), &json!("challenge")), "{error}");
+    browser.send(json!({"type": "steer", "x_m": 0.0, "y_m": -0.3})).await;
+    browser.state("still counting", |m| m["attempt"]["void"].is_null() && m["steer_m"].is_array()).await;
+    lab.close().await;
+}
