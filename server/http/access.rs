@@ -260,7 +260,7 @@ fn wants_page(request: &Request) -> bool {
 }
 
 fn is_page(path: &str) -> bool {
-    path == "/" || path == "/demo" || path.starts_with("/s/") || path == "/viewer/"
+    path == "/" || path == "/demo" || path == "/board" || path.starts_with("/s/") || path == "/viewer/"
 }
 
 #[cfg(test)]

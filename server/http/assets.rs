@@ -48,6 +48,11 @@ pub async fn demo(State(server): State<Arc<Server>>, headers: HeaderMap) -> Resu
     Ok(send("index.html", &headers))
 }
 
+/// `GET /board`: the board of a challenge, for a projector. It needs no session.
+pub async fn board(headers: HeaderMap) -> Response {
+    send("index.html", &headers)
+}
+
 /// The login page with a status.
 pub fn login_page(status: StatusCode) -> Response {
     let mut response = send("login/index.html", &HeaderMap::new());

@@ -138,7 +138,7 @@ mod tests {
         let paths: BTreeSet<&str> = document["paths"].as_object().unwrap().keys().map(String::as_str).collect();
         assert!(served.len() > 25, "only {served:?} were found");
         // The fallback is the page.
-        let fallbacks = BTreeSet::from(["/", "/s/{name}", "/demo", "/{*__private__axum_fallback}"]);
+        let fallbacks = BTreeSet::from(["/", "/s/{name}", "/demo", "/board", "/{*__private__axum_fallback}"]);
         assert_eq!(served.difference(&fallbacks).copied().collect::<BTreeSet<_>>(), paths);
     }
 

@@ -97,6 +97,7 @@ pub fn served() -> Router<Arc<Server>> {
         .route("/", get(assets::main_session))
         .route("/s/{name}", get(assets::named_session))
         .route("/demo", get(assets::demo))
+        .route("/board", get(assets::board))
         .method_not_allowed_fallback(problem::method_not_allowed)
         .fallback(assets::page)
 }

@@ -10,7 +10,8 @@ import { keepFocus } from './app/focus';
 import { DemoPage } from './app/DemoPage';
 import { Page } from './app/Page';
 import { carriesToken, takeToken } from './net/loginToken';
-import { isDemo } from './net/session';
+import { isBoard, isDemo } from './net/session';
+import { lazyPart } from './ui/lazyPart';
 
 // A login link in a browser that is already logged in: remove the token from the address.
 takeToken(window);
@@ -24,4 +25,19 @@ window.addEventListener('hashchange', (event) => {
 const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');
 keepFocus(document);
-render(() => (isDemo(window.location) ? <DemoPage /> : <Page />), root);
+/** Loaded when it is opened: most browsers never do. */
+const BoardPage = lazyPart<object>(
+  async () => (await import('./features/board/BoardPage')).BoardPage,
+  () => <main class="view" />,
+  () => (
+    <main class="view">
+      <p class="placeholder" role="alert">
+        The board could not be loaded. Reload the page.
+      </p>
+    </main>
+  ),
+);
+render(() => {
+  if (isBoard(window.location)) return <BoardPage />;
+  return isDemo(window.location) ? <DemoPage /> : <Page />;
+}, root);

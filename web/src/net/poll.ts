@@ -12,8 +12,14 @@ export interface Poll<A> {
   readonly refresh: () => Promise<void>;
 }
 
-/** Reads `path` until the owner is disposed of, with a pause that may depend on the newest answer. */
-export function createPoll<A>(path: string, pauseMs: (newest: A | undefined) => number): Poll<A> {
+/**
+ * Reads `path` until the owner is disposed of, with a pause that may depend on the newest answer, and on the reason why
+ * the last request has none.
+ */
+export function createPoll<A>(
+  path: string,
+  pauseMs: (newest: A | undefined, reason?: unknown) => number,
+): Poll<A> {
   const [data, setData] = createSignal<A>();
   const [error, setError] = createSignal<string>();
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -24,6 +30,7 @@ export function createPoll<A>(path: string, pauseMs: (newest: A | undefined) => 
     if (isClosed) return;
     requests += 1;
     const number = requests;
+    let failure: unknown;
     try {
       const answer = await get<A>(path);
       if (number !== requests) return;
@@ -31,9 +38,10 @@ export function createPoll<A>(path: string, pauseMs: (newest: A | undefined) => 
       setError(undefined);
     } catch (reason) {
       if (number !== requests) return;
+      failure = reason;
       setError(reason instanceof Error ? reason.message : String(reason));
     }
-    timer = setTimeout(() => void refresh(), pauseMs(data()));
+    timer = setTimeout(() => void refresh(), pauseMs(data(), failure));
   };
   void refresh();
   onCleanup(() => {

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { sessionOf, sessionPath } from './session';
+import { isBoard, sessionOf, sessionPath } from './session';
 
 it('the address names the session', () => {
   for (const [pathname, session] of [
@@ -17,4 +17,9 @@ it('the address names the session', () => {
 
 it('the resources of a session are below its name', () => {
   expect(sessionPath('anna', 'case.json')).toBe('/api/sessions/anna/case.json');
+});
+
+it('a board has an address of its own', () => {
+  const paths = ['/board', '/', '/s/board', '/board/x'];
+  expect(paths.filter((pathname) => isBoard({ pathname }))).toEqual(['/board']);
 });

@@ -10,6 +10,11 @@ export function isDemo({ pathname }: Pick<Location, 'pathname'>): boolean {
   return pathname === '/demo';
 }
 
+/** Whether the address is that of a board. It needs no session. */
+export function isBoard({ pathname }: Pick<Location, 'pathname'>): boolean {
+  return pathname === '/board';
+}
+
 /** `/s/anna` is the page of the session `anna`, `/demo` of `demo`; every other address belongs to `main`. */
 export function sessionOf(page: Pick<Location, 'pathname'>): string {
   if (isDemo(page)) return DEMO;

@@ -1,0 +1,220 @@
+// The page `/board`: the board of a challenge, large enough for a projector.
+
+import {
+  Show,
+  createEffect,
+  createMemo,
+  createSignal,
+  onCleanup,
+  onMount,
+  type JSX,
+} from 'solid-js';
+import { loggedOut } from '../../net/access';
+import { createPoll } from '../../net/poll';
+import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
+import { counted, fixed } from '../../ui/format';
+import { createTheme } from '../../ui/theme';
+import { BoardChoices } from './BoardChoices';
+import { BoardTable } from './BoardTable';
+import {
+  type Chosen,
+  type Row,
+  boardAddress,
+  chosenIn,
+  classesOf,
+  easyOfToday,
+  longTitle,
+  newWords,
+  pageTitle,
+  playAddress,
+  rowsOf,
+} from './entries';
+import { createBoard } from './live';
+import './board.css';
+
+const LIST_MS = 15_000;
+
+export function BoardPage(): JSX.Element {
+  createTheme();
+  const list = createPoll<Challenges>('/api/challenges', () => LIST_MS);
+  const all = (): readonly ChallengeSummary[] => list.data()?.challenges ?? [];
+  const [chosen, setChosen] = createSignal(chosenIn(window.location.search));
+  const name = createMemo(() => chosen().challenge ?? easyOfToday(all()));
+  const live = createMemo(() => {
+    const now = name();
+    return now === undefined ? undefined : createBoard(now);
+  });
+  const report = (): ChallengeReport | undefined => live()?.report();
+  const summary = createMemo(() => all().find((one) => one.name === name()));
+  const classes = createMemo(() => classesOf(report()?.board ?? [], chosen().ofClass));
+  const rows = createMemo<readonly Row[]>((before) => {
+    const now = report();
+    return now ? rowsOf(now, chosen().ofClass, before) : [];
+  }, []);
+  const news = (): string => {
+    const fresh = live()?.fresh();
+    const added = fresh ? rows().filter(({ key }) => fresh.has(key)) : [];
+    return added.map(newWords).join(' · ');
+  };
+
+  createEffect(() => {
+    document.title = pageTitle(name(), chosen().ofClass);
+  });
+  const choose = (next: Chosen): void => {
+    window.history.pushState(null, '', boardAddress(next));
+    setChosen(next);
+  };
+  const goBack = (): void => {
+    setChosen(chosenIn(window.location.search));
+  };
+  onMount(() => {
+    window.addEventListener('popstate', goBack);
+  });
+  onCleanup(() => {
+    window.removeEventListener('popstate', goBack);
+  });
+
+  return (
+    <main class="board-page">
+      <BoardChoices
+        all={all()}
+        name={name()}
+        classes={classes()}
+        chosen={chosen()}
+        onChoose={choose}
+      />
+      <Head
+        title={headWords(report() && name(), summary(), chosen().ofClass)}
+        name={report() && name()}
+        rules={rulesOf(rows().length, report())}
+        news={news()}
+      />
+      {/* The region is always in the document: screen readers announce what appears inside it. */}
+      <div class="board-problem" role="alert" aria-label="Problem">
+        <Problem
+          why={live()?.error() ?? list.error()}
+          hasBoard={report() !== undefined}
+          hasList={list.data() !== undefined}
+        />
+      </div>
+      <Show when={report()}>
+        {(now) => (
+          <Show
+            when={rows().length > 0}
+            fallback={
+              <Empty
+                address={playAddress(window.location.origin, now().name)}
+                ofClass={chosen().ofClass}
+              />
+            }
+          >
+            <BoardTable name={now().name} rows={rows()} fresh={live()?.fresh() ?? new Set()} />
+          </Show>
+        )}
+      </Show>
+    </main>
+  );
+}
+
+function headWords(
+  name: string | undefined,
+  summary: ChallengeSummary | undefined,
+  ofClass: string | undefined,
+): string {
+  if (name === undefined) return 'Board';
+  const title = longTitle(name, summary);
+  return ofClass === undefined ? title : `${title}, class ${ofClass}`;
+}
+
+function rulesOf(players: number, report: ChallengeReport | undefined): string {
+  if (!report) return '';
+  const penalty = (what: string, time_s: number): string =>
+    `${what} +${fixed(time_s, Number.isInteger(time_s) ? 0 : 1)} s`;
+  const penalties = [penalty('wall stop', report.wall_s), penalty('lost bead', report.lost_bead_s)];
+  return [counted(players, 'player'), ...penalties].join(' · ');
+}
+
+/** The title, the address to play, and what is new. */
+function Head(props: {
+  title: string;
+  /** Undefined before the board has come, and for a wrong name. */
+  name: string | undefined;
+  rules: string;
+  news: string;
+}): JSX.Element {
+  return (
+    <header class="board-head">
+      <h1>{props.title}</h1>
+      <p class="board-rules">{props.rules}</p>
+      <p class="board-play">
+        <Show when={props.name}>
+          {(name) => {
+            const address = (): string => playAddress(window.location.origin, name());
+            return (
+              <>
+                Play: <a href={address()}>{address()}</a>
+              </>
+            );
+          }}
+        </Show>
+      </p>
+      <p class="board-news" role="status">
+        {props.news}
+      </p>
+    </header>
+  );
+}
+
+function Problem(props: {
+  why: string | undefined;
+  hasBoard: boolean;
+  hasList: boolean;
+}): JSX.Element {
+  return (
+    <>
+      <Show when={loggedOut()}>
+        <p>
+          The login has ended. <a href="">Log in again</a>
+        </p>
+      </Show>
+      <Show when={!loggedOut() && props.why}>
+        {(why) => (
+          <>
+            <p>{why()}</p>
+            <Show when={props.hasBoard}>
+              <p>The board is the last one that the server has sent.</p>
+            </Show>
+            <Show when={!props.hasBoard && props.hasList}>
+              <p>Choose a challenge above.</p>
+            </Show>
+          </>
+        )}
+      </Show>
+    </>
+  );
+}
+
+function Empty(props: { address: string; ofClass: string | undefined }): JSX.Element {
+  return (
+    <section class="board-empty">
+      <h2>
+        {props.ofClass === undefined
+          ? 'No attempt is on this board yet'
+          : `No attempt of class ${props.ofClass} is on this board yet`}
+      </h2>
+      <ol>
+        <li>
+          Open <a href={props.address}>{props.address}</a>
+        </li>
+        <li>
+          Steer the tool and carry the bead to the goal. The ghosts of the controllers run beside
+          you.
+        </li>
+        <li>
+          Enter your name{props.ofClass === undefined ? '' : ` and the class ${props.ofClass}`}, and
+          put your attempt on the board.
+        </li>
+      </ol>
+    </section>
+  );
+}
