@@ -99,15 +99,7 @@ export function BoardPage(): JSX.Element {
       </div>
       <Show when={report()}>
         {(now) => (
-          <Show
-            when={rows().length > 0}
-            fallback={
-              <Empty
-                address={playAddress(window.location.origin, now().name)}
-                ofClass={chosen().ofClass}
-              />
-            }
-          >
+          <Show when={rows().length > 0} fallback={<Empty ofClass={chosen().ofClass} />}>
             <BoardTable name={now().name} rows={rows()} fresh={live()?.fresh() ?? new Set()} />
           </Show>
         )}
@@ -194,7 +186,7 @@ function Problem(props: {
   );
 }
 
-function Empty(props: { address: string; ofClass: string | undefined }): JSX.Element {
+function Empty(props: { ofClass: string | undefined }): JSX.Element {
   return (
     <section class="board-empty">
       <h2>
@@ -203,9 +195,7 @@ function Empty(props: { address: string; ofClass: string | undefined }): JSX.Ele
           : `No attempt of class ${props.ofClass} is on this board yet`}
       </h2>
       <ol>
-        <li>
-          Open <a href={props.address}>{props.address}</a>
-        </li>
+        <li>Open the address above in a browser.</li>
         <li>
           Steer the tool and carry the bead to the goal. The ghosts of the controllers run beside
           you.
