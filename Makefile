@@ -10,11 +10,14 @@ SHELL := /bin/bash
 .PHONY: run test dist results ablations mazes soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
-# description.
+# description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list.
 RERUN_VERSION := 0.36.3
 SCHEMATHESIS_VERSION := 4.32.5
+MINARI_VERSION := 0.5.4
+PYARROW_VERSION := 26.0.1
+PILLOW_VERSION := 13.0.0
 VENV := target/venv
-TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)
+TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)-minari-$(MINARI_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 # Graphics drivers print long warnings when it is not set.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -124,5 +127,6 @@ endef
 $(TOOLS):
 	python3 -m venv $(VENV)
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check rerun-sdk==$(RERUN_VERSION) \
-		schemathesis==$(SCHEMATHESIS_VERSION)
+		schemathesis==$(SCHEMATHESIS_VERSION) minari==$(MINARI_VERSION) pyarrow==$(PYARROW_VERSION) \
+		pillow==$(PILLOW_VERSION)
 	touch $@

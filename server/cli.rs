@@ -1,5 +1,6 @@
 //! The command line.
 
+mod attempts;
 mod evaluate;
 mod map;
 mod maps;
@@ -35,6 +36,9 @@ struct Arguments {
 enum Command {
     /// Serve the laboratory page (the default)
     Serve(serve::Arguments),
+    /// Export what people did in challenges
+    #[command(subcommand)]
+    Attempts(attempts::Command),
     /// Repeat the paper's experiment: random trials, counted
     Evaluate(evaluate::Arguments),
     /// Render one image to a PNG file, headless
@@ -69,6 +73,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
     begin_logging()?;
     match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
         Command::Serve(arguments) => serve::run(&arguments),
+        Command::Attempts(command) => attempts::run(&command),
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::score::Referee;
 use super::{Challenge, Score, TICKS_MOST, TIME_LIMIT_S, Trace};
 use crate::camera::ImageSource;
-use crate::trial::{Case, Input, InputError, Source, Timed, Trial, TrialError};
+use crate::trial::{Case, Input, InputError, Source, TickRecord, Timed, Trial, TrialError};
 
 /// Largest number of inputs: sixty a second until the time limit, and as many again.
 pub const INPUTS_MOST: usize = 2 * 60 * TIME_LIMIT_S as usize;
@@ -84,9 +84,22 @@ impl Challenge {
     /// # Errors
     /// [`AttemptError`]: the log is not one of this challenge, or its claim is wrong.
     pub fn judge(&self, attempt: &Attempt, camera: &mut dyn ImageSource) -> Result<Run, AttemptError> {
+        Ok(self.judge_watched(attempt, camera, &mut |_| ())?.0)
+    }
+
+    /// The same as [`Self::judge`]; `watch` gets every tick, and the trial is returned as it is at the delivery.
+    ///
+    /// # Errors
+    /// As [`Self::judge`].
+    pub fn judge_watched(
+        &self,
+        attempt: &Attempt,
+        camera: &mut dyn ImageSource,
+        watch: &mut dyn FnMut(&TickRecord),
+    ) -> Result<(Run, Trial), AttemptError> {
         let Attempt { log, score, world_hash } = attempt;
         self.check(log)?;
-        let run = self.run(&log.inputs, camera)?;
+        let (run, trial) = self.run_watched(&log.inputs, camera, watch)?;
         for (field, claimed, found) in [
             ("tick", score.tick, run.score.tick),
             ("walls", score.walls.into(), run.score.walls.into()),
@@ -100,7 +113,7 @@ impl Challenge {
             let claimed = world_hash.chars().take(64).collect();
             return Err(AttemptError::OtherWorld { claimed, found: run.world_hash });
         }
-        Ok(run)
+        Ok((run, trial))
     }
 
     /// Runs inputs on the trial until its first delivery.
@@ -108,6 +121,15 @@ impl Challenge {
     /// # Errors
     /// [`AttemptError::Refused`], [`AttemptError::AfterDelivery`], [`AttemptError::NotDelivered`].
     pub fn run(&self, inputs: &[Timed], camera: &mut dyn ImageSource) -> Result<Run, AttemptError> {
+        Ok(self.run_watched(inputs, camera, &mut |_| ())?.0)
+    }
+
+    fn run_watched(
+        &self,
+        inputs: &[Timed],
+        camera: &mut dyn ImageSource,
+        watch: &mut dyn FnMut(&TickRecord),
+    ) -> Result<(Run, Trial), AttemptError> {
         let mut trial = Trial::new(self.scenario.clone(), self.arena.clone())?;
         let mut referee = Referee::default();
         let mut inputs = inputs.iter().enumerate().peekable();
@@ -117,12 +139,13 @@ impl Challenge {
                 trial.apply(timed.input.clone()).map_err(|error| AttemptError::Refused { index, error })?;
             }
             let record = trial.tick(Source::Camera(camera))?;
+            watch(&record);
             let Some(score) = referee.watch(&record) else { continue };
             if let Some((index, timed)) = inputs.next() {
                 return Err(AttemptError::AfterDelivery { index, tick: timed.tick, delivered: score.tick });
             }
             let world_hash = format!("{:016x}", record.world.total());
-            return Ok(Run { score, world_hash, trace: referee.into_trace() });
+            return Ok((Run { score, world_hash, trace: referee.into_trace() }, trial));
         }
         Err(AttemptError::NotDelivered)
     }

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// A tool from PyPI, `rerun-sdk` at the crate's version; `make test` installs it.
+/// A tool from PyPI, such as `rerun-sdk` at the crate's version; `make test` installs it.
 pub fn tool(name: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/venv/bin").join(name);
     assert!(path.exists(), "{} is missing; `make test` installs it", path.display());
