@@ -6,6 +6,7 @@
 mod branch_point;
 #[cfg(test)]
 mod command_tests;
+mod contest;
 mod idle;
 mod inputs;
 mod kept_runs;

@@ -2,43 +2,37 @@
 
 use ferry::challenge::Challenge;
 use ferry::geometry::Point2;
+use ferry::scenario::ControllerName;
 use serde_json::{Value, json};
 
-use crate::support::{Browser, Laboratory};
+use crate::support::{Browser, Laboratory, gpu};
 
 const NAME: &str = "easy-2026-11-26";
-const AHEAD_M: f64 = 0.02;
+/// Samples of a fifth of a second that the hand is ahead of the nearest one.
+const AHEAD: usize = 4;
 
-/// The place on the shortest path to the goal that is a little ahead of the tool.
-fn ahead(challenge: &Challenge, tool_m: Point2<f64>) -> Point2<f64> {
-    let goal = challenge.scenario.goal_m.unwrap();
-    let path = challenge.arena.space.taut_path(tool_m, goal).unwrap();
-    let mut left_m = AHEAD_M;
-    for pair in path.windows(2) {
-        let leg = pair[1] - pair[0];
-        if leg.norm() > left_m {
-            return pair[0] + leg.normalize() * left_m;
-        }
-        left_m -= leg.norm();
-    }
-    goal
-}
-
-/// Plays until the delivery; returns the last state.
+/// Follows the way of ERRT's tool until the delivery; returns the last state.
 async fn play(browser: &mut Browser, challenge: &Challenge) -> Value {
+    let mut camera = challenge.arena.camera(&gpu()).unwrap();
+    let way = challenge.ghost(ControllerName::Errt, &mut camera).unwrap().trace.samples;
     browser.send(json!({"type": "play_challenge", "challenge": challenge.name.to_string()})).await;
     browser.until("the scene", |m| m["type"] == "scene" && m["challenge"] == challenge.name.to_string()).await;
     browser.send(json!({"type": "run"})).await;
-    let mut next = 1;
+    let (mut next, mut nearest) = (1, 0);
     loop {
-        let state = browser.state("the next fifth of a second", |m| m["tick"].as_u64().unwrap() >= next).await;
-        if state["attempt"]["is_delivered"] == true {
+        let is_over = |m: &Value| m["attempt"]["is_delivered"] == true || m["attempt"]["is_time_up"] == true;
+        let state = browser.state("a fifth of a second", |m| m["tick"].as_u64().unwrap() >= next || is_over(m)).await;
+        if is_over(&state) {
+            assert_eq!(state["attempt"]["is_delivered"], true, "{state}");
             return state;
         }
         assert_eq!(state["attempt"]["void"], Value::Null, "{state}");
         next = state["tick"].as_u64().unwrap() + 25;
         let [x_m, y_m] = [0, 1].map(|index| state["tool_m"][index].as_f64().unwrap());
-        let place = ahead(challenge, Point2::new(x_m, y_m));
+        let off_m = |index: &usize| (way[*index].tool_m - Point2::new(x_m, y_m)).norm();
+        let ahead = nearest..way.len().min(nearest + 4 * AHEAD);
+        nearest = ahead.min_by(|a, b| off_m(a).total_cmp(&off_m(b))).unwrap();
+        let place = way[way.len().min(nearest + AHEAD + 1) - 1].tool_m;
         browser.send(json!({"type": "steer", "x_m": place.x, "y_m": place.y})).await;
     }
 }

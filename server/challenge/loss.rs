@@ -148,7 +148,7 @@ mod tests {
         for other in [Some(&swift), None] {
             let loss = challenge.loss(&slow, other).unwrap();
             assert!((2.4..3.6).contains(&loss.lost_s), "{loss:?}");
-            assert!(loss.from_tick <= 20 * SAMPLE_TICKS + 1 && loss.to_tick >= 35 * SAMPLE_TICKS + 1, "{loss:?}");
+            assert!(loss.from_tick < 21 * SAMPLE_TICKS && loss.to_tick > 35 * SAMPLE_TICKS, "{loss:?}");
             assert!((loss.place_m - slow.samples[20].bead_m).norm() < 0.025, "{loss:?}");
             assert_eq!((loss.walls, loss.lost_beads, loss.disturbances), (0, 1, 0));
         }

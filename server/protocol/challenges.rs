@@ -1,19 +1,21 @@
 //! Challenges.
 
+mod ghosts;
+
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::numbers::Numbers2;
 use crate::challenge::{
-    self, Attempt, Challenge, ChallengeName, Difficulty, Entry, Ghost, LOST_BEAD_S, Loss, Mishap, SAMPLE_TICKS, Score,
-    TIME_LIMIT_S, Trace, WALL_S,
+    self, Attempt, Challenge, ChallengeName, Difficulty, Entry, Ghost, LOST_BEAD_S, Loss, Score, TIME_LIMIT_S, WALL_S,
 };
 use crate::geometry::Point2;
-use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 use crate::session::{Ended, Played, Standing};
 use crate::trial::Case;
+
+pub use ghosts::{GhostMessage, Ghosts, MishapKind, MishapMessage, TraceMessage};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
@@ -102,56 +104,6 @@ pub struct ChallengeReport {
     pub board: Vec<BoardEntry>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MishapKind {
-    /// A wall stopped the tool.
-    Wall,
-    /// The bead was lost without a disturbance.
-    LostBead,
-    /// A disturbance took the bead away.
-    Disturbance,
-}
-
-/// Something that costs time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
-pub struct MishapMessage {
-    #[ts(type = "number")]
-    pub tick: u64,
-    pub kind: MishapKind,
-}
-
-/// Places every .2 s, beginning at tick 1; the last ones are those of the delivery.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct TraceMessage {
-    #[schema(value_type = Vec<Numbers2>)]
-    pub tool_m: Vec<[f64; 2]>,
-    #[schema(value_type = Vec<Numbers2>)]
-    pub bead_m: Vec<[f64; 2]>,
-    pub mishaps: Vec<MishapMessage>,
-}
-
-/// A run on the challenge, by a controller or by the best person.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct GhostMessage {
-    pub controller: ControllerName,
-    /// Name of the person; `null` for a controller.
-    pub player: Option<String>,
-    /// `null` if it has not delivered in time.
-    pub score: Option<AttemptScore>,
-    /// Seconds with the penalties; `null` without a delivery.
-    pub total_s: Option<f64>,
-    pub trace: TraceMessage,
-}
-
-/// Answer of `GET /api/challenges/{name}/ghosts`.
-#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
-pub struct Ghosts {
-    /// Seconds between two places of a trace.
-    pub sample_s: f64,
-    pub ghosts: Vec<GhostMessage>,
-}
-
 /// The part of an attempt in which it lost the most time, compared with the fastest ghost.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct LossMessage {
@@ -187,7 +139,7 @@ pub struct AttemptReport {
     /// Shortest path that the bead still has.
     pub remaining_m: f64,
     pub loss: Option<LossMessage>,
-    /// Whom the loss is compared with; `null` if nobody delivered.
+    /// Whom the loss is compared with; `null` if no controller delivered.
     pub compared_with: Option<ControllerName>,
     /// What `POST /api/challenges/{name}/attempts` takes; `null` without a delivery.
     pub attempt: Option<AttemptMessage>,
@@ -277,48 +229,6 @@ impl From<&Entry> for BoardEntry {
     }
 }
 
-impl From<&Trace> for TraceMessage {
-    fn from(trace: &Trace) -> Self {
-        let mishap = |&(tick, mishap): &(u64, Mishap)| {
-            let kind = match mishap {
-                Mishap::Wall => MishapKind::Wall,
-                Mishap::LostBead => MishapKind::LostBead,
-                Mishap::Disturbance => MishapKind::Disturbance,
-            };
-            MishapMessage { tick, kind }
-        };
-        Self {
-            tool_m: trace.samples.iter().map(|sample| pair(sample.tool_m)).collect(),
-            bead_m: trace.samples.iter().map(|sample| pair(sample.bead_m)).collect(),
-            mishaps: trace.mishaps.iter().map(mishap).collect(),
-        }
-    }
-}
-
-impl From<&Ghost> for GhostMessage {
-    fn from(ghost: &Ghost) -> Self {
-        Self {
-            controller: ghost.controller,
-            player: None,
-            score: ghost.score.map(AttemptScore::from),
-            total_s: ghost.score.map(|score| score.total_s()),
-            trace: TraceMessage::from(&ghost.trace),
-        }
-    }
-}
-
-impl From<&Entry> for GhostMessage {
-    fn from(entry: &Entry) -> Self {
-        Self {
-            controller: ControllerName::You,
-            player: Some(entry.signature.player.clone()),
-            score: Some(entry.score.into()),
-            total_s: Some(entry.score.total_s()),
-            trace: TraceMessage::from(&*entry.trace),
-        }
-    }
-}
-
 impl From<&Loss> for LossMessage {
     fn from(loss: &Loss) -> Self {
         let &Loss { from_tick, to_tick, place_m, lost_s, walls, lost_beads, disturbances } = loss;
@@ -369,14 +279,6 @@ impl ChallengeReport {
             lost_bead_s: LOST_BEAD_S,
             board: board.iter().map(BoardEntry::from).collect(),
         }
-    }
-}
-
-impl Ghosts {
-    /// `best`: of the board.
-    pub fn of(ghosts: &[Ghost], best: Option<&Entry>) -> Self {
-        let sample_s = SAMPLE_TICKS as f64 * SERVO_PERIOD_S;
-        Self { sample_s, ghosts: ghosts.iter().map(GhostMessage::from).chain(best.map(GhostMessage::from)).collect() }
     }
 }
 

@@ -4,6 +4,7 @@
 import './Page.css';
 import { Match, Switch, createSignal, type JSX } from 'solid-js';
 import { createLab } from '../lab/lab';
+import { followChallengeLink } from '../lab/pageChallenge';
 import { createPageExperiment } from '../lab/pageExperiment';
 import { AsidePanel } from './AsidePanel';
 import { CameraPanel } from '../features/camera/CameraPanel';
@@ -42,6 +43,7 @@ export function Page(): JSX.Element {
   const { theme, toggle } = createTheme();
   const lab = createLab(window.location, MAP_LAYERS);
   const links = createPageExperiment(lab, window);
+  followChallengeLink(lab, window.location);
   const [view, setView] = createSignal<View>('laboratory');
   const [picture, setPicture] = createSignal<ViewPicture>();
   const capture = createCapture(lab, picture, createPalette(theme));

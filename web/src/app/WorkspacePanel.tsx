@@ -6,6 +6,7 @@ import { fixed } from '../ui/format';
 import { createPalette } from '../ui/palette';
 import { PlaceNotice } from '../lab/PlaceNotice';
 import type { Theme } from '../ui/theme';
+import { StageBar } from '../features/challenge/StageBar';
 import { DisturbBar } from '../features/disturb/DisturbBar';
 import { MarksLegend } from '../features/marks/MarksLegend';
 import { FailureCard } from '../features/failure/FailureCard';
@@ -90,6 +91,7 @@ export function WorkspacePanel(props: {
       <Show when={disturbing()}>
         <DisturbBar lab={lab} id="disturb" picker={interaction.picker} />
       </Show>
+      <StageBar lab={lab} />
       <div class="stage">
         <Switch fallback={<PlanView {...surfaceProps} />}>
           <Match when={lab.sight() === 'camera'}>

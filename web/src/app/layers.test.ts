@@ -7,13 +7,21 @@ const ids = MAP_LAYERS.map(({ id }) => id);
 
 it('layers keep the ids that browsers have stored', () => {
   expect(ids.join(' ')).toBe(
-    'singularity value seen flow blocks rectangles sensed obstacles plan ghosts field trail camera capture',
+    'singularity value seen flow blocks rectangles sensed obstacles plan ghosts challenge field trail camera capture',
   );
 });
 
 it('layers that are shown by default do not cover the map', () => {
   const first = MAP_LAYERS.filter(({ shownAtFirst }) => shownAtFirst).map(({ id }) => id);
-  expect(first.sort()).toEqual(['camera', 'capture', 'ghosts', 'plan', 'sensed', 'trail']);
+  expect(first.sort()).toEqual([
+    'camera',
+    'capture',
+    'challenge',
+    'ghosts',
+    'plan',
+    'sensed',
+    'trail',
+  ]);
 });
 
 it('layers include those that lessons switch on', () => {

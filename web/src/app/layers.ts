@@ -2,6 +2,7 @@
 
 import { CAMERA_LAYER, SENSED_LAYER } from '../features/camera/cameraLayers';
 import { CAPTURE_LAYER } from '../features/capture/captureLayer';
+import { CHALLENGE_LAYER } from '../features/challenge/challengeLayer';
 import { GHOSTS_LAYER } from '../features/compare/ghostsLayer';
 import { FIELD_LAYER } from '../features/field/fieldLayer';
 import { FLOW_LAYER } from '../features/flow/flowLayer';
@@ -24,6 +25,7 @@ export const MAP_LAYERS: readonly (MapLayer & InScene)[] = [
   OBSTACLES_LAYER,
   PLAN_LAYER,
   GHOSTS_LAYER,
+  CHALLENGE_LAYER,
   FIELD_LAYER,
   TRAIL_LAYER,
   CAMERA_LAYER,

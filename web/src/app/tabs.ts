@@ -1,5 +1,6 @@
 // The panels of the tab areas, in tab order.
 
+import { CHALLENGE_TAB } from '../features/challenge/challengeTab';
 import { COMPARE_TAB } from '../features/compare/ComparePanel';
 import { EVENTS_TAB } from '../features/events/EventsPanel';
 import { LESSONS_TAB } from '../features/lessons/lessonsTab';
@@ -9,5 +10,5 @@ import type { TabPanel } from '../lab/panel';
 
 type TabList = readonly [TabPanel, ...TabPanel[]];
 
-export const LOWER_TABS: TabList = [PLOTS_TAB, MAGNET_TAB, COMPARE_TAB];
+export const LOWER_TABS: TabList = [PLOTS_TAB, MAGNET_TAB, COMPARE_TAB, CHALLENGE_TAB];
 export const ASIDE_TABS: TabList = [EVENTS_TAB, LESSONS_TAB];

@@ -11,6 +11,7 @@ import {
 } from '../net/protocol.gen';
 import { sessionOf } from '../net/session';
 import { createComparison } from './comparison';
+import { createContest } from './contest';
 import { createEdits } from './edits';
 import { createGoal } from './goal';
 import { History } from './history';
@@ -153,6 +154,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     overlay: part('overlay'),
     obstacleMap: part('obstacleMap'),
     steering,
+    contest: createContest({ session: name, scene, state, send }),
     sight,
     setSight,
     comparison,

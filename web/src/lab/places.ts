@@ -22,6 +22,7 @@ export const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   reset: 'playback',
   load_scenario: 'playback',
   open_case: 'playback',
+  play_challenge: 'playback',
   rewind: 'playback',
   return_to: 'playback',
   fork: 'compare',

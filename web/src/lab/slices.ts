@@ -4,6 +4,7 @@ import type { Accessor } from 'solid-js';
 import type { Picture } from '../net/connection';
 import type { ClientMessage, EventMessage, Parameters } from '../net/protocol.gen';
 import type { Comparison } from './comparison';
+import type { Contest } from './contest';
 import type { Edits } from './edits';
 import type { Vec2 } from './geometry';
 import type { History } from './history';
@@ -72,6 +73,10 @@ export interface ByHand {
   setSight(sight: Sight): void;
 }
 
+export interface Contested {
+  readonly contest: Contest;
+}
+
 export interface Compared {
   readonly comparison: Comparison;
 }
@@ -83,4 +88,4 @@ export interface OpenTab {
 }
 
 export interface Lab
-  extends Session, Trial, Events, Notices, Pictures, ByHand, Compared, Layers, OpenTab {}
+  extends Session, Trial, Events, Notices, Pictures, ByHand, Contested, Compared, Layers, OpenTab {}

@@ -1,0 +1,111 @@
+//! Runs on a challenge, to draw them.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use super::{AttemptScore, pair};
+use crate::challenge::{Entry, Ghost, Mishap, SAMPLE_TICKS, Trace};
+use crate::protocol::numbers::Numbers2;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::ControllerName;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MishapKind {
+    /// A wall stopped the tool.
+    Wall,
+    /// The bead was lost without a disturbance.
+    LostBead,
+    /// A disturbance took the bead away.
+    Disturbance,
+}
+
+/// Something that costs time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
+pub struct MishapMessage {
+    #[ts(type = "number")]
+    pub tick: u64,
+    pub kind: MishapKind,
+}
+
+/// Places every .2 s, beginning at tick 1; the last ones are those of the delivery.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct TraceMessage {
+    #[schema(value_type = Vec<Numbers2>)]
+    pub tool_m: Vec<[f64; 2]>,
+    #[schema(value_type = Vec<Numbers2>)]
+    pub bead_m: Vec<[f64; 2]>,
+    pub mishaps: Vec<MishapMessage>,
+}
+
+/// A run on the challenge, by a controller or by the best person.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct GhostMessage {
+    pub controller: ControllerName,
+    /// Name of the person; `null` for a controller.
+    pub player: Option<String>,
+    /// `null` if it has not delivered in time.
+    pub score: Option<AttemptScore>,
+    /// Seconds with the penalties; `null` without a delivery.
+    pub total_s: Option<f64>,
+    pub trace: TraceMessage,
+}
+
+/// Answer of `GET /api/challenges/{name}/ghosts`.
+#[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
+pub struct Ghosts {
+    /// Seconds between two places of a trace.
+    pub sample_s: f64,
+    pub ghosts: Vec<GhostMessage>,
+}
+
+impl From<&Trace> for TraceMessage {
+    fn from(trace: &Trace) -> Self {
+        let mishap = |&(tick, mishap): &(u64, Mishap)| {
+            let kind = match mishap {
+                Mishap::Wall => MishapKind::Wall,
+                Mishap::LostBead => MishapKind::LostBead,
+                Mishap::Disturbance => MishapKind::Disturbance,
+            };
+            MishapMessage { tick, kind }
+        };
+        Self {
+            tool_m: trace.samples.iter().map(|sample| pair(sample.tool_m)).collect(),
+            bead_m: trace.samples.iter().map(|sample| pair(sample.bead_m)).collect(),
+            mishaps: trace.mishaps.iter().map(mishap).collect(),
+        }
+    }
+}
+
+impl From<&Ghost> for GhostMessage {
+    fn from(ghost: &Ghost) -> Self {
+        Self {
+            controller: ghost.controller,
+            player: None,
+            score: ghost.score.map(AttemptScore::from),
+            total_s: ghost.score.map(|score| score.total_s()),
+            trace: TraceMessage::from(&ghost.trace),
+        }
+    }
+}
+
+impl From<&Entry> for GhostMessage {
+    fn from(entry: &Entry) -> Self {
+        Self {
+            controller: ControllerName::You,
+            player: Some(entry.signature.player.clone()),
+            score: Some(entry.score.into()),
+            total_s: Some(entry.score.total_s()),
+            trace: TraceMessage::from(&*entry.trace),
+        }
+    }
+}
+
+impl Ghosts {
+    /// `best`: of the board.
+    pub fn of(ghosts: &[Ghost], best: Option<&Entry>) -> Self {
+        let sample_s = SAMPLE_TICKS as f64 * SERVO_PERIOD_S;
+        Self { sample_s, ghosts: ghosts.iter().map(GhostMessage::from).chain(best.map(GhostMessage::from)).collect() }
+    }
+}

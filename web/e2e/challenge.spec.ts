@@ -1,0 +1,107 @@
+// Challenges: played by mouse from a link, explained, and put on the board.
+
+import type { Ghosts } from '../src/net/protocol.gen';
+import { type Lab, expect, test } from './fixtures';
+import { type Point, distance } from './support/table';
+import { must, until } from './support/wait';
+
+const NAME = 'easy-browser-test';
+const PLAY_MS = 60_000;
+/** Samples that the hand is ahead of the nearest one. */
+const AHEAD = 4;
+
+const tool = (lab: Lab): Point => [lab.state.tool_m[0], lab.state.tool_m[1]];
+
+/** The way of ERRT's tool, which the hand follows. */
+async function errtWay(lab: Lab): Promise<readonly Point[]> {
+  const address = new URL(`/api/challenges/${NAME}/ghosts`, lab.page.url()).href;
+  const answer = await lab.page.request.get(address);
+  const { ghosts } = (await answer.json()) as Ghosts;
+  return must(
+    ghosts.find(({ controller }) => controller === 'errt'),
+    'the ghost of ERRT',
+  ).trace.tool_m;
+}
+
+/** Points along the way until the attempt is over, after a rest of some seconds. */
+async function play(lab: Lab, way: readonly Point[], restMs: number) {
+  const { mouse } = lab.page;
+  await lab.button('Start').click();
+  await until('the clock', () => lab.state.running && lab.state.tick > 0);
+  await mouse.move(...(await lab.px(tool(lab))));
+  await mouse.down();
+  const px = await Promise.all(way.map((place) => lab.px(place)));
+  let nearest = 0;
+  let hasRested = false;
+  await until(
+    'the delivery',
+    async () => {
+      const off_m = (index: number) => distance(tool(lab), must(way[index], 'a place'));
+      for (let i = nearest; i < Math.min(way.length, nearest + 4 * AHEAD); i++) {
+        if (off_m(i) < off_m(nearest)) nearest = i;
+      }
+      if (!hasRested && nearest > way.length / 2) {
+        hasRested = true;
+        await lab.page.waitForTimeout(restMs);
+      }
+      await mouse.move(...must(px[Math.min(nearest + AHEAD, way.length - 1)], 'a place'));
+      return lab.state.attempt?.is_delivered;
+    },
+    PLAY_MS,
+  );
+  await mouse.up();
+}
+
+test('a challenge from a link is played, explained and put on the board', async ({
+  session,
+  openLab,
+}) => {
+  const lab = await openLab({ url: `${session.url}?challenge=${NAME}` });
+  const { page } = lab;
+  await until('the challenge', () => lab.scene.challenge === NAME);
+  await expect(page.getByRole('tab', { name: 'Challenge' })).toHaveAttribute(
+    'aria-selected',
+    'true',
+  );
+  const way = await errtWay(lab);
+  await page.screenshot({ path: '/tmp/c1.png' });
+  await play(lab, way, 4000);
+  expect(lab.state.running, 'the session pauses').toBe(false);
+
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: '/tmp/c2.png' });
+  const result = page.getByRole('region', { name: 'Result' });
+  await expect(result).toContainText('to deliver');
+  await expect(result, 'the rest is found').toContainText(/Most time was lost from/);
+  const total = must(lab.state.attempt, 'the attempt').total_s.toFixed(1);
+  await expect(result).toContainText(`= ${total} s`);
+
+  const sign = lab.button('Put it on the board');
+  await page.getByLabel('Your name').fill('');
+  await sign.click();
+  await expect(result.getByRole('alert')).toHaveText('Enter your name.');
+  await expect(page.getByLabel('Your name')).toBeFocused();
+  await page.getByLabel('Your name').fill('Ada');
+  await page.getByLabel('Class (if you wish)').fill('7b');
+  await sign.click();
+  await expect(result).toContainText('Place 1 of 1 on the board.');
+  await expect(page.locator('.challenge-board')).toContainText('Ada (7b)');
+
+  await page.screenshot({ path: '/tmp/c3.png' });
+  // The rewound session shows the moment; the result stays.
+  const loss_tick = lab.state.tick;
+  await lab.button('Show this moment').click();
+  await until('the moment', () => lab.state.tick < loss_tick);
+  await expect(result).toContainText(`= ${total} s`);
+
+  // Again: the best run is a ghost now.
+  await lab.button('From the start').click();
+  await until('the start', () => lab.state.tick === 0);
+  await expect(page.getByRole('table', { name: 'Scores on this challenge' })).toContainText('Ada');
+  await lab.button('Start').click();
+  await until('the clock', () => lab.state.tick > 100);
+  await lab.button('Pause').click();
+  await expect(page.getByRole('region', { name: 'Challenge', exact: true })).toContainText(
+    'does not count: it was paused',
+  );
+});

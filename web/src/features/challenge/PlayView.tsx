@@ -1,0 +1,212 @@
+// The challenge that is being played: rules, ghosts, the result, and the board.
+
+import { For, Show, createMemo, type JSX } from 'solid-js';
+import { isOver } from '../../lab/contest';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type {
+  AttemptStanding,
+  BoardEntry,
+  ChallengeReport,
+  GhostMessage,
+} from '../../net/protocol.gen';
+import type { ChallengeLab } from './ChallengePanel';
+import { SignForm } from './SignForm';
+import {
+  DIFFICULTIES,
+  challengeTitle,
+  ghostName,
+  lossWords,
+  seconds,
+  sumWords,
+  verdict,
+} from './words';
+
+const LINES = 5;
+
+function Rules(props: { rules: ChallengeReport }): JSX.Element {
+  return (
+    <section aria-label="Rules">
+      <h3>Rules</h3>
+      <p>{DIFFICULTIES.find(([name]) => name === props.rules.difficulty)?.[2]}</p>
+      <p>
+        The score is the time until the bead rests in the goal circle. Each time that a wall stops
+        the tool adds {props.rules.wall_s} s, each bead that you lose {props.rules.lost_bead_s} s. A
+        bead that is pulled away adds nothing. Time is up after {props.rules.time_limit_s} s. An
+        attempt counts if it runs in one go: no pause, no other speed, nothing but the tool moved.
+      </p>
+    </section>
+  );
+}
+
+/** The ghosts, and the attempt among them, best first. */
+function Race(props: {
+  ghosts: readonly GhostMessage[];
+  attempt: AttemptStanding | undefined;
+}): JSX.Element {
+  const lines = createMemo(() => {
+    const own = props.attempt;
+    const all = props.ghosts.map((ghost) => ({
+      name: ghostName(ghost),
+      colour: ghost.controller,
+      total_s: ghost.total_s,
+      isOwn: false,
+    }));
+    if (own && isOver(own)) {
+      const total_s = own.is_delivered ? own.total_s : null;
+      all.push({ name: 'This attempt', colour: 'you', total_s, isOwn: true });
+    }
+    return all.sort((a, b) => (a.total_s ?? Infinity) - (b.total_s ?? Infinity));
+  });
+  return (
+    <table class="challenge-race">
+      <caption class="visually-hidden">Scores on this challenge</caption>
+      <tbody>
+        <For each={lines()}>
+          {(line) => (
+            <tr classList={{ own: line.isOwn }}>
+              <th scope="row">
+                <span class="swatch" style={{ background: `var(--${line.colour})` }} />
+                {line.name}
+              </th>
+              <td class="number">
+                {line.total_s === null ? 'not delivered' : seconds(line.total_s)}
+              </td>
+            </tr>
+          )}
+        </For>
+      </tbody>
+    </table>
+  );
+}
+
+function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
+  return (
+    <Show when={props.board.length > 0}>
+      <h3>Board</h3>
+      <ol class="challenge-board">
+        <For each={props.board.slice(0, LINES)}>
+          {(line) => (
+            <li>
+              <span>
+                {line.player}
+                {line.class === null ? '' : ` (${line.class})`}
+              </span>
+              <span class="number">{seconds(line.total_s)}</span>
+            </li>
+          )}
+        </For>
+      </ol>
+    </Show>
+  );
+}
+
+function Result(props: { lab: ChallengeLab; attempt: AttemptStanding }): JSX.Element {
+  const { lab } = props;
+  const { contest } = lab;
+  const loss = createMemo(() => {
+    const [report, scene] = [contest.report(), lab.scene()];
+    if (!report?.loss || !scene) return undefined;
+    const { compared_with } = report;
+    const other = compared_with === null ? undefined : CONTROLLER_LABELS[compared_with];
+    return { ...report.loss, words: lossWords(report.loss, other, scene.tick_s) };
+  });
+  return (
+    <section class="challenge-result" aria-label="Result">
+      <p class="challenge-verdict">{verdict(props.attempt, contest.report(), contest.ghosts())}</p>
+      <Show when={props.attempt.is_delivered && contest.challenge()}>
+        {(rules) => <p class="number">{sumWords(props.attempt, rules())}</p>}
+      </Show>
+      <Show
+        when={loss()}
+        fallback={
+          <p>
+            {contest.report()
+              ? 'No part of the way took much longer than needed.'
+              : 'Comparing with the ghosts…'}
+          </p>
+        }
+      >
+        {(lost) => (
+          <>
+            <p>{lost().words}</p>
+            <button
+              type="button"
+              class="small"
+              disabled={!lab.canOperate()}
+              title="Rewinds the session to the beginning of this time. The attempt stays as it is."
+              onClick={() => {
+                lab.send({ type: 'rewind', tick: lost().from_tick });
+              }}
+            >
+              Show this moment
+            </button>
+          </>
+        )}
+      </Show>
+      <Show when={props.attempt.is_delivered && contest.report()?.attempt}>
+        <SignForm lab={lab} />
+      </Show>
+    </section>
+  );
+}
+
+export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Element {
+  const { lab } = props;
+  const { contest } = lab;
+  const counts = createMemo(() => {
+    const attempt = contest.attempt();
+    return attempt?.void === null && isOver(attempt) ? attempt : undefined;
+  });
+  return (
+    <>
+      <div class="challenge-head">
+        <h3>{challengeTitle(props.name)}</h3>
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate()}
+          title="Begins this challenge again"
+          onClick={() => {
+            contest.play(props.name);
+          }}
+        >
+          From the start
+        </button>
+        <button
+          type="button"
+          class="small"
+          disabled={!lab.canOperate()}
+          title="Ends the challenge; the map stays"
+          onClick={() => {
+            const map = lab.scene()?.map;
+            if (map !== undefined) lab.send({ type: 'load_scenario', map, controller: 'rl' });
+          }}
+        >
+          Other challenges
+        </button>
+        <a href={`?challenge=${props.name}`} title="Opens this challenge; send it to others">
+          Link
+        </a>
+        <a href={`/board?challenge=${props.name}`} target="_blank" rel="noopener">
+          Board
+        </a>
+      </div>
+      <Show when={contest.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
+      <div class="challenge-columns">
+        <Show when={counts()}>{(attempt) => <Result lab={lab} attempt={attempt()} />}</Show>
+        <section aria-label="Ghosts">
+          <Show
+            when={contest.ghosts()}
+            fallback={
+              <p class="hint">The controllers run this challenge now; their ghosts come soon.</p>
+            }
+          >
+            {(all) => <Race ghosts={all().ghosts} attempt={counts()} />}
+          </Show>
+          <Show when={contest.challenge()?.board}>{(board) => <Board board={board()} />}</Show>
+        </section>
+        <Show when={contest.challenge()}>{(rules) => <Rules rules={rules()} />}</Show>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,91 @@
+// The attempt, above the map: what to do, the clock, and how it ended.
+
+import { Match, Show, Switch, createMemo, type JSX } from 'solid-js';
+import { isOver } from '../../lab/contest';
+import type { Contested, OpenTab, Session, Trial } from '../../lab/slices';
+import { counted } from '../../ui/format';
+import { challengeTitle, seconds, verdict } from './words';
+import './stage.css';
+
+type StageLab = Session & Trial & Contested & OpenTab;
+
+function Again(props: { lab: StageLab; isPrimary: boolean }): JSX.Element {
+  const { lab } = props;
+  return (
+    <button
+      type="button"
+      class="small"
+      classList={{ primary: props.isPrimary }}
+      disabled={!lab.canOperate()}
+      onClick={() => {
+        const name = lab.contest.name();
+        if (name !== undefined) lab.contest.play(name);
+      }}
+    >
+      Try again
+    </button>
+  );
+}
+
+export function StageBar(props: { lab: StageLab }): JSX.Element {
+  const { lab } = props;
+  const { contest } = lab;
+  const waits = createMemo(() => lab.state()?.tick === 0 && lab.state()?.running === false);
+  return (
+    <Show when={contest.attempt()}>
+      {(attempt) => (
+        <section class="contest" aria-label="Challenge">
+          <Switch>
+            <Match when={attempt().void !== null}>
+              <p role="status">This attempt does not count: {attempt().void}.</p>
+              <Again lab={lab} isPrimary />
+            </Match>
+            <Match when={isOver(attempt())}>
+              <p role="status">
+                <strong class="number">
+                  {attempt().is_delivered ? seconds(attempt().total_s) : ''}
+                </strong>{' '}
+                {verdict(attempt(), contest.report(), contest.ghosts())}
+              </p>
+              <Again lab={lab} isPrimary={false} />
+              <button
+                type="button"
+                class="small primary"
+                onClick={() => {
+                  lab.openTab('challenge');
+                }}
+              >
+                Result
+              </button>
+            </Match>
+            <Match when={waits()}>
+              <p>
+                <strong>{challengeTitle(contest.name() ?? '')}</strong> Roll the bead into the goal
+                circle. The clock starts with you.
+              </p>
+              <button
+                type="button"
+                class="small primary"
+                disabled={!lab.canOperate()}
+                onClick={() => {
+                  lab.send({ type: 'run' });
+                }}
+              >
+                Start
+              </button>
+            </Match>
+            <Match when>
+              <p class="contest-clock number" data-testid="contest-clock">
+                {seconds(attempt().total_s)}
+              </p>
+              <p class="number">
+                {counted(attempt().walls, 'wall stop')},{' '}
+                {counted(attempt().lost_beads, 'lost bead')}
+              </p>
+            </Match>
+          </Switch>
+        </section>
+      )}
+    </Show>
+  );
+}

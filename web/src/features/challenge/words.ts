@@ -1,0 +1,102 @@
+// What the page says about a challenge and an attempt. Pure.
+
+import { CONTROLLER_LABELS } from '../../lab/parameters';
+import type {
+  AttemptReport,
+  AttemptStanding,
+  ChallengeReport,
+  DifficultyName,
+  GhostMessage,
+  Ghosts,
+  LossMessage,
+  Period,
+} from '../../net/protocol.gen';
+import { centimetres, counted, fixed } from '../../ui/format';
+
+export const DIFFICULTIES: readonly (readonly [DifficultyName, string, string])[] = [
+  ['easy', 'Easy', 'Round posts. Nothing disturbs.'],
+  ['medium', 'Medium', 'The colon, an intestine without folds.'],
+  ['hard', 'Hard', 'The colon with folds. The bead is pulled away twice.'],
+];
+
+export const PERIODS: Readonly<Record<Period, string>> = { day: 'Today', week: 'This week' };
+
+export const difficultyLabel = (name: DifficultyName): string =>
+  DIFFICULTIES.find(([known]) => known === name)?.[1] ?? name;
+
+/** `easy-2026-11-26` as `Easy · 2026-11-26`. */
+export function challengeTitle(name: string): string {
+  const [difficulty = '', ...seed] = name.split('-');
+  const label = DIFFICULTIES.find(([known]) => known === difficulty)?.[1] ?? difficulty;
+  return `${label} · ${seed.join('-')}`;
+}
+
+const SEED = /^[a-z0-9-]{1,24}$/;
+
+/** Why a text is no seed; undefined if it is one. */
+export const seedFault = (text: string): string | undefined =>
+  SEED.test(text) ? undefined : 'Use 1 to 24 of a to z, 0 to 9 and -.';
+
+export const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
+
+export const ghostName = ({ controller, player }: GhostMessage): string =>
+  player ?? CONTROLLER_LABELS[controller];
+
+/** `12.4 s + 2 wall stops × 1 s + 1 lost bead × 5 s`. */
+export function sumWords(attempt: AttemptStanding, rules: ChallengeReport): string {
+  const { walls, lost_beads, total_s } = attempt;
+  const time_s = total_s - walls * rules.wall_s - lost_beads * rules.lost_bead_s;
+  const parts = [
+    `${seconds(time_s)} to deliver`,
+    `${counted(walls, 'wall stop')} × ${rules.wall_s} s`,
+    `${counted(lost_beads, 'lost bead')} × ${rules.lost_bead_s} s`,
+  ];
+  return `${parts.join(' + ')} = ${seconds(total_s)}`;
+}
+
+/** Whom the attempt has beaten, in one sentence. Equal times are a win for the ghost. */
+export function verdict(
+  attempt: AttemptStanding,
+  report: AttemptReport | undefined,
+  ghosts: Ghosts | undefined,
+): string {
+  if (!attempt.is_delivered) {
+    const left = report ? ` The bead still had ${centimetres(report.remaining_m, 0)} to go.` : '';
+    return `Time is up.${left}`;
+  }
+  const controllers = ghosts?.ghosts.filter(({ player }) => player === null) ?? [];
+  if (controllers.length === 0) return 'Delivered.';
+  const isBeaten = ({ total_s }: GhostMessage): boolean =>
+    total_s === null || attempt.total_s < total_s;
+  const beaten = controllers.filter(isBeaten).map(ghostName);
+  const faster = controllers.filter((one) => !isBeaten(one)).map(ghostName);
+  if (faster.length === 0) return `You beat ${listed(beaten)}.`;
+  if (beaten.length === 0)
+    return `${listed(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
+  return `You beat ${listed(beaten)}; ${listed(faster)} ${faster.length === 1 ? 'was' : 'were'} faster.`;
+}
+
+/** `RL, ERRT and Attractor`. */
+function listed(names: readonly string[]): string {
+  const last = names.at(-1) ?? '';
+  return names.length < 2 ? last : `${names.slice(0, -1).join(', ')} and ${last}`;
+}
+
+const times = (count: number): string =>
+  count === 1 ? 'once' : count === 2 ? 'twice' : `${count} times`;
+
+/** Where the time was lost, and why. */
+export function lossWords(loss: LossMessage, other: string | undefined, tick_s: number): string {
+  const [from, to] = [loss.from_tick, loss.to_tick].map((tick) => seconds(tick * tick_s));
+  const against = other === undefined ? 'than the tool’s speed allows' : `than ${other} needed`;
+  const causes = [
+    loss.walls > 0 ? `a wall stopped the tool ${times(loss.walls)}` : '',
+    loss.lost_beads > 0 ? `the bead was lost ${times(loss.lost_beads)}` : '',
+    loss.disturbances > 0 ? `the bead was pulled away ${times(loss.disturbances)}` : '',
+  ].filter((cause) => cause !== '');
+  const why =
+    causes.length === 0
+      ? 'Nothing happened to the bead: the tool waited, or took a longer way.'
+      : `In this time ${listed(causes)}.`;
+  return `Most time was lost from ${from ?? ''} to ${to ?? ''}: ${seconds(loss.lost_s)} more ${against} for this part of the way. ${why}`;
+}

@@ -1,0 +1,114 @@
+// The challenge that is being played: its ghosts, and after the attempt what is said about it.
+
+import { createEffect, createMemo, createSignal, on, type Accessor } from 'solid-js';
+import type {
+  AttemptAnswer,
+  AttemptQuery,
+  AttemptReport,
+  AttemptStanding,
+  ChallengeReport,
+  Ghosts,
+} from '../net/protocol.gen';
+import { get, post } from '../net/requests';
+import { sessionPath } from '../net/session';
+import type { Session, Trial } from './slices';
+
+export interface Contest {
+  /** Name of the challenge; undefined if none is being played. */
+  readonly name: Accessor<string | undefined>;
+  readonly attempt: Accessor<AttemptStanding | undefined>;
+  /** Rules and board. */
+  readonly challenge: Accessor<ChallengeReport | undefined>;
+  readonly ghosts: Accessor<Ghosts | undefined>;
+  /** About the attempt that has ended. */
+  readonly report: Accessor<AttemptReport | undefined>;
+  /** What the server said about the attempt that was sent. */
+  readonly answer: Accessor<AttemptAnswer | undefined>;
+  /** Why the newest request has no answer. */
+  readonly error: Accessor<string | undefined>;
+  play(name: string): void;
+  /** Puts the attempt on the board. Throws a refusal. */
+  sign(player: string, group: string): Promise<void>;
+}
+
+export const challengePath = (name: string): string =>
+  `/api/challenges/${encodeURIComponent(name)}`;
+
+export const isOver = (attempt: AttemptStanding | undefined): boolean =>
+  attempt !== undefined && (attempt.is_delivered || attempt.is_time_up);
+
+type Reads = Pick<Session, 'session' | 'send'> & Pick<Trial, 'scene' | 'state'>;
+
+export function createContest(lab: Reads): Contest {
+  const name = createMemo(() => lab.scene()?.challenge ?? undefined);
+  const attempt = createMemo(() => lab.state()?.attempt ?? undefined);
+  const [challenge, setChallenge] = createSignal<ChallengeReport>();
+  const [ghosts, setGhosts] = createSignal<Ghosts>();
+  const [report, setReport] = createSignal<AttemptReport>();
+  const [answer, setAnswer] = createSignal<AttemptAnswer>();
+  const [error, setError] = createSignal<string>();
+
+  /** Stores an answer if it is still about the same thing. */
+  const load = async <A>(asking: Promise<A>, store: (data: A) => void, key: () => unknown) => {
+    const asked = key();
+    try {
+      const data = await asking;
+      if (key() === asked) store(data);
+    } catch (reason) {
+      if (key() === asked) setError(reason instanceof Error ? reason.message : String(reason));
+    }
+  };
+  const loadBoard = async (of: string): Promise<void> => {
+    await Promise.all([
+      load(get<ChallengeReport>(challengePath(of)), setChallenge, name),
+      load(get<Ghosts>(`${challengePath(of)}/ghosts`), setGhosts, name),
+    ]);
+  };
+  createEffect(
+    on(name, (now) => {
+      setChallenge(undefined);
+      setGhosts(undefined);
+      setError(undefined);
+      if (now !== undefined) void loadBoard(now);
+    }),
+  );
+  const trial = createMemo(() => lab.scene()?.trial);
+  const hasEnded = createMemo(() => isOver(attempt()));
+  createEffect(
+    on([trial, hasEnded], ([, over]) => {
+      setReport(undefined);
+      setAnswer(undefined);
+      setError(undefined);
+      if (!over) return;
+      void load(get<AttemptReport>(sessionPath(lab.session, 'attempt')), setReport, trial);
+    }),
+  );
+  return {
+    name,
+    attempt,
+    challenge,
+    ghosts,
+    report,
+    answer,
+    error,
+    play: (challenge) => {
+      lab.send({ type: 'play_challenge', challenge });
+    },
+    sign: async (player, group) => {
+      const [of, ended] = [name(), report()?.attempt];
+      if (of === undefined || !ended) return;
+      const query: AttemptQuery = {
+        session: lab.session,
+        player,
+        attempt: ended,
+        ...(group === '' ? {} : { class: group }),
+      };
+      const told = await post<AttemptAnswer>(
+        `${challengePath(of)}/attempts`,
+        JSON.stringify(query),
+      );
+      setAnswer(told);
+      await loadBoard(of);
+    },
+  };
+}
