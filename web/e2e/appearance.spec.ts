@@ -11,6 +11,7 @@ import { MIN_SIDE_PX, controls, faultsOf, unreached } from './support/inventory'
 import {
   type Place,
   type Places,
+  challenge,
   controllers,
   inTurn,
   prepare,
@@ -33,6 +34,7 @@ const PLACES: Record<string, Places> = {
   views: inTurn(VIEWS.map(view)),
   tabs: inTurn(TAB_AREAS.map(tabs)),
   'controllers, refusals, help and roles': inTurn([controllers, refusalsHelpAndRoles]),
+  'a challenge': challenge,
   'the 3-D view': sceneView,
 };
 

@@ -2,6 +2,8 @@
 
 import type { Ghosts } from '../src/net/protocol.gen';
 import { type Lab, expect, test } from './fixtures';
+import { violations } from './support/axe';
+import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { type Point, distance } from './support/table';
 import { must, until } from './support/wait';
 
@@ -64,17 +66,17 @@ test('a challenge from a link is played, explained and put on the board', async 
     'true',
   );
   const way = await errtWay(lab);
-  await page.screenshot({ path: '/tmp/c1.png' });
   await play(lab, way, 4000);
   expect(lab.state.running, 'the session pauses').toBe(false);
 
-  await page.waitForTimeout(1500);
-  await page.screenshot({ path: '/tmp/c2.png' });
   const result = page.getByRole('region', { name: 'Result' });
   await expect(result).toContainText('to deliver');
   await expect(result, 'the rest is found').toContainText(/Most time was lost from/);
   const total = must(lab.state.attempt, 'the attempt').total_s.toFixed(1);
   await expect(result).toContainText(`= ${total} s`);
+
+  const faults = faultsOf(await controls(page), MIN_SIDE_PX.mouse);
+  expect([...faults, ...(await violations(page))]).toEqual([]);
 
   const sign = lab.button('Put it on the board');
   await page.getByLabel('Your name').fill('');
@@ -87,7 +89,6 @@ test('a challenge from a link is played, explained and put on the board', async 
   await expect(result).toContainText('Place 1 of 1 on the board.');
   await expect(page.locator('.challenge-board')).toContainText('Ada (7b)');
 
-  await page.screenshot({ path: '/tmp/c3.png' });
   // The rewound session shows the moment; the result stays.
   const loss_tick = lab.state.tick;
   await lab.button('Show this moment').click();
@@ -104,4 +105,24 @@ test('a challenge from a link is played, explained and put on the board', async 
   await expect(page.getByRole('region', { name: 'Challenge', exact: true })).toContainText(
     'does not count: it was paused',
   );
+});
+
+test('a viewer gets a session of its own for the challenge of a link', async ({
+  session,
+  lab,
+  openLab,
+}) => {
+  await lab.isRole('operator');
+  const viewer = await openLab({ url: `${session.url}?challenge=${NAME}` });
+  const { page } = viewer;
+  await viewer.isRole('viewer');
+  expect(viewer.scene.challenge, 'a viewer changes nothing').toBeNull();
+  const link = page.getByRole('link', { name: 'Play in a session of your own' });
+  const address = must(await link.getAttribute('href'), 'the address');
+  expect(address).toMatch(/^\/s\/play-[a-z0-9]{8}\?challenge=easy-browser-test$/);
+  const own = await openLab({ url: new URL(address, page.url()).href });
+  await own.isRole('operator');
+  await until('the challenge', () => own.scene.challenge === NAME);
+  const { href } = new URL(`/api${address.replace('/s/', '/sessions/').split('?')[0]}`, page.url());
+  expect((await page.request.delete(href)).ok()).toBe(true);
 });

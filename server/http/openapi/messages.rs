@@ -58,6 +58,7 @@ mod tests {
                 "type" => variant["properties"]["type"]["enum"][0].clone(),
                 "controller" => json!("errt"),
                 "map" | "case" => json!("posts"),
+                "challenge" => json!("easy-1"),
                 "parameters" => json!({}),
                 "disturbance" => json!({"dropout": {"for_s": 1.0}}),
                 _ => json!(1),

@@ -64,6 +64,7 @@ const VIEWS: Section = {
     'tab Events': { see: isSelected },
     'tab Lessons': { see: isSelected },
     'tab Compare': { see: isSelected },
+    'tab Challenge': { see: isSelected },
     'tab Magnet': { see: isSelected },
     'tab Plots': { see: isSelected },
     'button Camera': toggle(expanded),

@@ -4,6 +4,7 @@
 import { type Locator, type Page, expect } from '@playwright/test';
 import type { InputMethod } from '../support/inputMethods';
 import { isChosen, setOf } from '../support/inputMethods';
+import { CHALLENGE } from './challenge';
 import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { LABORATORY, LAYERS } from './laboratory';
@@ -27,6 +28,7 @@ const SECTIONS_BY_TEST: SectionsByTest = {
   'recordings and evaluations': [RECORDINGS, EVALUATE],
   'events and comparisons': [EVENTS, COMPARE],
   lessons: [LESSONS],
+  challenges: [CHALLENGE],
   'the map editor': [DRAW],
   trainings: [TRAIN],
   'the parameters': PARAMETERS,
@@ -129,7 +131,12 @@ const ROWS = Object.values(SECTIONS_BY_TEST)
   .flatMap(({ rows }) => Object.keys(rows).map((key) => ({ key, ...parse(key) })));
 
 /** Whether the table has a row for this control. */
-export function hasRow({ key, role, name }: { key: string; role: string; name: string }) {
+export function hasRow(control: { key: string; role: string; name: string }) {
+  const { role } = control;
+  // A parameter that differs from its default is marked, and so is its group.
+  const [key, name] = [control.key, control.name].map((text) =>
+    text.replace(/\d+ changed$| •$/, ''),
+  ) as [string, string];
   return ROWS.some((row) =>
     row.pattern ? row.role === role && row.pattern.test(name) : row.key === key,
   );

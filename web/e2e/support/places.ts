@@ -125,6 +125,20 @@ export const refusalsHelpAndRoles: Places = async function* (lab) {
   yield { name: 'viewer', panel: page.locator('header.bar') };
 };
 
+/** A challenge that waits for its start, and an attempt that does not count. */
+export const challenge: Places = async function* (lab) {
+  await lab.tab('Challenge').click();
+  await lab.page.getByRole('button', { name: /^Easy/ }).first().click();
+  await until('a challenge', () => lab.scene.challenge);
+  await lab.page.getByRole('table', { name: 'Scores on this challenge' }).waitFor();
+  yield { name: 'challenge', panel: lab.page.locator('section.panel.lower') };
+  await lab.button('Step').click();
+  await until('it does not count', () => lab.state.attempt?.void);
+  yield { name: 'void attempt', panel: lab.page.locator('section.panel.workspace') };
+  await lab.button('Other challenges').click();
+  await until('no challenge', () => !lab.scene.challenge);
+};
+
 export const sceneView: Places = async function* (lab) {
   await openSceneView(lab);
   yield { name: '3-D', panel: lab.page.locator('section.panel.workspace') };

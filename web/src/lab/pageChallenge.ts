@@ -3,18 +3,24 @@
 import { createEffect } from 'solid-js';
 import type { Contested, OpenTab, Session, Trial } from './slices';
 
+export const linkedChallenge = ({ search }: Pick<Location, 'search'>): string | undefined =>
+  new URLSearchParams(search).get('challenge') ?? undefined;
+
 export function followChallengeLink(
   lab: Session & Trial & Contested & OpenTab,
-  { search }: Pick<Location, 'search'>,
+  page: Pick<Location, 'search'>,
 ): void {
-  const name = new URLSearchParams(search).get('challenge');
-  if (name === null) return;
+  const name = linkedChallenge(page);
+  if (name === undefined) return;
   let isDone = false;
+  let hasOpened = false;
   createEffect(() => {
     const scene = lab.scene();
-    if (isDone || !scene || !lab.canOperate()) return;
+    if (isDone || !scene || !lab.hello()) return;
+    if (!hasOpened) lab.openTab('challenge');
+    hasOpened = true;
+    if (!lab.canOperate()) return;
     isDone = true;
-    lab.openTab('challenge');
     // A page that is loaded again goes on.
     if (scene.challenge !== name) lab.contest.play(name);
   });

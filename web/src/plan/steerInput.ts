@@ -69,6 +69,8 @@ export function attachSteering(
     point(event);
   });
   onPointer('pointermove', point);
+  // Where it exists, it does not wait for the next frame, as the other does.
+  onPointer('pointerrawupdate', point);
   const end = (): void => {
     pointer = undefined;
   };

@@ -5,6 +5,7 @@ import type { Contested, Session } from '../../lab/slices';
 import { createPoll } from '../../net/poll';
 import type { Challenges, ChallengeSummary, DifficultyName, Period } from '../../net/protocol.gen';
 import { counted } from '../../ui/format';
+import { OwnSession } from './OwnSession';
 import {
   DIFFICULTIES,
   PERIODS,
@@ -124,7 +125,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
         of RL, ERRT and Attractor. Each challenge takes less than a minute.
       </p>
       <Show when={!lab.canOperate()}>
-        <p class="hint">Only the operator can play. Take control at the top of the page.</p>
+        <OwnSession />
       </Show>
       <Show when={poll.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       <div class="challenge-columns">
@@ -158,7 +159,7 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
         </Show>
       </div>
       <p>
-        <a href="/board" target="_blank" rel="noopener">
+        <a class="button small" href="/board" target="_blank" rel="noopener">
           All boards
         </a>
       </p>

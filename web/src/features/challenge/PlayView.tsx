@@ -10,6 +10,7 @@ import type {
   GhostMessage,
 } from '../../net/protocol.gen';
 import type { ChallengeLab } from './ChallengePanel';
+import { OwnSession } from './OwnSession';
 import { SignForm } from './SignForm';
 import {
   DIFFICULTIES,
@@ -184,13 +185,25 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
         >
           Other challenges
         </button>
-        <a href={`?challenge=${props.name}`} title="Opens this challenge; send it to others">
+        <a
+          class="button small"
+          href={`?challenge=${props.name}`}
+          title="Opens this challenge; send it to others"
+        >
           Link
         </a>
-        <a href={`/board?challenge=${props.name}`} target="_blank" rel="noopener">
+        <a
+          class="button small"
+          href={`/board?challenge=${props.name}`}
+          target="_blank"
+          rel="noopener"
+        >
           Board
         </a>
       </div>
+      <Show when={!lab.canOperate()}>
+        <OwnSession challenge={props.name} />
+      </Show>
       <Show when={contest.error()}>{(text) => <p class="refusal">{text()}</p>}</Show>
       <div class="challenge-columns">
         <Show when={counts()}>{(attempt) => <Result lab={lab} attempt={attempt()} />}</Show>

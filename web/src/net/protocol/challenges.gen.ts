@@ -156,7 +156,7 @@ export type AttemptReport = { challenge: string, trace: TraceMessage,
  */
 remaining_m: number, loss: LossMessage | null, 
 /**
- * Whom the loss is compared with; `null` if nobody delivered.
+ * Whom the loss is compared with; `null` if no controller delivered.
  */
 compared_with: ControllerName | null, 
 /**
