@@ -10,10 +10,11 @@
 //! - floor 5: [`policy`], [`jobs`]: network, weights, manifest; the queue of background jobs.
 //! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
 //! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
-//! - floor 8: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
-//! - floor 9: [`recording`], [`protocol`]: Rerun; every wire type.
-//! - floor 10: [`http`]: axum routes and the WebSocket.
-//! - floor 11: [`cli`]: assembling.
+//! - floor 8: [`challenge`]: a trial for a person's hand: its score, ghosts and board.
+//! - floor 9: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
+//! - floor 10: [`recording`], [`protocol`]: Rerun; every wire type.
+//! - floor 11: [`http`]: axum routes and the WebSocket.
+//! - floor 12: [`cli`]: assembling.
 
 /// Panics here when a test has requested it (see `faults`). Other builds contain nothing.
 macro_rules! fault_point {

@@ -12,18 +12,22 @@ import {
 } from 'solid-js';
 import { experimentFrom, loadMessage } from '../../lab/experimentLink';
 import { PlaceNotice } from '../../lab/PlaceNotice';
-import type { Notices, Session, Trial } from '../../lab/slices';
+import { isOver } from '../../lab/contest';
+import type { Contested, Notices, Session, Trial } from '../../lab/slices';
 import { openPage } from '../../net/access';
-import type { SceneMessage } from '../../net/protocol.gen';
+import type { ControllerName, SceneMessage } from '../../net/protocol.gen';
 import {
   CARRIERS,
   PROGRAMME,
   SILENCE_MS,
   afterCue,
+  challengeOf,
   homeOf,
-  isOver,
+  invitation,
+  isOver as isPartOver,
   isVisitorKey,
   nextCue,
+  playedCaption,
   startOf,
   turned,
   visitorCaption,
@@ -41,7 +45,7 @@ const WAITING = 'One moment, please.';
 const nowMs = (): number => performance.now();
 
 export function Demo(props: {
-  lab: Session & Trial & Notices;
+  lab: Session & Trial & Notices & Contested;
   /** A part begins: the view returns to what it shows at first. */
   onBegin: () => void;
   children: JSX.Element;
@@ -76,15 +80,25 @@ export function Demo(props: {
     }
   });
 
+  const play = (): void => {
+    lab.contest.play(challengeOf(new Date()));
+    lab.send({ type: 'run' });
+  };
+  const isContest = (): boolean => PROGRAMME[place().part]?.link === undefined;
+
   const setUp = (): void => {
     const scene = lab.scene();
     const part = PROGRAMME[place().part];
     if (!scene || scene === stale || !part) return;
+    replaced = scene.trial;
+    shown = undefined;
+    if (part.link === undefined) {
+      play();
+      return;
+    }
     const read = experimentFrom(part.link, scene);
     if (read.kind !== 'experiment')
       throw new Error(`the programme has a broken link: ${part.link}`);
-    replaced = scene.trial;
-    shown = undefined;
     lab.send(loadMessage(read.experiment, scene.defaults));
     lab.send({ type: 'set_speed', factor: part.speed });
     lab.send({ type: 'run' });
@@ -130,7 +144,7 @@ export function Demo(props: {
     }
     setPlace(turned(place(), now));
     if (replaced === undefined) begin(place().part);
-    else if (isOver(place(), now)) begin(place().part + 1);
+    else if (isPartOver(place(), now)) begin(place().part + 1);
   };
 
   createEffect(
@@ -165,8 +179,11 @@ export function Demo(props: {
     };
     const touch = (): void => {
       if (!lab.canOperate()) return;
+      const isFirst = touched_ms() === undefined;
       setTouched(nowMs());
-      if (!lab.state()?.running) lab.send({ type: 'run' });
+      // A visitor begins with the clock; the ghosts have run alone.
+      if (isContest() && (isFirst || isOver(lab.contest.attempt()))) play();
+      else if (!lab.state()?.running) lab.send({ type: 'run' });
     };
     listen('pointerdown', touch);
     listen('wheel', touch);
@@ -184,10 +201,19 @@ export function Demo(props: {
     });
   });
 
+  const carrier = (name: ControllerName): string =>
+    name === 'you' && touched_ms() === undefined ? 'Ghosts' : CARRIERS[name];
   const isWatching = (): boolean =>
     !lab.canOperate() && isLive() && lab.hello()?.operator_present === true;
   const caption = (): string => {
     const state = lab.state();
+    const { contest } = lab;
+    const attempt = contest.attempt();
+    if (lab.canOperate() && isContest() && attempt) {
+      return touched_ms() === undefined
+        ? invitation(contest.ghosts())
+        : playedCaption(attempt, contest.ghosts());
+    }
     if (lab.canOperate()) {
       return touched_ms() === undefined || !state ? place().caption : visitorCaption(state);
     }
@@ -203,7 +229,7 @@ export function Demo(props: {
       <Show when={lab.state()}>
         {(state) => (
           <p class="demo-mode" data-mode={state().mode}>
-            {state().mode === 1 ? 'Fetch' : CARRIERS[state().controller]}
+            {state().mode === 1 ? 'Fetch' : carrier(state().controller)}
           </p>
         )}
       </Show>

@@ -1,17 +1,20 @@
 import { describe, expect, it } from 'vitest';
 import { experimentFrom } from '../../lab/experimentLink';
 import { sceneOf, stateAt } from '../../lab/testing';
-import type { StateMessage } from '../../net/protocol.gen';
+import type { AttemptStanding, ControllerName, StateMessage } from '../../net/protocol.gen';
 import {
   PART_MS,
   PROGRAMME,
   READ_MS,
   REST_MS,
   afterCue,
+  challengeOf,
   homeOf,
+  invitation,
   isOver,
   isVisitorKey,
   nextCue,
+  playedCaption,
   startOf,
   turned,
   visitorCaption,
@@ -20,7 +23,11 @@ import {
 const known = { ...sceneOf('colon'), maps: ['colon', 'posts'] };
 
 describe('the programme', () => {
-  it.each(PROGRAMME)('“$title” opens an experiment with a goal', ({ link }) => {
+  const links = PROGRAMME.flatMap(({ title, link }) =>
+    link === undefined ? [] : [{ title, link }],
+  );
+
+  it.each(links)('“$title” opens an experiment with a goal', ({ link }) => {
     const read = experimentFrom(link, known);
     expect(read.kind === 'experiment' && read.experiment.goal_m).toBeTruthy();
   });
@@ -112,6 +119,49 @@ describe('the programme', () => {
 
   it('begins again after the last part', () => {
     expect(startOf(PROGRAMME.length, 0).part).toBe(0);
+  });
+});
+
+describe('the challenge', () => {
+  const trace = { tool_m: [], bead_m: [], mishaps: [] };
+  const ghost = (controller: ControllerName, player: string | null, total_s: number | null) => ({
+    controller,
+    player,
+    score: null,
+    total_s,
+    trace,
+  });
+  const controllers = {
+    sample_s: 0.2,
+    ghosts: [ghost('rl', null, 15), ghost('errt', null, 9), ghost('attractor', null, null)],
+  };
+  const people = { ...controllers, ghosts: [...controllers.ghosts, ghost('you', 'Ada', 12.5)] };
+  const attempt: AttemptStanding = {
+    walls: 0,
+    lost_beads: 0,
+    total_s: 11,
+    is_delivered: true,
+    is_time_up: false,
+    void: null,
+  };
+
+  it('is the easy one of the day', () => {
+    expect(challengeOf(new Date('2026-11-26T23:30:00Z'))).toBe('easy-2026-11-26');
+  });
+
+  it('invites to beat the best person, or the fastest controller', () => {
+    expect(invitation(people)).toContain('Ada needs 12.5 s.');
+    expect(invitation(controllers)).toContain('ERRT, a planner needs 9.0 s.');
+    expect(invitation(undefined)).toMatch(/^Touch/);
+  });
+
+  it.each([
+    [{}, people, 'You are faster than Ada'],
+    [{ total_s: 13 }, people, 'Ada needs 12.5 s'],
+    [{ is_delivered: false }, people, 'green circle: 11.0 s'],
+    [{ is_delivered: false, is_time_up: true }, undefined, 'Time is up'],
+  ] as const)('tells a visitor how it goes: %j', (change, ghosts, words) => {
+    expect(playedCaption({ ...attempt, ...change }, ghosts)).toContain(words);
   });
 });
 

@@ -1,6 +1,13 @@
 // The programme of the demonstration: experiments with captions, one after the other. Pure.
 
-import type { ClientMessage, ControllerName, StateMessage } from '../../net/protocol.gen';
+import type {
+  AttemptStanding,
+  ClientMessage,
+  ControllerName,
+  Ghosts,
+  StateMessage,
+} from '../../net/protocol.gen';
+import { fixed } from '../../ui/format';
 import { MAIN, sessionOf } from '../../net/session';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
@@ -13,8 +20,8 @@ export interface Cue {
 
 export interface Part {
   readonly title: string;
-  /** The hash of an experiment link. */
-  readonly link: string;
+  /** The hash of an experiment link; undefined for the easy challenge of the day. */
+  readonly link?: string;
   readonly speed: number;
   readonly cues: readonly Cue[];
 }
@@ -66,6 +73,9 @@ const COLON = '#v=1&map=colon&seed=1&start=0.19,-0.28';
 const pull = (x_m: number, y_m: number, step: number): string =>
   `&script=displace:${x_m},${y_m}@step:${step}`;
 
+/** How long the ghosts are shown. */
+const GHOSTS_S = 20;
+
 export const PROGRAMME: readonly Part[] = [
   {
     title: 'A magnet carries a bead through a maze.',
@@ -92,6 +102,13 @@ export const PROGRAMME: readonly Part[] = [
     cues: [
       { when: after(16), caption: 'Touch a free place to set another goal.' },
       { when: isDelivered, caption: 'Delivered.' },
+    ],
+  },
+  {
+    title: 'A challenge: steer the magnet yourself.',
+    speed: 1,
+    cues: [
+      { when: ({ sim_time_s }) => sim_time_s > GHOSTS_S, caption: 'Touch the screen to play.' },
     ],
   },
 ];
@@ -164,6 +181,44 @@ export function visitorCaption({ hand_m, mode, phase }: StateMessage): string {
   if (mode === 1) return 'The bead is lost. The arm flies straight to it.';
   if (phase === 'delivered') return 'Delivered. Touch a place to set another goal.';
   return 'You are in control: drag the bead, touch a place to set a goal.';
+}
+
+/** The challenge of the programme: the easy one of this day, in UTC as on the server. */
+export const challengeOf = (now: Date): string => `easy-${now.toISOString().slice(0, 10)}`;
+
+/** Who is to be beaten: the best person, otherwise the fastest controller. */
+function rival(ghosts: Ghosts | undefined): { name: string; total_s: number } | undefined {
+  const all = (ghosts?.ghosts ?? []).flatMap(({ player, controller, total_s }) =>
+    total_s === null
+      ? []
+      : [{ isPerson: player !== null, name: player ?? CARRIERS[controller], total_s }],
+  );
+  all.sort((a, b) => Number(b.isPerson) - Number(a.isPerson) || a.total_s - b.total_s);
+  return all[0];
+}
+
+const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
+
+/** What is shown while the ghosts run and the magnet waits for a visitor. */
+export function invitation(ghosts: Ghosts | undefined): string {
+  const best = rival(ghosts);
+  const word = best ? `${best.name} needs ${seconds(best.total_s)}. ` : '';
+  return `${word}Touch the screen, steer the magnet, and be faster.`;
+}
+
+/** What a visitor reads who plays the challenge. */
+export function playedCaption(attempt: AttemptStanding, ghosts: Ghosts | undefined): string {
+  const again = 'Touch the screen to try again.';
+  if (attempt.is_time_up) return `Time is up. ${again}`;
+  if (!attempt.is_delivered) {
+    return `Roll the bead into the green circle: ${seconds(attempt.total_s)}`;
+  }
+  const best = rival(ghosts);
+  const own = `Delivered: ${seconds(attempt.total_s)}.`;
+  if (!best) return `${own} ${again}`;
+  return attempt.total_s < best.total_s
+    ? `${own} You are faster than ${best.name}!`
+    : `${own} ${best.name} needs ${seconds(best.total_s)}. ${again}`;
 }
 
 /** Whether the part has come to its end, or to none. */
