@@ -1,6 +1,8 @@
 // The controller You: a person steers the tool by mouse, touch, keys and gamepad, and sees what the controllers see.
 
 import { type Lab, expect, test } from './fixtures';
+import { TABLET } from './support/browser';
+import { HANDS, injectGamepad } from './support/steering';
 import { type Point, distance } from './support/table';
 import { must, until } from './support/wait';
 
@@ -57,81 +59,37 @@ test('delivers by touch', async ({ openLab }) => {
   await lab.reset();
   const goal = await goalNear(lab);
   await begin(lab, goal);
-  const client = await lab.page.context().newCDPSession(lab.page);
-  const touch = async (type: 'touchStart' | 'touchMove' | 'touchEnd', at?: Point) => {
-    const [x, y] = at ? await lab.px(at) : [0, 0];
-    await client.send('Input.dispatchTouchEvent', { type, touchPoints: at ? [{ x, y }] : [] });
-  };
-  await touch('touchStart', tool(lab));
-  await touch('touchMove', goal);
+  const hand = await HANDS.touch(lab);
+  await hand.toward(goal);
   await lab.delivered(1);
-  await touch('touchEnd');
+  await hand.release();
 });
 
 test('delivers by arrow keys, and stops when they are released', async ({ lab }) => {
-  const { keyboard } = lab.page;
   await lab.reset();
   const goal = await goalNear(lab);
   await begin(lab, goal, '1');
-  await lab.canvas.focus();
-  const pressed = new Set<string>();
-  const hold = async (wanted: readonly string[]) => {
-    for (const key of [...pressed].filter((key) => !wanted.includes(key))) {
-      await keyboard.up(key);
-      pressed.delete(key);
-    }
-    for (const key of wanted.filter((key) => !pressed.has(key))) {
-      await keyboard.down(key);
-      pressed.add(key);
-    }
-  };
-  const toward = (): string[] => {
-    const [x, y] = toGo(lab, goal);
-    const keys = [];
-    if (Math.abs(x) > 0.004) keys.push(x > 0 ? 'ArrowRight' : 'ArrowLeft');
-    if (Math.abs(y) > 0.004) keys.push(y > 0 ? 'ArrowUp' : 'ArrowDown');
-    return keys;
-  };
+  const hand = await HANDS.keys(lab);
   const start_m = Math.hypot(...toGo(lab, goal));
   await until('half of the path', async () => {
-    await hold(toward());
+    await hand.toward(goal);
     return Math.hypot(...toGo(lab, goal)) < start_m / 2;
   });
-  await hold([]);
+  await hand.release();
   await lab.later(60);
   const stopped = tool(lab);
   await lab.later(125);
   expect(distance(tool(lab), stopped)).toBeLessThan(0.002);
   await until('a delivery', async () => {
-    await hold(toward());
+    await hand.toward(goal);
     return lab.state.deliveries > 0;
   });
-  await hold([]);
+  await hand.release();
 });
 
 test('delivers by gamepad', async ({ lab }) => {
   const { page } = lab;
-  await page.evaluate(() => {
-    const pad = {
-      id: 'Test pad',
-      axes: [0, 0, 0, 0],
-      buttons: Array.from({ length: 17 }, () => ({ pressed: false })),
-    };
-    Object.assign(window, { pad });
-    navigator.getGamepads = () => [pad as unknown as Gamepad];
-  });
-  /** Up is negative on a stick. */
-  const push = ([x, y]: Point, isHeld = false) =>
-    page.evaluate(
-      ([right, down, held]) => {
-        const { pad } = window as unknown as {
-          pad: { axes: number[]; buttons: { pressed: boolean }[] };
-        };
-        [pad.axes[0], pad.axes[1]] = [right, down];
-        pad.buttons[0] = { pressed: held };
-      },
-      [x, -y, isHeld] as const,
-    );
+  const push = await injectGamepad(lab);
   await lab.reset();
   const goal = await goalNear(lab);
   await begin(lab, goal, '1');
@@ -160,44 +118,47 @@ test('delivers by gamepad', async ({ lab }) => {
   });
 });
 
-test('delivers through the colon, along the path that ERRT took', async ({ lab }) => {
-  const { mouse } = lab.page;
-  test.setTimeout(3 * DELIVERY_MS);
-  await lab.reset({ speed: '8', map: 'colon' });
-  await lab.controller('ERRT');
-  const goal = must(lab.freePoints(await lab.bead(), 0.15, 0.25)[0], 'a goal');
-  await lab.setGoal(goal);
-  await lab.run();
-  const path: Point[] = [tool(lab)];
-  await until(
-    'a delivery',
-    () => {
-      const at = tool(lab);
-      if (distance(at, must(path.at(-1), 'a place')) > 0.004) path.push(at);
-      return lab.state.deliveries > 0;
-    },
-    DELIVERY_MS,
-  );
-  path.push(goal);
-  await lab.pause();
-  await begin(lab, goal, '2');
-  let next = 0;
-  await mouse.move(...(await lab.px(tool(lab))));
-  await mouse.down();
-  const px = await Promise.all(path.map((place) => lab.px(place)));
-  await until(
-    'a delivery by hand',
-    async () => {
-      while (next < path.length - 1 && distance(must(path[next], 'a place'), tool(lab)) < AHEAD_M)
-        next += 1;
-      await mouse.move(...must(px[next], 'a place'));
-      return lab.state.deliveries > 0;
-    },
-    DELIVERY_MS,
-  );
-  await mouse.up();
-  await lab.pause();
-});
+for (const [name, take] of Object.entries(HANDS)) {
+  test(`delivers through the colon by ${name}, along the path that ERRT took`, async ({
+    openLab,
+  }) => {
+    test.setTimeout(3 * DELIVERY_MS);
+    const lab = await openLab(name === 'touch' ? TABLET : {});
+    await lab.reset({ speed: '8', map: 'colon' });
+    await lab.controller('ERRT');
+    const goal = must(lab.freePoints(await lab.bead(), 0.15, 0.25)[0], 'a goal');
+    await lab.setGoal(goal);
+    await lab.run();
+    const path: Point[] = [tool(lab)];
+    await until(
+      'a delivery',
+      () => {
+        const at = tool(lab);
+        if (distance(at, must(path.at(-1), 'a place')) > 0.004) path.push(at);
+        return lab.state.deliveries > 0;
+      },
+      DELIVERY_MS,
+    );
+    path.push(goal);
+    await lab.pause();
+    await begin(lab, goal, '2');
+    const hand = await take(lab);
+    let next = 0;
+    await until(
+      'a delivery by hand',
+      async () => {
+        while (next < path.length - 1 && distance(must(path[next], 'a place'), tool(lab)) < AHEAD_M)
+          next += 1;
+        await hand.toward(must(path[next], 'a place'));
+        return lab.state.deliveries > 0;
+      },
+      DELIVERY_MS,
+    );
+    await hand.release();
+    await lab.pause();
+    await lab.reset({ map: 'posts' });
+  });
+}
 
 test('in fog, the page shows nothing that the camera has not seen', async ({ lab }) => {
   const { page } = lab;
