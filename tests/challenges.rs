@@ -77,8 +77,8 @@ async fn an_attempt_that_was_played_counts_once_and_a_changed_one_does_not() {
     assert_eq!((status, &problem["code"]), (422, &json!("other_challenge")), "{problem}");
     let (status, problem) = post(NAME, query("", &attempt)).await;
     assert_eq!((status, &problem["field"]), (422, &json!("player")), "{problem}");
-    let stranger = json!({"session": "other", "player": "Eve", "attempt": attempt});
-    let (status, problem) = post(NAME, stranger).await;
+    let elsewhere = json!({"session": "other", "player": "Eve", "attempt": attempt});
+    let (status, problem) = post(NAME, elsewhere).await;
     assert_eq!((status, &problem["field"]), (422, &json!("session")), "{problem}");
     assert!(!lab.data.path().join("challenges").exists(), "a refused attempt leaves nothing");
 

@@ -144,6 +144,9 @@ fn load(rng: &mut impl Rng, present: &Parameters) -> Command {
             .collect(),
         ..idle
     };
+    if rng.random_bool(0.2) {
+        return Command::Play(format!("easy-{}", rng.random_range(0..9)).parse().unwrap());
+    }
     if rng.random_bool(0.7) {
         return Command::Load { scenario: Box::new(scenario), kept };
     }
@@ -182,9 +185,13 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
         700..720 => Input::SelectController(controller(rng)),
         720..800 => Input::Configure(Box::new(parameters(rng, present))),
         800..880 => Input::Disturb(disturbance(rng)),
-        880..900 => {
+        880..890 => {
             let (x_m, y_m) = place(rng);
             Input::Place { x_m, y_m }
+        }
+        890..900 => {
+            let (x_m, y_m) = place(rng);
+            Input::Steer { x_m, y_m, approach: rng.random_bool(0.3) }
         }
         900..930 => return Command::Run,
         930..932 => return Command::Pause,
