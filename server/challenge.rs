@@ -35,7 +35,7 @@ const SEED_MOST: usize = 24;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Difficulty {
-    /// Round posts, nothing disturbs.
+    /// Posts, nothing disturbs.
     Easy,
     /// The colon.
     Medium,

@@ -118,12 +118,12 @@ async fn an_attempt_that_was_not_played_in_one_go_does_not_count() {
     for (commands, why) in [
         (vec![json!({"type": "run"}), json!({"type": "pause"})], "it was paused"),
         (vec![json!({"type": "step", "ticks": 10})], "it was paused"),
-        (vec![json!({"type": "set_speed", "factor": 0.5})], "it did not run at real speed"),
+        (vec![json!({"type": "set_speed", "factor": 0.5})], "another speed was chosen"),
         (vec![json!({"type": "run"}), json!({"type": "rewind", "tick": 0})], "it was rewound"),
-        (vec![goal], "something else than the tool was moved or set"),
+        (vec![goal], "something else than the magnet was moved or set"),
         (
             vec![json!({"type": "select_controller", "controller": "rl"})],
-            "something else than the tool was moved or set",
+            "something else than the magnet was moved or set",
         ),
     ] {
         browser.send(json!({"type": "play_challenge", "challenge": NAME})).await;

@@ -6,12 +6,10 @@ use super::{Challenge, Mishap, SAMPLE_TICKS, Trace};
 use crate::geometry::Point2;
 use crate::robot::ur5::SERVO_PERIOD_S;
 
-/// The path to the goal is compared in stretches of this length.
-const STRETCH_M: f64 = 0.02;
-/// Speed of the comparison if there is no other run: the tool's.
+/// Speed of a bead that wastes no time: the tool's.
 const IDEAL_M_PER_S: f64 = 0.04;
-/// Less than this per stretch is no loss.
-const NOISE_S: f64 = 0.3;
+/// Waste below this share of the time is no loss: also the controllers follow bends.
+const NOISE: f64 = 0.5;
 /// A smaller loss is not worth a word.
 const LEAST_S: f64 = 1.0;
 
@@ -36,48 +34,30 @@ impl Challenge {
         self.arena.space.shortest_m(from, goal).unwrap_or_else(|| (goal - from).norm())
     }
 
-    /// Indices of the samples at which the bead first was within 0, 1, 2… stretches less than the whole path.
-    fn passes(&self, trace: &Trace) -> Vec<usize> {
-        let mut passes = Vec::new();
-        for (index, sample) in trace.samples.iter().enumerate() {
-            let remaining_m = self.remaining_m(sample.bead_m);
-            while remaining_m <= self.path_m - passes.len() as f64 * STRETCH_M + 1e-9 {
-                passes.push(index);
-                if passes.len() as f64 * STRETCH_M > self.path_m {
-                    return passes;
-                }
-            }
-        }
-        passes
-    }
-
-    /// Where `own` lost the most time against `other`, or against the tool's speed. `None` if it lost less than a
-    /// second.
+    /// The part in which `own` lost the most time against `other`, or against the tool's speed. `None` if it lost less
+    /// than a second.
     pub fn loss(&self, own: &Trace, other: Option<&Trace>) -> Option<Loss> {
         let period_s = SAMPLE_TICKS as f64 * SERVO_PERIOD_S;
-        let mut passes = self.passes(own);
-        let last = own.samples.len().checked_sub(1)?;
-        if passes.len() as f64 * STRETCH_M <= self.path_m {
-            // It got no further: the rest of the time was lost in this stretch.
-            passes.push(last);
-        }
-        let others = other.map(|other| self.passes(other)).unwrap_or_default();
-        let durations_s = |passes: &[usize], index: usize| {
-            let pair = passes.get(index..index + 2)?;
-            Some((pair[1] - pair[0]) as f64 * period_s)
+        let remaining_m = |trace: &Trace| -> Vec<f64> {
+            trace.samples.iter().map(|sample| self.remaining_m(sample.bead_m)).collect()
         };
-        let losses_s = (0..passes.len().saturating_sub(1)).map(|index| {
-            let ideal_s = STRETCH_M / IDEAL_M_PER_S;
-            durations_s(&passes, index).unwrap_or_default() - durations_s(&others, index).unwrap_or(ideal_s)
+        let own_m = remaining_m(own);
+        // A bead that is moved away or back counts as one that rests.
+        let wasted = own_m.windows(2).map(|pair| {
+            let used_s = (pair[0] - pair[1]) / IDEAL_M_PER_S;
+            (period_s - used_s).clamp(0.0, period_s) - NOISE * period_s
         });
-        let losses_s: Vec<f64> = losses_s.collect();
-        let (first, after) = worst_range(&losses_s)?;
-        let lost_s: f64 = losses_s[first..after].iter().sum();
+        let (first, last) = worst_range(&wasted.collect::<Vec<f64>>())?;
+        let needed_s = match other.map(remaining_m) {
+            Some(other_m) => duration_s(&other_m, own_m[first], own_m[last], period_s),
+            None => (own_m[first] - own_m[last]).max(0.0) / IDEAL_M_PER_S,
+        };
+        let lost_s = (last - first) as f64 * period_s - needed_s;
         if lost_s < LEAST_S {
             return None;
         }
-        let tick = |pass: usize| 1 + passes[pass] as u64 * SAMPLE_TICKS;
-        let (from_tick, to_tick) = (tick(first), tick(after));
+        let tick = |sample: usize| 1 + sample as u64 * SAMPLE_TICKS;
+        let (from_tick, to_tick) = (tick(first), tick(last));
         let count = |kind: Mishap| {
             own.mishaps
                 .iter()
@@ -87,7 +67,7 @@ impl Challenge {
         Some(Loss {
             from_tick,
             to_tick,
-            place_m: own.samples[passes[first]].bead_m,
+            place_m: own.samples[first].bead_m,
             lost_s,
             walls: count(Mishap::Wall),
             lost_beads: count(Mishap::LostBead),
@@ -96,12 +76,21 @@ impl Challenge {
     }
 }
 
-/// The range with the greatest sum of what each loss has above the noise (Kadane's algorithm); `None` if all are noise.
+/// Seconds that a run needs from one remaining length to a shorter one; 0 if it is not shorter.
+fn duration_s(remaining_m: &[f64], from_m: f64, to_m: f64, period_s: f64) -> f64 {
+    let pass = |length_m: f64| remaining_m.iter().position(|&left_m| left_m <= length_m + 1e-9);
+    match (pass(from_m), pass(to_m)) {
+        (Some(begin), Some(end)) => end.saturating_sub(begin) as f64 * period_s,
+        _ => 0.0,
+    }
+}
+
+/// The range with the greatest sum (Kadane's algorithm); `None` if no number is positive.
 fn worst_range(losses_s: &[f64]) -> Option<(usize, usize)> {
     let (mut best, mut best_sum) = (None, 0.0);
     let (mut first, mut sum) = (0, 0.0);
     for (index, loss_s) in losses_s.iter().enumerate() {
-        sum += loss_s - NOISE_S;
+        sum += loss_s;
         if sum <= 0.0 {
             (first, sum) = (index + 1, 0.0);
         } else if sum > best_sum {
@@ -118,8 +107,8 @@ mod tests {
 
     #[test]
     fn the_worst_range_joins_losses_across_small_gains() {
-        assert_eq!(worst_range(&[0.1, 2.0, 0.2, 3.0, -4.0, 1.0]), Some((1, 4)));
-        assert_eq!(worst_range(&[0.1, -1.0, 0.3]), None);
+        assert_eq!(worst_range(&[-0.1, 2.0, -0.2, 3.0, -4.0, 1.0]), Some((1, 4)));
+        assert_eq!(worst_range(&[-0.1, -1.0]), None);
         assert_eq!(worst_range(&[]), None);
     }
 
@@ -163,5 +152,18 @@ mod tests {
         stuck.samples.extend([stuck.samples[20]; 50]);
         let loss = challenge.loss(&stuck, None).unwrap();
         assert!(loss.lost_s > 8.0 && loss.to_tick == 70 * SAMPLE_TICKS + 1, "{loss:?}");
+    }
+
+    #[test]
+    fn a_rest_after_the_bead_was_moved_away_is_found_where_it_is() {
+        let challenge = Challenge::of("easy-2026-11-26".parse().unwrap()).unwrap();
+        let swift = trace(&challenge, 20, 0);
+        // Near the goal, thrown back to the start, and then it rests on the second way.
+        let mut thrown = swift.clone();
+        thrown.samples.truncate(30);
+        thrown.samples.extend(trace(&challenge, 12, 25).samples);
+        let loss = challenge.loss(&thrown, Some(&swift)).unwrap();
+        assert!((40 * SAMPLE_TICKS..44 * SAMPLE_TICKS).contains(&loss.from_tick), "{loss:?}");
+        assert!((loss.place_m - swift.samples[12].bead_m).norm() < 0.02, "{loss:?}");
     }
 }

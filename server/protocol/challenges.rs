@@ -20,7 +20,7 @@ pub use ghosts::{GhostMessage, Ghosts, MishapKind, MishapMessage, TraceMessage};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DifficultyName {
-    /// Round posts, nothing disturbs.
+    /// Posts, nothing disturbs.
     Easy,
     /// The colon.
     Medium,

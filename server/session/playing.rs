@@ -9,11 +9,11 @@ use crate::challenge::{Attempt, Challenge, Referee, Score, TICKS_MOST, Trace};
 pub enum Void {
     #[error("it was paused")]
     Paused,
-    #[error("it did not run at real speed")]
+    #[error("another speed was chosen")]
     Speed,
     #[error("it was rewound")]
     Rewound,
-    #[error("something else than the tool was moved or set")]
+    #[error("something else than the magnet was moved or set")]
     OtherInput,
 }
 

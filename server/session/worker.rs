@@ -163,7 +163,7 @@ impl<E: ImageSource> Worker<E> {
                 }
                 continue;
             }
-            let burst = Instant::now();
+            let (burst, was_running) = (Instant::now(), self.running);
             while self.running && burst.elapsed() < DRAIN_EVERY && self.pace.wait(Instant::now()).is_zero() {
                 self.tick()?;
                 self.pace.ticked(Instant::now());
@@ -177,7 +177,8 @@ impl<E: ImageSource> Worker<E> {
                 }
             }
             let now = Instant::now();
-            if now >= publish_at {
+            // The end of an attempt pauses the session: its last state is not followed by others.
+            if now >= publish_at || (was_running && !self.running) {
                 publish.send_replace(Arc::new(self.view()));
                 // Ticks come every 8 ms; a view that is due between two of them must not wait for the third.
                 publish_at = (publish_at + PUBLISH_EVERY).max(now - PUBLISH_EVERY / 2);

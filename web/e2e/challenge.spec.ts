@@ -28,10 +28,10 @@ async function errtWay(lab: Lab): Promise<readonly Point[]> {
 /** Points along the way until the attempt is over, after a rest of some seconds. */
 async function play(lab: Lab, way: readonly Point[], restMs: number) {
   const { mouse } = lab.page;
-  await lab.button('Start').click();
-  await until('the clock', () => lab.state.running && lab.state.tick > 0);
+  // The first movement of the hand starts the clock.
   await mouse.move(...(await lab.px(tool(lab))));
   await mouse.down();
+  await until('the clock', () => lab.state.running && lab.state.tick > 0);
   const px = await Promise.all(way.map((place) => lab.px(place)));
   let nearest = 0;
   let hasRested = false;
@@ -101,6 +101,12 @@ test('a challenge from a link is played, explained and put on the board', async 
   await expect(page.getByRole('table', { name: 'Scores on this challenge' })).toContainText('Ada');
   await lab.button('Start').click();
   await until('the clock', () => lab.state.tick > 100);
+  // Start moves the focus to the map: arrows steer, and stray keys do not end the attempt.
+  for (const key of ['Space', 'r', 'd', 'Enter', ']']) await page.keyboard.press(key);
+  await page.keyboard.down('ArrowLeft');
+  await until('the hand', () => lab.state.steer_m);
+  await page.keyboard.up('ArrowLeft');
+  expect(lab.state.attempt?.void).toBeNull();
   await lab.button('Pause').click();
   await expect(page.getByRole('region', { name: 'Challenge', exact: true })).toContainText(
     'does not count: it was paused',

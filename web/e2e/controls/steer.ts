@@ -26,6 +26,10 @@ export const STEER: Section = {
       see: valueOf,
       after: (lab) => lab.label('What you see').selectOption('all'),
     },
+    'button Challenges…': {
+      see: (lab) => lab.tab('Challenge').getAttribute('aria-selected'),
+      ready: (lab) => lab.tab('Plots').click(),
+    },
     'button Set goal': { see: picking, after: (lab) => lab.canvas.press('Escape') },
   },
 };

@@ -49,7 +49,9 @@ function probe() {
   window.ferryHand = [];
   let event_ms: number | undefined;
   // The page's own listeners run later in the same dispatch.
-  window.addEventListener('pointermove', ({ timeStamp }) => (event_ms = timeStamp), true);
+  for (const type of ['pointerrawupdate', 'pointermove']) {
+    window.addEventListener(type, ({ timeStamp }) => (event_ms = timeStamp), true);
+  }
   const Native = window.WebSocket;
   window.WebSocket = class extends Native {
     constructor(...all: ConstructorParameters<typeof WebSocket>) {

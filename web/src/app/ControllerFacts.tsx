@@ -3,7 +3,7 @@
 import { Match, Show, Switch, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ValueFans } from '../features/values/ValueFans';
-import type { ByHand, Pictures, Trial } from '../lab/slices';
+import type { ByHand, OpenTab, Pictures, Trial } from '../lab/slices';
 import { YouFacts } from '../features/steer/YouFacts';
 import type { ControllerName } from '../net/protocol.gen';
 import './ControllerFacts.css';
@@ -16,7 +16,7 @@ const NONE_YET: Record<ControllerName, string | undefined> = {
   you: undefined,
 };
 
-export function ControllerFacts(props: { lab: Trial & Pictures & ByHand }): JSX.Element {
+export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTab }): JSX.Element {
   const { lab } = props;
   return (
     <Show when={lab.state()}>

@@ -35,6 +35,7 @@ export function WorkspacePanel(props: {
   children: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
+  let stage!: HTMLDivElement;
   const [mode, setMode] = createSignal(storedViewMode());
   const [disturbing, setDisturbing] = createSignal(false);
   const palette = createPalette(() => props.theme());
@@ -91,8 +92,13 @@ export function WorkspacePanel(props: {
       <Show when={disturbing()}>
         <DisturbBar lab={lab} id="disturb" picker={interaction.picker} />
       </Show>
-      <StageBar lab={lab} />
-      <div class="stage">
+      <StageBar
+        lab={lab}
+        onStart={() => {
+          stage.querySelector('canvas')?.focus({ preventScroll: true });
+        }}
+      />
+      <div ref={stage} class="stage">
         <Switch fallback={<PlanView {...surfaceProps} />}>
           <Match when={lab.sight() === 'camera'}>
             <CameraView {...surfaceProps} notices={lab} />

@@ -4,6 +4,7 @@ import { CONTROLLER_SHORTCUTS } from '../features/controller/shortcuts';
 import { DRAW_SHORTCUTS } from '../features/draw/keys';
 import { TRAIN_SHORTCUTS } from '../features/train/keys';
 import { TIME_SHORTCUTS } from '../features/playback/shortcuts';
+import { isAtStake } from '../lab/contest';
 import type { FeatureShortcuts } from '../lab/shortcuts';
 import { WORKSPACE_SHORTCUTS } from '../plan/keyboard';
 import { STEER_SHORTCUTS } from '../plan/steerInput';
@@ -20,7 +21,7 @@ export function pageShortcuts(
   help: () => void,
 ): readonly Shortcut[] {
   const operate = (act: () => void) => () => {
-    if (isShown() && lab.canOperate() && lab.state()) act();
+    if (isShown() && lab.canOperate() && lab.state() && !isAtStake(lab)) act();
   };
   return [
     ...OF_FEATURES.flatMap((shortcuts) => shortcuts(lab, operate)),

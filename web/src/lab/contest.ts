@@ -37,6 +37,13 @@ export const challengePath = (name: string): string =>
 export const isOver = (attempt: AttemptStanding | undefined): boolean =>
   attempt !== undefined && (attempt.is_delivered || attempt.is_time_up);
 
+/** An attempt that runs and counts: a stray key must not end it. */
+export const isAtStake = ({ state }: Pick<Trial, 'state'>): boolean => {
+  const now = state();
+  const attempt = now?.attempt ?? undefined;
+  return attempt?.void === null && !isOver(attempt) && now?.running === true;
+};
+
 type Reads = Pick<Session, 'session' | 'send'> & Pick<Trial, 'scene' | 'state'>;
 
 export function createContest(lab: Reads): Contest {

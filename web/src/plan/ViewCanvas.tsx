@@ -5,6 +5,7 @@ import { attachKeyboard } from './keyboard';
 import { attachPointer } from './pointer';
 import type { Interaction } from './interaction';
 import type { Vec2 } from '../lab/geometry';
+import { isAtStake } from '../lab/contest';
 import { attachSteering } from './steerInput';
 import type { ByHand, Trial } from '../lab/slices';
 import './ViewCanvas.css';
@@ -41,6 +42,7 @@ export function ViewCanvas(props: {
       {
         view: interaction.view,
         isPicking: interaction.picker.isPicking,
+        isAtStake: () => isAtStake(lab),
         onPointing: (px) => interaction.setPointing({ px, reachPx: 0 }),
         turned: (arrow) => props.turned?.(arrow) ?? arrow,
       },

@@ -16,10 +16,15 @@ export const STEER_SHORTCUTS: readonly Shortcut[] = [
   },
 ];
 
+/** Keys that set goals and drag the bead. */
+const OTHER_KEYS = new Set(['Enter', 'd', 'D']);
+
 export interface SteerSurface {
   readonly view: () => TableView | undefined;
   /** Whether the next press chooses a place for something else. */
   readonly isPicking: () => boolean;
+  /** Whether only the steering may do something. */
+  readonly isAtStake: () => boolean;
   readonly onPointing: (px: Vec2) => void;
   /** Direction on the table of an arrow on the screen. */
   readonly turned: (arrow: Vec2) => Vec2;
@@ -34,6 +39,7 @@ export function attachSteering(
 ): void {
   let pointer: number | undefined;
   let at_px: Vec2 = [0, 0];
+  let last: PointerEvent | undefined;
   const pressed = new Set<string>();
   const listen = (type: string, listener: (event: Event) => void): void => {
     canvas.addEventListener(type, listener, { signal });
@@ -45,8 +51,13 @@ export function attachSteering(
   const point = (event: PointerEvent): void => {
     const box = canvas.getBoundingClientRect();
     at_px = [event.clientX - box.left, event.clientY - box.top];
+    last = event;
     surface.onPointing(at_px);
     follow();
+  };
+  /** The same movement can come twice: at once, and with the next frame. */
+  const move = (event: PointerEvent): void => {
+    if (event.clientX !== last?.clientX || event.clientY !== last.clientY) point(event);
   };
   const onPointer = (type: string, act: (event: PointerEvent) => void): void => {
     listen(type, (event) => {
@@ -68,9 +79,9 @@ export function attachSteering(
     canvas.focus({ preventScroll: true });
     point(event);
   });
-  onPointer('pointermove', point);
+  onPointer('pointermove', move);
   // Where it exists, it does not wait for the next frame, as the other does.
-  onPointer('pointerrawupdate', point);
+  onPointer('pointerrawupdate', move);
   const end = (): void => {
     pointer = undefined;
   };
@@ -87,7 +98,13 @@ export function attachSteering(
     lean();
   };
   listen('keydown', (event) => {
-    if (!(event instanceof KeyboardEvent) || !ARROWS[event.key] || !steering.isActive()) return;
+    if (!(event instanceof KeyboardEvent) || !steering.isActive()) return;
+    if (surface.isAtStake() && OTHER_KEYS.has(event.key)) {
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      return;
+    }
+    if (!ARROWS[event.key]) return;
     if (event.ctrlKey || event.altKey || event.metaKey || surface.isPicking()) return;
     event.preventDefault();
     event.stopImmediatePropagation();

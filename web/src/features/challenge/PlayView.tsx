@@ -31,9 +31,10 @@ function Rules(props: { rules: ChallengeReport }): JSX.Element {
       <p>{DIFFICULTIES.find(([name]) => name === props.rules.difficulty)?.[2]}</p>
       <p>
         The score is the time until the bead rests in the goal circle. Each time that a wall stops
-        the tool adds {props.rules.wall_s} s, each bead that you lose {props.rules.lost_bead_s} s. A
-        bead that is pulled away adds nothing. Time is up after {props.rules.time_limit_s} s. An
-        attempt counts if it runs in one go: no pause, no other speed, nothing but the tool moved.
+        the magnet adds {props.rules.wall_s} s. Each bead that the arm has to fetch again adds{' '}
+        {props.rules.lost_bead_s} s, except after it was pulled away. Time is up after{' '}
+        {props.rules.time_limit_s} s. An attempt counts if it runs in one go: no pause, no other
+        speed, nothing but the magnet moved. What you see is your choice.
       </p>
     </section>
   );

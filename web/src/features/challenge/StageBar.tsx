@@ -1,13 +1,18 @@
 // The attempt, above the map: what to do, the clock, and how it ended.
 
-import { Match, Show, Switch, createMemo, type JSX } from 'solid-js';
+import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
 import { isOver } from '../../lab/contest';
-import type { Contested, OpenTab, Session, Trial } from '../../lab/slices';
+import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
 import { counted } from '../../ui/format';
 import { challengeTitle, seconds, verdict } from './words';
 import './stage.css';
 
-type StageLab = Session & Trial & Contested & OpenTab;
+type StageLab = Session & Trial & Contested & OpenTab & ByHand;
+
+/** The tab may be open already, scrolled to another place. */
+function showResult(): void {
+  document.querySelector('.challenge-result')?.scrollIntoView({ block: 'nearest' });
+}
 
 function Again(props: { lab: StageLab; isPrimary: boolean }): JSX.Element {
   const { lab } = props;
@@ -27,10 +32,28 @@ function Again(props: { lab: StageLab; isPrimary: boolean }): JSX.Element {
   );
 }
 
-export function StageBar(props: { lab: StageLab }): JSX.Element {
+export function StageBar(props: {
+  lab: StageLab;
+  /** Moves the focus to the map, for the arrow keys. */
+  onStart: () => void;
+}): JSX.Element {
   const { lab } = props;
   const { contest } = lab;
-  const waits = createMemo(() => lab.state()?.tick === 0 && lab.state()?.running === false);
+  const waits = createMemo(
+    () =>
+      contest.name() !== undefined &&
+      lab.state()?.tick === 0 &&
+      lab.state()?.running === false &&
+      lab.state()?.attempt?.void === null,
+  );
+  const start = (): void => {
+    lab.send({ type: 'run' });
+  };
+  // The first movement of the hand starts the clock, too.
+  const steers = createMemo(() => waits() && lab.steering.target() !== undefined);
+  createEffect(() => {
+    if (steers()) start();
+  });
   return (
     <Show when={contest.attempt()}>
       {(attempt) => (
@@ -53,6 +76,7 @@ export function StageBar(props: { lab: StageLab }): JSX.Element {
                 class="small primary"
                 onClick={() => {
                   lab.openTab('challenge');
+                  requestAnimationFrame(showResult);
                 }}
               >
                 Result
@@ -60,15 +84,16 @@ export function StageBar(props: { lab: StageLab }): JSX.Element {
             </Match>
             <Match when={waits()}>
               <p>
-                <strong>{challengeTitle(contest.name() ?? '')}</strong> Roll the bead into the goal
-                circle. The clock starts with you.
+                <strong>{challengeTitle(contest.name() ?? '')}</strong> Roll the bead into the green
+                circle. The clock starts when you steer.
               </p>
               <button
                 type="button"
                 class="small primary"
                 disabled={!lab.canOperate()}
                 onClick={() => {
-                  lab.send({ type: 'run' });
+                  start();
+                  props.onStart();
                 }}
               >
                 Start

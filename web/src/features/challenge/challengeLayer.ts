@@ -22,6 +22,10 @@ function placeAt(places: readonly Vec2[], sample: number): Vec2 | undefined {
   return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
 }
 
+const LABEL_MOST = 12;
+const short = (name: string): string =>
+  name.length > LABEL_MOST ? `${name.slice(0, LABEL_MOST - 1)}…` : name;
+
 const pathUntil = ({ bead_m }: TraceMessage, sample: number): readonly Vec2[] =>
   bead_m.slice(0, Math.floor(sample) + 1);
 
@@ -49,7 +53,7 @@ export const CHALLENGE_LAYER: MapLayer = {
             const tool_m = placeAt(ghost.trace.tool_m, sample);
             const bead_m = placeAt(ghost.trace.bead_m, sample);
             if (!tool_m || !bead_m) continue;
-            const [colour, label] = [palette[ghost.controller], ghostName(ghost)];
+            const [colour, label] = [palette[ghost.controller], short(ghostName(ghost))];
             const path_m = pathUntil(ghost.trace, sample);
             drawGhost(ctx, view, palette, { colour, label, path_m, tool_m, bead_m });
           }

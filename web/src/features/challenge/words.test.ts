@@ -77,9 +77,9 @@ describe('an attempt', () => {
       disturbances: 0,
     };
     expect(lossWords(loss, 'RL', 0.008)).toBe(
-      'Most time was lost from 4.0 s to 8.0 s: 2.5 s more than RL needed for this part of the way. In this time a wall stopped the tool twice and the bead was lost once.',
+      'Most time was lost from 4.0 s to 8.0 s: 2.5 s more than RL needed for this part of the way. In this time a wall stopped the magnet twice and the bead was lost once.',
     );
     const idle = { ...loss, walls: 0, lost_beads: 0 };
-    expect(lossWords(idle, undefined, 0.008)).toContain('the tool waited');
+    expect(lossWords(idle, undefined, 0.008)).toContain('the magnet waited');
   });
 });

@@ -14,9 +14,13 @@ import type {
 import { centimetres, counted, fixed } from '../../ui/format';
 
 export const DIFFICULTIES: readonly (readonly [DifficultyName, string, string])[] = [
-  ['easy', 'Easy', 'Round posts. Nothing disturbs.'],
-  ['medium', 'Medium', 'The colon, an intestine without folds.'],
-  ['hard', 'Hard', 'The colon with folds. The bead is pulled away twice.'],
+  ['easy', 'Easy', 'Posts. Nothing disturbs.'],
+  ['medium', 'Medium', 'The colon. Nothing disturbs.'],
+  [
+    'hard',
+    'Hard',
+    'The colon with folds. Twice the bead is pulled away; where depends on your way.',
+  ],
 ];
 
 export const PERIODS: Readonly<Record<Period, string>> = { day: 'Today', week: 'This week' };
@@ -88,15 +92,15 @@ const times = (count: number): string =>
 /** Where the time was lost, and why. */
 export function lossWords(loss: LossMessage, other: string | undefined, tick_s: number): string {
   const [from, to] = [loss.from_tick, loss.to_tick].map((tick) => seconds(tick * tick_s));
-  const against = other === undefined ? 'than the tool’s speed allows' : `than ${other} needed`;
+  const against = other === undefined ? 'than the magnet’s speed allows' : `than ${other} needed`;
   const causes = [
-    loss.walls > 0 ? `a wall stopped the tool ${times(loss.walls)}` : '',
+    loss.walls > 0 ? `a wall stopped the magnet ${times(loss.walls)}` : '',
     loss.lost_beads > 0 ? `the bead was lost ${times(loss.lost_beads)}` : '',
     loss.disturbances > 0 ? `the bead was pulled away ${times(loss.disturbances)}` : '',
   ].filter((cause) => cause !== '');
   const why =
     causes.length === 0
-      ? 'Nothing happened to the bead: the tool waited, or took a longer way.'
+      ? 'Nothing happened to the bead: the magnet waited, or took a longer way.'
       : `In this time ${listed(causes)}.`;
   return `Most time was lost from ${from ?? ''} to ${to ?? ''}: ${seconds(loss.lost_s)} more ${against} for this part of the way. ${why}`;
 }

@@ -1,13 +1,13 @@
 // What the controller You needs: how to steer, what is shown, and who fetches the bead.
 
 import { For, Show, createUniqueId, type JSX } from 'solid-js';
-import type { ByHand } from '../../lab/slices';
+import type { ByHand, OpenTab } from '../../lab/slices';
 import { SIGHTS, type Sight } from '../../lab/sight';
 import { IS_TOUCH } from '../../ui/touch';
 import { followGamepads } from './pollGamepad';
 import './steer.css';
 
-export function YouFacts(props: { lab: ByHand }): JSX.Element {
+export function YouFacts(props: { lab: ByHand & OpenTab }): JSX.Element {
   const { lab } = props;
   const id = createUniqueId();
   const gamepad = followGamepads(lab);
@@ -30,6 +30,16 @@ export function YouFacts(props: { lab: ByHand }): JSX.Element {
             : 'Gamepad: stick or cross; the first button stops the tool.'}
         </p>
       </Show>
+      <button
+        type="button"
+        class="small"
+        title="Race the controllers on a trial of the day"
+        onClick={() => {
+          lab.openTab('challenge');
+        }}
+      >
+        Challenges…
+      </button>
       <label class="you-approach">
         <input
           type="checkbox"
