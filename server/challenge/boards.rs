@@ -43,6 +43,7 @@ pub struct Kept {
 pub struct Entry {
     pub signature: Signature,
     pub score: Score,
+    /// Empty except for the best entry, which is drawn as a ghost. No other one can become the best.
     pub trace: Arc<Trace>,
     /// Of the inputs.
     hash: u64,
@@ -77,7 +78,15 @@ impl Boards {
     /// All entries of a challenge, best first. Unreadable files are left out.
     pub fn of(&self, name: &ChallengeName) -> Vec<Entry> {
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        read.entry(name.clone()).or_insert_with(|| entries_in(&self.folder.join(name.to_string()))).clone()
+        if let Some(entries) = read.get(name) {
+            return entries.clone();
+        }
+        let entries = entries_in(&self.folder.join(name.to_string()));
+        // A request may have any name: only boards with entries are kept.
+        if !entries.is_empty() {
+            read.insert(name.clone(), entries.clone());
+        }
+        entries
     }
 
     /// Challenges with a board, by name.
@@ -133,6 +142,7 @@ impl Boards {
                 tracing::warn!(%error, "an old attempt could not be removed");
             }
         }
+        forget_traces(&mut after);
         *entries = after;
         Ok(true)
     }
@@ -199,7 +209,16 @@ fn entries_in(folder: &Path) -> Vec<Entry> {
         signature: kept.signature,
         trace: Arc::new(kept.trace),
     };
-    Boards::kept(folder).into_iter().map(entry).collect()
+    let mut entries: Vec<Entry> = Boards::kept(folder).into_iter().map(entry).collect();
+    forget_traces(&mut entries);
+    entries
+}
+
+/// Ten thousand traces would fill the memory.
+fn forget_traces(entries: &mut [Entry]) {
+    for entry in entries.iter_mut().skip(1) {
+        entry.trace = Arc::default();
+    }
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ import { HAND_BUDGET_MS, attachHand, handWords, measureHand } from './support/ha
 const LENIENCY = 3;
 /** Another program may take the processors for some seconds, so the measurement is repeated. */
 const ATTEMPTS = 3;
+/** Fewer than in the soak: on a busy machine the other sessions must not arrive before the end. */
+const INPUTS = 60;
 
 test('shows soon where the hand points', async ({ page, session, newSession, openLab }, info) => {
   test.setTimeout(ATTEMPTS * 120_000);
@@ -18,7 +20,7 @@ test('shows soon where the hand points', async ({ page, session, newSession, ope
   };
   let p95_ms = Infinity;
   for (let attempt = 0; attempt < ATTEMPTS && p95_ms > LENIENCY * HAND_BUDGET_MS; attempt++) {
-    const figures = await measureHand(lab, open);
+    const figures = await measureHand(lab, open, INPUTS);
     info.annotations.push({ type: 'figures', description: handWords(figures) });
     p95_ms = figures['event to shown'].p95_ms;
   }

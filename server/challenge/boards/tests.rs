@@ -1,5 +1,6 @@
 use super::*;
-use crate::challenge::Challenge;
+use crate::challenge::{Challenge, Sample};
+use crate::geometry::Point2;
 use crate::trial::{Case, Input, Timed};
 
 fn signed(player: &str, class: Option<&str>) -> Signature {
@@ -13,7 +14,9 @@ fn judged(tick: u64) -> (Attempt, Run) {
     let log = Case { about: String::new(), scenario, map: None, inputs, expect: None };
     let score = Score { tick, walls: 0, lost_beads: 0 };
     let world_hash = String::from("0123456789abcdef");
-    (Attempt { log, score, world_hash: world_hash.clone() }, Run { score, world_hash, trace: Trace::default() })
+    let sample = Sample { tool_m: Point2::new(0.0, -0.3), bead_m: Point2::new(0.0, -0.3) };
+    let trace = Trace { samples: vec![sample], mishaps: Vec::new() };
+    (Attempt { log, score, world_hash: world_hash.clone() }, Run { score, world_hash, trace })
 }
 
 fn players(boards: &Boards) -> Vec<String> {
@@ -38,6 +41,12 @@ fn a_board_keeps_the_best_of_each_person_and_survives_a_restart() {
     let again = Boards::in_folder(folder.path().to_owned());
     assert_eq!(players(&again), ["Ada", "Bo", "Ada"]);
     assert_eq!(again.names(), ["easy-a".parse().unwrap()]);
+    for boards in [&boards, &again] {
+        let entries = boards.of(&"easy-a".parse().unwrap());
+        let traces: Vec<usize> = entries.iter().map(|entry| entry.trace.samples.len()).collect();
+        assert_eq!(traces, [1, 0, 0], "only the best one is drawn");
+    }
+    assert!(Boards::kept(&folder.path().join("easy-a")).iter().all(|kept| kept.trace.samples.len() == 1));
     assert_eq!(std::fs::read_dir(folder.path().join("easy-a")).unwrap().count(), 3);
 }
 

@@ -213,6 +213,7 @@ const LAYER_NAMES = [
   'Capture',
   'Field and pull',
   'Ghosts',
+  'Challenge: ghosts',
   'Camera field',
   'Sensed',
   'Seen so far',
