@@ -13,7 +13,8 @@ struct Errand {
 
 impl Errand {
     fn tell(&self, text: String) {
-        self.report.lock().unwrap().send(text).unwrap();
+        // At the end of a test the queue may interrupt a job that has ended, and then no receiver waits.
+        let _ = self.report.lock().unwrap().send(text);
     }
 }
 
