@@ -151,7 +151,7 @@ describe('the challenge', () => {
 
   it('invites to beat the best person, or the fastest controller', () => {
     expect(invitation(people)).toContain('Ada needs 12.5 s.');
-    expect(invitation(controllers)).toContain('ERRT, a planner needs 9.0 s.');
+    expect(invitation(controllers)).toContain('ERRT needs 9.0 s.');
     expect(invitation(undefined)).toMatch(/^Touch/);
   });
 

@@ -8,6 +8,7 @@ import type {
   StateMessage,
 } from '../../net/protocol.gen';
 import { fixed } from '../../ui/format';
+import { CONTROLLER_LABELS } from '../../lab/parameters';
 import { MAIN, sessionOf } from '../../net/session';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
@@ -191,7 +192,7 @@ function rival(ghosts: Ghosts | undefined): { name: string; total_s: number } | 
   const all = (ghosts?.ghosts ?? []).flatMap(({ player, controller, total_s }) =>
     total_s === null
       ? []
-      : [{ isPerson: player !== null, name: player ?? CARRIERS[controller], total_s }],
+      : [{ isPerson: player !== null, name: player ?? CONTROLLER_LABELS[controller], total_s }],
   );
   all.sort((a, b) => Number(b.isPerson) - Number(a.isPerson) || a.total_s - b.total_s);
   return all[0];
@@ -203,7 +204,7 @@ const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
 export function invitation(ghosts: Ghosts | undefined): string {
   const best = rival(ghosts);
   const word = best ? `${best.name} needs ${seconds(best.total_s)}. ` : '';
-  return `${word}Touch the screen, steer the magnet, and be faster.`;
+  return `${word}Touch the screen and be faster.`;
 }
 
 /** What a visitor reads who plays the challenge. */
