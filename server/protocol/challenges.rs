@@ -135,7 +135,6 @@ pub struct AttemptMessage {
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct AttemptReport {
     pub challenge: String,
-    pub trace: TraceMessage,
     /// Shortest path that the bead still has.
     pub remaining_m: f64,
     pub loss: Option<LossMessage>,
@@ -291,7 +290,6 @@ impl AttemptReport {
         let bead = trace.samples.last().map(|sample| sample.bead_m).or(challenge.scenario.start_m);
         Self {
             challenge: challenge.name.to_string(),
-            trace: TraceMessage::from(trace),
             remaining_m: bead.map_or(challenge.path_m, |bead| challenge.remaining_m(bead)),
             loss: challenge.loss(trace, fastest.map(|ghost| &ghost.trace)).as_ref().map(LossMessage::from),
             compared_with: fastest.map(|ghost| ghost.controller),

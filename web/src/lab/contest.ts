@@ -11,6 +11,7 @@ import type {
 } from '../net/protocol.gen';
 import { get, post } from '../net/requests';
 import { sessionPath } from '../net/session';
+import { challengePath } from './challenges';
 import type { Session, Trial } from './slices';
 
 export interface Contest {
@@ -30,9 +31,6 @@ export interface Contest {
   /** Puts the attempt on the board. Throws a refusal. */
   sign(player: string, group: string): Promise<void>;
 }
-
-export const challengePath = (name: string): string =>
-  `/api/challenges/${encodeURIComponent(name)}`;
 
 export const isOver = (attempt: AttemptStanding | undefined): boolean =>
   attempt !== undefined && (attempt.is_delivered || attempt.is_time_up);

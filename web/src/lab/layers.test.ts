@@ -1,17 +1,21 @@
 import { describe, expect, it } from 'vitest';
-import { type KnownLayer, layersFrom } from './layers';
+import { type KnownLayer, shownLayers, switchedFrom } from './layers';
 
 const KNOWN: readonly KnownLayer[] = [{ id: 'plan', shownAtFirst: true }, { id: 'flow' }];
+const shown = (text: string | null): readonly string[] => [
+  ...shownLayers(KNOWN, switchedFrom(text)),
+];
 
 describe('the layers', () => {
-  it('are the default without a stored choice', () => {
-    expect([...layersFrom(null, KNOWN)]).toEqual(['plan']);
-    expect(layersFrom('{', KNOWN)).toEqual(layersFrom(null, KNOWN));
-    expect(layersFrom('"plan"', KNOWN)).toEqual(layersFrom(null, KNOWN));
-  });
+  it.each([null, '{', '"plan"', '["flow"]', 'null', '{"plan":1}'])(
+    'are the default with %s stored',
+    (text) => {
+      expect(shown(text)).toEqual(['plan']);
+    },
+  );
 
-  it('are the stored ones that still exist', () => {
-    expect([...layersFrom('["flow","removed",7]', KNOWN)]).toEqual(['flow']);
-    expect([...layersFrom('[]', KNOWN)]).toEqual([]);
+  it('are those that were switched, and the default for the others', () => {
+    expect(shown('{"flow":true,"removed":true}')).toEqual(['plan', 'flow']);
+    expect(shown('{"plan":false}')).toEqual([]);
   });
 });

@@ -1,6 +1,6 @@
 // Which layers of the map are shown, as the user chose.
 
-import { createSignal, type Accessor } from 'solid-js';
+import { createMemo, createSignal, type Accessor } from 'solid-js';
 import { recall, remember } from '../ui/storage';
 
 const KEY = 'layers';
@@ -10,18 +10,28 @@ export interface KnownLayer {
   readonly shownAtFirst?: true;
 }
 
-/** The stored choice, without layers that no longer exist; the default when there is no stored choice. */
-export function layersFrom(text: string | null, known: readonly KnownLayer[]): ReadonlySet<string> {
-  let chosen: unknown;
+/** The layers that the user has switched, as stored: `{"flow":true}`. A layer that is not among them, as one that is new to
+ * this browser, is shown by its default. */
+export function switchedFrom(text: string | null): Readonly<Record<string, unknown>> {
   try {
-    chosen = JSON.parse(text ?? 'null');
+    const stored: unknown = JSON.parse(text ?? '{}');
+    const isRecord = typeof stored === 'object' && stored !== null && !Array.isArray(stored);
+    return isRecord ? { ...stored } : {};
   } catch {
     // Written by something else.
+    return {};
   }
-  const isChosen = Array.isArray(chosen)
-    ? ({ id }: KnownLayer) => (chosen as unknown[]).includes(id)
-    : ({ shownAtFirst }: KnownLayer) => shownAtFirst === true;
-  return new Set(known.filter(isChosen).map(({ id }) => id));
+}
+
+export function shownLayers(
+  known: readonly KnownLayer[],
+  switched: Readonly<Record<string, unknown>>,
+): ReadonlySet<string> {
+  const isShown = ({ id, shownAtFirst }: KnownLayer): boolean => {
+    const choice = switched[id];
+    return typeof choice === 'boolean' ? choice : shownAtFirst === true;
+  };
+  return new Set(known.filter(isShown).map(({ id }) => id));
 }
 
 export interface Layers {
@@ -30,15 +40,14 @@ export interface Layers {
 }
 
 export function createLayerChoice(known: readonly KnownLayer[]): Layers {
-  const [layers, setLayers] = createSignal(layersFrom(recall(KEY), known));
+  const [switched, setSwitched] = createSignal(switchedFrom(recall(KEY)));
+  const layers = createMemo(() => shownLayers(known, switched()));
   return {
     layers,
     showLayer: (id, on) => {
-      const next = new Set(layers());
-      if (on) next.add(id);
-      else next.delete(id);
-      setLayers(next);
-      remember(KEY, JSON.stringify([...next]));
+      const next = { ...switched(), [id]: on };
+      setSwitched(next);
+      remember(KEY, JSON.stringify(next));
     },
   };
 }

@@ -20,6 +20,10 @@ export function millimetres(value_m: number, digits = 0): string {
   return `${fixed(value_m * 1000, digits)} mm`;
 }
 
+export function seconds(time_s: number): string {
+  return `${fixed(time_s, 1)} s`;
+}
+
 /** Newtons, or millinewtons below 0.1 N. */
 export function newtons(value_n: number): string {
   return Math.abs(value_n) < 0.1 ? `${fixed(value_n * 1000, 1)} mN` : `${fixed(value_n, 2)} N`;

@@ -9,6 +9,7 @@ import {
   onMount,
   type JSX,
 } from 'solid-js';
+import { playQuery } from '../../lab/challenges';
 import { loggedOut } from '../../net/access';
 import { createPoll } from '../../net/poll';
 import type { ChallengeReport, Challenges, ChallengeSummary } from '../../net/protocol.gen';
@@ -26,7 +27,6 @@ import {
   longTitle,
   newWords,
   pageTitle,
-  playAddress,
   rowsOf,
 } from './entries';
 import { createBoard } from './live';
@@ -141,7 +141,7 @@ function Head(props: {
       <p class="board-play">
         <Show when={props.name}>
           {(name) => {
-            const address = (): string => playAddress(window.location.origin, name());
+            const address = (): string => `${window.location.origin}/${playQuery(name())}`;
             return (
               <>
                 Play: <a href={address()}>{address()}</a>
@@ -197,7 +197,7 @@ function Empty(props: { ofClass: string | undefined }): JSX.Element {
       <ol>
         <li>Open the address above in a browser.</li>
         <li>
-          Steer the tool and carry the bead to the goal. The ghosts of the controllers run beside
+          Steer the magnet and roll the bead to the goal. The ghosts of the controllers run beside
           you.
         </li>
         <li>

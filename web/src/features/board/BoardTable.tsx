@@ -1,7 +1,8 @@
 // The table of a board.
 
 import { For, createMemo, on, type JSX } from 'solid-js';
-import { type Row, seconds, when } from './entries';
+import { seconds } from '../../ui/format';
+import { type Row, when } from './entries';
 
 /** The roles are explicit because a phone shows each row as a block, which would remove them. */
 export function BoardTable(props: {

@@ -9,7 +9,6 @@ import {
   longTitle,
   newWords,
   pageTitle,
-  playAddress,
   rowsOf,
   shortTitle,
   when,
@@ -45,12 +44,6 @@ describe('the address', () => {
 
   it('without a value chooses nothing', () => {
     expect(chosenIn('?challenge=&class=%20')).toEqual({});
-  });
-
-  it('to play has the name', () => {
-    expect(playAddress('http://lab.local:8080', 'easy-2026-11-26')).toBe(
-      'http://lab.local:8080/?challenge=easy-2026-11-26',
-    );
   });
 });
 

@@ -1,13 +1,8 @@
 // What the page of a board shows: addresses, names, rows. Pure.
 
-import type {
-  BoardEntry,
-  ChallengeReport,
-  ChallengeSummary,
-  DifficultyName,
-  Period,
-} from '../../net/protocol.gen';
-import { fixed } from '../../ui/format';
+import type { BoardEntry, ChallengeReport, ChallengeSummary, Period } from '../../net/protocol.gen';
+import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
+import { seconds } from '../../ui/format';
 
 /** What the address chooses. */
 export interface Chosen {
@@ -34,31 +29,21 @@ export function boardAddress({ challenge, ofClass }: Chosen): string {
   return text === '' ? '/board' : `/board?${text}`;
 }
 
-/** Where a challenge is played. */
-export function playAddress(origin: string, challenge: string): string {
-  return `${origin}/?challenge=${encodeURIComponent(challenge)}`;
-}
-
 export function easyOfToday(all: readonly ChallengeSummary[]): string | undefined {
   return all.find(({ difficulty, period }) => difficulty === 'easy' && period === 'day')?.name;
 }
 
-const DIFFICULTIES: Readonly<Record<DifficultyName, string>> = {
-  easy: 'Easy',
-  medium: 'Medium',
-  hard: 'Hard',
-};
-const PERIODS: Readonly<Record<Period, string>> = { day: 'today', week: 'this week' };
+const inSentence = (period: Period): string => PERIOD_LABELS[period].toLowerCase();
 
 /** `Easy today`; the name of a challenge that is not offered. */
 export function shortTitle({ name, difficulty, period }: ChallengeSummary): string {
-  return period === null ? name : `${DIFFICULTIES[difficulty]} ${PERIODS[period]}`;
+  return period === null ? name : `${DIFFICULTY_LABELS[difficulty]} ${inSentence(period)}`;
 }
 
 /** `Easy challenge of today`, `Challenge hard-2026-w47`. */
 export function longTitle(name: string, summary: ChallengeSummary | undefined): string {
   if (!summary?.period) return `Challenge ${name}`;
-  return `${DIFFICULTIES[summary.difficulty]} challenge of ${PERIODS[summary.period]}`;
+  return `${DIFFICULTY_LABELS[summary.difficulty]} challenge of ${inSentence(summary.period)}`;
 }
 
 export function pageTitle(name: string | undefined, ofClass: string | undefined): string {
@@ -116,8 +101,6 @@ export function added(
   const known = new Set(before.map(keyOf));
   return now.filter((entry) => !known.has(keyOf(entry)));
 }
-
-export const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
 
 /** `New: Ada, place 3, 21.4 s`. */
 export function newWords({ place, entry }: Row): string {

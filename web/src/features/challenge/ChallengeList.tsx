@@ -1,19 +1,13 @@
 // The challenges of the day and of the week, one with any seed, and those that were played before.
 
 import { For, Show, createSignal, createUniqueId, type JSX } from 'solid-js';
+import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
 import type { Contested, Session } from '../../lab/slices';
 import { createPoll } from '../../net/poll';
 import type { Challenges, ChallengeSummary, DifficultyName, Period } from '../../net/protocol.gen';
-import { counted } from '../../ui/format';
+import { counted, seconds } from '../../ui/format';
 import { OwnSession } from './OwnSession';
-import {
-  DIFFICULTIES,
-  PERIODS,
-  challengeTitle,
-  difficultyLabel,
-  seconds,
-  seedFault,
-} from './words';
+import { challengeTitle, seedFault } from './words';
 
 const POLL_MS = 10_000;
 const ORDER: readonly Period[] = ['day', 'week'];
@@ -80,7 +74,9 @@ function OwnSeed(props: { isDisabled: boolean; onPlay: (name: string) => void })
             setDifficulty(event.currentTarget.value as DifficultyName);
           }}
         >
-          <For each={DIFFICULTIES}>{([name, label]) => <option value={name}>{label}</option>}</For>
+          <For each={Object.entries(DIFFICULTY_LABELS)}>
+            {([name, label]) => <option value={name}>{label}</option>}
+          </For>
         </select>
       </label>
       <label>
@@ -131,11 +127,11 @@ export function ChallengeList(props: { lab: Session & Contested }): JSX.Element 
       <div class="challenge-columns">
         <For each={ORDER}>
           {(period) => (
-            <section aria-label={PERIODS[period]}>
-              <h3>{PERIODS[period]}</h3>
+            <section aria-label={PERIOD_LABELS[period]}>
+              <h3>{PERIOD_LABELS[period]}</h3>
               <Cards
                 all={of(period)}
-                title={(one) => difficultyLabel(one.difficulty)}
+                title={(one) => DIFFICULTY_LABELS[one.difficulty]}
                 isDisabled={!lab.canOperate()}
                 onPlay={play}
               />

@@ -1,6 +1,7 @@
 // For those who only watch: a session of their own, in which they can play.
 
 import type { JSX } from 'solid-js';
+import { playQuery } from '../../lab/challenges';
 import { linkedChallenge } from '../../lab/pageChallenge';
 
 /** Long enough that two pages do not choose the same one. */
@@ -15,7 +16,7 @@ export function OwnSession(props: { challenge?: string }): JSX.Element {
   /** The challenge that is played here, or that of this page's address. */
   const query = (): string => {
     const name = props.challenge ?? linkedChallenge(window.location);
-    return name === undefined ? '' : `?challenge=${encodeURIComponent(name)}`;
+    return name === undefined ? '' : playQuery(name);
   };
   return (
     <p class="own-session">

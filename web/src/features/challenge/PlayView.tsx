@@ -1,6 +1,7 @@
 // The challenge that is being played: rules, ghosts, the result, and the board.
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
+import { boardPath, playQuery } from '../../lab/challenges';
 import { isOver } from '../../lab/contest';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type {
@@ -9,18 +10,11 @@ import type {
   ChallengeReport,
   GhostMessage,
 } from '../../net/protocol.gen';
+import { seconds } from '../../ui/format';
 import type { ChallengeLab } from './ChallengePanel';
 import { OwnSession } from './OwnSession';
 import { SignForm } from './SignForm';
-import {
-  DIFFICULTIES,
-  challengeTitle,
-  ghostName,
-  lossWords,
-  seconds,
-  sumWords,
-  verdict,
-} from './words';
+import { DIFFICULTY_HELP, challengeTitle, ghostName, lossWords, sumWords, verdict } from './words';
 
 const LINES = 5;
 
@@ -28,7 +22,7 @@ function Rules(props: { rules: ChallengeReport }): JSX.Element {
   return (
     <section aria-label="Rules">
       <h3>Rules</h3>
-      <p>{DIFFICULTIES.find(([name]) => name === props.rules.difficulty)?.[2]}</p>
+      <p>{DIFFICULTY_HELP[props.rules.difficulty]}</p>
       <p>
         The score is the time until the bead rests in the goal circle. Each time that a wall stops
         the magnet adds {props.rules.wall_s} s. Each bead that the arm has to fetch again adds{' '}
@@ -188,17 +182,12 @@ export function PlayView(props: { lab: ChallengeLab; name: string }): JSX.Elemen
         </button>
         <a
           class="button small"
-          href={`?challenge=${props.name}`}
+          href={playQuery(props.name)}
           title="Opens this challenge; send it to others"
         >
           Link
         </a>
-        <a
-          class="button small"
-          href={`/board?challenge=${props.name}`}
-          target="_blank"
-          rel="noopener"
-        >
+        <a class="button small" href={boardPath(props.name)} target="_blank" rel="noopener">
           Board
         </a>
       </div>

@@ -3,8 +3,8 @@
 import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
 import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
-import { counted } from '../../ui/format';
-import { challengeTitle, seconds, verdict } from './words';
+import { counted, seconds } from '../../ui/format';
+import { challengeTitle, verdict } from './words';
 import './stage.css';
 
 type StageLab = Session & Trial & Contested & OpenTab & ByHand;
@@ -61,6 +61,10 @@ export function StageBar(props: {
           <Switch>
             <Match when={attempt().void !== null}>
               <p role="status">This attempt does not count: {attempt().void}.</p>
+              <Again lab={lab} isPrimary />
+            </Match>
+            <Match when={isOver(attempt()) && lab.state()?.running}>
+              <p role="status">The attempt is over. What happens now does not count.</p>
               <Again lab={lab} isPrimary />
             </Match>
             <Match when={isOver(attempt())}>

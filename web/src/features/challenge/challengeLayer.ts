@@ -8,7 +8,8 @@ import type { TraceMessage } from '../../net/protocol.gen';
 import { drawGhost, drawLabel } from '../../plan/drawGhost';
 import type { LayerContext, MapLayer } from '../../plan/layer';
 import { pxFromWorld } from '../../plan/transform';
-import { ghostName, seconds } from './words';
+import { seconds } from '../../ui/format';
+import { ghostName } from './words';
 
 const LOSS_PX = 13;
 /** The base map is drawn again for each of these. */

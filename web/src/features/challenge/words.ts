@@ -1,5 +1,6 @@
 // What the page says about a challenge and an attempt. Pure.
 
+import { DIFFICULTY_LABELS } from '../../lab/challenges';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type {
   AttemptReport,
@@ -9,30 +10,20 @@ import type {
   GhostMessage,
   Ghosts,
   LossMessage,
-  Period,
 } from '../../net/protocol.gen';
-import { centimetres, counted, fixed } from '../../ui/format';
+import { centimetres, counted, seconds } from '../../ui/format';
 
-export const DIFFICULTIES: readonly (readonly [DifficultyName, string, string])[] = [
-  ['easy', 'Easy', 'Posts. Nothing disturbs.'],
-  ['medium', 'Medium', 'The colon. Nothing disturbs.'],
-  [
-    'hard',
-    'Hard',
-    'The colon with folds. Twice the bead is pulled away; where depends on your way.',
-  ],
-];
-
-export const PERIODS: Readonly<Record<Period, string>> = { day: 'Today', week: 'This week' };
-
-export const difficultyLabel = (name: DifficultyName): string =>
-  DIFFICULTIES.find(([known]) => known === name)?.[1] ?? name;
+export const DIFFICULTY_HELP: Readonly<Record<DifficultyName, string>> = {
+  easy: 'Posts. Nothing disturbs.',
+  medium: 'The colon. Nothing disturbs.',
+  hard: 'The colon with folds. Twice the bead is pulled away; where depends on your way.',
+};
 
 /** `easy-2026-11-26` as `Easy · 2026-11-26`. */
 export function challengeTitle(name: string): string {
   const [difficulty = '', ...seed] = name.split('-');
-  const label = DIFFICULTIES.find(([known]) => known === difficulty)?.[1] ?? difficulty;
-  return `${label} · ${seed.join('-')}`;
+  const label = Object.entries(DIFFICULTY_LABELS).find(([known]) => known === difficulty)?.[1];
+  return `${label ?? difficulty} · ${seed.join('-')}`;
 }
 
 const SEED = /^[a-z0-9-]{1,24}$/;
@@ -40,8 +31,6 @@ const SEED = /^[a-z0-9-]{1,24}$/;
 /** Why a text is no seed; undefined if it is one. */
 export const seedFault = (text: string): string | undefined =>
   SEED.test(text) ? undefined : 'Use 1 to 24 of a to z, 0 to 9 and -.';
-
-export const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
 
 export const ghostName = ({ controller, player }: GhostMessage): string =>
   player ?? CONTROLLER_LABELS[controller];

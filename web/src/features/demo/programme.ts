@@ -7,7 +7,7 @@ import type {
   Ghosts,
   StateMessage,
 } from '../../net/protocol.gen';
-import { fixed } from '../../ui/format';
+import { seconds } from '../../ui/format';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import { MAIN, sessionOf } from '../../net/session';
 
@@ -197,8 +197,6 @@ function rival(ghosts: Ghosts | undefined): { name: string; total_s: number } | 
   all.sort((a, b) => Number(b.isPerson) - Number(a.isPerson) || a.total_s - b.total_s);
   return all[0];
 }
-
-const seconds = (time_s: number): string => `${fixed(time_s, 1)} s`;
 
 /** What is shown while the ghosts run and the magnet waits for a visitor. */
 export function invitation(ghosts: Ghosts | undefined): string {

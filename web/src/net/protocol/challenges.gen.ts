@@ -150,7 +150,7 @@ world_hash: string, };
 /**
  * Answer of `GET /api/sessions/{id}/attempt`.
  */
-export type AttemptReport = { challenge: string, trace: TraceMessage, 
+export type AttemptReport = { challenge: string, 
 /**
  * Shortest path that the bead still has.
  */

@@ -1,6 +1,7 @@
 // A panel under a tab.
 
 import type { Component } from 'solid-js';
+import { lazyPart } from '../ui/lazyPart';
 import type { TabHead } from '../ui/Tabs';
 import type { Theme } from '../ui/theme';
 import type { Lab } from './slices';
@@ -16,3 +17,22 @@ export interface PanelProps<L = Lab> {
 export interface TabPanel extends TabHead {
   readonly panel: Component<PanelProps>;
 }
+
+/** A tab whose code is loaded when it is opened for the first time. */
+export const lazyTab = (
+  id: string,
+  title: string,
+  load: () => Promise<Component<PanelProps>>,
+): TabPanel => ({
+  id,
+  title,
+  panel: lazyPart<PanelProps>(
+    load,
+    () => <p class="placeholder">Loading…</p>,
+    () => (
+      <p class="placeholder" role="alert">
+        This tab could not be loaded. Reload the page.
+      </p>
+    ),
+  ),
+});

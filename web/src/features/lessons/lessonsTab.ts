@@ -1,0 +1,7 @@
+import { lazyTab } from '../../lab/panel';
+
+export const LESSONS_TAB = lazyTab(
+  'lessons',
+  'Lessons',
+  async () => (await import('./LessonsPanel')).LessonsPanel,
+);
