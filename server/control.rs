@@ -30,6 +30,13 @@ pub struct TargetStep {
     pub speed_m_s: f64,
 }
 
+impl TargetStep {
+    /// A step straight to a place, or as far toward it as a control period at this speed reaches.
+    pub fn toward(tool_m: Point2<f64>, place_m: Point2<f64>, speed_m_s: f64) -> Self {
+        Self { target_m: tool_m + (place_m - tool_m).cap_magnitude(speed_m_s * CONTROL_PERIOD_S), speed_m_s }
+    }
+}
+
 /// Why no step is taken. The arm holds its position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 pub enum Refusal {
@@ -68,6 +75,9 @@ pub enum Refusal {
     /// No policy is loaded, or its network failed.
     #[error("no policy: {0}")]
     Policy(String),
+    /// The program that decides has asked for a hold, or gave no answer that can be used.
+    #[error("the program: {0}")]
+    Program(String),
     /// The planner is still searching; it continues at the next control step.
     #[error("the planner is searching: {attempts} edges tried")]
     Searching { attempts: u64 },

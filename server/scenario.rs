@@ -38,11 +38,13 @@ pub enum ControllerName {
     Replanner,
     /// A person: the tool goes where the hand at the page points.
     You,
+    /// A program outside of Ferry, which is asked before each control step.
+    Program,
 }
 
 impl ControllerName {
-    pub const ALL: [Self; 5] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner, Self::You];
-    /// Those that need no person.
+    pub const ALL: [Self; 6] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner, Self::You, Self::Program];
+    /// Those that need no person and no program.
     pub const AUTOMATIC: [Self; 4] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner];
     /// Those of the paper.
     pub const OFFERED: [Self; 3] = [Self::Rl, Self::Errt, Self::Attractor];
@@ -57,6 +59,7 @@ impl ControllerName {
             Self::Attractor => "attractor",
             Self::Replanner => "replanner",
             Self::You => "you",
+            Self::Program => "program",
         }
     }
 
@@ -68,6 +71,7 @@ impl ControllerName {
             Self::Attractor => "Attractor",
             Self::Replanner => "Replanner",
             Self::You => "You",
+            Self::Program => "Program",
         }
     }
 }

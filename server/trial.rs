@@ -30,7 +30,6 @@ use crate::control::{approach, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::map::MapError;
-use crate::perception::Percept;
 use crate::plant::{Plant, PlantState, Positioner, PositionerKind};
 use crate::policy::PolicyError;
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -40,14 +39,15 @@ use crate::tracking::{self, TrackerParameters};
 pub use arena::Arena;
 pub use case::{Case, CaseError, CaseOutcome, Expectation, Timed};
 pub use catalog::Catalog;
+pub use decide::Question;
 pub(crate) use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
-pub use input::{Input, InputError};
+pub use input::{Input, InputError, REASON_BYTES_MOST};
 pub use log::{InputLog, LogError, LogWriter};
 pub use outcome::GOAL_RADIUS_M;
 pub use phase::{LEGS_PER_GOAL, Phase, SETTLE_S, StopReason};
-pub use record::{Moment, Sight, TickRecord};
+pub use record::{Moment, Seen, Sight, TickRecord};
 pub use replay::{Deciding, MakeCamera, ReplayError, Replayed, replay};
 pub use resume::StateError;
 pub use script::Script;
@@ -103,6 +103,8 @@ pub enum TrialError {
 pub enum Source<'a> {
     /// The camera: the controllers decide from its image.
     Camera(&'a mut dyn ImageSource),
+    /// What [`Trial::see`] has returned since the last tick: the controllers decide from it.
+    Seen(Box<Seen>),
     /// A log: the logged decision is carried out.
     Logged(Option<Decision>),
 }
@@ -230,16 +232,18 @@ impl Trial {
         let mut decision = None;
         let mut seen = None;
         if step_is_due(tick) {
-            let decided = match source {
-                Source::Camera(camera) => {
-                    let tool_m = self.tool_m().xy();
-                    let frame = self.capture(camera)?;
-                    let percept = Percept::of(&frame, tool_m);
-                    let decided = self.decide(&frame, &percept);
-                    seen = Some(record::Seen { frame, percept, tool_m });
+            let sees = match source {
+                Source::Camera(camera) => Ok(self.see(camera)?),
+                Source::Seen(sees) => Ok(*sees),
+                Source::Logged(logged) => Err(logged.ok_or(TrialError::MissingDecision { tick })?),
+            };
+            let decided = match sees {
+                Ok(sees) => {
+                    let decided = self.decide(&sees.frame, &sees.percept);
+                    seen = Some(sees);
                     decided
                 }
-                Source::Logged(logged) => logged.ok_or(TrialError::MissingDecision { tick })?,
+                Err(logged) => logged,
             };
             self.carry_out(&decided);
             decision = Some(decided);

@@ -66,6 +66,8 @@ fn input() -> impl Strategy<Value = Input> {
         place().prop_map(|(x_m, y_m)| Input::Place { x_m, y_m }),
         disturbance().prop_map(Input::Disturb),
         (place(), any::<bool>()).prop_map(|((x_m, y_m), approach)| Input::Steer { x_m, y_m, approach }),
+        place().prop_map(|(x_m, y_m)| Input::Go { x_m, y_m }),
+        Just(Input::Hold { reason: "it thinks".to_owned() }),
         (any::<bool>(), any::<bool>()).prop_map(|(rolls, tilted)| Input::Configure(Box::new(Parameters {
             bead_motion: if rolls { BeadMotion::Rolling } else { BeadMotion::Sliding },
             tool_orientation: if tilted { ToolOrientation::Paper } else { ToolOrientation::Vertical },

@@ -27,7 +27,7 @@ fn place(rng: &mut impl Rng) -> (f64, f64) {
 /// A random input of an operator; many are refused.
 fn action(rng: &mut impl Rng, tick: u64) -> Command {
     let (x_m, y_m) = place(rng);
-    Command::Input(match rng.random_range(0..16) {
+    Command::Input(match rng.random_range(0..18) {
         0 | 1 => Input::SetGoal { x_m, y_m },
         2 | 3 => Input::Drag { x_m, y_m, lift: rng.random() },
         4 => Input::Release,
@@ -40,6 +40,8 @@ fn action(rng: &mut impl Rng, tick: u64) -> Command {
             bead_motion: if rng.random() { BeadMotion::Rolling } else { BeadMotion::Sliding },
             ..Parameters::default()
         })),
+        16 => Input::Go { x_m, y_m },
+        17 => Input::Hold { reason: "it thinks".to_owned() },
         15 => Input::Steer { x_m, y_m, approach: rng.random() },
         11 => return Command::Rewind(rng.random_range(0..=tick)),
         12 => return Command::Reset(rng.random::<bool>().then_some(x_m.to_bits() >> 12)),

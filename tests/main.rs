@@ -26,6 +26,7 @@ mod logs;
 mod mounts;
 mod network;
 mod openapi;
+mod programs;
 mod recordings;
 mod reference;
 mod rendering;

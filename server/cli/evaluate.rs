@@ -124,10 +124,10 @@ pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
     let parameters = Parameters::default().with(&arguments.set).context("--set")?;
     let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
-    anyhow::ensure!(
-        !arguments.controller.contains(&ControllerName::You),
-        "--controller you: an evaluation has no person"
-    );
+    let mut controllers = arguments.controller.iter();
+    if let Some(name) = controllers.find(|name| !ControllerName::AUTOMATIC.contains(name)) {
+        anyhow::bail!("--controller {}: this command asks no person and no program", name.as_str());
+    }
     let mut experiments = Vec::new();
     for map in &arguments.map {
         let arena = Arena::open(map)?;

@@ -3,6 +3,7 @@
 pub mod attractor;
 pub mod errt;
 pub mod planning;
+pub mod program;
 mod progress;
 pub mod replanner;
 pub mod rl;
@@ -81,6 +82,7 @@ pub enum Carrier {
     Attractor(attractor::Attractor),
     Replanner(replanner::Replanner),
     You(you::You),
+    Program(program::Program),
 }
 
 impl Carrier {
@@ -92,7 +94,24 @@ impl Carrier {
             ControllerName::Attractor => Self::Attractor(attractor::Attractor::default()),
             ControllerName::Replanner => Self::Replanner(replanner::Replanner::default()),
             ControllerName::You => Self::You(you::You::default()),
+            ControllerName::Program => Self::Program(program::Program::default()),
         }
+    }
+
+    pub fn rl(&self) -> Option<&rl::Rl> {
+        if let Self::Rl(rl) = self { Some(rl) } else { None }
+    }
+
+    pub fn errt(&self) -> Option<&errt::Errt> {
+        if let Self::Errt(errt) = self { Some(errt) } else { None }
+    }
+
+    pub fn attractor(&self) -> Option<&attractor::Attractor> {
+        if let Self::Attractor(attractor) = self { Some(attractor) } else { None }
+    }
+
+    pub fn you(&self) -> Option<&you::You> {
+        if let Self::You(you) = self { Some(you) } else { None }
     }
 
     /// See [`Transport::trouble`].
@@ -103,6 +122,7 @@ impl Carrier {
             Self::Attractor(attractor) => attractor.trouble(),
             Self::Replanner(replanner) => replanner.trouble(),
             Self::You(you) => you.trouble(),
+            Self::Program(program) => program.trouble(),
         }
     }
 
@@ -113,6 +133,7 @@ impl Carrier {
             Self::Attractor(attractor) => attractor,
             Self::Replanner(replanner) => replanner,
             Self::You(you) => you,
+            Self::Program(program) => program,
         }
     }
 }

@@ -54,8 +54,8 @@ pub enum QueryError {
         /// Why the map was refused.
         error: MapError,
     },
-    #[error("controllers[{index}] is \"you\": an evaluation has no person")]
-    Person { index: usize },
+    #[error("controllers[{index}] is \"{name}\": an evaluation asks no person and no program")]
+    NotAutomatic { index: usize, name: &'static str },
     #[error("rl_policy: {0}")]
     Policy(#[from] PolicyError),
     /// Out of range.
@@ -72,7 +72,7 @@ impl QueryError {
             Self::Empty { field } => (*field).to_owned(),
             Self::Twice { field, index, .. } => format!("{field}[{index}]"),
             Self::Map { index, .. } => format!("maps[{index}]"),
-            Self::Person { index } => format!("controllers[{index}]"),
+            Self::NotAutomatic { index, .. } => format!("controllers[{index}]"),
             Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
             Self::TooManyCells { .. } => "maps".to_owned(),
@@ -84,8 +84,9 @@ impl EvaluationQuery {
     /// The cells of the query, with the controllers of a map next to each other.
     pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
         distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
-        if let Some(index) = self.controllers.iter().position(|name| *name == ControllerName::You) {
-            return Err(QueryError::Person { index });
+        let is_automatic = |name: &ControllerName| ControllerName::AUTOMATIC.contains(name);
+        if let Some(index) = self.controllers.iter().position(|name| !is_automatic(name)) {
+            return Err(QueryError::NotAutomatic { index, name: self.controllers[index].as_str() });
         }
         distinct("maps", &self.maps, Clone::clone)?;
         distinct("disturbances", &self.disturbances, u32::to_string)?;

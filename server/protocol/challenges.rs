@@ -138,7 +138,7 @@ pub struct AttemptReport {
     /// Shortest path that the bead still has.
     pub remaining_m: f64,
     pub loss: Option<LossMessage>,
-    /// Whom the loss is compared with; `null` if no controller delivered.
+    /// Whom the loss is compared with; `null` for the tool's speed: no controller delivered, or the bead is moved away.
     pub compared_with: Option<ControllerName>,
     /// What `POST /api/challenges/{name}/attempts` takes; `null` without a delivery.
     pub attempt: Option<AttemptMessage>,
@@ -282,11 +282,14 @@ impl ChallengeReport {
 }
 
 impl AttemptReport {
-    /// Compares the attempt with the fastest of the ghosts. Blocks for some milliseconds.
+    /// Compares the attempt with the fastest of the ghosts; where the bead is moved away, with the tool's speed. Blocks for
+    /// some milliseconds.
     pub fn of(played: &Played, ghosts: &[Ghost]) -> Self {
         let Played { challenge, trace, ended, .. } = played;
         let delivered = ghosts.iter().filter_map(|ghost| Some((ghost.score?.total_s(), ghost)));
-        let fastest = delivered.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, ghost)| ghost);
+        let is_undisturbed = challenge.scenario.disturbances == 0;
+        let fastest =
+            delivered.filter(|_| is_undisturbed).min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, ghost)| ghost);
         let bead = trace.samples.last().map(|sample| sample.bead_m).or(challenge.scenario.start_m);
         Self {
             challenge: challenge.name.to_string(),

@@ -5,7 +5,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::numbers::{Lists4, Numbers2, Numbers4, Rows3, Wholes4};
-use crate::control::transport::Carrier;
+use crate::control::transport::attractor::Attractor;
 use crate::control::transport::attractor::Flow;
 use crate::control::transport::errt::Errt;
 use crate::control::transport::rl::{Decision, Rl};
@@ -225,11 +225,8 @@ impl From<&View> for OverlayMessage {
 impl OverlayMessage {
     /// Converts percept and decision of `tick`; `motion` is the motion of the arm that followed.
     pub fn of(tick: u64, sight: &Sight, motion: Motion, arena: &Arena, policy: &RlPolicy) -> Self {
-        let sensed = match &sight.carrier {
-            Carrier::Attractor(attractor) => attractor.sensed(),
-            Carrier::Rl(_) | Carrier::Errt(_) | Carrier::Replanner(_) | Carrier::You(_) => &[],
-        };
-        let obstacles = sensed.iter().map(|o| SensedObstacle {
+        let sensed = sight.carrier.attractor().map(Attractor::sensed);
+        let obstacles = sensed.unwrap_or_default().iter().map(|o| SensedObstacle {
             center_m: o.center_m.coords.into(),
             half_size_m: o.half_size_m.into(),
             boundary_m: o.half_axes_m.into(),
@@ -246,14 +243,8 @@ impl OverlayMessage {
             },
             picture_from_table: sight.frame.pinhole.picture_from_table(sight.frame.picture.width_px),
             blocks: BlocksLayer::from(sight),
-            plan: match &sight.carrier {
-                Carrier::Errt(errt) => Some(PlanLayer::of(errt, &sight.known)),
-                Carrier::Rl(_) | Carrier::Attractor(_) | Carrier::Replanner(_) | Carrier::You(_) => None,
-            },
-            judgement: match &sight.carrier {
-                Carrier::Rl(rl) => JudgementLayer::of(rl, arena, policy),
-                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) | Carrier::You(_) => None,
-            },
+            plan: sight.carrier.errt().map(|errt| PlanLayer::of(errt, &sight.known)),
+            judgement: sight.carrier.rl().and_then(|rl| JudgementLayer::of(rl, arena, policy)),
         }
     }
 }

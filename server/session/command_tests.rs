@@ -185,10 +185,15 @@ fn command(rng: &mut impl Rng, present: &Parameters, newest: u64) -> Command {
         700..720 => Input::SelectController(controller(rng)),
         720..800 => Input::Configure(Box::new(parameters(rng, present))),
         800..880 => Input::Disturb(disturbance(rng)),
-        880..890 => {
+        880..886 => {
             let (x_m, y_m) = place(rng);
             Input::Place { x_m, y_m }
         }
+        886..888 => {
+            let (x_m, y_m) = place(rng);
+            Input::Go { x_m, y_m }
+        }
+        888..890 => Input::Hold { reason: "x".repeat(rng.random_range(0..300)) },
         890..900 => {
             let (x_m, y_m) = place(rng);
             Input::Steer { x_m, y_m, approach: rng.random_bool(0.3) }

@@ -2,18 +2,52 @@
 
 use super::outcome::GOAL_RADIUS_M;
 use super::phase::{LEGS_PER_GOAL, Phase, StopReason};
+use super::record::Seen;
 use super::{ControllerState, Decision, Event, EventKind, Motion, Trial, TrialState, World};
 use crate::control::search::{Look, Search, SearchInput};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};
-use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
-use crate::geometry::{Point2, Point3, Vector2};
+use crate::control::{Refusal, TargetStep};
+use crate::geometry::{Point2, Point3};
 use crate::image::CameraFrame;
 use crate::map::WALL_HEIGHT_M;
-use crate::perception::{BeadView, Percept, wall_spread};
+use crate::perception::{BeadView, Observation, ObstacleMap, Percept, wall_spread};
+use crate::scenario::Parameters;
 
 /// A step by hand that is shorter is a rest.
 const REST_M: f64 = 1e-3;
+
+/// What a control step is about.
+#[derive(Clone, Copy, Debug)]
+enum Stage {
+    /// The arm looks for the bead.
+    TrackerLost {
+        is_stopped: bool,
+    },
+    Hold,
+    /// Sub-controller 1 flies to the bead.
+    Approach,
+    /// The tool is within 2 cm of the goal.
+    Settle(Point2<f64>),
+    /// Sub-controller 2 steps toward the goal.
+    Transport(Point2<f64>),
+}
+
+/// What a program gets before a control step in which it decides.
+#[derive(Clone, Debug)]
+pub struct Question {
+    pub tick: u64,
+    pub tool_m: Point2<f64>,
+    /// The bead as the tracker sees it.
+    pub bead_m: Point2<f64>,
+    pub goal_m: Point2<f64>,
+}
+
+fn update_known(known: &mut ObstacleMap, percept: &Percept, parameters: &Parameters) {
+    let (dark, hidden) = (percept.dark(parameters.obstacle_level), percept.hidden());
+    let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
+    known.update_around(&dark, hidden.as_ref(), &percept.calibration, spread);
+}
 
 impl Trial {
     /// Decides from a frame and its percept. Changes only the controller state; [`Self::carry_out`] changes the world.
@@ -24,63 +58,31 @@ impl Trial {
         let tool = self.tool_m();
         let TrialState { world, controller_state, .. } = &mut self.state;
         controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
-        let (dark, hidden) = (percept.dark(world.parameters.obstacle_level), percept.hidden());
-        let spread = wall_spread(world.parameters.camera_height_m, WALL_HEIGHT_M);
-        controller_state.known.update_around(&dark, hidden.as_ref(), &percept.calibration, spread);
-        let bead = world.tracker.estimate().position_m;
-        let is_stopped = matches!(
-            world.phase,
-            Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps { .. } | StopReason::TrackerLost)
-        );
-        if world.tracker.is_lost(world.parameters.tracker_timeout_s) {
+        update_known(&mut controller_state.known, percept, &world.parameters);
+        let (switching, stage) = self.stage(percept);
+        if let Stage::TrackerLost { is_stopped } = stage {
             return self.look_for_bead(frame, percept, is_stopped);
         }
-        controller_state.search = Search::default();
-        let switching = switching::decide(world.switching.mode, tool.xy(), bead, &world.parameters, || {
-            percept.wall_between(tool.xy(), bead)
-        });
+        self.state.controller_state.search = Search::default();
         let hold = Decision { switching, motion: Motion::Hold, refusal: None };
-        if is_stopped {
-            return hold;
-        }
-        if switching.mode == Mode::Approach {
-            return match self.flight_by_hand(tool) {
-                None => Decision { motion: Motion::Track, ..hold },
-                Some(Ok(step)) => Decision { motion: Motion::Segment(step), ..hold },
-                Some(Err(refusal)) => Decision { refusal: Some(refusal), ..hold },
-            };
-        }
-        let fetched = switching.switched;
-        // A person steers without a goal, too, and out of a goal that is reached.
-        let by_hand = matches!(controller_state.carrier, Carrier::You(_));
-        let goal = match world.goal_m {
-            _ if matches!(world.phase, Phase::Stopped(_)) && !fetched => return hold,
-            Some(goal) => goal,
-            None if by_hand => tool.xy(),
-            None => return hold,
-        };
-        if fetched {
+        if switching.switched && matches!(stage, Stage::Settle(_) | Stage::Transport(_)) {
             self.state.controller_state.carrier.transport().start_leg();
         }
         let world = &self.state.world;
-        let proposed = if !by_hand && (tool.xy() - goal).norm() <= GOAL_RADIUS_M {
-            Ok(settle_step(tool.xy(), goal, world.parameters.transport_speed_m_s))
-        } else {
-            let ControllerState { carrier, known, .. } = &mut self.state.controller_state;
-            let parameters = &world.parameters;
-            let policy = match carrier {
-                Carrier::Rl(_) => Some(self.arena.policy(&parameters.rl_policy)),
-                Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) | Carrier::You(_) => None,
-            };
-            match policy.transpose() {
-                Ok(policy) => {
-                    let policy = policy.as_deref();
-                    let input = TransportInput { percept, known, tool_m: tool.xy(), goal_m: goal, parameters, policy };
-                    carrier.transport().next_step(&input)
-                }
-                Err(error) => Err(Refusal::Policy(error.to_string())),
+        let proposed = match stage {
+            Stage::TrackerLost { .. } | Stage::Hold => return hold,
+            Stage::Approach => {
+                return match self.flight_by_hand(tool) {
+                    None => Decision { motion: Motion::Track, ..hold },
+                    Some(Ok(step)) => Decision { motion: Motion::Segment(step), ..hold },
+                    Some(Err(refusal)) => Decision { refusal: Some(refusal), ..hold },
+                };
             }
+            // Straight onto the goal, so that the bead follows.
+            Stage::Settle(goal) => Ok(TargetStep::toward(tool.xy(), goal, world.parameters.transport_speed_m_s)),
+            Stage::Transport(goal) => self.propose(percept, goal),
         };
+        let world = &self.state.world;
         let limits = self.arena.limits(&world.parameters);
         let seed = &world.reference;
         let admitted = proposed.and_then(|step| limits.step(tool, &step, percept, seed).map(|()| step));
@@ -90,11 +92,68 @@ impl Trial {
         }
     }
 
+    /// The step that sub-controller 2 proposes.
+    fn propose(&mut self, percept: &Percept, goal_m: Point2<f64>) -> Result<TargetStep, Refusal> {
+        let tool_m = self.tool_m().xy();
+        let parameters = &self.state.world.parameters;
+        let ControllerState { carrier, known, .. } = &mut self.state.controller_state;
+        let policy = carrier.rl().map(|_| self.arena.policy(&parameters.rl_policy));
+        let policy = policy.transpose().map_err(|error| Refusal::Policy(error.to_string()))?;
+        let policy = policy.as_deref();
+        carrier.transport().next_step(&TransportInput { percept, known, tool_m, goal_m, parameters, policy })
+    }
+
+    /// What the next control step is about, and what the switching law says.
+    fn stage(&self, percept: &Percept) -> (switching::Decision, Stage) {
+        let tool_m = self.tool_m().xy();
+        let world = &self.state.world;
+        let is_stopped = matches!(
+            world.phase,
+            Phase::LiftedOff | Phase::Stopped(StopReason::GoalSteps { .. } | StopReason::TrackerLost)
+        );
+        if world.tracker.is_lost(world.parameters.tracker_timeout_s) {
+            return (world.switching, Stage::TrackerLost { is_stopped });
+        }
+        let bead_m = world.tracker.estimate().position_m;
+        let switching = switching::decide(world.switching.mode, tool_m, bead_m, &world.parameters, || {
+            percept.wall_between(tool_m, bead_m)
+        });
+        // A person steers without a goal, too, and out of a goal that is reached.
+        let by_hand = self.state.controller_state.carrier.you().is_some();
+        let stage = match world.goal_m {
+            _ if is_stopped => Stage::Hold,
+            _ if switching.mode == Mode::Approach => Stage::Approach,
+            _ if matches!(world.phase, Phase::Stopped(_)) && !switching.switched => Stage::Hold,
+            Some(goal_m) if !by_hand && (tool_m - goal_m).norm() <= GOAL_RADIUS_M => Stage::Settle(goal_m),
+            Some(goal_m) => Stage::Transport(goal_m),
+            None if by_hand => Stage::Transport(tool_m),
+            None => Stage::Hold,
+        };
+        (switching, stage)
+    }
+
+    /// What the program has to answer before the next tick; `None` if that needs no answer.
+    pub fn question(&self, seen: &Seen) -> Option<Question> {
+        let is_asked = matches!(self.state.controller_state.carrier, Carrier::Program(_));
+        let Stage::Transport(goal_m) = is_asked.then(|| self.stage(&seen.percept).1)? else { return None };
+        let world = &self.state.world;
+        let bead_m = world.tracker.estimate().position_m;
+        Some(Question { tick: world.tick, tool_m: seen.tool_m, bead_m, goal_m })
+    }
+
+    /// What a policy that sees the image would get.
+    pub fn observation(&self, seen: &Seen) -> Observation {
+        let TrialState { world, controller_state, .. } = &self.state;
+        let mut known = controller_state.known.clone();
+        update_known(&mut known, &seen.percept, &world.parameters);
+        let gray = seen.percept.for_network(world.parameters.rl_corrects_image, seen.tool_m, &known);
+        Observation::new(&gray, world.goal_m, seen.tool_m, known.workspace())
+    }
+
     /// The step of sub-controller 1 if a person steers it, too.
     fn flight_by_hand(&self, tool: Point3<f64>) -> Option<Result<TargetStep, Refusal>> {
-        let Carrier::You(you) = &self.state.controller_state.carrier else { return None };
         let world = &self.state.world;
-        let step = you.flight(tool.xy(), world.parameters.approach_speed_m_s)?;
+        let step = self.state.controller_state.carrier.you()?.flight(tool.xy(), world.parameters.approach_speed_m_s)?;
         let place = Point3::new(step.target_m.x, step.target_m.y, tool.z);
         Some(self.arena.limits(&world.parameters).position(place, &world.reference).map(|_| step))
     }
@@ -174,7 +233,7 @@ impl Trial {
     fn count(&mut self) {
         // A person may rest: only steps that move the tool count.
         let tool = self.tool_m().xy();
-        let rests = matches!(self.state.controller_state.carrier, Carrier::You(_))
+        let rests = self.state.controller_state.carrier.you().is_some()
             && matches!(self.state.world.motion, Motion::Segment(step) if (step.target_m - tool).norm() < REST_M);
         let World { counters, phase, refusal, goal_m, parameters, .. } = &mut self.state.world;
         let is_active = goal_m.is_some() && matches!(phase, Phase::Approaching | Phase::Transporting);
@@ -211,10 +270,4 @@ impl Trial {
         }
         self.apply_scripted(Some(step));
     }
-}
-
-/// Within 2 cm of the goal the tool goes straight onto it, so that the bead follows.
-fn settle_step(tool: Point2<f64>, goal: Point2<f64>, speed_m_s: f64) -> TargetStep {
-    let way: Vector2<f64> = (goal - tool).cap_magnitude(speed_m_s * CONTROL_PERIOD_S);
-    TargetStep { target_m: tool + way, speed_m_s }
 }

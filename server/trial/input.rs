@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Event, EventKind, Phase, Trial, TrialState};
 use crate::control::Refusal;
 use crate::control::transport::Carrier;
+use crate::control::transport::program::Answer;
 use crate::control::transport::you::Steering;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
@@ -48,7 +49,17 @@ pub enum Input {
         /// Whether the hand also steers while sub-controller 1 is active.
         approach: bool,
     },
+    /// The answer of a program for the next control step: the tool goes there, as far as a step reaches.
+    Go { x_m: f64, y_m: f64 },
+    /// The answer of a program for the next control step: the arm holds.
+    Hold {
+        /// At most 200 bytes.
+        reason: String,
+    },
 }
+
+/// Largest length of a program's reason.
+pub const REASON_BYTES_MOST: usize = 200;
 
 /// Why an input was refused. The trial did not change.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -74,6 +85,11 @@ pub enum InputError {
     /// Only a person is steered.
     #[error("steer: the controller is {}, only You can be steered", .0.label())]
     NotYou(ControllerName),
+    /// Only a program gives answers.
+    #[error("answer: the controller is {}, only a program is asked", .0.label())]
+    NotProgram(ControllerName),
+    #[error("reason has {bytes} bytes, it must have {REASON_BYTES_MOST} at most")]
+    LongReason { bytes: usize },
     /// Too many inputs are waiting for the next tick of a paused session.
     #[error("the session is paused and {WAITING_MOST} inputs wait for its next tick; run it first")]
     TooManyWait,
@@ -90,6 +106,8 @@ impl InputError {
             Self::Parameter(_) => "parameter_out_of_range",
             Self::Disturbance(_) => "disturbance_out_of_range",
             Self::NotYou(_) => "not_you",
+            Self::NotProgram(_) => "not_program",
+            Self::LongReason { .. } => "long_reason",
             Self::TooManyWait => "too_many_wait",
         }
     }
@@ -102,7 +120,8 @@ impl InputError {
             | Self::Reach { field, .. } => field,
             Self::Parameter(error) => error.field,
             Self::Disturbance(error) => error.field,
-            Self::NotYou(_) | Self::TooManyWait => "type",
+            Self::LongReason { .. } => "reason",
+            Self::NotYou(_) | Self::NotProgram(_) | Self::TooManyWait => "type",
         }
     }
 }
@@ -171,6 +190,15 @@ impl Trial {
                 self.apply_disturbance(disturbance);
             }
             Input::Steer { x_m, y_m, approach } => self.steer(Point2::new(*x_m, *y_m), *approach)?,
+            Input::Go { x_m, y_m } => {
+                let target_m = Point2::new(*x_m, *y_m);
+                check_finite("target_m", target_m)?;
+                self.answer(Answer::Go { target_m })?;
+            }
+            Input::Hold { reason } if reason.len() > REASON_BYTES_MOST => {
+                return Err(InputError::LongReason { bytes: reason.len() });
+            }
+            Input::Hold { reason } => self.answer(Answer::Hold { reason: reason.clone() })?,
         }
         self.inputs.push(input);
         Ok(())
@@ -183,6 +211,15 @@ impl Trial {
         let TrialState { controller, controller_state, .. } = &mut self.state;
         let Carrier::You(you) = &mut controller_state.carrier else { return Err(InputError::NotYou(*controller)) };
         you.steer(Steering { target_m, approach });
+        Ok(())
+    }
+
+    fn answer(&mut self, answer: Answer) -> Result<(), InputError> {
+        let TrialState { controller, controller_state, .. } = &mut self.state;
+        let Carrier::Program(program) = &mut controller_state.carrier else {
+            return Err(InputError::NotProgram(*controller));
+        };
+        program.answer(answer);
         Ok(())
     }
 

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::state::{Counters, TrialState, WorldHashes};
 use super::{Decision, Event, Input, Motion, Phase, Trial};
 use crate::camera::{CameraError, ImageSource};
-use crate::control::switching;
-use crate::control::transport::you::Steering;
+use crate::control::transport::rl::Rl;
+use crate::control::transport::you::{Steering, You};
 use crate::control::transport::{Carrier, Trouble};
+use crate::control::{step_is_due, switching};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters};
@@ -40,9 +41,7 @@ pub struct Sight {
 impl Sight {
     /// The network's observation. If the policy has a memory, its survey is drawn in place of the image.
     pub fn observation(&self) -> Observation {
-        if let Carrier::Rl(rl) = &self.carrier
-            && let Some(survey) = rl.survey()
-        {
+        if let Some(survey) = self.carrier.rl().and_then(Rl::survey) {
             return Observation::new(&survey.picture(), self.goal_m, self.tool_m, self.known.workspace());
         }
         let gray = self.percept.for_network(self.corrects_image, self.tool_m, &self.known);
@@ -130,14 +129,31 @@ impl Moment {
     }
 }
 
-/// The camera frame of this tick, and the tool point when it was taken.
-pub(super) struct Seen {
+/// The camera frame of a control step, and the tool point when it was taken.
+#[derive(Clone, Debug)]
+pub struct Seen {
     pub frame: CameraFrame,
     pub percept: Percept,
     pub tool_m: Point2<f64>,
 }
 
 impl Trial {
+    /// Whether the next tick is a control step.
+    pub fn step_is_due(&self) -> bool {
+        step_is_due(self.state.world.tick)
+    }
+
+    /// What the controllers see now. The trial does not change.
+    ///
+    /// # Errors
+    /// The camera delivered no image.
+    pub fn see(&self, camera: &mut dyn ImageSource) -> Result<Seen, CameraError> {
+        let tool_m = self.tool_m().xy();
+        let frame = self.capture(camera)?;
+        let percept = Percept::of(&frame, tool_m);
+        Ok(Seen { frame, percept, tool_m })
+    }
+
     pub fn moment(&self) -> Moment {
         let world = &self.state.world;
         let tool_m = self.tool_m();
@@ -150,10 +166,7 @@ impl Trial {
             goal_m: world.goal_m,
             hand: world.plant.hand,
             hand_force_n: Plant::hand_force_n(&world.plant),
-            steering: match &self.state.controller_state.carrier {
-                Carrier::You(you) => you.steering(),
-                Carrier::Rl(_) | Carrier::Errt(_) | Carrier::Attractor(_) | Carrier::Replanner(_) => None,
-            },
+            steering: self.state.controller_state.carrier.you().and_then(You::steering),
             positioner: world.plant.positioner,
             switching: world.switching,
             controller: self.state.controller,
@@ -173,15 +186,13 @@ impl Trial {
 
     /// The current observation, outside of control steps. The trial does not change.
     pub fn observe(&self, camera: &mut dyn ImageSource) -> Result<Sight, CameraError> {
-        let frame = self.capture(camera)?;
-        let percept = Percept::of(&frame, self.tool_m().xy());
-        Ok(self.sight(Arc::new(frame), percept, self.tool_m().xy()))
+        Ok(self.sight(self.see(camera)?))
     }
 
-    fn sight(&self, frame: Arc<CameraFrame>, percept: Percept, tool_m: Point2<f64>) -> Sight {
+    fn sight(&self, Seen { frame, percept, tool_m }: Seen) -> Sight {
         let TrialState { world, controller_state, .. } = &self.state;
         Sight {
-            frame,
+            frame: Arc::new(frame),
             percept,
             tool_m,
             goal_m: world.goal_m,
@@ -196,7 +207,7 @@ impl Trial {
     }
 
     pub(super) fn record(&mut self, decision: Option<Decision>, seen: Option<Seen>) -> TickRecord {
-        let sight = seen.map(|Seen { frame, percept, tool_m }| self.sight(Arc::new(frame), percept, tool_m));
+        let sight = seen.map(|seen| self.sight(seen));
         let moment = self.moment();
         TickRecord {
             tick: moment.tick,

@@ -118,6 +118,8 @@ fn inputs() -> Vec<Input> {
         Input::Configure(Box::new(Parameters { friction: 0.3, ..Parameters::default() })),
         Input::Disturb(Disturbance::Displace { x_m: -0.03, y_m: -0.33 }),
         Input::Steer { x_m: 0.02, y_m: -0.32, approach: true },
+        Input::Go { x_m: 0.02, y_m: -0.32 },
+        Input::Hold { reason: "it thinks".to_owned() },
     ]
 }
 
@@ -143,10 +145,14 @@ fn trial(controller: ControllerName) -> Vec<Entry> {
         if tick % 4 == 0
             && let Some(input) = inputs.next()
         {
-            let steers = matches!(input, Input::Steer { .. });
-            // Only You is steered.
+            // Only You is steered, and only a program answers.
+            let other = match input {
+                Input::Steer { .. } => controller != ControllerName::You,
+                Input::Go { .. } | Input::Hold { .. } => controller != ControllerName::Program,
+                _ => false,
+            };
             let refused = trial.apply(input).is_err();
-            assert_eq!(refused, steers && controller != ControllerName::You);
+            assert_eq!(refused, other);
         }
         let record = trial.tick(Source::Camera(&mut Spots)).unwrap();
         if !(2..30).contains(&tick) {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Transport, TransportInput, Trouble};
-use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
+use crate::control::{Refusal, TargetStep};
 use crate::geometry::Point2;
 
 /// Shares of a full step, longest first: near a wall, the tool goes as far as the image shows a free way.
@@ -36,13 +36,8 @@ impl You {
     /// over walls.
     pub fn flight(&self, tool_m: Point2<f64>, speed_m_s: f64) -> Option<TargetStep> {
         let steering = self.steering.filter(|steering| steering.approach)?;
-        Some(TargetStep { target_m: toward(tool_m, steering.target_m, speed_m_s), speed_m_s })
+        Some(TargetStep::toward(tool_m, steering.target_m, speed_m_s))
     }
-}
-
-/// The place that a straight step reaches within a control period.
-fn toward(tool_m: Point2<f64>, target_m: Point2<f64>, speed_m_s: f64) -> Point2<f64> {
-    tool_m + (target_m - tool_m).cap_magnitude(speed_m_s * CONTROL_PERIOD_S)
 }
 
 impl Transport for You {
@@ -52,7 +47,8 @@ impl Transport for You {
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
         let speed_m_s = input.parameters.transport_speed_m_s;
         let tool_m = input.tool_m;
-        let target_m = self.steering.map_or(tool_m, |steering| toward(tool_m, steering.target_m, speed_m_s));
+        let pointed_m = self.steering.map_or(tool_m, |steering| steering.target_m);
+        let target_m = TargetStep::toward(tool_m, pointed_m, speed_m_s).target_m;
         let part = |share: f64| tool_m + (target_m - tool_m) * share;
         let is_free = |end_m: &Point2<f64>| input.percept.obstacle_on_step(tool_m, *end_m).is_none();
         // Without a free part, the limits refuse the whole step and name the wall.
@@ -68,6 +64,7 @@ impl Transport for You {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::CONTROL_PERIOD_S;
     use crate::perception::{ObstacleMap, Percept, test_frame};
     use crate::scenario::Parameters;
 

@@ -113,7 +113,7 @@ impl From<SubmitError> for Problem {
                     QueryError::Map { .. } => "map_refused",
                     QueryError::Policy(_) => "unknown_policy",
                     QueryError::TooManyCells { .. } => "too_many",
-                    QueryError::Person { .. }
+                    QueryError::NotAutomatic { .. }
                     | QueryError::Empty { .. }
                     | QueryError::Twice { .. }
                     | QueryError::Range { .. } => "out_of_range",

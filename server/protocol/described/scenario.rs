@@ -75,6 +75,8 @@ pub enum ControllerName {
     Replanner,
     /// A person: the tool goes where the hand at the page points.
     You,
+    /// A program outside of Ferry, which is asked before each control step.
+    Program,
 }
 
 #[derive(Serialize, Deserialize, TS, ToSchema)]

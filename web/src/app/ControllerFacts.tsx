@@ -14,6 +14,7 @@ const NONE_YET: Record<ControllerName, string | undefined> = {
   replanner: 'There is no plan yet.',
   attractor: undefined,
   you: undefined,
+  program: undefined,
 };
 
 export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTab }): JSX.Element {

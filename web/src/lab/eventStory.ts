@@ -93,6 +93,10 @@ function transport(moment: MomentMessage): string {
       return overlay.target_m
         ? `Your hand led the tool to ${place(overlay.target_m)}.`
         : 'Your hand did not move the tool.';
+    case 'program':
+      return overlay.target_m
+        ? `The program sent the tool to ${place(overlay.target_m)}.`
+        : 'The program did not move the tool.';
     case 'rl': {
       const judged = overlay.judgement;
       const action = judged && ACTIONS[judged.taken];

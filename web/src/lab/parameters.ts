@@ -19,6 +19,8 @@ export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
   replanner:
     'Replanner: the shortest path around the walls that it has seen, and a new one at each new wall. A reference for evaluations.',
   you: 'You: your hand points the tool to a place, and it goes there as fast as the controllers may.',
+  program:
+    'A program outside of Ferry. It gets the image at each step, and answers where the tool goes.',
 };
 
 export type NumberName = {

@@ -86,6 +86,7 @@ export const CONTROLLER_LABELS = {
   attractor: 'Attractor',
   replanner: 'Replanner',
   you: 'You',
+  program: 'Program',
 } as const;
 
 /** Controllers that the page offers. */

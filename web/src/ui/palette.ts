@@ -36,6 +36,7 @@ const NAMES = [
   'attractor',
   'replanner',
   'you',
+  'program',
   'table',
   'arm',
   'arm-lid',

@@ -3,8 +3,8 @@
 import { Match, Show, Switch, createEffect, createMemo, type JSX } from 'solid-js';
 import { isOver } from '../../lab/contest';
 import type { ByHand, Contested, OpenTab, Session, Trial } from '../../lab/slices';
-import { counted, seconds } from '../../ui/format';
-import { challengeTitle, verdict } from './words';
+import { seconds } from '../../ui/format';
+import { challengeTitle, penaltyWords, verdict } from './words';
 import './stage.css';
 
 type StageLab = Session & Trial & Contested & OpenTab & ByHand;
@@ -46,6 +46,10 @@ export function StageBar(props: {
       lab.state()?.running === false &&
       lab.state()?.attempt?.void === null,
   );
+  const isRewound = (): boolean => {
+    const state = lab.state();
+    return state !== undefined && state.tick < state.newest_tick;
+  };
   const start = (): void => {
     lab.send({ type: 'run' });
   };
@@ -66,6 +70,13 @@ export function StageBar(props: {
             <Match when={isOver(attempt()) && lab.state()?.running}>
               <p role="status">The attempt is over. What happens now does not count.</p>
               <Again lab={lab} isPrimary />
+            </Match>
+            <Match when={isOver(attempt()) && isRewound()}>
+              <p role="status">
+                This is a moment of your attempt. The timeline has the others; what you do from here
+                does not count.
+              </p>
+              <Again lab={lab} isPrimary={false} />
             </Match>
             <Match when={isOver(attempt())}>
               <p role="status">
@@ -89,7 +100,7 @@ export function StageBar(props: {
             <Match when={waits()}>
               <p>
                 <strong>{challengeTitle(contest.name() ?? '')}</strong> Roll the bead into the green
-                circle. The clock starts when you steer.
+                circle. The clock starts when you steer, or press Start.
               </p>
               <button
                 type="button"
@@ -107,10 +118,10 @@ export function StageBar(props: {
               <p class="contest-clock number" data-testid="contest-clock">
                 {seconds(attempt().total_s)}
               </p>
-              <p class="number">
-                {counted(attempt().walls, 'wall stop')},{' '}
-                {counted(attempt().lost_beads, 'lost bead')}
-              </p>
+              <p class="number">{penaltyWords(attempt(), contest.challenge())}</p>
+              <Show when={lab.state()?.phase === 'approaching'}>
+                <p>The arm fetches the bead.</p>
+              </Show>
             </Match>
           </Switch>
         </section>

@@ -2,7 +2,7 @@
 
 import { createMemo } from 'solid-js';
 import { isOver } from '../../lab/contest';
-import type { Vec2 } from '../../lab/geometry';
+import { distance, type Vec2 } from '../../lab/geometry';
 import type { Contested, Trial } from '../../lab/slices';
 import type { TraceMessage } from '../../net/protocol.gen';
 import { drawGhost, drawLabel } from '../../plan/drawGhost';
@@ -23,6 +23,8 @@ function placeAt(places: readonly Vec2[], sample: number): Vec2 | undefined {
   return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
 }
 
+/** Ghosts nearer to each other share a label. */
+const LABEL_PX = 60;
 const LABEL_MOST = 12;
 const short = (name: string): string =>
   name.length > LABEL_MOST ? `${name.slice(0, LABEL_MOST - 1)}…` : name;
@@ -50,11 +52,17 @@ export const CHALLENGE_LAYER: MapLayer = {
         const sample = frame() / FRAMES_PER_S / sample_s;
         const loss = isOver(contest.attempt()) ? contest.report()?.loss : undefined;
         return (ctx, { view, palette }) => {
+          const labelled: Vec2[] = [];
           for (const ghost of ghosts) {
             const tool_m = placeAt(ghost.trace.tool_m, sample);
             const bead_m = placeAt(ghost.trace.bead_m, sample);
             if (!tool_m || !bead_m) continue;
-            const [colour, label] = [palette[ghost.controller], short(ghostName(ghost))];
+            const at = pxFromWorld(view, tool_m);
+            // Labels over each other cannot be read: the colours tell the ghosts apart.
+            const isFree = labelled.every((other) => distance(other, at) > LABEL_PX);
+            if (isFree) labelled.push(at);
+            const colour = palette[ghost.controller];
+            const label = isFree ? short(ghostName(ghost)) : '';
             const path_m = pathUntil(ghost.trace, sample);
             drawGhost(ctx, view, palette, { colour, label, path_m, tool_m, bead_m });
           }

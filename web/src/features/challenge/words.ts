@@ -47,6 +47,18 @@ export function sumWords(attempt: AttemptStanding, rules: ChallengeReport): stri
   return `${parts.join(' + ')} = ${seconds(total_s)}`;
 }
 
+/** While it runs: `1 wall stop (+1 s), 0 lost beads`. */
+export function penaltyWords(
+  { walls, lost_beads }: AttemptStanding,
+  rules: ChallengeReport | undefined,
+): string {
+  const part = (count: number, noun: string, each_s: number | undefined): string =>
+    count === 0 || each_s === undefined
+      ? counted(count, noun)
+      : `${counted(count, noun)} (+${count * each_s} s)`;
+  return `${part(walls, 'wall stop', rules?.wall_s)}, ${part(lost_beads, 'lost bead', rules?.lost_bead_s)}`;
+}
+
 /** Whom the attempt has beaten, in one sentence. Equal times are a win for the ghost. */
 export function verdict(
   attempt: AttemptStanding,

@@ -167,6 +167,7 @@ export const CARRIERS: Readonly<Record<ControllerName, string>> = {
   attractor: 'Attractor dynamics',
   replanner: 'The shortest path',
   you: 'A visitor',
+  program: 'A program',
 };
 
 /** What a screen shows that only watches: another one runs the programme. */

@@ -44,7 +44,7 @@ const MARKS: readonly Mark[] = [
   },
   {
     name: 'wall',
-    help: 'A wall. The bead cannot pass, the magnet can.',
+    help: 'A wall. The bead cannot pass. Above it, the magnet only flies to a lost bead.',
     icon: () => <rect class="wall" x="3" y="3" width="14" height="10" />,
   },
   {

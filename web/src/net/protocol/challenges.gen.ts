@@ -156,7 +156,7 @@ export type AttemptReport = { challenge: string,
  */
 remaining_m: number, loss: LossMessage | null, 
 /**
- * Whom the loss is compared with; `null` if no controller delivered.
+ * Whom the loss is compared with; `null` for the tool's speed: no controller delivered, or the bead is moved away.
  */
 compared_with: ControllerName | null, 
 /**
