@@ -127,7 +127,7 @@ pub struct StaticScene<'a> {
 }
 
 /// The moving parts of a state.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subject {
     /// Copied into the frame.
     pub tick: u64,

@@ -11,6 +11,7 @@ mod metrics;
 mod openapi;
 mod path;
 mod problem;
+mod programs;
 mod refusals;
 mod routes;
 mod saved_sessions;
@@ -40,6 +41,7 @@ use crate::trial::{Catalog, TrialError};
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 use metrics::Counters;
 use problem::Problem;
+use programs::Programs;
 use routes::challenges::Contests;
 use routes::maps::Maps;
 use routes::values::Atlases;
@@ -119,6 +121,8 @@ pub struct Server {
     /// Evaluations and trainings, in the background.
     jobs: Arc<Queue>,
     contests: Contests,
+    /// Programs outside of Ferry that decide control steps.
+    programs: Programs,
     evaluations: Evaluations,
     trainings: Trainings,
     sessions: Arc<Sessions>,
@@ -157,6 +161,7 @@ impl Server {
         let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
         Ok(Arc::new(Self {
             contests: Contests::in_folder(data.join("challenges")),
+            programs: Programs::default(),
             evaluations: Evaluations::new(jobs.clone()),
             trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
             jobs,

@@ -18,6 +18,7 @@ mod numbers;
 mod parameters;
 mod parse;
 mod policies;
+mod programs;
 mod recordings;
 mod seed;
 mod server;
@@ -46,6 +47,7 @@ pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQu
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
 pub use numbers::{Numbers3, Numbers6, Rows3};
 pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
+pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
 pub use server::{CaseSummary, EventMessage, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use trainings::{

@@ -3,16 +3,21 @@
 //! Only this thread accesses the trial. Holders of a [`Session`] send commands through a
 //! bounded queue (a full queue refuses) and watch views. A slow watcher sees only the newest view.
 
+mod asking;
 mod branch_point;
 #[cfg(test)]
 mod command_tests;
 mod contest;
+mod error;
+mod events;
 mod idle;
 mod inputs;
 mod kept_runs;
 mod opened_case;
 mod pacing;
 mod playing;
+pub mod programs;
+mod question;
 mod recall;
 mod saved;
 mod stepping;
@@ -29,18 +34,18 @@ use std::time::Duration;
 use tokio::sync::{broadcast, oneshot, watch};
 
 use crate::camera::Gpu;
-use crate::challenge::{Challenge, ChallengeError, ChallengeName};
-use crate::map::MapError;
+use crate::challenge::{Challenge, ChallengeName};
 use crate::plant::PositionerKind;
 use crate::scenario::{Parameters, Scenario};
-use crate::trial::{
-    Arena, Case, CaseError, Catalog, Event, Input, InputError, LogError, Moment, Sight, Sink, Trial, TrialError,
-};
+use crate::trial::{Arena, Case, Catalog, Event, Input, LogError, Moment, Sight, Sink, Trial, TrialError};
 
 pub use branch_point::{BranchPoint, Progress};
+pub use error::CommandError;
 pub use kept_runs::KeptRunSummary;
 pub use opened_case::OpenedCase;
 pub use pacing::{SPEED_MAX, SPEED_MIN};
+use programs::Program;
+
 pub use playing::{Ended, Played, Standing, Void};
 pub use saved::Saved;
 
@@ -56,7 +61,7 @@ const STEP_MAX: u32 = 12_500;
 const ANSWER_WITHIN: Duration = Duration::from_secs(30);
 
 /// A command to a session.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Command {
     /// An input of the trial.
     Input(Input),
@@ -64,6 +69,8 @@ pub enum Command {
     Pause,
     /// Advances this many ticks, then pauses.
     Step(u32),
+    /// Selects a program as sub-controller 2.
+    Attach(Arc<Program>),
     /// Sets the speed, in simulated seconds per second.
     SetSpeed(f64),
     /// Back to the start, with a new seed or the same one.
@@ -90,66 +97,6 @@ pub struct Kept {
     pub controller: bool,
     pub seed: bool,
     pub parameters: bool,
-}
-
-/// Why a command was refused; the session is unchanged.
-#[derive(Debug, thiserror::Error)]
-pub enum CommandError {
-    /// The trial refused the input.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// The map is invalid or unknown.
-    #[error(transparent)]
-    Map(#[from] MapError),
-    /// The text is not a test case.
-    #[error("test case: {0}")]
-    Case(#[from] CaseError),
-    /// The drawing in a test case is not that of the map.
-    #[error(
-        "map.name is {name:?}: this server has another drawing of that name; give the map in the file another name"
-    )]
-    OtherDrawing { name: String },
-    /// The trial could not be created.
-    #[error(transparent)]
-    Trial(#[from] TrialError),
-    /// Out of range.
-    #[error("{field} is {value}, it must be {allowed}")]
-    Range {
-        field: &'static str,
-        value: f64,
-        /// The allowed range.
-        allowed: String,
-    },
-    /// The start of the trial is no longer kept.
-    #[error("the start of the trial is no longer kept; reset, and save a case within ten minutes")]
-    Forgotten,
-    /// The challenge could not be drawn.
-    #[error(transparent)]
-    Challenge(#[from] ChallengeError),
-    /// No challenge is being played.
-    #[error("no challenge is being played in this session")]
-    NoChallenge,
-    /// No kept run has this number.
-    #[error("run is {number}, there is no kept run of this number")]
-    NoRun { number: u32 },
-    /// There is no goal.
-    #[error("tick {tick}: no goal was set, so there is nothing to compare")]
-    NoGoal { tick: u64 },
-    /// A test case would have nothing to expect.
-    #[error("tick {tick}: nothing was carried yet, so the case would expect nothing; run the session first")]
-    NothingCarried {
-        /// The tick of the session.
-        tick: u64,
-    },
-    /// The command queue is full.
-    #[error("the session is busy: more than {COMMAND_QUEUE} commands wait")]
-    Busy,
-    /// The session did not answer.
-    #[error("the session has not answered for {} s; the command may still be carried out", ANSWER_WITHIN.as_secs())]
-    Unanswered,
-    /// The session has ended.
-    #[error("the session has ended")]
-    Ended,
 }
 
 /// The static part of a view, constant between two loads.
@@ -221,6 +168,8 @@ pub struct View {
     pub journal: Arc<Vec<Event>>,
     /// The attempt at the challenge that is being played.
     pub attempt: Option<Standing>,
+    /// The program that was selected last.
+    pub program: Option<Arc<Program>>,
     /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
@@ -285,7 +234,7 @@ impl Session {
         let make_camera = Box::new(move |arena: &Arena| arena.camera(&gpu));
         let (commands, inbox) = sync_channel(COMMAND_QUEUE);
         let (events, _) = broadcast::channel(EVENT_QUEUE);
-        let mut worker = worker::Worker::new(scenario, arena, catalog, make_camera, sink, events.clone())?;
+        let mut worker = worker::Worker::new(name, scenario, arena, catalog, make_camera, sink, events.clone())?;
         worker.begin(opening);
         let (publish, view) = watch::channel(Arc::new(worker.view()));
         let (interrupted, resumed_tick, has_left_out) =

@@ -1,6 +1,7 @@
 //! A program outside of Ferry as sub-controller 2.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use ferry::camera::ImageSource;
 use ferry::geometry::Point2;
@@ -10,7 +11,11 @@ use ferry::trial::{
     REASON_BYTES_MOST, Seen, Source, Trial, replay,
 };
 
-use crate::support::gpu;
+use serde_json::{Value, json};
+use tokio_tungstenite::connect_async;
+use tokio_tungstenite::tungstenite::Error;
+
+use crate::support::{Browser, Laboratory, gpu};
 
 fn scenario(arena: &Arena) -> Scenario {
     Scenario::random(&arena.map, "posts", &arena.space, ControllerName::Program, 1, 4, 0).unwrap()
@@ -126,4 +131,134 @@ fn refused_answers_change_nothing() {
     );
     let other = InputError::NotProgram(ControllerName::Errt);
     assert_eq!(refused(ControllerName::Errt, go(0.0)), ("type", other));
+}
+
+/// A program, connected as `name`.
+async fn connect(laboratory: &Laboratory, name: &str) -> Browser {
+    let address = format!("ws://{}/api/controllers/{name}?protocol=1", laboratory.address);
+    let mut program = Browser::of(connect_async(address).await.unwrap().0);
+    let hello = program.until("hello", |m| m["type"] == "hello").await;
+    assert_eq!((&hello["protocol"], &hello["name"]), (&json!(1), &json!(name)));
+    program
+}
+
+/// A page that carries on the map `open` with the program `mine`, running.
+async fn open_page(laboratory: &Laboratory) -> Browser {
+    let mut page = laboratory.browser().await;
+    page.send(json!({"type": "load_scenario", "map": "open", "start_m": [-0.1, -0.35], "goal_m": [0.1, -0.35]})).await;
+    page.send(json!({"type": "select_controller", "controller": "program", "program": "mine"})).await;
+    page.send(json!({"type": "run"})).await;
+    page
+}
+
+async fn observed(program: &mut Browser) -> Value {
+    program.until("a question", |m| m["type"] == "observe").await
+}
+
+/// A question whose time has just begun: those before it are passed over.
+async fn newly_observed(program: &mut Browser) -> Value {
+    while tokio::time::timeout(Duration::from_millis(120), observed(program)).await.is_ok() {}
+    observed(program).await
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_connected_program_carries_the_bead() {
+    let laboratory = Laboratory::open().await;
+    let mut program = connect(&laboratory, "mine").await;
+    let mut page = open_page(&laboratory).await;
+    let answering = tokio::spawn(async move {
+        let start = program.until("a leg", |m| m["type"] == "start").await;
+        assert_eq!((&start["trial"], &start["map"]), (&json!("main"), &json!("open")));
+        assert!(start["parameters"]["transport_speed_m_s"].is_number());
+        loop {
+            let asked = observed(&mut program).await;
+            assert_eq!(asked["image"]["size_px"], 480);
+            // Straight to the goal.
+            program.send(json!({"type": "act", "request": asked["request"], "target_m": asked["goal_m"]})).await;
+        }
+    });
+    let state = page.state("a delivery", |m| m["phase"] == "delivered").await;
+    let standing = &state["program"];
+    assert_eq!((&standing["name"], &standing["is_connected"]), (&json!("mine"), &json!(true)));
+    // 20 cm at 4 cm/s take 5 s, and the last two centimetres are Ferry's.
+    assert!(standing["answers"].as_u64().unwrap() >= 17, "{standing}");
+    answering.abort();
+    assert!(answering.await.unwrap_err().is_cancelled());
+
+    page.send(json!({"type": "set_goal", "x_m": -0.1, "y_m": -0.35})).await;
+    let state = page.state("a hold", |m| m["refusal"].is_string()).await;
+    assert_eq!(state["refusal"], "the program: mine is not connected");
+    let (_, listed) = laboratory.ask("GET", "/api/controllers", "").await;
+    assert_eq!(listed["programs"][0]["is_connected"], false);
+    // Under the same name it goes on.
+    let mut again = connect(&laboratory, "mine").await;
+    assert_eq!(observed(&mut again).await["goal_m"], json!([-0.1, -0.35]));
+    laboratory.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_arm_holds_when_a_program_is_slow_or_wrong() {
+    let laboratory = Laboratory::open().await;
+    let mut program = connect(&laboratory, "mine").await;
+    let mut page = open_page(&laboratory).await;
+    let refused = async |page: &mut Browser, text: &str| {
+        let fits = |m: &Value| m["refusal"].as_str().is_some_and(|refusal| refusal.contains(text));
+        page.state(text, fits).await
+    };
+    refused(&mut page, "the program: mine gave no answer within 100 ms").await;
+    for (message, field, text) in [
+        (json!({"type": "act", "request": 0}), "target_m", "mine sent a message that cannot be used"),
+        (json!({"type": "jump"}), "type", "mine sent a message that cannot be used"),
+        (json!({"type": "act", "request": 1 << 40, "target_m": [0, 0]}), "request", "mine gave no answer"),
+    ] {
+        let mut message = message;
+        let asked = newly_observed(&mut program).await;
+        if message["request"] == 0 {
+            message["request"] = asked["request"].clone();
+        }
+        program.send(message).await;
+        assert_eq!(program.error().await["field"], field);
+        refused(&mut page, text).await;
+    }
+    let asked = newly_observed(&mut program).await;
+    program.send(json!({"type": "hold", "request": asked["request"], "reason": "I see nothing"})).await;
+    refused(&mut page, "the program: mine: I see nothing").await;
+    // A step that the limits refuse.
+    let asked = newly_observed(&mut program).await;
+    program.send(json!({"type": "act", "request": asked["request"], "target_m": [1e300, -0.35]})).await;
+    let state = page.state("an answer", |m| m["program"]["answers"].as_u64() >= Some(2)).await;
+    assert!(state["running"] == true && state["program"]["missed"].as_u64() >= Some(1), "{state}");
+    // The session still takes commands while it waits.
+    page.send(json!({"type": "pause"})).await;
+    page.state("a pause", |m| m["running"] == false).await;
+    page.send(json!({"type": "step", "ticks": 40})).await;
+    tokio::time::sleep(Duration::from_millis(400)).await;
+    page.send(json!({"type": "select_controller", "controller": "errt"})).await;
+    page.send(json!({"type": "run"})).await;
+    page.state("a delivery by ERRT", |m| m["phase"] == "delivered").await;
+    laboratory.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn connections_are_refused_by_field() {
+    let laboratory = Laboratory::open().await;
+    let _first = connect(&laboratory, "mine").await;
+    for (path, status, text) in [
+        ("mine?protocol=1", 409, "a program with the name \"mine\" is connected already"),
+        ("mine?protocol=2", 422, "protocol is 2, this server has 1"),
+        ("mine", 400, "missing field `protocol`"),
+        ("rl?protocol=1", 422, "\"rl\" cannot be the name of a program"),
+        ("M%20x?protocol=1", 422, "\"M x\" cannot be the name of a program"),
+    ] {
+        let address = format!("ws://{}/api/controllers/{path}", laboratory.address);
+        let Err(Error::Http(refused)) = connect_async(address).await else { panic!("{path} is refused") };
+        let body = String::from_utf8(refused.body().clone().unwrap_or_default()).unwrap();
+        let detail = serde_json::from_str::<Value>(&body).unwrap()["detail"].as_str().unwrap().to_owned();
+        assert!(refused.status().as_u16() == status && detail.contains(text), "{path}: {} {detail}", refused.status());
+    }
+    let mut page = laboratory.browser().await;
+    page.send(json!({"type": "select_controller", "controller": "program", "program": "other"})).await;
+    let error = page.error().await;
+    assert_eq!((&error["code"], &error["field"]), (&json!("no_program"), &json!("program")));
+    laboratory.close().await;
 }

@@ -9,6 +9,14 @@ __version__: str
 def run(arguments: Sequence[str]) -> int:
     """Run the command ``ferry``; the first argument is the program's name. Return its exit status."""
 
+def observation(
+    gray: NDArray[np.uint8],
+    goal_m: tuple[float, ...],
+    tool_m: tuple[float, ...],
+    workspace_m: tuple[float, float, float, float],
+) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """The image ``(84, 84)`` and the vector ``(4,)`` of a camera's gray image."""
+
 class Lattice:
     """Training's episodes side by side on one map. Each lane is one episode."""
 

@@ -5,8 +5,11 @@ mod maze;
 
 use std::ffi::OsString;
 
-use numpy::PyArray;
+use ferry::geometry::Rect;
+use ferry::image::GrayImage;
+use ferry::perception::{OBSERVATION_SIZE_PX, Observation};
 use numpy::ndarray::{ArrayD, IxDyn};
+use numpy::{PyArray, PyReadonlyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -20,6 +23,29 @@ fn run(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<i32> {
     let ended = py.detach(|| ferry::cli::run(arguments.into_iter()));
     let code = ended.map_err(|error| PyRuntimeError::new_err(format!("{error:#}")))?;
     Ok(i32::from(code != std::process::ExitCode::SUCCESS))
+}
+
+/// What a policy gets: the image, and goal and tool over the workspace.
+#[pyfunction]
+fn observation<'py>(
+    py: Python<'py>,
+    gray: PyReadonlyArray2<'py, u8>,
+    goal_m: [f64; 2],
+    tool_m: [f64; 2],
+    workspace_m: [f64; 4],
+) -> PyResult<(Array<'py, u8>, Array<'py, f32>)> {
+    const SIDE: usize = OBSERVATION_SIZE_PX;
+    let (height_px, width_px) = gray.as_array().dim();
+    if height_px < SIDE || width_px < SIDE {
+        return Err(bad(format!(
+            "gray has the shape ({height_px}, {width_px}), it must have at least ({SIDE}, {SIDE})"
+        )));
+    }
+    let gray = GrayImage { width_px, height_px, pixels: gray.as_array().iter().copied().collect() };
+    let [x_min_m, x_max_m, y_min_m, y_max_m] = workspace_m;
+    let workspace = Rect { x_min_m, x_max_m, y_min_m, y_max_m };
+    let seen = Observation::new(&gray, Some(goal_m.into()), tool_m.into(), &workspace);
+    Ok((array(py, &[SIDE, SIDE], seen.bytes[..SIDE * SIDE].to_vec()), array(py, &[4], seen.places().to_vec())))
 }
 
 /// Bad input.
@@ -44,6 +70,7 @@ fn array<'py, T: numpy::Element>(py: Python<'py>, shape: &[usize], numbers: Vec<
 fn _ferry(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(run, module)?)?;
+    module.add_function(wrap_pyfunction!(observation, module)?)?;
     module.add_class::<lattice::Lattice>()?;
     module.add_class::<maze::Mazes>()
 }

@@ -74,8 +74,8 @@ pub async fn live(
     upgrade.max_write_buffer_size(WRITE_LIMIT).on_upgrade(move |socket| {
         let sockets = server.sockets.clone();
         sockets.track_future(async move {
-            let connection = Connection::new(seat, hub, socket);
-            connection.serve(server.stopping.clone()).await;
+            let stopping = server.stopping.clone();
+            Connection::new(seat, hub, server, socket).serve(stopping).await;
         })
     })
 }
@@ -101,6 +101,7 @@ impl Drop for Seat {
 struct Connection {
     seat: Seat,
     hub: Arc<Hub>,
+    server: Arc<Server>,
     socket: WebSocket,
     hand: Arc<Hand>,
     /// Times of its last message and of our last ping.
@@ -123,12 +124,12 @@ struct Sent {
 }
 
 impl Connection {
-    fn new(seat: Seat, hub: Arc<Hub>, socket: WebSocket) -> Self {
+    fn new(seat: Seat, hub: Arc<Hub>, server: Arc<Server>, socket: WebSocket) -> Self {
         let now = Instant::now();
         let messages = RateLimiter::direct(Quota::per_second(MESSAGES_PER_S).allow_burst(MESSAGES_BURST));
         let hand = Hand::new(seat.own, hub.clone());
         let stepping = FuturesUnordered::new();
-        Self { seat, hub, socket, hand, received: now, pinged: now, messages, read_after: now, stepping }
+        Self { seat, hub, server, socket, hand, received: now, pinged: now, messages, read_after: now, stepping }
     }
 
     async fn serve(mut self, stopping: watch::Receiver<bool>) {
@@ -328,6 +329,10 @@ impl Connection {
             ClientMessage::OpenCase { case } => {
                 let case = Box::new(Case::from_json(case.as_bytes()).map_err(CommandError::from)?);
                 self.hub.session.send(Command::Open(case)).await?;
+            }
+            ClientMessage::SelectController { controller: ControllerName::Program, program: Some(name) } => {
+                let program = self.server.programs.find(&name).ok_or(CommandError::NoProgram { name })?;
+                self.hub.session.send(Command::Attach(program)).await?;
             }
             message => match message.command() {
                 Some(command @ Command::Step(_)) => self.stepping.push(self.hub.session.begin(command)?),

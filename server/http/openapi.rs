@@ -12,7 +12,7 @@ use utoipa::{IntoResponses, OpenApi as _};
 
 use super::problem::Problem;
 use super::refusals::{ForeignHost, ForeignOrigin, Malformed, TooLarge, TooMany, TooSlow, Unauthorized};
-use crate::protocol::{ClientMessage, ServerMessage};
+use crate::protocol::{ClientMessage, ProgramAnswer, ProgramMessage, ServerMessage};
 
 /// The parts of the description that routes do not generate.
 #[derive(utoipa::OpenApi)]
@@ -22,7 +22,7 @@ use crate::protocol::{ClientMessage, ServerMessage};
         description = "A browser laboratory for a magnetic robot. Lengths are in metres in the arm's `base` frame, \
                         angles in radians; rotations are given by rows. Refusals are problem details (RFC 9457)."
     ),
-    components(schemas(Problem, ClientMessage, ServerMessage))
+    components(schemas(Problem, ClientMessage, ServerMessage, ProgramMessage, ProgramAnswer))
 )]
 struct Base;
 
@@ -67,8 +67,10 @@ fn complete(mut document: OpenApi) -> OpenApi {
         operations(item).for_each(|operation| complete_operation(path, operation));
     }
     let components = document.components.get_or_insert_default();
-    if let Some(schema) = components.schemas.get_mut("ClientMessage") {
-        messages::tag_inside(schema);
+    for name in ["ClientMessage", "ProgramAnswer"] {
+        if let Some(schema) = components.schemas.get_mut(name) {
+            messages::tag_inside(schema);
+        }
     }
     let token = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).build();
     let cookie = ApiKey::Cookie(ApiKeyValue::new("ferry"));

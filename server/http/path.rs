@@ -54,6 +54,14 @@ pub struct SessionPath {
 
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
+pub struct ProgramPath {
+    /// Name of a program.
+    #[param(example = "mine")]
+    pub name: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
 pub struct MomentPath {
     /// Name of a session; `main` always exists.
     #[param(example = "main")]

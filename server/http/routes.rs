@@ -2,6 +2,7 @@
 
 mod calculator;
 pub mod challenges;
+mod controllers;
 pub mod description;
 mod evaluations;
 mod flow;
@@ -83,6 +84,8 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(challenges::add))
         .routes(routes!(challenges::attempt))
         .routes(routes!(policies::list))
+        .routes(routes!(controllers::list))
+        .routes(routes!(controllers::connect))
         .routes(routes!(recordings::recordings))
         .routes(routes!(recordings::recording, recordings::rename, recordings::delete))
         .routes(routes!(viewer::file))

@@ -61,7 +61,7 @@ pub struct Sessions {
 }
 
 /// Whether a text is a valid session name: it becomes part of addresses and of recordings' names.
-fn is_name(name: &str) -> bool {
+pub fn is_name(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     (1..=NAME_LENGTH).contains(&name.len()) && name.chars().all(fits) && !name.starts_with('-')
 }

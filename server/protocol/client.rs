@@ -38,6 +38,10 @@ pub enum ClientMessage {
     /// Selects sub-controller 2.
     SelectController {
         controller: ControllerName,
+        /// Name of a program, with the controller `program`. Omitted: the one that was selected last.
+        #[serde(default)]
+        #[ts(optional)]
+        program: Option<String>,
     },
     /// Replaces all parameters; one invalid value refuses all of them.
     Configure {
@@ -151,7 +155,7 @@ impl ClientMessage {
             Self::ClearGoal {} => Command::Input(Input::ClearGoal),
             Self::Drag { x_m, y_m, lift } => Command::Input(Input::Drag { x_m, y_m, lift }),
             Self::Release {} => Command::Input(Input::Release),
-            Self::SelectController { controller } => Command::Input(Input::SelectController(controller)),
+            Self::SelectController { controller, .. } => Command::Input(Input::SelectController(controller)),
             Self::Configure { parameters } => Command::Input(Input::Configure(Box::new(parameters))),
             Self::Steer { x_m, y_m, approach } => Command::Input(Input::Steer { x_m, y_m, approach }),
             Self::Run {} => Command::Run,

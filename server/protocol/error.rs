@@ -37,6 +37,7 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::Range { field, .. } => ("out_of_range", Some(*field)),
             CommandError::Challenge(_) => ("map_refused", Some("challenge")),
             CommandError::NoChallenge => ("no_challenge", None),
+            CommandError::NoProgram { .. } => ("no_program", Some("program")),
             CommandError::NoRun { .. } => ("no_run", Some("run")),
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),

@@ -1,8 +1,9 @@
 //! Parses messages. Errors name the invalid field.
 
+use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
-use super::{ClientMessage, ErrorMessage};
+use super::{ClientMessage, ErrorMessage, ProgramAnswer};
 
 impl ClientMessage {
     /// Parses a text frame.
@@ -12,39 +13,61 @@ impl ClientMessage {
 
     /// The message, and the epoch of the lease that it was sent under, if it has one (see [`super::Hello::epoch`]).
     pub fn parse_with_epoch(text: &str) -> Result<(Self, Option<u64>), ErrorMessage> {
-        let malformed =
-            |message: String, field: Option<String>| ErrorMessage { code: "malformed".into(), message, field };
-        let value: Value = serde_json::from_str(text).map_err(|error| malformed(format!("not JSON: {error}"), None))?;
-        let Value::Object(mut fields) = value else {
-            return Err(malformed("a message is a JSON object".into(), None));
-        };
-        let kind = match fields.remove("type") {
-            Some(Value::String(kind)) => kind,
-            other => {
-                let found = other.map_or("missing".into(), |value| value.to_string());
-                return Err(malformed(format!("type is {found}, it must be a string"), Some("type".into())));
-            }
-        };
+        let mut fields = object(text)?;
         let epoch = fields.remove("epoch").map(serde_json::from_value::<u64>).transpose();
         let epoch = epoch.map_err(|error| malformed(format!("epoch: {error}"), Some("epoch".into())))?;
-        // With the tag outside, serde reports the path to the invalid field.
-        let tagged = Value::Object(Map::from_iter([(kind.clone(), Value::Object(fields))]));
-        let message = serde_path_to_error::deserialize(tagged).map_err(|error| {
-            let path = error.path().to_string();
-            let message = error.inner().to_string();
-            match path.strip_prefix(&format!("{kind}.")) {
-                Some(field) => malformed(format!("{field}: {message}"), Some(field.to_owned())),
-                None if path == kind || path == "." => {
-                    // Missing and unknown fields, and unknown types, are named by serde in backquotes.
-                    let field = message.split('`').nth(1).unwrap_or("type").to_owned();
-                    let field = if message.starts_with("unknown variant") { "type".to_owned() } else { field };
-                    malformed(message, Some(field))
-                }
-                None => malformed(message, Some(path)),
-            }
-        });
-        Ok((message?, epoch))
+        Ok((tagged(fields)?, epoch))
     }
+}
+
+impl ProgramAnswer {
+    /// Parses a text frame.
+    ///
+    /// # Errors
+    /// The message is malformed; the error names the field.
+    pub fn parse(text: &str) -> Result<Self, ErrorMessage> {
+        tagged(object(text)?)
+    }
+}
+
+fn malformed(message: String, field: Option<String>) -> ErrorMessage {
+    ErrorMessage { code: "malformed".into(), message, field }
+}
+
+/// The fields of a message.
+fn object(text: &str) -> Result<Map<String, Value>, ErrorMessage> {
+    match serde_json::from_str(text) {
+        Ok(Value::Object(fields)) => Ok(fields),
+        Ok(_) => Err(malformed("a message is a JSON object".into(), None)),
+        Err(error) => Err(malformed(format!("not JSON: {error}"), None)),
+    }
+}
+
+/// The message of a `type` with its fields.
+fn tagged<T: DeserializeOwned>(mut fields: Map<String, Value>) -> Result<T, ErrorMessage> {
+    let kind = match fields.remove("type") {
+        Some(Value::String(kind)) => kind,
+        other => {
+            let found = other.map_or("missing".into(), |value| value.to_string());
+            return Err(malformed(format!("type is {found}, it must be a string"), Some("type".into())));
+        }
+    };
+    // With the tag outside, serde reports the path to the invalid field.
+    let tagged = Value::Object(Map::from_iter([(kind.clone(), Value::Object(fields))]));
+    serde_path_to_error::deserialize(tagged).map_err(|error| {
+        let path = error.path().to_string();
+        let message = error.inner().to_string();
+        match path.strip_prefix(&format!("{kind}.")) {
+            Some(field) => malformed(format!("{field}: {message}"), Some(field.to_owned())),
+            None if path == kind || path == "." => {
+                // Missing and unknown fields, and unknown types, are named by serde in backquotes.
+                let field = message.split('`').nth(1).unwrap_or("type").to_owned();
+                let field = if message.starts_with("unknown variant") { "type".to_owned() } else { field };
+                malformed(message, Some(field))
+            }
+            None => malformed(message, Some(path)),
+        }
+    })
 }
 
 #[cfg(test)]

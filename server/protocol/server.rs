@@ -5,7 +5,7 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 
 use super::numbers::{Numbers2, Numbers3, Numbers6};
-use super::{AttemptStanding, ComparisonMessage, ErrorMessage, OverlayMessage, SeenMessage};
+use super::{AttemptStanding, ComparisonMessage, ErrorMessage, OverlayMessage, ProgramStanding, SeenMessage};
 use crate::geometry::{Point2, Polygon, Rect};
 use crate::plant::{BEAD_RADIUS_M, PositionerKind};
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -272,6 +272,8 @@ pub struct StateMessage {
     /// The attempt at the challenge that is being played.
     #[serde(default)]
     pub attempt: Option<AttemptStanding>,
+    /// The program that was selected last.
+    pub program: Option<ProgramStanding>,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
     /// `recording`, or why nothing is recorded.
@@ -382,6 +384,7 @@ impl From<&View> for StateMessage {
             deliveries: m.counters.deliveries,
             disturbances: m.counters.disturbances,
             attempt: view.attempt.as_ref().map(AttemptStanding::from),
+            program: view.program.as_deref().map(ProgramStanding::from),
             world_hash: format!("{:016x}", view.world_hash),
             recording: view.recording.clone(),
             ended: view.ended.clone(),

@@ -123,7 +123,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 14] {
+fn modules() -> [(&'static str, Vec<Declaration>); 15] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -196,6 +196,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 14] {
                 AttemptStanding,
             ],
         ),
+        ("programs", declared![ProgramStanding, Programs]),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]
 }

@@ -282,7 +282,7 @@ fn random_commands_keep_the_limits_and_refused_ones_change_nothing() {
     let (events, _) = broadcast::channel(1);
     let scenario = Scenario::idle("posts", 1);
     let sink = Box::new(Nowhere::default());
-    let mut worker = Worker::new(scenario, arena, Catalog::default(), make_camera, sink, events).unwrap();
+    let mut worker = Worker::new("main", scenario, arena, Catalog::default(), make_camera, sink, events).unwrap();
     let (mut refused, mut accepted, mut ticks) = (0u64, 0u64, 0u64);
     let mut known = None;
     for _ in 0..commands() {

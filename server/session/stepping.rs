@@ -21,8 +21,10 @@ impl<E: ImageSource> Worker<E> {
                 self.deferred.clear();
                 break;
             }
+            if !self.tick()? {
+                break;
+            }
             self.stepping -= 1;
-            self.tick()?;
         }
         while self.stepping == 0 {
             if let Some(answer) = self.stepped.take() {

@@ -12,18 +12,23 @@ use tokio::sync::{broadcast, oneshot, watch};
 use super::kept_runs::KeptRuns;
 use super::pacing::{LOOK_EVERY, Pace, SPEED_MAX, SPEED_MIN};
 use super::playing::{Playing, Void};
+use super::programs::Program;
+use super::question::{Asking, Sees};
 use super::timeline::Timeline;
-use super::{COMMAND_QUEUE, Command, CommandError, JOURNAL, Request, STEP_MAX, Scenery, View};
+use super::{COMMAND_QUEUE, Command, CommandError, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
-use crate::scenario::Scenario;
+use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
 /// Maximum waiting time of commands while ticks are always due.
 pub(super) const DRAIN_EVERY: Duration = Duration::from_millis(4);
+
+/// How often a session that waits for a program's answer looks for it.
+const ANSWER_EVERY: Duration = Duration::from_millis(1);
 
 /// Creates a camera for an arena.
 pub(super) type MakeCamera<E> = Box<dyn Fn(&Arena) -> Result<E, CameraError> + Send>;
@@ -39,7 +44,7 @@ pub(super) struct Worker<E> {
     pub(super) make_camera: MakeCamera<E>,
     pub(super) camera: E,
     pub(super) sink: Box<dyn Sink>,
-    events: broadcast::Sender<Event>,
+    pub(super) events: broadcast::Sender<Event>,
     pub(super) timeline: Timeline,
     /// The end before the first of several rewinds, until the trial goes on.
     pub(super) end: Option<End>,
@@ -55,6 +60,12 @@ pub(super) struct Worker<E> {
     pub(super) hand_is_stale: bool,
     pub(super) pace: Pace,
     pub(super) playing: Option<Playing>,
+    /// Name of the session.
+    pub(super) name: String,
+    /// The program that was selected last.
+    pub(super) program: Option<Arc<Program>>,
+    /// The question that it has not answered yet.
+    pub(super) asking: Option<Asking>,
     pub(super) journal: Arc<Vec<Event>>,
     /// Ticks that are left of a `Step`. They run in slices, between which requests are answered.
     pub(super) stepping: u32,
@@ -70,6 +81,7 @@ pub(super) struct Worker<E> {
 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn new(
+        name: &str,
         scenario: Scenario,
         arena: Arc<Arena>,
         catalog: Catalog,
@@ -101,6 +113,9 @@ impl<E: ImageSource> Worker<E> {
             hand_is_stale: false,
             pace,
             playing: None,
+            name: name.to_owned(),
+            program: None,
+            asking: None,
             journal: Arc::default(),
             stepping: 0,
             stepped: None,
@@ -124,6 +139,7 @@ impl<E: ImageSource> Worker<E> {
             sight: self.sight.clone(),
             journal: self.journal.clone(),
             attempt: self.playing.as_ref().map(|playing| playing.standing(self.trial.state().world.tick)),
+            program: self.program.clone(),
             recording: self.sink.status(),
             ended: None,
         }
@@ -155,17 +171,21 @@ impl<E: ImageSource> Worker<E> {
                 (false, true) => self.pace.wait(now),
                 (false, false) => LOOK_EVERY,
             };
+            let wait = if self.awaits_answer() { wait.max(ANSWER_EVERY) } else { wait };
             if wait > Duration::ZERO {
                 match inbox.recv_timeout(wait) {
                     Ok(request) => self.answer(request, publish)?,
-                    Err(RecvTimeoutError::Timeout) => self.look_at_recording(publish),
+                    Err(RecvTimeoutError::Timeout) if wait == LOOK_EVERY => self.look_at_recording(publish),
+                    Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => return Ok(()),
                 }
                 continue;
             }
             let (burst, was_running) = (Instant::now(), self.running);
             while self.running && burst.elapsed() < DRAIN_EVERY && self.pace.wait(Instant::now()).is_zero() {
-                self.tick()?;
+                if !self.tick()? {
+                    break;
+                }
                 self.pace.ticked(Instant::now());
             }
             self.step_on(burst, publish)?;
@@ -190,11 +210,12 @@ impl<E: ImageSource> Worker<E> {
     /// command waits for its end, so that commands that follow each other are carried out in order; `Pause` ends it.
     pub(super) fn answer(&mut self, request: Request, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
         match request {
-            Request::Execute { command, answer } if self.stepping > 0 && command != Command::Pause => {
+            Request::Execute { command, answer } if self.stepping > 0 && !matches!(command, Command::Pause) => {
                 self.deferred.push_back(Request::Execute { command, answer });
             }
             Request::Execute { command, answer } => {
                 let result = self.obey(command);
+                self.check_question();
                 if let Some(fault) = self.broken.take() {
                     let _ = answer.send(Err(CommandError::Ended));
                     return Err(fault);
@@ -239,6 +260,11 @@ impl<E: ImageSource> Worker<E> {
                 }
                 self.running = false;
                 self.stepping = 0;
+                self.asking = None;
+            }
+            Command::Attach(program) => {
+                self.program = Some(program);
+                self.input(Input::SelectController(ControllerName::Program))?;
             }
             Command::Step(ticks) => {
                 if !(1..=STEP_MAX).contains(&ticks) {
@@ -305,14 +331,20 @@ impl<E: ImageSource> Worker<E> {
         }
     }
 
-    pub(super) fn tick(&mut self) -> Result<(), TrialError> {
+    /// Runs a tick. Returns false if it did not, because a program has not answered yet.
+    pub(super) fn tick(&mut self) -> Result<bool, TrialError> {
         self.drop_stale_hand()?;
         let tick = self.trial.state().world.tick;
-        if step_is_due(tick) {
+        if step_is_due(tick) && self.asking.is_none() {
             self.forget_after(tick);
             self.timeline.keep(self.trial.snapshot());
         }
-        let mut record = self.trial.tick(Source::Camera(&mut self.camera))?;
+        let source = match self.see()? {
+            Sees::Waits => return Ok(false),
+            Sees::Now(seen) => Source::Seen(seen),
+            Sees::Camera => Source::Camera(&mut self.camera),
+        };
+        let mut record = self.trial.tick(source)?;
         self.sink.record(&record);
         if self.sink.wants_beginning() {
             self.sink.begin(&self.trial, Beginning::Resumed);
@@ -326,18 +358,7 @@ impl<E: ImageSource> Worker<E> {
             self.sight = Arc::new((record.tick, sight));
         }
         self.apply_case();
-        Ok(())
-    }
-
-    /// Sends events of inputs at once if no tick will carry them.
-    pub(super) fn announce(&mut self) {
-        if self.running {
-            return;
-        }
-        for event in self.trial.take_events() {
-            self.sink.note(&event);
-            self.report(event);
-        }
+        Ok(true)
     }
 
     /// Drops everything after a tick. What a rewind has left behind becomes a run.
@@ -352,19 +373,6 @@ impl<E: ImageSource> Worker<E> {
         if self.journal.iter().any(|told| told.tick > tick) {
             Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
         }
-    }
-
-    /// Sends an event to all subscribers and stores it in the journal.
-    pub(super) fn report(&mut self, event: Event) {
-        // Only once: after a rewind a control step happens again at its tick.
-        if !self.journal.contains(&event) {
-            let journal = Arc::make_mut(&mut self.journal);
-            if journal.len() == JOURNAL {
-                journal.remove(0);
-            }
-            journal.push(event.clone());
-        }
-        let _ = self.events.send(event);
     }
 }
 

@@ -8,10 +8,12 @@ use crate::control::search::{Look, Search, SearchInput};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};
 use crate::control::{Refusal, TargetStep};
-use crate::geometry::{Point2, Point3};
+use crate::geometry::{Point2, Point3, Rect};
 use crate::image::CameraFrame;
 use crate::map::WALL_HEIGHT_M;
-use crate::perception::{BeadView, Observation, ObstacleMap, Percept, wall_spread};
+use crate::perception::{
+    BeadView, CellRect, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, wall_spread,
+};
 use crate::scenario::Parameters;
 
 /// A step by hand that is shorter is a rest.
@@ -139,6 +141,23 @@ impl Trial {
         let world = &self.state.world;
         let bead_m = world.tracker.estimate().position_m;
         Some(Question { tick: world.tick, tool_m: seen.tool_m, bead_m, goal_m })
+    }
+
+    /// The dark blocks of the image on the table, as the smallest number of rectangles.
+    pub fn blocks_m(&self, seen: &Seen) -> Vec<Rect> {
+        let parameters = &self.state.world.parameters;
+        let smallest_px = parameters.smallest_block_px as usize;
+        let tree =
+            Quadtree::of(&seen.percept.gray, &QuadtreeParameters { threshold: parameters.obstacle_level, smallest_px });
+        let calibration = &seen.percept.calibration;
+        let on_table = |cells: &CellRect| {
+            let block = tree.pixels(cells);
+            let (left, top) = (block.column_px as f64, block.row_px as f64);
+            let lower = calibration.table_from_image(left, top + block.height_px as f64);
+            let upper = calibration.table_from_image(left + block.width_px as f64, top);
+            Rect { x_min_m: lower.x, x_max_m: upper.x, y_min_m: lower.y, y_max_m: upper.y }
+        };
+        tree.partition().rectangles.iter().map(on_table).collect()
     }
 
     /// What a policy that sees the image would get.

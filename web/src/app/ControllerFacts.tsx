@@ -2,6 +2,7 @@
 
 import { Match, Show, Switch, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
+import { ProgramFacts } from '../features/program/ProgramFacts';
 import { ValueFans } from '../features/values/ValueFans';
 import type { ByHand, OpenTab, Pictures, Trial } from '../lab/slices';
 import { YouFacts } from '../features/steer/YouFacts';
@@ -25,6 +26,9 @@ export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTa
         <>
           <Show when={state().controller === 'you'}>
             <YouFacts lab={lab} />
+          </Show>
+          <Show when={state().controller === 'program'}>
+            <ProgramFacts program={state().program} />
           </Show>
           <Show when={NONE_YET[state().controller]}>
             {(none) => (

@@ -47,6 +47,7 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
     deliveries: 0,
     disturbances: 0,
     attempt: null,
+    program: null,
     world_hash: '',
     recording: '',
     ended: null,

@@ -12,7 +12,8 @@ import {
 } from 'solid-js';
 import { troubleWords } from '../../lab/failure';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../../lab/parameters';
-import type { ControllerName, StateMessage } from '../../net/protocol.gen';
+import { createPoll } from '../../net/poll';
+import type { ControllerName, Programs, StateMessage } from '../../net/protocol.gen';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
@@ -22,9 +23,20 @@ import './ControllerPanel.css';
 /** A choice is shown at once. If the server has not followed by then, its controller is shown again. */
 const CHOICE_MS = 1000;
 
+/** Programs appear within a second. */
+const PROGRAMS_MS = 700;
+
+/** Something that can be chosen: one of Ferry's own controllers, or a program. */
+interface Choice {
+  readonly controller: ControllerName;
+  readonly program?: string;
+}
+
+const keyOf = ({ controller, program }: Choice): string => program ?? controller;
+
 function ControllerRadio(props: {
   lab: Session & Trial;
-  name: ControllerName;
+  choice: Choice;
   isChosen: boolean;
   onChoose(): void;
 }): JSX.Element {
@@ -37,18 +49,18 @@ function ControllerRadio(props: {
     }),
   );
   return (
-    <label title={CONTROLLER_HELP[props.name]}>
+    <label title={CONTROLLER_HELP[props.choice.controller]}>
       <input
         ref={input}
         type="radio"
         name="controller"
-        value={props.name}
+        value={keyOf(props.choice)}
         disabled={!lab.canOperate()}
         onChange={() => {
           props.onChoose();
         }}
       />
-      {CONTROLLER_LABELS[props.name]}
+      {props.choice.program ?? CONTROLLER_LABELS[props.choice.controller]}
     </label>
   );
 }
@@ -59,13 +71,30 @@ function ControllerChoice(props: {
 }): JSX.Element {
   const { lab } = props;
   // Between the arrow keys, states arrive with the choice before.
-  const [choice, setChoice] = createSignal<ControllerName>();
+  const [choice, setChoice] = createSignal<string>();
+  const programs = createPoll<Programs>('/api/controllers', () => PROGRAMS_MS);
   let timer: ReturnType<typeof setTimeout> | undefined;
   const settle = (): void => {
     clearTimeout(timer);
     setChoice(undefined);
   };
-  const active = createMemo(() => lab.state()?.controller);
+  const active = createMemo(() => {
+    const state = lab.state();
+    return state?.controller === 'program' ? state.program?.name : state?.controller;
+  });
+  /** Those that are connected, and the one that carries. */
+  const names = createMemo<readonly string[]>(
+    () => {
+      const connected = (programs.data()?.programs ?? []).filter((one) => one.is_connected);
+      const state = lab.state();
+      const own = state?.controller === 'program' ? state.program?.name : undefined;
+      const all = new Set(connected.map((one) => one.name));
+      if (own !== undefined) all.add(own);
+      return [...all].sort();
+    },
+    [],
+    { equals: (a, b) => a.join(' ') === b.join(' ') },
+  );
   createEffect(
     on(active, (now) => {
       if (now === choice()) settle();
@@ -73,26 +102,26 @@ function ControllerChoice(props: {
   );
   createEffect(on(lab.refusals, settle));
   onCleanup(settle);
-  const choose = (name: ControllerName): void => {
+  const choose = (wanted: Choice): void => {
     settle();
-    setChoice(name);
+    setChoice(keyOf(wanted));
     timer = setTimeout(settle, CHOICE_MS);
-    lab.send({ type: 'select_controller', controller: name });
+    lab.send({ type: 'select_controller', ...wanted });
   };
+  const radio = (one: Choice): JSX.Element => (
+    <ControllerRadio
+      lab={lab}
+      choice={one}
+      isChosen={(choice() ?? active()) === keyOf(one)}
+      onChoose={() => {
+        choose(one);
+      }}
+    />
+  );
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">
-      <For each={props.names}>
-        {(name) => (
-          <ControllerRadio
-            lab={lab}
-            name={name}
-            isChosen={(choice() ?? active()) === name}
-            onChoose={() => {
-              choose(name);
-            }}
-          />
-        )}
-      </For>
+      <For each={props.names}>{(controller) => radio({ controller })}</For>
+      <For each={names()}>{(program) => radio({ controller: 'program', program })}</For>
     </fieldset>
   );
 }

@@ -3,6 +3,7 @@
 import type { Parameters } from '../parameters.gen';
 import type { AttemptStanding } from './challenges.gen';
 import type { ControllerName, Polygon, PositionerKind, Rect, Scenario } from './experiment.gen';
+import type { ProgramStanding } from './programs.gen';
 
 /**
  * See `ServerMessage::Scene`.
@@ -253,6 +254,10 @@ disturbances: number,
  * The attempt at the challenge that is being played.
  */
 attempt: AttemptStanding | null, 
+/**
+ * The program that was selected last.
+ */
+program: ProgramStanding | null, 
 /**
  * Hash of the plant's state, in hex.
  */

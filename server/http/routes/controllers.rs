@@ -1,0 +1,63 @@
+//! `/api/controllers`: programs outside of Ferry that decide control steps.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::extract::State;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use crate::http::Server;
+use crate::http::path::{Path, ProgramPath, Query};
+use crate::http::problem::Problem;
+use crate::http::programs::{MESSAGE_BYTES_MOST, serve};
+use crate::http::refusals::{Conflict, Malformed, NotUpgraded, OutOfRange, TooMany};
+use crate::protocol::{PROGRAM_PROTOCOL_VERSION, ProgramStanding, Programs};
+
+/// The programs that are or were connected.
+#[utoipa::path(get, path = "/api/controllers", tag = "controllers", operation_id = "controllers",
+    responses((status = 200, body = Programs)))]
+pub async fn list(State(server): State<Arc<Server>>) -> Json<Programs> {
+    let programs = server.programs.all().iter().map(|program| ProgramStanding::from(&**program)).collect();
+    Json(Programs { programs })
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct ProgramQuery {
+    /// Version of the messages that the program understands.
+    #[param(example = 1)]
+    protocol: u32,
+}
+
+/// Connects a program by WebSocket. The server sends `ProgramMessage`, the program `ProgramAnswer`, JSON both.
+#[utoipa::path(get, path = "/api/controllers/{name}", tag = "controllers", params(ProgramPath, ProgramQuery),
+    operation_id = "connect_controller",
+    responses((status = 101, description = "The connection is a WebSocket from here on."),
+        Malformed, Conflict, OutOfRange, NotUpgraded, TooMany))]
+pub async fn connect(
+    State(server): State<Arc<Server>>,
+    Path(ProgramPath { name }): Path<ProgramPath>,
+    Query(ProgramQuery { protocol }): Query<ProgramQuery>,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Result<Response, Problem> {
+    if protocol != PROGRAM_PROTOCOL_VERSION {
+        let detail = format!("protocol is {protocol}, this server has {PROGRAM_PROTOCOL_VERSION}");
+        return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "other_protocol", detail).field("protocol"));
+    }
+    let upgrade = upgrade.map_err(|refused| Problem::new(refused.status(), "websocket", refused.body_text()))?;
+    let link = server.programs.connect(&name)?;
+    let upgrade = upgrade.max_message_size(MESSAGE_BYTES_MOST).max_frame_size(MESSAGE_BYTES_MOST);
+    Ok(upgrade.on_upgrade(move |socket| {
+        let sockets = server.sockets.clone();
+        sockets.track_future(async move {
+            // The program may disconnect at any await; the reason does not matter.
+            let _ = serve(link, socket, server.stopping.clone()).await;
+        })
+    }))
+}

@@ -1,0 +1,67 @@
+// A program outside of Ferry: it appears in the page, carries the bead, and is missed when it is gone.
+
+import type { Page } from '@playwright/test';
+import { expect, test } from './fixtures';
+import { must, until } from './support/wait';
+
+/** "it appears in the page within a second". */
+const APPEARS_MS = 1000;
+
+/** Connects a program that goes straight to the goal; returns what disconnects it. */
+async function connect(page: Page, name: string): Promise<() => Promise<void>> {
+  await page.evaluate(async (program) => {
+    const address = `${location.origin.replace('http', 'ws')}/api/controllers/${program}?protocol=1`;
+    const socket = new WebSocket(address);
+    socket.addEventListener('message', ({ data }: MessageEvent<unknown>) => {
+      if (typeof data !== 'string') return;
+      const asked = JSON.parse(data) as { type: string; request: number; goal_m: number[] };
+      if (asked.type !== 'observe') return;
+      socket.send(JSON.stringify({ type: 'act', request: asked.request, target_m: asked.goal_m }));
+    });
+    await new Promise((resolve) => {
+      socket.addEventListener('open', resolve);
+    });
+    Object.assign(window, { programSocket: socket });
+  }, name);
+  return () =>
+    page.evaluate(() => {
+      (window as unknown as { programSocket: WebSocket }).programSocket.close();
+    });
+}
+
+test('a program appears, carries the bead, and is missed when it is gone', async ({
+  openLab,
+  browser,
+}) => {
+  const lab = await openLab();
+  const program = lab.page.getByRole('radio', { name: 'straight' });
+  await expect(program).toHaveCount(0);
+  // Another browser is the program, so that this one can be watched.
+  const other = await browser.newPage();
+  await other.goto(new URL('/board', lab.page.url()).href);
+  const disconnect = await connect(other, 'straight');
+  await expect(program).toBeVisible({ timeout: APPEARS_MS });
+
+  await lab.map('open');
+  const start = await lab.bead();
+  await lab.click(must(lab.freePoints(start, 0.1, 0.15).at(-1), 'a goal'));
+  await program.check();
+  await until('the choice', () => lab.state.controller === 'program');
+  expect(lab.state.program?.name).toBe('straight');
+  await lab.button('Run').click();
+  await expect(lab.page.getByTestId('program-standing')).toHaveText(/^straight answers in \d+ ms/);
+  await until('the delivery', () => lab.state.phase === 'delivered', 30_000);
+
+  await disconnect();
+  await lab.click(must(lab.freePoints(await lab.bead(), 0.1, 0.15).at(-1), 'another goal'));
+  await expect(lab.page.getByTestId('program-standing')).toHaveText(
+    'straight is not connected: the arm holds until it is.',
+  );
+  await until('the refusal', () => lab.state.refusal === 'the program: straight is not connected');
+  // It stays in the list while it is selected.
+  await expect(program).toBeChecked();
+  await lab.page.getByRole('radio', { name: 'ERRT' }).check();
+  await expect(program).toHaveCount(0);
+  await until('another delivery', () => lab.state.deliveries > 1, 30_000);
+  await other.close();
+});
