@@ -1,23 +1,32 @@
 # `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
 # `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses,
-# `make dist` writes an archive with the program, `make results` runs the evaluations of docs/evaluation.md,
+# `make dist` writes an archive with the program, `make wheel` a package for Python, `make results` runs the evaluations of docs/evaluation.md,
 # `make ablations` trains the policies of docs/ablations.md, `make mazes` evaluates controllers on unseen mazes (docs/mazes.md).
 # Each target first installs what is missing.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test dist results ablations mazes soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist wheel test-python results ablations mazes soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
-# description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list.
+# description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
+# package for Python; ruff and mypy check it.
 RERUN_VERSION := 0.36.3
 SCHEMATHESIS_VERSION := 4.32.5
 MINARI_VERSION := 0.5.4
 PYARROW_VERSION := 26.0.1
 PILLOW_VERSION := 13.0.0
+MATURIN_VERSION := 1.16.0
+RUFF_VERSION := 0.17.6
+MYPY_VERSION := 2.4.1
+PYTEST_VERSION := 9.2.0
 VENV := target/venv
 TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)-minari-$(MINARI_VERSION)
+MATURIN := $(VENV)/maturin-$(MATURIN_VERSION)
+# The package is tested where only it is installed, with what it asks for.
+WHEEL_VENV := target/wheel-venv
+WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 # Graphics drivers print long warnings when it is not set.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -27,14 +36,28 @@ run: system-run
 
 # One browser test alone: cd web && npx playwright test -g "name" (after cargo build --release).
 test: system-test $(TOOLS)
-	cargo fmt --check
-	cargo clippy --release --all-targets --quiet -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
+	cargo fmt --all --check
+	cargo clippy --release --workspace --all-targets --quiet -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --workspace --no-deps --quiet
 	cargo test --release --no-run --quiet
+	$(MAKE) test-python
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
 	cargo test --release --quiet --lib --test main
+
+# A package for Python 3.10 or newer on Linux, with the command, the page, the maps and the policies.
+wheel: system-run $(MATURIN)
+	rm -rf target/wheels
+	cd python && ../$(VENV)/bin/maturin build --release --quiet --out ../target/wheels
+	@ls -l target/wheels/*.whl
+
+test-python: wheel $(WHEEL_TOOLS)
+	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check target/wheels/*.whl
+	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps target/wheels/*.whl
+	cd python && ../$(WHEEL_VENV)/bin/ruff format --quiet --check . && ../$(WHEEL_VENV)/bin/ruff check --quiet .
+	$(WHEEL_VENV)/bin/mypy --no-error-summary --config-file python/pyproject.toml python/ferry
+	cd python/tests && ../../$(WHEEL_VENV)/bin/python -m pytest -q -p no:cacheprovider
 
 # An archive with one stripped program for Debian 12 or newer (x86-64). The page, the maps, the policies and Rerun's viewer
 # are embedded. It may need only the system libraries below; a graphics driver is loaded at run time.
@@ -123,6 +146,17 @@ if [ -n "$(1)" ]; then \
 	$(SUDO) apt-get update -q && $(SUDO) apt-get install -qy --no-install-recommends $(1); \
 fi
 endef
+
+$(MATURIN):
+	python3 -m venv $(VENV)
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check maturin==$(MATURIN_VERSION)
+	touch $@
+
+$(WHEEL_TOOLS):
+	python3 -m venv $(WHEEL_VENV)
+	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check ruff==$(RUFF_VERSION) mypy==$(MYPY_VERSION) \
+		pytest==$(PYTEST_VERSION)
+	touch $@
 
 $(TOOLS):
 	python3 -m venv $(VENV)

@@ -2,8 +2,9 @@
 
     python rule.py http://127.0.0.1:8080
 
-It looks 2 cm ahead in 32 directions, and takes the free one that turns least from the way to the goal. Once it follows a
-wall, it keeps to the side on which it began, until the way to the goal is free and shorter than where it began.
+It looks 2 cm ahead in 32 directions, and takes the free one that turns least from the way to the goal. Once it
+follows a wall, it keeps to the side on which it began, until the way to the goal is free and shorter than where it
+began.
 """
 
 import sys

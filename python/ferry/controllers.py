@@ -65,9 +65,7 @@ class Percept:
     def observation(self) -> dict[str, NDArray[Any]]:
         """The same as the environments' ``observation="dict"``."""
         x_from, x_to, y_from, y_to = self.leg.workspace_m
-        image, vector = observation(
-            self.image, tuple(self.goal_m), tuple(self.tool_m), (x_from, x_to, y_from, y_to)
-        )
+        image, vector = observation(self.image, tuple(self.goal_m), tuple(self.tool_m), (x_from, x_to, y_from, y_to))
         return {"image": image, "vector": vector}
 
     def is_dark(self, place_m: NDArray[np.float64]) -> bool:
@@ -119,8 +117,8 @@ def serve(
 
     In the page it appears beside RL, ERRT and Attractor. When the server is gone, it is tried again every second.
 
-    An exception in :meth:`Controller.act`, or a step that is no pair of finite numbers, holds the arm; the page says why,
-    and the exception is logged.
+    An exception in :meth:`Controller.act`, or a step that is no pair of finite numbers, holds the arm; the page says
+    why, and the exception is logged.
 
     Raises:
         Refused: the name is not allowed or in use, the token is wrong, or the server has another protocol.
@@ -146,7 +144,7 @@ def serve(
         stop.wait(RETRY_S)
 
 
-def _detail(body: bytes | None, status: int) -> str:
+def _detail(body: bytes | bytearray | None, status: int) -> str:
     try:
         return str(json.loads(body or b"")["detail"])
     except (ValueError, KeyError, TypeError):
@@ -204,7 +202,9 @@ class _Served:
     def _percept(self, message: dict[str, Any], pixels: Any) -> Percept:
         image = message["image"]
         size = image["size_px"]
-        rectangles = [[box[side] for side in ("x_min_m", "x_max_m", "y_min_m", "y_max_m")] for box in message["obstacles"]]
+        rectangles = [
+            [box[side] for side in ("x_min_m", "x_max_m", "y_min_m", "y_max_m")] for box in message["obstacles"]
+        ]
         return Percept(
             leg=self._legs[message["trial"]],
             tick=message["tick"],

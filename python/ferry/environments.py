@@ -9,8 +9,8 @@
 Both have the same observations and actions, so a policy can be trained in one and tried in the other.
 
 Observations
-    ``observation="dict"`` (default): ``image``, uint8 ``(84, 84)``, the camera's gray image around the tool; ``vector``,
-    float32 ``(4,)``, goal x and y, then tool x and y, each 0 to 1 over the workspace.
+    ``observation="dict"`` (default): ``image``, uint8 ``(84, 84)``, the camera's gray image around the tool;
+    ``vector``, float32 ``(4,)``, goal x and y, then tool x and y, each 0 to 1 over the workspace.
     ``observation="paper"``: float32 ``(2, 84, 84)``, 0 to 1, the same as the paper's two channels.
     ``observation="vector"``: only the vector.
 
@@ -80,7 +80,6 @@ def _only(batch: Any) -> Any:
     return {key: value[0] for key, value in batch.items()} if isinstance(batch, dict) else batch[0]
 
 
-
 def default_sweeps() -> Path:
     """Where the camera's images of a map are kept."""
     cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
@@ -106,9 +105,9 @@ def _new_lattice(
 class LatticeEnv(gymnasium.Env[Any, np.int64]):
     """``ferry/Lattice-v0``: training's fast environment; see :mod:`ferry.environments`.
 
-    An episode ends with +1 within 2 cm of the goal, and with −1 when the image shows a wall nearer than ``clearance_m``.
-    After 150 steps it is truncated. Each step adds ``progress_reward`` for each cell nearer to the goal along the shortest
-    path, or subtracts it, and subtracts ``step_penalty``.
+    An episode ends with +1 within 2 cm of the goal, and with −1 when the image shows a wall nearer than
+    ``clearance_m``. After 150 steps it is truncated. Each step adds ``progress_reward`` for each cell nearer to the
+    goal along the shortest path, or subtracts it, and subtracts ``step_penalty``.
 
     ``info["distance_steps"]`` is the true number of steps to the goal; a policy must not use it.
 
@@ -142,9 +141,7 @@ class LatticeEnv(gymnasium.Env[Any, np.int64]):
         self._all = np.ones(1, bool)
         self._is_seeded = False
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Any, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         super().reset(seed=seed)
         if seed is None and not self._is_seeded:
             seed = int(self.np_random.integers(2**63))
@@ -162,7 +159,8 @@ class LatticeEnv(gymnasium.Env[Any, np.int64]):
     def render(self) -> NDArray[np.uint8] | None:
         if self.render_mode != "rgb_array":
             return None
-        return self._native.images()[0].repeat(4, axis=0).repeat(4, axis=1)[..., None].repeat(3, axis=2)
+        enlarged: NDArray[np.uint8] = self._native.images()[0].repeat(4, axis=0).repeat(4, axis=1)
+        return np.stack([enlarged] * 3, axis=2)
 
     def _observed(self) -> Any:
         return _only(observations(self._native, self._kind))
@@ -327,18 +325,20 @@ class _Trials:
         self.native = Mazes(map, lanes, changes, disturbances, 0)
         self._action = action
         self._progress_reward = progress_reward
-        self._corner_m = np.array(self.native.corner_m())
+        self._corner_m: NDArray[np.float64] = np.array(self.native.corner_m())
 
     def targets_m(self, actions: Any) -> NDArray[np.float64]:
         """Where each action sends the tool, ``(lanes, 2)``."""
         tools_m = self.native.places_m()[:, :2]
         if self._action == "box":
-            return tools_m + STEP_M * np.asarray(actions, np.float64).clip(-1.0, 1.0)
+            moved: NDArray[np.float64] = tools_m + STEP_M * np.asarray(actions, np.float64).clip(-1.0, 1.0)
+            return moved
         indices = np.asarray(actions, np.int64)
         if wrong := [index for index in indices.tolist() if not 0 <= index < 4]:
             raise ValueError(f"action is {wrong[0]}, it must be 0 to 3")
         cells = np.floor((tools_m - self._corner_m) / STEP_M)
-        return self._corner_m + (cells + 0.5 + OFFSETS[indices]) * STEP_M
+        middles: NDArray[np.float64] = self._corner_m + (cells + 0.5 + OFFSETS[indices]) * STEP_M
+        return middles
 
     def step(self, actions: Any, mask: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
         counts_progress = self._progress_reward > 0.0
@@ -387,7 +387,8 @@ class MazeEnv(gymnasium.Env[Any, Any]):
         render_mode: ``"rgb_array"`` gives the table from above.
         parameters: Ferry's parameters by name, as in ``ferry evaluate --set``.
         disturbances: how often the bead is lifted and put down elsewhere.
-        progress_reward: for each centimetre nearer to the goal along the shortest path, 0 to 1. It costs time to compute.
+        progress_reward: for each centimetre nearer to the goal along the shortest path, 0 to 1. It costs time to
+        compute.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 4}
@@ -410,9 +411,7 @@ class MazeEnv(gymnasium.Env[Any, Any]):
         self.action_space = self._trials.action_space
         self._native = self._trials.native
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Any, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         super().reset(seed=seed)
         self._native.start([int(self.np_random.integers(2**63)) if seed is None else seed])
         return self._observed(), self._info()

@@ -68,9 +68,7 @@ class Page:
                     return message
         raise AssertionError("waited in vain")
 
-    def carry(
-        self, name: str, map: str = "open", start_m: Any = (-0.1, -0.35), goal_m: Any = (0.1, -0.35)
-    ) -> None:
+    def carry(self, name: str, map: str = "open", start_m: Any = (-0.1, -0.35), goal_m: Any = (0.1, -0.35)) -> None:
         deadline = time.monotonic() + 10
         # The program may still be connecting.
         while True:
@@ -174,7 +172,7 @@ def test_steps_are_checked() -> None:
 
 def test_the_image_is_that_of_the_environment() -> None:
     environment = ferry.MazeEnv("posts")
-    seen, info = environment.reset(seed=3)
+    seen, _ = environment.reset(seed=3)
     gray = np.full((480, 480), 240, np.uint8)
     image, vector = ferry._ferry.observation(gray, (0.1, -0.3), (0.0, -0.3), (-0.3, 0.3, -0.6, -0.2))
     assert (image == 240).all() and image.shape == seen["image"].shape and vector.dtype == np.float32

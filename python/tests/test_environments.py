@@ -59,7 +59,7 @@ def test_lanes_begin_again_in_each_mode() -> None:
         random = np.random.default_rng(2)
         steps, firsts = np.zeros(16, int), []
         for _ in range(300):
-            seen, rewards, terminated, truncated, info = env.step(random.integers(4, size=16))
+            seen, _, terminated, truncated, info = env.step(random.integers(4, size=16))
             ended = terminated | truncated
             if mode == AutoresetMode.SAME_STEP and ended.any():
                 lane = int(ended.argmax())
