@@ -32,7 +32,7 @@ pub enum ProgramMessage {
         map: String,
         workspace: Rect,
         #[schema(value_type = Object)]
-        parameters: Parameters,
+        parameters: Box<Parameters>,
     },
     /// A control step needs an answer.
     Observe {
@@ -102,7 +102,12 @@ impl ProgramMessage {
 
     pub fn start(trial: &str, leg: &Leg) -> Self {
         let Leg { map, workspace, parameters, .. } = leg;
-        Self::Start { trial: trial.to_owned(), map: map.clone(), workspace: *workspace, parameters: parameters.clone() }
+        Self::Start {
+            trial: trial.to_owned(),
+            map: map.clone(),
+            workspace: *workspace,
+            parameters: Box::new(parameters.clone()),
+        }
     }
 
     pub fn observe(request: u64, asked: &Asked) -> Self {
