@@ -73,8 +73,8 @@ export function StageBar(props: {
             </Match>
             <Match when={isOver(attempt()) && isRewound()}>
               <p role="status">
-                This is a moment of your attempt. The timeline has the others; what you do from here
-                does not count.
+                This is a moment of your attempt. Drag the timeline below to see the rest; what you
+                do from here does not count.
               </p>
               <Again lab={lab} isPrimary={false} />
             </Match>

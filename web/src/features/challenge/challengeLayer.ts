@@ -75,7 +75,9 @@ export const CHALLENGE_LAYER: MapLayer = {
           ctx.beginPath();
           ctx.arc(x, y, LOSS_PX, 0, 2 * Math.PI);
           ctx.stroke();
-          drawLabel(ctx, palette, `lost ${seconds(loss.lost_s)} here`, [x + LOSS_PX + 4, y]);
+          // Above the ring, clear of bead and magnet.
+          const label = `lost ${seconds(loss.lost_s)} here`;
+          drawLabel(ctx, palette, label, [x + LOSS_PX + 4, y - LOSS_PX - 6]);
           ctx.restore();
         };
       },
