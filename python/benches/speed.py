@@ -1,6 +1,6 @@
 """Steps per second on one core; docs/results.md has the figures.
 
-    taskset -c 0 python speed.py
+taskset -c 0 python speed.py
 """
 
 import json
