@@ -4,6 +4,7 @@ mod attempts;
 mod evaluate;
 mod map;
 mod maps;
+mod merge;
 mod render;
 mod replay;
 mod serve;
@@ -45,6 +46,8 @@ enum Command {
     Render(render::Arguments),
     /// Check a map and print its properties
     Map(map::Arguments),
+    /// Merge the shards of an evaluation
+    Merge(merge::Arguments),
     /// Generate mazes
     #[command(subcommand)]
     Maps(maps::Command),
@@ -77,6 +80,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Maps(command) => maps::run(&command),
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),

@@ -11,6 +11,7 @@ mod manner;
 mod paper;
 mod query;
 mod report;
+mod shard;
 mod statistics;
 mod summary;
 
@@ -18,12 +19,14 @@ pub use comparison::{Comparison, PairedMean};
 pub use evaluation::{CellProgress, CellResult, Evaluation, Progress, Stage};
 pub use evaluations::{Evaluations, SubmitError};
 pub use experiment::{
-    Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, episode_in, run, run_one, unrecorded,
+    Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, episode_in, run, run_one, run_trials,
+    unrecorded,
 };
 pub use figure::{FigureError, Trace};
 pub use manner::Manner;
 pub use paper::PaperRow;
 pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
 pub use report::{Report, ReportError};
+pub use shard::{MergeError, Merged, Part, PartError, Shard, ShardError, merge};
 pub use statistics::wilson95;
 pub use summary::{Failure, Row};

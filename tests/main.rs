@@ -30,6 +30,7 @@ mod programs;
 mod recordings;
 mod reference;
 mod rendering;
+mod shards;
 mod sights;
 mod stopping;
 mod support;

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::Cell;
 use super::course::Course;
@@ -80,7 +81,7 @@ impl Experiment {
 }
 
 /// One trial's result.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Episode {
     /// Index of the trial.
     pub index: u32,
@@ -281,21 +282,29 @@ pub fn episode_in(
 
 /// Runs experiments on all threads of the current pool and returns the episodes of each.
 pub fn run(experiments: &[Experiment], gpu: &Arc<Gpu>, watch: &Watch<'_>) -> Result<Vec<Vec<Episode>>, EvaluateError> {
-    let mut wanted = Vec::new();
-    for (number, experiment) in experiments.iter().enumerate() {
-        check_episodes(experiment)?;
-        wanted.extend((0..experiment.episodes).map(|index| (number, index)));
+    let every =
+        experiments.iter().enumerate().flat_map(|(number, one)| (0..one.episodes).map(move |index| (number, index)));
+    let mut of_each: Vec<Vec<Episode>> = experiments.iter().map(|_| Vec::new()).collect();
+    for (number, episode) in run_trials(experiments, every.collect(), gpu, watch)? {
+        of_each[number].push(episode);
     }
-    let done = wanted.into_par_iter().map(|(number, index)| {
+    Ok(of_each)
+}
+
+/// Runs some trials, each given by the number of its experiment and its index, and returns them in this order.
+pub fn run_trials(
+    experiments: &[Experiment],
+    trials: Vec<(usize, u32)>,
+    gpu: &Arc<Gpu>,
+    watch: &Watch<'_>,
+) -> Result<Vec<(usize, Episode)>, EvaluateError> {
+    experiments.iter().try_for_each(check_episodes)?;
+    let done = trials.into_par_iter().map(|(number, index)| {
         let episode = run_one(&experiments[number], index, gpu, watch)?;
         (watch.progress)(number, &episode);
         Ok((number, episode))
     });
-    let mut of_each: Vec<Vec<Episode>> = experiments.iter().map(|_| Vec::new()).collect();
-    for (number, episode) in done.collect::<Result<Vec<_>, EvaluateError>>()? {
-        of_each[number].push(episode);
-    }
-    Ok(of_each)
+    done.collect()
 }
 
 fn check_episodes(experiment: &Experiment) -> Result<(), EvaluateError> {

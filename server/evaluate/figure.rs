@@ -2,6 +2,7 @@
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Point2, Rect};
 use crate::map::Map;
@@ -25,7 +26,7 @@ const DRAWN_EVERY: usize = 5;
 #[error("figure: {0}")]
 pub struct FigureError(String);
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Sample {
     time_s: f64,
     tool_m: Point2<f64>,
@@ -33,7 +34,7 @@ struct Sample {
 }
 
 /// The data of a figure.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trace {
     workspace: Rect,
     /// Outlines of walls and of their holes, larger ones first, and whether each is a wall.

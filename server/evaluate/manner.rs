@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use rand::RngExt;
+use serde::{Deserialize, Serialize};
 
 use crate::control::CONTROL_PERIOD_S;
 use crate::geometry::Point2;
@@ -20,7 +21,7 @@ const HOLD_S: f64 = 0.5;
 const DRAWS: usize = 200;
 
 /// How trials are run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manner {
     /// Disturbances are made by a hand that draws the bead through free space; otherwise the bead is lifted.
     pub by_hand: bool,

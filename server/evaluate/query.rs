@@ -1,5 +1,7 @@
 //! The query of an evaluation, checked before anything runs.
 
+use serde::{Deserialize, Serialize};
+
 use crate::map::{Library, Map, MapError};
 use crate::policy::PolicyError;
 use crate::scenario::{ControllerName, RlPolicy};
@@ -30,7 +32,7 @@ pub struct EvaluationQuery {
 }
 
 /// The subject of one row of the table.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,

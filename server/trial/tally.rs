@@ -1,10 +1,12 @@
 //! Tracking errors of a trial, summed while sub-controller 2 transports, as in the paper (§V).
 
+use serde::{Deserialize, Serialize};
+
 use super::{Moment, Phase};
 use crate::control::switching::Mode;
 
 /// Sums over the ticks of transport.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     sum_m: f64,
     sum_x_m: f64,

@@ -45,7 +45,9 @@ export function createLayerChoice(known: readonly KnownLayer[]): Layers {
   return {
     layers,
     showLayer: (id, on) => {
-      const next = { ...switched(), [id]: on };
+      const isDefault = on === (known.find((layer) => layer.id === id)?.shownAtFirst ?? false);
+      const others = Object.entries(switched()).filter(([other]) => other !== id);
+      const next = Object.fromEntries(isDefault ? others : [...others, [id, on]]);
       setSwitched(next);
       remember(KEY, JSON.stringify(next));
     },

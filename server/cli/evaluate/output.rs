@@ -1,0 +1,188 @@
+//! What `ferry evaluate` and `ferry merge` print and write.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Context;
+use comfy_table::{CellAlignment, Table, TableStyle};
+
+use crate::evaluate::{Comparison, Failure, Manner, PairedMean, Report, Row};
+
+#[derive(clap::Args)]
+pub struct Output {
+    /// Print only one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Write the rows to this CSV file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write rows, differences, failures and figures to this self-contained HTML file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Address of the page for the links in the report
+    #[arg(long, value_name = "ADDRESS", default_value = "http://127.0.0.1:8080")]
+    page: String,
+}
+
+impl Output {
+    /// Opens the files before anything runs, so that an error is reported early.
+    pub fn prepare(&self) -> anyhow::Result<()> {
+        for path in [&self.csv, &self.html].into_iter().flatten() {
+            std::fs::write(path, "").with_context(|| path.display().to_string())?;
+        }
+        Ok(())
+    }
+
+    /// Writes the files, and prints the report.
+    pub fn write(&self, report: &Report, manner: Manner) -> anyhow::Result<ExitCode> {
+        if let Some(path) = &self.csv {
+            std::fs::write(path, report.to_csv()?).with_context(|| path.display().to_string())?;
+        }
+        if let Some(path) = &self.html {
+            std::fs::write(path, report.to_html(&self.page)).with_context(|| path.display().to_string())?;
+        }
+        if self.json {
+            println!("{}", serde_json::to_string(report)?);
+            return Ok(ExitCode::SUCCESS);
+        }
+        println!("seed {}, rendered by {}", report.seed, report.adapter);
+        let changes = report.rows.first().map(|row| row.changes.join(", "));
+        if let Some(changes) = changes.filter(|changes| !changes.is_empty()) {
+            println!("parameters other than the default: {changes}");
+        }
+        if manner.by_hand {
+            println!("disturbed by a hand that draws the bead through free space");
+        }
+        if manner.tool_apart {
+            println!("at the start the tool is at least 15 cm from the bead");
+        }
+        println!("{}", rows_table(&report.rows));
+        for row in report.rows.iter().filter(|row| row.beyond_steps > 0) {
+            let Row { controller, map, disturbances, beyond_steps, episodes, .. } = row;
+            println!(
+                "{controller} on {map}, {disturbances} disturbances: {beyond_steps} of {episodes} goals are farther than \
+                 step_limit allows"
+            );
+        }
+        if !report.comparisons.is_empty() {
+            println!(
+                "\npaired differences, first minus second, with 95 % intervals; steps, error and path where both \
+                 delivered, and steps over all trials with the interval corrected for {} comparisons",
+                report.comparisons.len()
+            );
+            println!("{}", comparisons_table(&report.comparisons));
+        }
+        print_failures(&report.failures, &self.page);
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// A table of text, the first `left` columns as words, the others as numbers.
+fn table(head: &[&str], left: usize) -> Table {
+    let mut table = Table::new();
+    table.load_style(TableStyle::new()).set_header(head.to_vec());
+    for column in table.column_iter_mut().skip(left) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn interval([low, high]: [f64; 2]) -> String {
+    format!("{low:.3} to {high:.3}")
+}
+
+fn rows_table(rows: &[Row]) -> Table {
+    let head = [
+        "controller",
+        "map",
+        "dist.",
+        "reached",
+        "95 % Wilson",
+        "delivered",
+        "95 % Wilson",
+        "error mm",
+        "in x, y",
+        "max x, y",
+        "path/shortest",
+        "steps",
+        "switches",
+        "trained here",
+        "ms/step p50 p99",
+    ];
+    let mut table = table(&head, 2);
+    for row in rows {
+        let pair = |x_m: f64, y_m: f64| format!("{:.1} {:.1}", x_m * 1e3, y_m * 1e3);
+        table.add_row(vec![
+            row.controller.clone(),
+            row.map.clone(),
+            row.disturbances.to_string(),
+            format!("{}/{}", row.successes, row.episodes),
+            interval(row.successes_wilson95),
+            format!("{}/{}", row.delivered, row.episodes),
+            interval(row.wilson95),
+            format!("{:.1}", row.tracking_error_mean_m * 1e3),
+            pair(row.tracking_error_mean_x_m, row.tracking_error_mean_y_m),
+            pair(row.tracking_error_max_x_m, row.tracking_error_max_y_m),
+            row.path_ratio_mean.map_or("-".to_owned(), |ratio| format!("{ratio:.3}")),
+            format!("{:.1}", row.steps_mean),
+            format!("{:.2}", row.switches_mean),
+            row.trained_on_map.map_or("-", |trained| if trained { "yes" } else { "no" }).to_owned(),
+            format!("{:.1} {:.1}", row.decision_ms_p50, row.decision_ms_p99),
+        ]);
+    }
+    table
+}
+
+fn comparisons_table(comparisons: &[Comparison]) -> Table {
+    let head = [
+        "first - second",
+        "map",
+        "dist.",
+        "both, first, second, neither",
+        "delivered, points",
+        "steps",
+        "error mm",
+        "path/shortest",
+        "steps of all",
+    ];
+    let mut table = table(&head, 2);
+    let signed = |mean: f64, [low, high]: [f64; 2], scale: f64, digits: usize| {
+        let [mean, low, high] = [mean, low, high].map(|value| value * scale);
+        format!("{mean:+.digits$} ({low:+.digits$} to {high:+.digits$})")
+    };
+    let paired = |mean: Option<PairedMean>, scale: f64, digits: usize| {
+        mean.map_or("-".to_owned(), |mean| signed(mean.mean, mean.interval95, scale, digits))
+    };
+    for one in comparisons {
+        table.add_row(vec![
+            format!("{} - {}", one.controller, one.against),
+            one.map.clone(),
+            one.disturbances.to_string(),
+            format!("{}, {}, {}, {}", one.both, one.first_only, one.second_only, one.neither),
+            signed(one.delivered_difference, one.delivered_difference95, 100.0, 1),
+            paired(one.steps, 1.0, 1),
+            paired(one.tracking_error_mean_m, 1e3, 1),
+            paired(one.path_ratio, 1.0, 3),
+            one.steps_of_all.map_or("-".to_owned(), |all| signed(all.mean, all.interval_corrected, 1.0, 1)),
+        ]);
+    }
+    table
+}
+
+/// Prints each failure with its reason and a link to replay it.
+fn print_failures(failures: &[Failure], page: &str) {
+    for failure in failures {
+        println!(
+            "\n{} on {}, {} disturbances, trial {}: {} ({} steps)",
+            failure.controller,
+            failure.map,
+            failure.disturbances,
+            failure.index,
+            failure.reason(),
+            failure.steps,
+        );
+        if let Some(link) = &failure.link {
+            println!("  {page}/{link}");
+        }
+    }
+}
