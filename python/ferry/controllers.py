@@ -223,7 +223,7 @@ def checked_target_m(step: Step | None) -> tuple[float, float] | None:
     """The place of a step.
 
     Raises:
-        TypeError, ValueError: it is none.
+        TypeError, ValueError: the step cannot be used.
     """
     if step is None:
         return None

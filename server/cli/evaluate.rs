@@ -15,6 +15,7 @@ use crate::evaluate::{
     Cell, Episode, EvaluateError, Experiment, Manner, Part, Report, Shard, Venue, Watch, run, run_one, run_trials,
     unrecorded,
 };
+use crate::files::replace;
 use crate::policy::Policy;
 use crate::recording::Recorder;
 use crate::scenario::{ControllerName, Parameters};
@@ -91,12 +92,7 @@ fn run_shard(experiments: &[Experiment], shard: Shard, path: &Path) -> anyhow::R
     let episodes = run_trials(experiments, trials, &gpu, &watch)?;
     bar.finish_and_clear();
     let part = Part::of(experiments, shard, gpu.adapter_name(), episodes)?;
-    let unfinished = path.with_extension("unfinished");
-    let write = || {
-        std::fs::write(&unfinished, serde_json::to_vec(&part)?)?;
-        std::fs::rename(&unfinished, path)
-    };
-    write().with_context(|| path.display().to_string())?;
+    replace(path, &serde_json::to_vec(&part)?).with_context(|| path.display().to_string())?;
     Ok(ExitCode::SUCCESS)
 }
 

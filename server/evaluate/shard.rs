@@ -25,7 +25,7 @@ pub struct Shard {
     pub count: u32,
 }
 
-/// A text that is no shard.
+/// A text that does not name a shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is not a shard: it must be I/N with 1 ≤ I ≤ N ≤ {SHARDS_MOST}, such as 2/8")]
 pub struct ShardError(String);

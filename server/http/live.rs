@@ -359,7 +359,7 @@ impl Connection {
 }
 
 /// The next message, read not before a given time.
-async fn receive(socket: &mut WebSocket, not_before: Instant) -> Option<Result<Message, axum::Error>> {
+pub async fn receive(socket: &mut WebSocket, not_before: Instant) -> Option<Result<Message, axum::Error>> {
     tokio::time::sleep_until(not_before).await;
     socket.recv().await
 }

@@ -13,6 +13,7 @@ use governor::{Quota, RateLimiter};
 use tokio::sync::{mpsc, oneshot, watch};
 use tokio::time::Instant;
 
+use super::live::receive;
 use super::problem::Problem;
 use super::sessions::is_name;
 use crate::control::transport::program::Answer;
@@ -180,12 +181,6 @@ fn malformed(message: &str) -> ErrorMessage {
 async fn send(socket: &mut WebSocket, message: &ProgramMessage) -> Result<(), axum::Error> {
     let text = serde_json::to_string(message).map_err(axum::Error::new)?;
     socket.send(Message::text(text)).await
-}
-
-/// The next message, read not before a given time.
-async fn receive(socket: &mut WebSocket, not_before: Instant) -> Option<Result<Message, axum::Error>> {
-    tokio::time::sleep_until(not_before).await;
-    socket.recv().await
 }
 
 #[cfg(test)]
