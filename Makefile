@@ -7,7 +7,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test dist wheel test-python results ablations mazes soak fuzz audit system-run system-test rust web browser
+.PHONY: run test dist wheel test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -21,12 +21,23 @@ MATURIN_VERSION := 1.16.0
 RUFF_VERSION := 0.17.6
 MYPY_VERSION := 2.4.1
 PYTEST_VERSION := 9.2.0
+NBCONVERT_VERSION := 7.17.2
+IPYKERNEL_VERSION := 7.4.0
+MATPLOTLIB_VERSION := 3.11.2
+TORCH_VERSION := 2.15.0
+STABLE_BASELINES3_VERSION := 2.9.2
+ONNX_VERSION := 1.23.2
+ONNXSCRIPT_VERSION := 0.7.2
+ONNXRUNTIME_VERSION := 1.32.0
+RAY_VERSION := 2.60.0
 VENV := target/venv
 TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)-minari-$(MINARI_VERSION)
 MATURIN := $(VENV)/maturin-$(MATURIN_VERSION)
 # The package is tested where only it is installed, with what it asks for.
 WHEEL_VENV := target/wheel-venv
-WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)
+RL_VENV := target/rl-venv
+WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)-nbconvert-$(NBCONVERT_VERSION)
+RL_TOOLS := $(RL_VENV)/torch-$(TORCH_VERSION)-stable-baselines3-$(STABLE_BASELINES3_VERSION)-ray-$(RAY_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 # Graphics drivers print long warnings when it is not set.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -52,12 +63,20 @@ wheel: system-run $(MATURIN)
 	cd python && ../$(VENV)/bin/maturin build --release --quiet --out ../target/wheels
 	@ls -l target/wheels/*.whl
 
+# What needs torch (3 GB) or Ray: a learner, ONNX, evaluations on several workers.
+test-python-rl: wheel $(RL_TOOLS)
+	$(RL_VENV)/bin/pip install --quiet --disable-pip-version-check target/wheels/*.whl
+	$(RL_VENV)/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps target/wheels/*.whl
+	cd python/tests_rl && ../../$(RL_VENV)/bin/python -m pytest -q -p no:cacheprovider
+
 test-python: wheel $(WHEEL_TOOLS)
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check target/wheels/*.whl
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps target/wheels/*.whl
 	cd python && ../$(WHEEL_VENV)/bin/ruff format --quiet --check . && ../$(WHEEL_VENV)/bin/ruff check --quiet .
 	$(WHEEL_VENV)/bin/mypy --no-error-summary --config-file python/pyproject.toml python/ferry
 	cd python/tests && ../../$(WHEEL_VENV)/bin/python -m pytest -q -p no:cacheprovider
+	$(WHEEL_VENV)/bin/python -m jupyter nbconvert --log-level=ERROR --to notebook --execute \
+		--output-dir target/notebooks docs/notebooks/*.ipynb
 
 # An archive with one stripped program for Debian 12 or newer (x86-64). The page, the maps, the policies and Rerun's viewer
 # are embedded. It may need only the system libraries below; a graphics driver is loaded at run time.
@@ -152,10 +171,18 @@ $(MATURIN):
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check maturin==$(MATURIN_VERSION)
 	touch $@
 
+$(RL_TOOLS):
+	python3 -m venv $(RL_VENV)
+	$(RL_VENV)/bin/pip install --quiet --disable-pip-version-check torch==$(TORCH_VERSION) \
+		stable-baselines3==$(STABLE_BASELINES3_VERSION) onnx==$(ONNX_VERSION) onnxscript==$(ONNXSCRIPT_VERSION) \
+		onnxruntime==$(ONNXRUNTIME_VERSION) ray==$(RAY_VERSION) pytest==$(PYTEST_VERSION)
+	touch $@
+
 $(WHEEL_TOOLS):
 	python3 -m venv $(WHEEL_VENV)
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check ruff==$(RUFF_VERSION) mypy==$(MYPY_VERSION) \
-		pytest==$(PYTEST_VERSION)
+		pytest==$(PYTEST_VERSION) nbconvert==$(NBCONVERT_VERSION) ipykernel==$(IPYKERNEL_VERSION) \
+		matplotlib==$(MATPLOTLIB_VERSION)
 	touch $@
 
 $(TOOLS):

@@ -9,6 +9,7 @@ mod figure;
 mod job;
 mod manner;
 mod paper;
+mod plan;
 mod query;
 mod report;
 mod shard;
@@ -25,6 +26,7 @@ pub use experiment::{
 pub use figure::{FigureError, Trace};
 pub use manner::Manner;
 pub use paper::PaperRow;
+pub use plan::{Contender, Plan, PlanError};
 pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
 pub use report::{Report, ReportError};
 pub use shard::{MergeError, Merged, Part, PartError, Shard, ShardError, merge};

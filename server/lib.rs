@@ -43,6 +43,7 @@ pub mod map;
 pub mod perception;
 pub mod plant;
 pub mod policy;
+pub mod program;
 pub mod protocol;
 pub mod recording;
 pub mod robot;

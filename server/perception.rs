@@ -173,18 +173,22 @@ impl Percept {
         if is_corrected { self.from_default_camera(tool_m, known) } else { Cow::Borrowed(&self.gray) }
     }
 
+    /// Whether the image is that of the default camera over a tool, with nothing hidden.
+    pub fn is_from_default_camera(&self, tool_m: Point2<f64>) -> bool {
+        let Calibration { center_m, m_per_px, size_px, .. } = self.calibration;
+        let side_m = default_side_m(tool_m);
+        let is_default = (center_m - tool_m).norm() < 1e-9 && (m_per_px * size_px as f64 - side_m).abs() < 1e-6;
+        is_default && !self.is_partly_hidden
+    }
+
     /// The image that the default camera would take over a tool: [`CameraMount::default`]'s square of table, with the
     /// tool in the middle. Policies are trained with that camera. What this camera does not see, or what the magnet
     /// hides, comes from the obstacle map; a place that was never seen is shown as floor.
     pub fn from_default_camera(&self, tool_m: Point2<f64>, known: &ObstacleMap) -> Cow<'_, GrayImage> {
-        let pinhole = CameraMount::default().over(tool_m);
-        let [_, _, height_m] = pinhole.position_m;
-        let side_m = 2.0 * height_m * pinhole.tangent();
-        let Calibration { center_m, m_per_px, size_px, .. } = self.calibration;
-        let is_default = (center_m - tool_m).norm() < 1e-9 && (m_per_px * size_px as f64 - side_m).abs() < 1e-6;
-        if is_default && !self.is_partly_hidden {
+        if self.is_from_default_camera(tool_m) {
             return Cow::Borrowed(&self.gray);
         }
+        let side_m = default_side_m(tool_m);
         let m_per_px = side_m / WINDOW_PX as f64;
         let window = Calibration { center_m: tool_m, m_per_px, size_px: WINDOW_PX, foot_m: tool_m };
         let pixels = (0..WINDOW_PX * WINDOW_PX).map(|at| {
@@ -268,6 +272,13 @@ fn is_wall(level: u8) -> bool {
 
 #[cfg(test)]
 pub(crate) use tests::frame as test_frame;
+
+/// Side of the square of table that the default camera sees over a tool.
+fn default_side_m(tool_m: Point2<f64>) -> f64 {
+    let pinhole = CameraMount::default().over(tool_m);
+    let [_, _, height_m] = pinhole.position_m;
+    2.0 * height_m * pinhole.tangent()
+}
 
 #[cfg(test)]
 mod tests {

@@ -8,6 +8,7 @@
 mod challenges;
 mod client;
 mod comparison;
+mod conversation;
 mod described;
 mod error;
 mod evaluations;
@@ -34,6 +35,7 @@ pub use challenges::{
 };
 pub use client::ClientMessage;
 pub use comparison::{Branch, ComparisonMessage, MomentMessage};
+pub use conversation::{Conversation, Outgoing};
 pub use error::ErrorMessage;
 pub use evaluations::{
     Cell, EvaluationCell, EvaluationFailure, EvaluationQuery, EvaluationReport, EvaluationStage, EvaluationSummary,

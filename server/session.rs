@@ -16,7 +16,6 @@ mod kept_runs;
 mod opened_case;
 mod pacing;
 mod playing;
-pub mod programs;
 mod question;
 mod recall;
 mod saved;
@@ -36,6 +35,7 @@ use tokio::sync::{broadcast, oneshot, watch};
 use crate::camera::Gpu;
 use crate::challenge::{Challenge, ChallengeName};
 use crate::plant::PositionerKind;
+use crate::program::Program;
 use crate::scenario::{Parameters, Scenario};
 use crate::trial::{Arena, Case, Catalog, Event, Input, LogError, Moment, Sight, Sink, Trial, TrialError};
 
@@ -44,7 +44,6 @@ pub use error::CommandError;
 pub use kept_runs::KeptRunSummary;
 pub use opened_case::OpenedCase;
 pub use pacing::{SPEED_MAX, SPEED_MIN};
-use programs::Program;
 
 pub use playing::{Ended, Played, Standing, Void};
 pub use saved::Saved;

@@ -11,7 +11,7 @@ const FLOORS: [&[&str]; 12] = [
     &["policy", "jobs"],
     &["control"],
     &["trial"],
-    &["challenge"],
+    &["challenge", "program"],
     &["learn", "evaluate", "session"],
     &["recording", "protocol"],
     &["http"],
@@ -22,7 +22,7 @@ const FLOORS: [&[&str]; 12] = [
 const CONFINED: [(&str, &[&str]); 7] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
-    ("tokio", &["session", "http", "cli", "main"]),
+    ("tokio", &["program", "session", "http", "cli", "main"]),
     ("re_sdk", &["recording"]),
     ("re_sdk_types", &["recording"]),
     ("utoipa", &["protocol", "http"]),

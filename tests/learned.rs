@@ -42,13 +42,14 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
     let venue = Venue::of(Arena::open("colon").unwrap());
     for (disturbances, least) in [(0, 39), (3, 38)] {
         let experiment = Experiment {
-            cell: Cell { controller: ControllerName::Rl, map: "colon".to_owned(), disturbances },
+            cell: Cell { controller: ControllerName::Rl, map: "colon".to_owned(), disturbances, program: None },
             venue: venue.clone(),
             map: "colon".to_owned(),
             episodes: 40,
             seed: 7,
             parameters: Parameters::default(),
             manner: Manner::default(),
+            program: None,
         };
         let watch = Watch { stop: &AtomicBool::new(false), progress: &|_, _| (), recorders: &unrecorded };
         let episodes = run(&[experiment], &gpu(), &watch).unwrap().remove(0);

@@ -161,6 +161,15 @@ async fn newly_observed(program: &mut Browser) -> Value {
     observed(program).await
 }
 
+/// Answers every question: straight to the goal.
+async fn go_straight(mut program: Browser) {
+    loop {
+        let asked = observed(&mut program).await;
+        assert_eq!(asked["image"]["size_px"], 480);
+        program.send(json!({"type": "act", "request": asked["request"], "target_m": asked["goal_m"]})).await;
+    }
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_connected_program_carries_the_bead() {
     let laboratory = Laboratory::open().await;
@@ -170,12 +179,7 @@ async fn a_connected_program_carries_the_bead() {
         let start = program.until("a leg", |m| m["type"] == "start").await;
         assert_eq!((&start["trial"], &start["map"]), (&json!("main"), &json!("open")));
         assert!(start["parameters"]["transport_speed_m_s"].is_number());
-        loop {
-            let asked = observed(&mut program).await;
-            assert_eq!(asked["image"]["size_px"], 480);
-            // Straight to the goal.
-            program.send(json!({"type": "act", "request": asked["request"], "target_m": asked["goal_m"]})).await;
-        }
+        go_straight(program).await;
     });
     let state = page.state("a delivery", |m| m["phase"] == "delivered").await;
     let standing = &state["program"];
@@ -236,6 +240,67 @@ async fn the_arm_holds_when_a_program_is_slow_or_wrong() {
     page.send(json!({"type": "select_controller", "controller": "errt"})).await;
     page.send(json!({"type": "run"})).await;
     page.state("a delivery by ERRT", |m| m["phase"] == "delivered").await;
+    laboratory.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_program_is_evaluated_and_compared_beside_ferrys_controllers() {
+    let laboratory = Laboratory::open().await;
+    let query = |change: Value| {
+        let mut query = json!({"controllers": ["attractor", "program"], "maps": ["open"], "disturbances": [1],
+            "episodes": 3, "seed": 5, "program": "mine"});
+        query.as_object_mut().unwrap().extend(change.as_object().unwrap().clone());
+        query.to_string()
+    };
+    let (status, problem) = laboratory.ask("POST", "/api/evaluations", &query(json!({}))).await;
+    assert_eq!((status, &problem["field"]), (422, &json!("program")), "{problem}");
+    assert_eq!(problem["detail"], "program is \"mine\", which is not connected");
+
+    let answering = tokio::spawn(go_straight(connect(&laboratory, "mine").await));
+    let report = async |query: String| {
+        let (status, made) = laboratory.ask("POST", "/api/evaluations", &query).await;
+        assert_eq!(status, 201, "{made}");
+        let path = format!("/api/evaluations/{}", made["id"].as_str().unwrap());
+        loop {
+            let (_, report) = laboratory.ask("GET", &path, "").await;
+            if !["waiting", "running"].contains(&report["stage"].as_str().unwrap()) {
+                return report;
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+    };
+    let done = report(query(json!({}))).await;
+    assert_eq!(done["stage"], "done", "{done}");
+    let row = |index: usize| (done["rows"][index]["controller"].clone(), done["rows"][index]["delivered"].clone());
+    assert_eq!([row(0), row(1)], [(json!("attractor"), json!(3)), (json!("mine"), json!(3))]);
+    assert_eq!((&done["comparisons"][0]["against"], &done["comparisons"][0]["both"]), (&json!("mine"), &json!(3)));
+    assert_eq!(done["cells"][1]["program"], "mine");
+
+    // A comparison goes on from a moment under the session's program, too.
+    let mut page = laboratory.browser().await;
+    page.send(json!({"type": "load_scenario", "map": "open", "start_m": [-0.1, -0.35], "goal_m": [0.1, -0.35]})).await;
+    page.send(json!({"type": "select_controller", "controller": "program", "program": "mine"})).await;
+    page.send(json!({"type": "fork", "tick": 0, "controllers": ["errt", "program"]})).await;
+    let ended = page.until("the comparison", |m| m["type"] == "comparison" && m["running"] == false).await;
+    assert_eq!(ended["failed"], Value::Null);
+    let branches: Vec<_> =
+        ended["branches"].as_array().unwrap().iter().map(|one| (&one["program"], &one["phase"])).collect();
+    assert_eq!(branches, [(&Value::Null, &json!("delivered")), (&json!("mine"), &json!("delivered"))]);
+
+    // An evaluation whose program leaves fails, and says so.
+    let long = query(json!({"controllers": ["program"], "episodes": 1000}));
+    let (_, made) = laboratory.ask("POST", "/api/evaluations", &long).await;
+    let path = format!("/api/evaluations/{}", made["id"].as_str().unwrap());
+    tokio::time::sleep(Duration::from_secs(1)).await;
+    answering.abort();
+    loop {
+        let (_, report) = laboratory.ask("GET", &path, "").await;
+        match report["stage"].as_str().unwrap() {
+            "failed" => break assert_eq!(report["message"], "mine is not connected"),
+            stage => assert!(["waiting", "running"].contains(&stage), "{report}"),
+        }
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
     laboratory.close().await;
 }
 

@@ -1,4 +1,4 @@
-"""Ferry for Python: the ``ferry`` command, its environments for Gymnasium, and controllers of one's own.
+"""Ferry for Python: the ``ferry`` command, its environments for Gymnasium, controllers of one's own, and evaluations.
 
 ``import ferry`` registers ``ferry/Lattice-v0`` and ``ferry/Maze-v0``.
 """
@@ -6,9 +6,12 @@
 from ferry._ferry import __version__
 from ferry.controllers import Controller, Leg, Percept, Refused, Step, serve
 from ferry.environments import LatticeEnv, LatticeVectorEnv, MazeEnv, MazeVectorEnv, register
+from ferry.evaluation import Evaluation, evaluate
+from ferry.training import train
 
 __all__ = [
     "Controller",
+    "Evaluation",
     "LatticeEnv",
     "LatticeVectorEnv",
     "Leg",
@@ -18,7 +21,9 @@ __all__ = [
     "Refused",
     "Step",
     "__version__",
+    "evaluate",
     "serve",
+    "train",
 ]
 
 register()

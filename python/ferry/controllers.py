@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import http.client
 import json
 import logging
@@ -31,7 +32,7 @@ class Leg:
     """The part of a trial between two fetches or goals."""
 
     trial: str
-    """Name of the session."""
+    """Name of the session, or of the trial of an evaluation."""
     map: str
     workspace_m: tuple[float, float, float, float]
     """x from and to, then y from and to."""
@@ -60,7 +61,7 @@ class Percept:
     """``(2,)``: the place at the middle of the image."""
     m_per_px: float
     deadline_s: float
-    """A live session waits this long for the answer."""
+    """The answer is waited for this long."""
 
     def observation(self) -> dict[str, NDArray[Any]]:
         """The same as the environments' ``observation="dict"``."""
@@ -93,8 +94,12 @@ class Step:
 class Controller:
     """A controller of one's own: override :meth:`act`."""
 
+    def copy(self) -> Controller:
+        """The controller of one trial, a deep copy. Override it to share what is large or cannot be copied."""
+        return copy.deepcopy(self)
+
     def start(self, leg: Leg) -> None:
-        """A leg begins: forget what belongs to the last one of this trial."""
+        """A leg begins: forget what belongs to the last one."""
 
     def act(self, percept: Percept) -> Step | None:
         """The next step, or ``None`` to hold."""
@@ -115,7 +120,8 @@ def serve(
 ) -> None:
     """Offers a controller to a running Ferry, until ``stop`` is set or the program is interrupted.
 
-    In the page it appears beside RL, ERRT and Attractor. When the server is gone, it is tried again every second.
+    In the page it appears beside RL, ERRT and Attractor. When the server is gone, it is tried again every second. Each
+    session has a :meth:`Controller.copy`.
 
     An exception in :meth:`Controller.act`, or a step that is no pair of finite numbers, holds the arm; the page says
     why, and the exception is logged.
@@ -134,7 +140,7 @@ def serve(
         try:
             with connect(url, additional_headers=headers, max_size=1 << 22, open_timeout=10) as socket:
                 log.info("%s is connected to %s", name, address)
-                _Served(controller, socket, stop).run()
+                _run(controller, socket, stop)
         except InvalidStatus as refused:
             status = refused.response.status_code
             if status not in (http.client.BAD_GATEWAY, http.client.SERVICE_UNAVAILABLE):
@@ -151,72 +157,86 @@ def _detail(body: bytes | bytearray | None, status: int) -> str:
         return f"the server answers with status {status}"
 
 
-class _Served:
-    """One connection."""
+class Trials:
+    """The trials in which a controller is asked, each with a copy of its own."""
 
-    def __init__(self, controller: Controller, socket: ClientConnection, stop: threading.Event) -> None:
+    def __init__(self, controller: Controller) -> None:
         self._controller = controller
-        self._socket = socket
-        self._stop = stop
-        self._legs: dict[str, Leg] = {}
+        self._trials: dict[str, tuple[Controller, Leg]] = {}
 
-    def run(self) -> None:
-        while not self._stop.is_set():
-            try:
-                text = self._socket.recv(timeout=0.2)
-            except TimeoutError:
-                continue
-            message = json.loads(text)
-            match message["type"]:
-                case "start":
-                    area = message["workspace"]
-                    bounds = tuple(area[side] for side in ("x_min_m", "x_max_m", "y_min_m", "y_max_m"))
-                    leg = Leg(message["trial"], message["map"], bounds, message["parameters"])
-                    self._legs[leg.trial] = leg
-                    try:
-                        self._controller.start(leg)
-                    except Exception:
-                        log.exception("start")
-                case "observe":
-                    answer = self._answer(message, self._socket.recv())
-                    self._socket.send(json.dumps(answer))
-                case "error":
-                    log.warning("%s", message["message"])
+    def start(self, message: Mapping[str, Any]) -> None:
+        area, name = message["workspace"], message["trial"]
+        bounds = tuple(area[side] for side in ("x_min_m", "x_max_m", "y_min_m", "y_max_m"))
+        leg = Leg(name, message["map"], bounds, message["parameters"])
+        controller, _ = self._trials.get(name) or (self._controller.copy(), None)
+        self._trials[name] = (controller, leg)
+        controller.start(leg)
 
-    def _answer(self, message: dict[str, Any], pixels: Any) -> dict[str, Any]:
+    def act(self, message: Mapping[str, Any], pixels: Any) -> dict[str, Any]:
+        """The answer to ``observe``."""
+        controller, leg = self._trials[message["trial"]]
+        target_m = checked_target_m(controller.act(_percept(leg, message, pixels)))
         request = message["request"]
-        began = time.monotonic()
-        try:
-            target_m = checked_target_m(self._controller.act(self._percept(message, pixels)))
-        except Exception as fault:
-            log.exception("act")
-            reason = f"{type(fault).__name__}: {fault}".encode()[:REASON_BYTES].decode(errors="ignore")
-            return {"type": "hold", "request": request, "reason": reason}
-        took_s = time.monotonic() - began
-        if took_s > message["deadline_s"]:
-            log.warning("act took %.0f ms, the arm waits %.0f ms", took_s * 1e3, message["deadline_s"] * 1e3)
         if target_m is None:
             return {"type": "hold", "request": request, "reason": "it holds"}
         return {"type": "act", "request": request, "target_m": list(target_m)}
 
-    def _percept(self, message: dict[str, Any], pixels: Any) -> Percept:
-        image = message["image"]
-        size = image["size_px"]
-        rectangles = [
-            [box[side] for side in ("x_min_m", "x_max_m", "y_min_m", "y_max_m")] for box in message["obstacles"]
-        ]
-        return Percept(
-            leg=self._legs[message["trial"]],
-            tick=message["tick"],
-            tool_m=np.array(message["tool_m"]),
-            bead_tracked_m=np.array(message["bead_tracked_m"]),
-            goal_m=np.array(message["goal_m"]),
-            obstacles_m=np.array(rectangles, np.float64).reshape(-1, 4),
-            image=np.frombuffer(pixels, np.uint8).reshape(size, size),
-            image_center_m=np.array(image["center_m"]),
-            m_per_px=image["m_per_px"],
-            deadline_s=message["deadline_s"],
-        )
+    def end(self, message: Mapping[str, Any]) -> None:
+        self._trials.pop(message["trial"], None)
+
+
+def _run(controller: Controller, socket: ClientConnection, stop: threading.Event) -> None:
+    trials = Trials(controller)
+    while not stop.is_set():
+        try:
+            text = socket.recv(timeout=0.2)
+        except TimeoutError:
+            continue
+        message = json.loads(text)
+        match message["type"]:
+            case "start":
+                try:
+                    trials.start(message)
+                except Exception:
+                    log.exception("start")
+            case "observe":
+                socket.send(json.dumps(_answer(trials, message, socket.recv())))
+            case "end":
+                trials.end(message)
+            case "error":
+                log.warning("%s", message["message"])
+
+
+def _answer(trials: Trials, message: dict[str, Any], pixels: Any) -> dict[str, Any]:
+    began = time.monotonic()
+    try:
+        answer = trials.act(message, pixels)
+    except Exception as fault:
+        log.exception("act")
+        reason = f"{type(fault).__name__}: {fault}".encode()[:REASON_BYTES].decode(errors="ignore")
+        return {"type": "hold", "request": message["request"], "reason": reason}
+    took_s = time.monotonic() - began
+    if took_s > message["deadline_s"]:
+        log.warning("act took %.0f ms, the arm waits %.0f ms", took_s * 1e3, message["deadline_s"] * 1e3)
+    return answer
+
+
+def _percept(leg: Leg, message: Mapping[str, Any], pixels: Any) -> Percept:
+    image = message["image"]
+    size = image["size_px"]
+    rectangles = [[box[side] for side in ("x_min_m", "x_max_m", "y_min_m", "y_max_m")] for box in message["obstacles"]]
+    return Percept(
+        leg=leg,
+        tick=message["tick"],
+        tool_m=np.array(message["tool_m"]),
+        bead_tracked_m=np.array(message["bead_tracked_m"]),
+        goal_m=np.array(message["goal_m"]),
+        obstacles_m=np.array(rectangles, np.float64).reshape(-1, 4),
+        image=np.frombuffer(pixels, np.uint8).reshape(size, size),
+        image_center_m=np.array(image["center_m"]),
+        m_per_px=image["m_per_px"],
+        deadline_s=message["deadline_s"],
+    )
 
 
 def checked_target_m(step: Step | None) -> tuple[float, float] | None:

@@ -35,6 +35,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from ferry._ferry import Lattice, Mazes
+from ferry.evaluation import changes
 
 SIDE_PX = 84
 STEP_M = 0.01
@@ -321,8 +322,7 @@ class _Trials:
                 raise ValueError(f'action is {action!r}, it must be "discrete" or "box"')
         if not 0.0 <= progress_reward <= 1.0:
             raise ValueError(f"progress_reward is {progress_reward}, it must be 0 to 1")
-        changes = [f"{name}={_as_text(value)}" for name, value in (parameters or {}).items()]
-        self.native = Mazes(map, lanes, changes, disturbances, 0)
+        self.native = Mazes(map, lanes, changes(parameters), disturbances, 0)
         self._action = action
         self._progress_reward = progress_reward
         self._corner_m: NDArray[np.float64] = np.array(self.native.corner_m())
@@ -362,10 +362,6 @@ class _Trials:
             "bead_tracked_m": places_m[:, 2:4],
             "goal_m": places_m[:, 4:6],
         }
-
-
-def _as_text(value: Any) -> str:
-    return json.dumps(value) if isinstance(value, bool) else str(value)
 
 
 class MazeEnv(gymnasium.Env[Any, Any]):

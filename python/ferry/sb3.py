@@ -1,13 +1,22 @@
-"""Ferry's vector environments for stable-baselines3, which must be installed."""
+"""Ferry's vector environments for stable-baselines3, which must be installed.
+
+On a machine without Vulkan, import this before you make an environment: OpenGL's software driver and torch's Triton
+both have an LLVM, and Triton must come first.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
+from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices, VecEnvObs, VecEnvStepReturn
+
+with suppress(ImportError):
+    import triton  # noqa: F401
 
 
 class FerryVecEnv(VecEnv):
@@ -15,6 +24,9 @@ class FerryVecEnv(VecEnv):
 
     ``env`` must have been made with ``autoreset_mode=AutoresetMode.SAME_STEP``: stable-baselines3 expects the first
     observation of the next episode in the step that ends one, and the last one as ``terminal_observation``.
+
+    With ``observation="dict"`` the image gets a first axis for its channel, ``(1, 84, 84)``: only then
+    ``MultiInputPolicy`` takes it for an image. A controller gives it as ``percept.observation()["image"][None]``.
     """
 
     def __init__(self, env: VectorEnv[Any, Any, Any]) -> None:
@@ -23,14 +35,18 @@ class FerryVecEnv(VecEnv):
             raise ValueError(f"autoreset_mode is {mode.value!r}, it must be {AutoresetMode.SAME_STEP.value!r}")
         self.env = env
         self._actions: np.ndarray | None = None
-        super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
+        space = env.single_observation_space
+        if isinstance(space, spaces.Dict):
+            image = spaces.Box(0, 255, (1, *space["image"].shape), np.uint8)
+            space = spaces.Dict({**space.spaces, "image": image})
+        super().__init__(env.num_envs, space, env.single_action_space)
 
     def reset(self) -> VecEnvObs:
         seeds = None if all(seed is None for seed in self._seeds) else list(self._seeds)
         observed, _ = self.env.reset(seed=seeds)
         self._reset_seeds()
         self._reset_options()
-        return observed
+        return _with_channel(observed)
 
     def step_async(self, actions: np.ndarray) -> None:
         self._actions = actions
@@ -40,9 +56,9 @@ class FerryVecEnv(VecEnv):
         infos: list[dict[str, Any]] = [{"TimeLimit.truncated": bool(out)} for out in truncated & ~terminated]
         if "final_obs" in info:
             for lane in np.flatnonzero(info["_final_obs"]):
-                infos[lane]["terminal_observation"] = info["final_obs"][lane]
+                infos[lane]["terminal_observation"] = _with_channel(info["final_obs"][lane])
                 infos[lane]["is_success"] = bool(info["final_info"]["is_success"][lane])
-        return observed, rewards.astype(np.float32), terminated | truncated, infos
+        return _with_channel(observed), rewards.astype(np.float32), terminated | truncated, infos
 
     def close(self) -> None:
         self.env.close()
@@ -64,3 +80,10 @@ class FerryVecEnv(VecEnv):
 
     def get_images(self) -> Sequence[np.ndarray | None]:
         return [None] * self.num_envs
+
+
+def _with_channel(observed: Any) -> Any:
+    """An observation, or those of all lanes, with an axis for the channel of the image."""
+    if not isinstance(observed, dict):
+        return observed
+    return {**observed, "image": np.expand_dims(observed["image"], -3)}

@@ -3,14 +3,13 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use ferry::camera::{AdapterChoice, Gpu};
 use ferry::learn::sweep::{STEP_M, Sweep};
 use ferry::learn::{Ending, Lanes, Recipe, Terrain};
 use ferry::trial::Arena;
 use numpy::{PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use crate::{Array, array, bad, failed};
+use crate::{Array, array, bad, failed, open_gpu};
 
 /// Side of an image.
 const SIDE_PX: usize = 84;
@@ -30,7 +29,7 @@ impl Lattice {
             let recipe: Recipe = serde_json::from_str(settings).map_err(bad)?;
             recipe.check().map_err(bad)?;
             let arena = Arena::open(map).map_err(bad)?;
-            let gpu = Gpu::open(AdapterChoice::default()).map_err(failed)?;
+            let gpu = open_gpu()?;
             let sweep = Sweep::open(&arena, &gpu, &sweeps, STEP_M, &|| ControlFlow::Continue(())).map_err(failed)?;
             let workspace = arena.map.workspace();
             let terrain = Terrain::new(arena.map.name(), workspace, &sweep, recipe.clearance_m).map_err(bad)?;

@@ -1,10 +1,13 @@
 //! The native part of the Python package `ferry`.
 
+mod evaluation;
 mod lattice;
 mod maze;
 
 use std::ffi::OsString;
+use std::sync::Arc;
 
+use ferry::camera::{AdapterChoice, Gpu};
 use ferry::geometry::Rect;
 use ferry::image::GrayImage;
 use ferry::perception::{OBSERVATION_SIZE_PX, Observation};
@@ -48,6 +51,12 @@ fn observation<'py>(
     Ok((array(py, &[SIDE, SIDE], seen.bytes[..SIDE * SIDE].to_vec()), array(py, &[4], seen.places().to_vec())))
 }
 
+/// The graphics adapter. With Vulkan, Mesa keeps its LLVM to itself; with OpenGL it does not, and torch's Triton, which has
+/// another LLVM, crashes if it is loaded later.
+fn open_gpu() -> PyResult<Arc<Gpu>> {
+    Gpu::open(AdapterChoice::Vulkan).or_else(|_| Gpu::open(AdapterChoice::Auto)).map_err(failed)
+}
+
 /// Bad input.
 fn bad(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
@@ -72,5 +81,7 @@ fn _ferry(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add_function(wrap_pyfunction!(observation, module)?)?;
     module.add_class::<lattice::Lattice>()?;
-    module.add_class::<maze::Mazes>()
+    module.add_class::<maze::Mazes>()?;
+    module.add_function(wrap_pyfunction!(evaluation::merge, module)?)?;
+    module.add_class::<evaluation::Evaluation>()
 }

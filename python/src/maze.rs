@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ferry::camera::{AdapterChoice, Camera, Gpu};
+use ferry::camera::Camera;
 use ferry::geometry::Point2;
 use ferry::perception::OBSERVATION_SIZE_PX;
 use ferry::scenario::{ControllerName, Parameters, Scenario};
@@ -11,7 +11,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::{Array, array, bad, failed};
+use crate::{Array, array, bad, failed, open_gpu};
 
 /// One trial that waits for an answer.
 struct Lane {
@@ -49,7 +49,7 @@ impl Mazes {
             }
             let parameters = Parameters::default().with(&changes).map_err(bad)?;
             let arena = Arena::open(&map).map_err(bad)?;
-            let gpu = Gpu::open(AdapterChoice::default()).map_err(failed)?;
+            let gpu = open_gpu()?;
             let mut mazes = Self { arena, map, parameters, disturbances, lanes: Vec::new() };
             for lane in 0..lanes {
                 let mut camera = mazes.arena.camera(&gpu).map_err(failed)?;

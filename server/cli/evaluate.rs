@@ -12,14 +12,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::camera::Gpu;
 use crate::evaluate::{
-    Cell, Episode, EvaluateError, Experiment, Manner, Part, Report, Shard, Venue, Watch, run, run_one, run_trials,
-    unrecorded,
+    Cell, Contender, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard, Watch, run, run_one,
+    run_trials, unrecorded,
 };
 use crate::files::replace;
 use crate::policy::Policy;
 use crate::recording::Recorder;
 use crate::scenario::{ControllerName, Parameters};
-use crate::trial::{Arena, Nowhere, Sink};
+use crate::trial::{Nowhere, Sink};
 
 pub use output::Output;
 
@@ -70,7 +70,6 @@ pub struct Arguments {
 
 pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let experiments = experiments(arguments)?;
-    check_distinct(&experiments)?;
     if let Some((shard, path)) = arguments.shard.zip(arguments.out.as_deref()) {
         return run_shard(&experiments, shard, path);
     }
@@ -96,50 +95,18 @@ fn run_shard(experiments: &[Experiment], shard: Shard, path: &Path) -> anyhow::R
     Ok(ExitCode::SUCCESS)
 }
 
-/// One experiment per row, with the controllers of a map next to each other.
 fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
-    let parameters = Parameters::default().with(&arguments.set).context("--set")?;
-    let policy = arguments.policy.as_deref().map(Policy::open).transpose()?;
-    let mut controllers = arguments.controller.iter();
-    if let Some(name) = controllers.find(|name| !ControllerName::AUTOMATIC.contains(name)) {
-        anyhow::bail!("--controller {}: this command asks no person and no program", name.as_str());
-    }
-    let mut experiments = Vec::new();
-    for map in &arguments.map {
-        let arena = Arena::open(map)?;
-        let arena = match &policy {
-            Some(policy) => arena.with_policy(policy.clone()),
-            None => arena,
-        };
-        let venue = Venue::of(arena);
-        let name = venue.arena.map.name().to_owned();
-        for &disturbances in &arguments.disturbances {
-            experiments.extend(arguments.controller.iter().map(|&controller| Experiment {
-                cell: Cell { controller, map: name.clone(), disturbances },
-                venue: venue.clone(),
-                map: map.clone(),
-                episodes: arguments.episodes,
-                seed: arguments.seed,
-                parameters: parameters.clone(),
-                manner: Manner { by_hand: arguments.by_hand, tool_apart: arguments.tool_apart },
-            }));
-        }
-    }
-    Ok(experiments)
-}
-
-/// Two cells with the same name would count as the same trials.
-fn check_distinct(experiments: &[Experiment]) -> anyhow::Result<()> {
-    for (index, one) in experiments.iter().enumerate() {
-        let Cell { controller, map, disturbances } = &one.cell;
-        let is_twice = experiments[..index].iter().any(|other| other.cell == one.cell);
-        anyhow::ensure!(
-            !is_twice,
-            "{} on {map} with {disturbances} disturbances is requested twice; maps with the same file name count as one",
-            controller.as_str()
-        );
-    }
-    Ok(())
+    let plan = Plan {
+        maps: arguments.map.clone(),
+        contenders: arguments.controller.iter().map(|&name| Contender::Own(name)).collect(),
+        disturbances: arguments.disturbances.clone(),
+        episodes: arguments.episodes,
+        seed: arguments.seed,
+        parameters: Parameters::default().with(&arguments.set).context("--set")?,
+        manner: Manner { by_hand: arguments.by_hand, tool_apart: arguments.tool_apart },
+        policy: arguments.policy.as_deref().map(Policy::open).transpose()?,
+    };
+    Ok(plan.experiments()?)
 }
 
 /// Runs the experiments on all cores, with a progress bar.
@@ -186,8 +153,7 @@ fn progress_bar(trials: u64) -> anyhow::Result<ProgressBar> {
 
 fn recorder(arguments: &Arguments, experiment: &Experiment, index: u32) -> Result<Box<dyn Sink>, EvaluateError> {
     let Some(folder) = &arguments.record else { return Ok(Box::new(Nowhere::default())) };
-    let Cell { controller, map, disturbances } = &experiment.cell;
-    let name = format!("{map}-{}-{disturbances}-{index:04}", controller.as_str());
+    let name = experiment.trial_name(index);
     let recorder = Recorder::to_folder(folder, &name).map_err(|error| EvaluateError::Recording(error.to_string()))?;
     Ok(Box::new(recorder))
 }

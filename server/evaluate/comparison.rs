@@ -78,8 +78,8 @@ impl Comparison {
         Self {
             map: first.0.map.clone(),
             disturbances: first.0.disturbances,
-            controller: first.0.controller.as_str().to_owned(),
-            against: second.0.controller.as_str().to_owned(),
+            controller: first.0.controller().to_owned(),
+            against: second.0.controller().to_owned(),
             episodes: pairs.len() as u32,
             both: counts.both,
             first_only: counts.first,
@@ -101,7 +101,7 @@ impl Comparison {
         let alike = |first: &(&Cell, &[Episode]), second: &(&Cell, &[Episode])| {
             second.0.map == first.0.map
                 && second.0.disturbances == first.0.disturbances
-                && second.0.controller != first.0.controller
+                && second.0.controller() != first.0.controller()
         };
         let mut pairs = Vec::new();
         for (place, &first) in rows.iter().enumerate() {

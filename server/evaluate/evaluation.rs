@@ -8,6 +8,7 @@ use std::time::Instant;
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::map::Map;
 use crate::policy;
+use crate::program::Program;
 use crate::scenario::Parameters;
 
 /// An evaluation. Its job updates it; all others only read.
@@ -20,6 +21,8 @@ pub struct Evaluation {
     /// The maps of the query.
     maps: Vec<Map>,
     pub(super) policies: Arc<policy::Library>,
+    /// The program of the query.
+    program: Option<Arc<Program>>,
     /// Cancellation flag, checked at every tick of every trial.
     stop: AtomicBool,
     progress: Mutex<Progress>,
@@ -97,6 +100,7 @@ impl Evaluation {
         cells: Vec<Cell>,
         maps: Vec<Map>,
         policies: Arc<policy::Library>,
+        program: Option<Arc<Program>>,
     ) -> Arc<Self> {
         let progress =
             Progress { stage: Stage::Waiting, cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
@@ -106,6 +110,7 @@ impl Evaluation {
             cells,
             maps,
             policies,
+            program,
             stop: AtomicBool::new(false),
             progress: Mutex::new(progress),
         })
@@ -178,6 +183,7 @@ impl Evaluation {
             seed: self.query.seed,
             parameters: Parameters { rl_policy: self.query.rl_policy.clone(), ..Parameters::default() },
             manner: Manner::default(),
+            program: self.program.clone().filter(|_| cell.program.is_some()),
         }
     }
 

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{Evaluation, EvaluationQuery, QueryError};
 use crate::jobs::{Queue, QueueError};
+use crate::program::Program;
 use crate::trial::Catalog;
 
 /// Number of ended evaluations that are kept.
@@ -52,18 +53,26 @@ impl Evaluations {
         Self { queue, kept: Mutex::default() }
     }
 
-    /// Adds an evaluation on maps and with a policy of a catalog.
+    /// Adds an evaluation on maps and with a policy of a catalog, and with the program that has the query's name.
     ///
     /// # Errors
     /// [`SubmitError`].
-    pub fn submit(&self, mut query: EvaluationQuery, catalog: &Catalog) -> Result<Arc<Evaluation>, SubmitError> {
+    pub fn submit(
+        &self,
+        mut query: EvaluationQuery,
+        catalog: &Catalog,
+        program: Option<Arc<Program>>,
+    ) -> Result<Arc<Evaluation>, SubmitError> {
         let cells = query.cells()?;
+        if query.program.is_some() && !program.as_ref().is_some_and(|program| program.standing().is_connected) {
+            return Err(QueryError::Program { name: query.program, why: "which is not connected" }.into());
+        }
         // Reads the maps without holding the lock.
         let maps = query.maps(&catalog.maps)?;
         query.rl_policy = catalog.policies.resolve(&query.rl_policy).map_err(QueryError::from)?;
         let mut kept = self.lock();
         let id = format!("evaluation-{}", kept.made + 1);
-        let evaluation = Evaluation::new(id, query, cells, maps, catalog.policies.clone());
+        let evaluation = Evaluation::new(id, query, cells, maps, catalog.policies.clone(), program);
         self.queue.submit(evaluation.clone())?;
         kept.made += 1;
         kept.evaluations.push_back(evaluation.clone());

@@ -17,6 +17,7 @@ use crate::control::CONTROL_PERIOD_S;
 use crate::image::CameraFrame;
 use crate::map::{FreeSpace, MapError};
 use crate::plant::BEAD_RADIUS_M;
+use crate::program::{Carrier, Program, ProgramError};
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{
     Arena, Beginning, GOAL_RADIUS_M, LEGS_PER_GOAL, Nowhere, Phase, Sink, Source, Tally, TickRecord, TrialError,
@@ -61,9 +62,16 @@ pub struct Experiment {
     /// Parameters of all trials.
     pub parameters: Parameters,
     pub manner: Manner,
+    /// The program, with the controller `program`.
+    pub program: Option<Arc<Program>>,
 }
 
 impl Experiment {
+    /// A name for the trial of an index that no other has.
+    pub fn trial_name(&self, index: u32) -> String {
+        format!("{}-{}-{}-{index:04}", self.cell.map, self.cell.controller(), self.cell.disturbances)
+    }
+
     /// The trial of an index. Start and goal do not depend on the controller.
     pub fn scenario(&self, index: u32) -> Result<Scenario, TrialError> {
         let arena = &self.venue.arena;
@@ -169,6 +177,9 @@ pub enum EvaluateError {
     /// A recording could not start.
     #[error("{0}")]
     Recording(String),
+    /// A program did not decide.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
     /// The experiment was cancelled.
     #[error("stopped before its end")]
     Stopped,
@@ -219,12 +230,13 @@ pub fn episode(
     sink: &mut dyn Sink,
     watch: &mut dyn FnMut(&TickRecord) -> ControlFlow<()>,
 ) -> Result<Episode, EvaluateError> {
-    episode_in(Manner::default(), scenario, venue, camera, sink, watch)
+    episode_in(Manner::default(), None, scenario, venue, camera, sink, watch)
 }
 
 /// [`episode`], run in a manner.
 pub fn episode_in(
     manner: Manner,
+    carrier: Option<Carrier<'_>>,
     scenario: Scenario,
     venue: &Venue,
     camera: &mut dyn ImageSource,
@@ -238,7 +250,11 @@ pub fn episode_in(
         let mut noting = Noting { camera, was_used: false };
         person.act(&mut trial)?;
         let started = Instant::now();
-        let record = trial.tick(Source::Camera(&mut noting))?;
+        let source = match carrier.filter(|_| trial.step_is_due()) {
+            Some(carrier) => Source::Seen(Box::new(carrier.decide(&mut trial, &mut noting)?)),
+            None => Source::Camera(&mut noting),
+        };
+        let record = trial.tick(source)?;
         if noting.was_used {
             decision_s.push(started.elapsed().as_secs_f64());
         }
@@ -334,12 +350,18 @@ pub fn run_one(
     let mut trace = (index == 0).then(|| Box::new(Trace::of(&venue.arena.map, &scenario)));
     let mut camera = venue.camera(gpu)?;
     let mut sink = (watch.recorders)(experiment, index)?;
-    let ran = episode_in(experiment.manner, scenario, venue, &mut camera, &mut *sink, &mut |record| {
+    let name = experiment.trial_name(index);
+    let carrier = experiment.program.as_deref().map(|program| Carrier { program, trial: &name });
+    let ran = episode_in(experiment.manner, carrier, scenario, venue, &mut camera, &mut *sink, &mut |record| {
         if let Some(trace) = &mut trace {
             trace.add(record);
         }
         if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    })?;
+    });
+    if let Some(carrier) = carrier {
+        carrier.end();
+    }
+    let ran = ran?;
     venue.keep(camera);
     sink.finish().map_err(EvaluateError::NotRecorded)?;
     Ok(Episode { index, trace, ..ran })

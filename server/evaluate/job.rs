@@ -67,7 +67,7 @@ mod tests {
     use crate::scenario::{ControllerName, RlPolicy};
 
     fn evaluation(map: &str) -> Arc<Evaluation> {
-        let cell = Cell { controller: ControllerName::Attractor, map: map.into(), disturbances: 0 };
+        let cell = Cell { controller: ControllerName::Attractor, map: map.into(), disturbances: 0, program: None };
         let query = EvaluationQuery {
             controllers: vec![cell.controller],
             maps: vec![cell.map.clone()],
@@ -75,9 +75,10 @@ mod tests {
             episodes: 2,
             seed: 1,
             rl_policy: RlPolicy::Auto,
+            program: None,
         };
         let maps = Map::shipped(map).into_iter().collect();
-        Evaluation::new("a test".into(), query, vec![cell], maps, Arc::default())
+        Evaluation::new("a test".into(), query, vec![cell], maps, Arc::default(), None)
     }
 
     #[test]

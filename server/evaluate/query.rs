@@ -29,6 +29,8 @@ pub struct EvaluationQuery {
     pub seed: u64,
     /// Policy of the controller `rl`.
     pub rl_policy: RlPolicy,
+    /// Name of the program, with the controller `program`.
+    pub program: Option<String>,
 }
 
 /// The subject of one row of the table.
@@ -39,6 +41,16 @@ pub struct Cell {
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
+    /// Name of the program, with the controller `program`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
+}
+
+impl Cell {
+    /// The name of the controller or of the program.
+    pub fn controller(&self) -> &str {
+        self.program.as_deref().unwrap_or(self.controller.as_str())
+    }
 }
 
 /// Why a query is refused.
@@ -56,8 +68,11 @@ pub enum QueryError {
         /// Why the map was refused.
         error: MapError,
     },
-    #[error("controllers[{index}] is \"{name}\": an evaluation asks no person and no program")]
-    NotAutomatic { index: usize, name: &'static str },
+    #[error("controllers[{index}] is \"you\": an evaluation asks no person")]
+    Person { index: usize },
+    /// It must be given with the controller `program`, and only then, and be connected.
+    #[error("program is {}, {why}", .name.as_ref().map_or("missing".to_owned(), |name| format!("{name:?}")))]
+    Program { name: Option<String>, why: &'static str },
     #[error("rl_policy: {0}")]
     Policy(#[from] PolicyError),
     /// Out of range.
@@ -74,7 +89,8 @@ impl QueryError {
             Self::Empty { field } => (*field).to_owned(),
             Self::Twice { field, index, .. } => format!("{field}[{index}]"),
             Self::Map { index, .. } => format!("maps[{index}]"),
-            Self::NotAutomatic { index, .. } => format!("controllers[{index}]"),
+            Self::Person { index } => format!("controllers[{index}]"),
+            Self::Program { .. } => "program".to_owned(),
             Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
             Self::TooManyCells { .. } => "maps".to_owned(),
@@ -86,9 +102,14 @@ impl EvaluationQuery {
     /// The cells of the query, with the controllers of a map next to each other.
     pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
         distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
-        let is_automatic = |name: &ControllerName| ControllerName::AUTOMATIC.contains(name);
-        if let Some(index) = self.controllers.iter().position(|name| !is_automatic(name)) {
-            return Err(QueryError::NotAutomatic { index, name: self.controllers[index].as_str() });
+        if let Some(index) = self.controllers.iter().position(|&name| name == ControllerName::You) {
+            return Err(QueryError::Person { index });
+        }
+        let refused = |why| QueryError::Program { name: self.program.clone(), why };
+        match (self.controllers.contains(&ControllerName::Program), &self.program) {
+            (true, None) => return Err(refused("the controller \"program\" needs it")),
+            (false, Some(_)) => return Err(refused("but \"program\" is not among the controllers")),
+            _ => {}
         }
         distinct("maps", &self.maps, Clone::clone)?;
         distinct("disturbances", &self.disturbances, u32::to_string)?;
@@ -115,6 +136,7 @@ impl EvaluationQuery {
                     controller,
                     map: map.clone(),
                     disturbances,
+                    program: self.program.clone().filter(|_| controller == ControllerName::Program),
                 }));
             }
         }
@@ -160,6 +182,7 @@ mod tests {
             episodes: 30,
             seed: 1,
             rl_policy: RlPolicy::Auto,
+            program: None,
         }
     }
 
@@ -189,6 +212,12 @@ mod tests {
         for (bad, field, parts) in [
             (EvaluationQuery { controllers: vec![], ..query() }, "controllers", &["controllers is empty"][..]),
             (EvaluationQuery { controllers: vec![ControllerName::You], ..query() }, "controllers[0]", &["\"you\""]),
+            (
+                EvaluationQuery { controllers: vec![ControllerName::Program], ..query() },
+                "program",
+                &["program is missing"],
+            ),
+            (EvaluationQuery { program: Some("mine".into()), ..query() }, "program", &["\"mine\""]),
             (EvaluationQuery { maps: vec![], ..query() }, "maps", &["maps is empty"]),
             (EvaluationQuery { maps: vec!["posts".into(), "posts".into()], ..query() }, "maps[1]", &["\"posts\""]),
             (EvaluationQuery { maps: vec!["nowhere".into()], ..query() }, "maps[0]", &["nowhere", "colon", "posts"]),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::statistics::wilson95;
 use super::{Cell, Episode, Manner};
 use crate::geometry::Point2;
+use crate::scenario::ControllerName;
 
 /// One row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,7 +73,7 @@ impl Row {
         let quantile_ms = |q: f64| decisions.get((last * q).round() as usize).map_or(0.0, |s| s * 1e3);
         let (reached, delivered) = (total(&|e| e.reached), total(&|e| e.delivered));
         Self {
-            controller: cell.controller.as_str().to_owned(),
+            controller: cell.controller().to_owned(),
             map: cell.map.clone(),
             disturbances: cell.disturbances,
             episodes: count,
@@ -143,7 +144,7 @@ impl Failure {
             return None;
         }
         Some(Self {
-            controller: cell.controller.as_str().to_owned(),
+            controller: cell.controller().to_owned(),
             map: cell.map.clone(),
             disturbances: cell.disturbances,
             index: episode.index,
@@ -156,8 +157,11 @@ impl Failure {
             refusal: episode.refusal.clone(),
             steps: episode.steps,
             disturbances_struck: episode.disturbances,
-            // A link cannot hold what a person does.
-            link: episode.scenario.link().filter(|_| episode.manner == Manner::default()),
+            // A link cannot hold what a person or a program does.
+            link: episode
+                .scenario
+                .link()
+                .filter(|_| episode.manner == Manner::default() && cell.controller != ControllerName::Program),
         })
     }
 

@@ -322,9 +322,7 @@ impl Connection {
         };
         match message {
             ClientMessage::Compare { tick, controllers } => {
-                let mut asked = ControllerName::OFFERED.to_vec();
-                asked.retain(|name| controllers.is_empty() || controllers.contains(name));
-                self.hub.compare(tick, asked).await?;
+                self.hub.compare(tick, &controllers).await?;
             }
             ClientMessage::OpenCase { case } => {
                 let case = Box::new(Case::from_json(case.as_bytes()).map_err(CommandError::from)?);

@@ -121,6 +121,8 @@ pub struct ComparisonMessage {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Branch {
     pub controller: ControllerName,
+    /// Name of the program, with the controller `program`.
+    pub program: Option<String>,
     /// Tool x, y and bead x, y in metres, from the first sample after the moment.
     #[schema(value_type = Vec<Numbers4>)]
     pub samples: Vec<[f64; 4]>,
@@ -162,9 +164,11 @@ impl ComparisonMessage {
 
 impl Branch {
     /// A branch without ticks.
-    pub fn begin(controller: ControllerName) -> Self {
+    pub fn begin(point: &BranchPoint, controller: ControllerName) -> Self {
+        let program = point.program().filter(|_| controller == ControllerName::Program);
         Self {
             controller,
+            program: program.map(|program| program.name.clone()),
             samples: Vec::new(),
             done: false,
             phase: String::new(),

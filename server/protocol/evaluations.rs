@@ -34,6 +34,9 @@ pub struct EvaluationQuery {
     #[ts(type = "string")]
     #[schema(value_type = String, example = "auto")]
     pub rl_policy: RlPolicy,
+    /// Name of a connected program, with the controller `program`.
+    #[serde(default)]
+    pub program: Option<String>,
 }
 
 /// The derive has no limits for the items of a list.
@@ -54,6 +57,8 @@ pub struct Cell {
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
+    /// Name of the program, with the controller `program`.
+    pub program: Option<String>,
 }
 
 /// The paper's numbers for a row.
@@ -241,22 +246,22 @@ impl EvaluationFailure {
 
 impl From<EvaluationQuery> for evaluate::EvaluationQuery {
     fn from(value: EvaluationQuery) -> Self {
-        let EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy } = value;
-        Self { controllers, maps, disturbances, episodes, seed, rl_policy }
+        let EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program } = value;
+        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program }
     }
 }
 
 impl From<evaluate::EvaluationQuery> for EvaluationQuery {
     fn from(value: evaluate::EvaluationQuery) -> Self {
-        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy } = value;
-        Self { controllers, maps, disturbances, episodes, seed, rl_policy }
+        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program } = value;
+        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program }
     }
 }
 
 impl From<evaluate::Cell> for Cell {
     fn from(value: evaluate::Cell) -> Self {
-        let evaluate::Cell { controller, map, disturbances } = value;
-        Self { controller, map, disturbances }
+        let evaluate::Cell { controller, map, disturbances, program } = value;
+        Self { controller, map, disturbances, program }
     }
 }
 

@@ -7,8 +7,8 @@ use utoipa::ToSchema;
 use super::ErrorMessage;
 use crate::control::transport::program::Answer;
 use crate::geometry::{Point2, Rect};
+use crate::program::{Asked, LIVE_WITHIN, Leg, Program};
 use crate::scenario::Parameters;
-use crate::session::programs::{ANSWER_WITHIN, Asked, Leg, Program};
 
 /// Version of these messages. Increase it when an old program could misread the server.
 pub const PROGRAM_PROTOCOL_VERSION: u32 = 1;
@@ -27,7 +27,7 @@ pub enum ProgramMessage {
     },
     /// A leg begins: the next `observe` of this trial belongs to it. Forget what belongs to the last one.
     Start {
-        /// Name of the session.
+        /// Name of the session, or of the trial of an evaluation.
         trial: String,
         map: String,
         workspace: Rect,
@@ -47,7 +47,13 @@ pub enum ProgramMessage {
         /// Dark blocks of the image on the table.
         obstacles: Vec<Rect>,
         image: ImageFacts,
+        /// The answer is waited for this long.
         deadline_s: f64,
+    },
+    /// There are no more questions in this trial.
+    End {
+        /// As in `start`.
+        trial: String,
     },
     /// A message could not be used.
     Error(ErrorMessage),
@@ -96,7 +102,7 @@ impl ProgramAnswer {
 
 impl ProgramMessage {
     pub fn hello(name: &str) -> Self {
-        let answer_within_s = ANSWER_WITHIN.as_secs_f64();
+        let answer_within_s = LIVE_WITHIN.as_secs_f64();
         Self::Hello { protocol: PROGRAM_PROTOCOL_VERSION, name: name.to_owned(), answer_within_s }
     }
 
@@ -111,7 +117,7 @@ impl ProgramMessage {
     }
 
     pub fn observe(request: u64, asked: &Asked) -> Self {
-        let Asked { trial, question, percept, obstacles, .. } = asked;
+        let Asked { trial, question, percept, obstacles, within, .. } = asked;
         let calibration = &percept.calibration;
         Self::Observe {
             request,
@@ -126,7 +132,7 @@ impl ProgramMessage {
                 m_per_px: calibration.m_per_px,
                 center_m: calibration.center_m.into(),
             },
-            deadline_s: ANSWER_WITHIN.as_secs_f64(),
+            deadline_s: within.as_secs_f64(),
         }
     }
 }

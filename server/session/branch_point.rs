@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::camera::{Camera, Gpu, ImageSource};
+use crate::program::{Carrier, Program, ProgramError};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{
@@ -22,6 +23,10 @@ pub struct BranchPoint {
     state: TrialState,
     /// Inputs after the snapshot, with the tick before which they were applied.
     inputs: Vec<(u64, Input)>,
+    /// Name of the session.
+    session: String,
+    /// The program that was selected last.
+    program: Option<Arc<Program>>,
 }
 
 /// Progress of a branch.
@@ -38,8 +43,20 @@ pub struct Progress<'a> {
 }
 
 impl BranchPoint {
-    pub(super) fn new(trial: &Trial, state: TrialState, inputs: Vec<(u64, Input)>) -> Self {
-        Self { scenario: trial.scenario().clone(), arena: trial.arena().clone(), state, inputs }
+    pub(super) fn new(
+        trial: &Trial,
+        state: TrialState,
+        inputs: Vec<(u64, Input)>,
+        session: &str,
+        program: Option<Arc<Program>>,
+    ) -> Self {
+        let (scenario, arena) = (trial.scenario().clone(), trial.arena().clone());
+        Self { scenario, arena, state, inputs, session: session.to_owned(), program }
+    }
+
+    /// The program that can carry the bead in a branch.
+    pub fn program(&self) -> Option<&Program> {
+        self.program.as_deref().filter(|program| program.standing().is_connected)
     }
 
     pub fn tick(&self) -> u64 {
@@ -93,24 +110,51 @@ impl BranchPoint {
     pub fn relive(&self, camera: &mut dyn ImageSource) -> Result<(Moment, TickRecord), TrialError> {
         let mut trial = self.trial()?;
         let before = trial.moment();
+        let at = |&&(tick, ref input): &&(u64, Input)| tick == self.tick() && is_answer(input);
+        for (_, answer) in self.inputs.iter().filter(at) {
+            trial.apply(answer.clone())?;
+        }
         Ok((before, trial.tick(Source::Camera(camera))?))
     }
 
     /// Continues from here under a controller, with the disturbances of hand and script at their ticks, until all goals
     /// are delivered or until [`Self::until_tick`]. `watch` is called after every tick and may stop it. Inputs that select
-    /// controllers are omitted; inputs that are impossible in the branch are skipped.
+    /// controllers, and answers of a program, are omitted; inputs that are impossible in the branch are skipped.
+    ///
+    /// # Errors
+    /// [`ProgramError`].
+    ///
+    /// # Panics
+    /// In an asynchronous task.
     pub fn branch(
         &self,
         controller: ControllerName,
         camera: &mut dyn ImageSource,
         watch: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
-    ) -> Result<(), TrialError> {
+    ) -> Result<(), ProgramError> {
+        let name = format!("{}, comparison", self.session);
+        let program = self.program().filter(|_| controller == ControllerName::Program);
+        let carrier = program.map(|program| Carrier { program, trial: &name });
+        let ran = self.run_branch(controller, carrier, camera, watch);
+        if let Some(carrier) = carrier {
+            carrier.end();
+        }
+        ran
+    }
+
+    fn run_branch(
+        &self,
+        controller: ControllerName,
+        carrier: Option<Carrier<'_>>,
+        camera: &mut dyn ImageSource,
+        watch: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ProgramError> {
         let mut trial = self.trial()?;
         if controller != self.state.controller {
-            trial.apply(Input::SelectController(controller))?;
+            trial.apply(Input::SelectController(controller)).map_err(TrialError::from)?;
         }
-        let mut inputs =
-            self.inputs.iter().filter(|(_, input)| !matches!(input, Input::SelectController(_))).peekable();
+        let is_taken = |(_, input): &&(u64, Input)| !matches!(input, Input::SelectController(_)) && !is_answer(input);
+        let mut inputs = self.inputs.iter().filter(is_taken).peekable();
         let mut tally = Tally::default();
         let mut delivered_tick = None;
         let deliveries = self.state.world.counters.deliveries;
@@ -120,7 +164,11 @@ impl BranchPoint {
                 // For example, the bead may not fit where the hand put it in the session.
                 let _: Result<(), InputError> = trial.apply(input.clone());
             }
-            let record = trial.tick(Source::Camera(camera))?;
+            let source = match carrier.filter(|_| trial.step_is_due()) {
+                Some(carrier) => Source::Seen(Box::new(carrier.decide(&mut trial, camera)?)),
+                None => Source::Camera(camera),
+            };
+            let record = trial.tick(source)?;
             tally.add(&record.moment);
             if delivered_tick.is_none() && record.moment.counters.deliveries > deliveries {
                 delivered_tick = Some(record.tick);
@@ -133,4 +181,9 @@ impl BranchPoint {
             }
         }
     }
+}
+
+/// Whether a program has answered so.
+pub(super) fn is_answer(input: &Input) -> bool {
+    matches!(input, Input::Go { .. } | Input::Hold { .. })
 }

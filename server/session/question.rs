@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use tokio::sync::oneshot;
 
-use super::programs::{ANSWER_WITHIN, Program};
 use crate::camera::Subject;
 use crate::control::transport::program::Answer;
+use crate::program::{LIVE_WITHIN, Program};
 use crate::scenario::{ControllerName, Parameters};
 use crate::trial::Seen;
 
@@ -51,7 +51,7 @@ impl Waiting {
 
     /// Whether an answer may still come.
     pub(super) fn is_open(&mut self) -> bool {
-        if self.got.is_some() || self.since.elapsed() >= ANSWER_WITHIN {
+        if self.got.is_some() || self.since.elapsed() >= LIVE_WITHIN {
             return false;
         }
         match self.answer.try_recv() {
@@ -65,14 +65,8 @@ impl Waiting {
     /// The answer, or a hold that says why it is missing. Notes it.
     pub(super) fn end(mut self, program: &Program) -> Answer {
         let latency = self.since.elapsed();
-        let is_late = self.is_open() || latency >= ANSWER_WITHIN;
+        let is_late = self.is_open() || latency >= LIVE_WITHIN;
         program.note(self.got.is_some().then_some(latency));
-        self.got.unwrap_or_else(|| {
-            let why = match is_late {
-                true => format!("gave no answer within {} ms", ANSWER_WITHIN.as_millis()),
-                false => "gave no usable answer".to_owned(),
-            };
-            Answer::Hold { reason: format!("{} {why}", program.name) }
-        })
+        self.got.unwrap_or_else(|| program.no_answer(is_late.then_some(LIVE_WITHIN)))
     }
 }

@@ -27,7 +27,7 @@ impl<E: ImageSource> Worker<E> {
         };
         let mut inputs = self.timeline.inputs_after(state.world.tick);
         inputs.extend(self.case_inputs_after(state.world.tick));
-        Ok(BranchPoint::new(&self.trial, state, inputs))
+        Ok(BranchPoint::new(&self.trial, state, inputs, &self.name, self.program.clone()))
     }
 
     /// The last kept state at or before a tick; `None` for a tick after the newest state.

@@ -12,13 +12,13 @@ use tokio::sync::{broadcast, oneshot, watch};
 use super::kept_runs::KeptRuns;
 use super::pacing::{LOOK_EVERY, Pace, SPEED_MAX, SPEED_MIN};
 use super::playing::{Playing, Void};
-use super::programs::Program;
 use super::question::{Asking, Sees};
 use super::timeline::Timeline;
 use super::{COMMAND_QUEUE, Command, CommandError, Request, STEP_MAX, Scenery, View};
 use crate::camera::{CameraError, ImageSource};
 use crate::control::step_is_due;
 use crate::faults;
+use crate::program::Program;
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
 
@@ -149,6 +149,9 @@ impl<E: ImageSource> Worker<E> {
     /// message.
     pub(super) fn run(mut self, inbox: &Receiver<Request>, publish: &watch::Sender<Arc<View>>) {
         let outcome = catch_unwind(AssertUnwindSafe(|| self.serve(inbox, publish)));
+        if let Some(program) = &self.program {
+            program.end(&self.name);
+        }
         let reason = match outcome {
             Ok(Ok(())) => return,
             Ok(Err(error)) => error.to_string(),
@@ -263,7 +266,9 @@ impl<E: ImageSource> Worker<E> {
                 self.asking = None;
             }
             Command::Attach(program) => {
-                self.program = Some(program);
+                if let Some(last) = self.program.replace(program) {
+                    last.end(&self.name);
+                }
                 self.input(Input::SelectController(ControllerName::Program))?;
             }
             Command::Step(ticks) => {

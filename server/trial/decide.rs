@@ -1,5 +1,7 @@
 //! A control step: the controllers decide, and the trial carries the decision out.
 
+use std::borrow::Cow;
+
 use super::outcome::GOAL_RADIUS_M;
 use super::phase::{LEGS_PER_GOAL, Phase, StopReason};
 use super::record::Seen;
@@ -163,9 +165,13 @@ impl Trial {
     /// What a policy that sees the image would get.
     pub fn observation(&self, seen: &Seen) -> Observation {
         let TrialState { world, controller_state, .. } = &self.state;
-        let mut known = controller_state.known.clone();
-        update_known(&mut known, &seen.percept, &world.parameters);
-        let gray = seen.percept.for_network(world.parameters.rl_corrects_image, seen.tool_m, &known);
+        let is_corrected = world.parameters.rl_corrects_image && !seen.percept.is_from_default_camera(seen.tool_m);
+        // Only a corrected image shows what was observed before.
+        let mut known = Cow::Borrowed(&controller_state.known);
+        if is_corrected {
+            update_known(known.to_mut(), &seen.percept, &world.parameters);
+        }
+        let gray = seen.percept.for_network(is_corrected, seen.tool_m, &known);
         Observation::new(&gray, world.goal_m, seen.tool_m, known.workspace())
     }
 

@@ -52,6 +52,26 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await expect(lab.page.getByTestId('program-standing')).toHaveText(/^straight answers in \d+ ms/);
   await until('the delivery', () => lab.state.phase === 'delivered', 30_000);
 
+  // Compared with the others from here, and evaluated beside them.
+  await lab.page.getByRole('tab', { name: 'Compare' }).click();
+  await expect(lab.page.getByLabel('Compare straight')).toBeChecked();
+  await lab.page.getByLabel('Compare RL').uncheck();
+  await lab.button('Start comparison').click();
+  const compared = lab.page.getByRole('row', { name: /^straight/ });
+  await expect(compared).toContainText('delivered', { timeout: 30_000 });
+  await lab.button('Evaluate').click();
+  const form = lab.page.getByRole('region', { name: 'New evaluation' });
+  await form.getByLabel('straight', { exact: true }).check();
+  for (const other of ['RL', 'colon', '3']) await form.getByLabel(other, { exact: true }).uncheck();
+  await form.getByLabel('open', { exact: true }).check();
+  await form.getByLabel('Episodes per cell').fill('2');
+  await expect(form.getByTestId('evaluation-scope')).toContainText('1 cell, 2 episodes');
+  await form.getByRole('button', { name: 'Run' }).click();
+  const row = lab.page.getByTestId('evaluation-row');
+  await expect(row).toContainText('straight', { timeout: 30_000 });
+  await expect(row).toContainText('2/2');
+  await lab.button('Laboratory').click();
+
   await disconnect();
   await lab.click(must(lab.freePoints(await lab.bead(), 0.1, 0.15).at(-1), 'another goal'));
   await expect(lab.page.getByTestId('program-standing')).toHaveText(

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::camera::Gpu;
+use crate::program::ProgramError;
 use crate::protocol::{Branch, ComparisonMessage};
 use crate::scenario::ControllerName;
 use crate::session::BranchPoint;
-use crate::trial::TrialError;
 
 /// Interval of progress messages.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
@@ -24,10 +24,10 @@ pub fn compare(
 ) {
     let mut comparison = ComparisonMessage::begin(trial, point);
     send(comparison.clone());
-    let run = || -> Result<(), TrialError> {
+    let run = || -> Result<(), ProgramError> {
         let mut camera = point.camera(gpu)?;
         for &controller in controllers {
-            comparison.branches.push(Branch::begin(controller));
+            comparison.branches.push(Branch::begin(point, controller));
             let mut told = Instant::now();
             point.branch(controller, &mut camera, &mut |progress| {
                 if let Some(branch) = comparison.branches.last_mut() {

@@ -150,9 +150,12 @@ impl Hub {
         self.comparison.subscribe()
     }
 
-    /// Starts a comparison, which sends its own messages.
-    pub async fn compare(self: &Arc<Self>, tick: u64, controllers: Vec<ControllerName>) -> Result<(), CommandError> {
+    /// Starts a comparison, which sends its own messages. No controllers are all.
+    pub async fn compare(self: &Arc<Self>, tick: u64, controllers: &[ControllerName]) -> Result<(), CommandError> {
         let point = self.session.recall(tick, Recalled::Present).await?;
+        let mut asked = ControllerName::OFFERED.to_vec();
+        asked.extend(point.program().map(|_| ControllerName::Program));
+        asked.retain(|name| controllers.is_empty() || controllers.contains(name));
         if !point.has_goal() {
             return Err(CommandError::NoGoal { tick });
         }
@@ -168,7 +171,7 @@ impl Hub {
                 if !is_last() {
                     return;
                 }
-                comparison::compare(&point, trial, &controllers, &hub.gpu, &is_last, &|message| {
+                comparison::compare(&point, trial, &asked, &hub.gpu, &is_last, &|message| {
                     hub.comparison.send_replace(json(&ServerMessage::Comparison(Box::new(message))));
                 });
             });

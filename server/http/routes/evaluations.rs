@@ -31,8 +31,10 @@ pub async fn list(State(server): State<Arc<Server>>) -> Json<Evaluations> {
         OutOfRange, TooMany, Unavailable))]
 pub async fn create(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Response, Problem> {
     let query: EvaluationQuery = parse(&body)?;
+    let program = query.program.as_deref().and_then(|name| server.programs.find(name));
     // Reading the maps blocks.
-    let evaluation = server.work(move |server| server.evaluations.submit(query.into(), &server.catalog)).await??;
+    let submit = move |server: &Arc<Server>| server.evaluations.submit(query.into(), &server.catalog, program);
+    let evaluation = server.work(submit).await??;
     let location = format!("/api/evaluations/{}", evaluation.id);
     let summary = Json(EvaluationSummary::from(&*evaluation));
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], summary).into_response())
@@ -113,7 +115,8 @@ impl From<SubmitError> for Problem {
                     QueryError::Map { .. } => "map_refused",
                     QueryError::Policy(_) => "unknown_policy",
                     QueryError::TooManyCells { .. } => "too_many",
-                    QueryError::NotAutomatic { .. }
+                    QueryError::Program { .. } => "no_program",
+                    QueryError::Person { .. }
                     | QueryError::Empty { .. }
                     | QueryError::Twice { .. }
                     | QueryError::Range { .. } => "out_of_range",

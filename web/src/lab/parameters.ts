@@ -10,6 +10,14 @@ import {
 
 export { CONTROLLER_LABELS, CONTROLLERS };
 
+/** The name of a controller, or of the program that is one. */
+export function controllerLabel(one: {
+  readonly controller: ControllerName;
+  readonly program: string | null;
+}): string {
+  return one.program ?? CONTROLLER_LABELS[one.controller];
+}
+
 /** What each controller does, one or two sentences. */
 export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
   rl: "RL: a trained neural network. From the camera's pictures it judges four directions, step by step.",

@@ -155,6 +155,7 @@ export function branchOf(
 ): Branch {
   return {
     controller,
+    program: null,
     samples,
     done: true,
     phase: 'delivered',

@@ -1,93 +1,21 @@
 // The comparison: one moment under several controllers with the same disturbances, and their results.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { For, Show, createMemo, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
-import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
 import { errors_m, lastTick } from '../../lab/comparison';
-import { isFailure } from '../../lab/failure';
 import { createPalette } from '../../ui/palette';
-import { CONTROLLERS, CONTROLLER_LABELS } from '../../lab/parameters';
-import type { Branch, ComparisonMessage, ControllerName } from '../../net/protocol.gen';
+import { controllerLabel } from '../../lab/parameters';
+import type { Branch, ComparisonMessage } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Compared, Events, Notices, Session, Trial } from '../../lab/slices';
+import { COMPARABLE, CompareStart } from './CompareStart';
 import './compare.css';
 
-const KEYS = CONTROLLERS.map((name) => ({ label: CONTROLLER_LABELS[name], color: name }));
 const CM = 100;
-
-function Start(props: { lab: Session & Trial & Events & Compared }): JSX.Element {
-  const { lab } = props;
-  const [chosen, setChosen] = createSignal<ReadonlySet<ControllerName>>(new Set(CONTROLLERS));
-  const toggle = (name: ControllerName, on: boolean): void => {
-    const next = new Set(chosen());
-    if (on) next.add(name);
-    else next.delete(name);
-    setChosen(next);
-  };
-  /** At the end of an attempt there is nothing left to compare. */
-  const isOver = (): boolean => {
-    const phase = lab.state()?.phase ?? '';
-    return phase === 'delivered' || isFailure(phase);
-  };
-  /** Where the branches begin. */
-  const from = (): number | undefined => (isOver() ? attemptStart(lab) : lab.state()?.tick);
-  const title = (): string => {
-    if (from() === undefined) return START_NOT_KEPT;
-    const moment = isOver() ? 'the moment at which the goal was set' : 'this moment';
-    return `Continues from ${moment} under each controller, without changing the session`;
-  };
-  return (
-    <div class="compare-start">
-      <fieldset>
-        <legend class="visually-hidden">Controllers to compare</legend>
-        <For each={CONTROLLERS}>
-          {(name) => (
-            <label class="check">
-              <input
-                type="checkbox"
-                checked={chosen().has(name)}
-                aria-label={`Compare ${CONTROLLER_LABELS[name]}`}
-                onChange={(event) => {
-                  toggle(name, event.currentTarget.checked);
-                }}
-              />
-              {CONTROLLER_LABELS[name]}
-            </label>
-          )}
-        </For>
-      </fieldset>
-      <button
-        type="button"
-        class="small primary"
-        disabled={!lab.canOperate() || chosen().size === 0 || from() === undefined}
-        title={title()}
-        onClick={() => {
-          const tick = from();
-          if (tick === undefined) return;
-          const controllers = CONTROLLERS.filter((name) => chosen().has(name));
-          lab.send({ type: 'fork', tick, controllers });
-        }}
-      >
-        Start comparison
-      </button>
-      <span class="compare-of" role="status">
-        <Show when={lab.comparison.shown()}>
-          {(comparison) => (
-            <>
-              from {clock(comparison().sim_time_s)}
-              <Show when={comparison().running}>, running …</Show>
-              <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
-            </>
-          )}
-        </Show>
-      </span>
-    </div>
-  );
-}
 
 function outcome(comparison: ComparisonMessage, branch: Branch, tick_s: number): string {
   if (branch.delivered_tick !== null) {
@@ -123,7 +51,7 @@ function Results(props: { comparison: ComparisonMessage; tick_s: number }): JSX.
           {(branch) => (
             <tr>
               <th scope="row" class="swatch" data-controller={branch.controller}>
-                {CONTROLLER_LABELS[branch.controller]}
+                {controllerLabel(branch)}
                 <Show when={branch.controller === props.comparison.controller}>
                   <span class="tag" title="The controller in use at that moment">
                     was in use
@@ -193,7 +121,7 @@ function Player(props: {
 
 /** Seconds since the moment, then errors in centimetres, one column per controller. */
 function columns(comparison: ComparisonMessage, tick_s: number): uPlot.AlignedData {
-  const errors = CONTROLLERS.map((name) => {
+  const errors = COMPARABLE.map((name) => {
     const branch = comparison.branches.find(({ controller }) => controller === name);
     return branch ? errors_m(branch) : [];
   });
@@ -225,9 +153,22 @@ function Errors(
     { axis: 'y', at: threshold_cm(), label: 'T', color: 'danger', dashed: true } as const,
     { axis: 'x', at: shown_s(), label: '', color: 'muted', dashed: false } as const,
   ]);
+  /** One for each column; the program's name comes with its branch. */
+  const lines = COMPARABLE.map((name) => ({
+    label: controllerLabel({ controller: name, program: null }),
+    color: name,
+  }));
+  const keys = (): typeof lines => {
+    const own = props.comparison.branches.find(({ controller }) => controller === 'program');
+    return lines
+      .filter(({ color }) => color !== 'program' || own !== undefined)
+      .map((one) =>
+        one.color === 'program' && own ? { ...one, label: controllerLabel(own) } : one,
+      );
+  };
   const context: CurveContext = {
     palette,
-    lines: KEYS,
+    lines,
     bands: [],
     xRange: () => [
       0,
@@ -245,7 +186,7 @@ function Errors(
       title="Error norm"
       unit="cm"
       name="Error norm of each controller over time since the moment"
-      keys={KEYS}
+      keys={keys()}
       theme={props.theme}
       context={context}
       data={columns(props.comparison, props.tick_s)}
@@ -261,7 +202,7 @@ function ComparePanel(
   return (
     <div class="compare">
       <div class="compare-main">
-        <Start lab={lab} />
+        <CompareStart lab={lab} />
         <PlaceNotice lab={lab} place="compare" />
         <Show
           when={lab.comparison.shown()}

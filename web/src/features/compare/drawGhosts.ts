@@ -1,7 +1,7 @@
 // Draws the branches of a comparison as ghosts.
 
 import { ghostAt } from '../../lab/comparison';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { controllerLabel } from '../../lab/parameters';
 import type { ComparisonMessage } from '../../net/protocol.gen';
 import { drawGhost } from '../../plan/drawGhost';
 import type { View } from '../../plan/transform';
@@ -20,7 +20,7 @@ export function drawGhosts(
     drawGhost(ctx, view, palette, {
       ...ghost,
       colour: palette[branch.controller],
-      label: CONTROLLER_LABELS[branch.controller],
+      label: controllerLabel(branch),
       path_m: branch.samples.map(([, , x_m, y_m]) => [x_m, y_m] as const),
     });
   }

@@ -12,8 +12,8 @@ import {
 } from 'solid-js';
 import { troubleWords } from '../../lab/failure';
 import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../../lab/parameters';
-import { createPoll } from '../../net/poll';
-import type { ControllerName, Programs, StateMessage } from '../../net/protocol.gen';
+import type { ControllerName, StateMessage } from '../../net/protocol.gen';
+import { createPrograms } from '../../lab/programs';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
@@ -22,9 +22,6 @@ import './ControllerPanel.css';
 
 /** A choice is shown at once. If the server has not followed by then, its controller is shown again. */
 const CHOICE_MS = 1000;
-
-/** Programs appear within a second. */
-const PROGRAMS_MS = 700;
 
 /** Something that can be chosen: one of Ferry's own controllers, or a program. */
 interface Choice {
@@ -72,7 +69,6 @@ function ControllerChoice(props: {
   const { lab } = props;
   // Between the arrow keys, states arrive with the choice before.
   const [choice, setChoice] = createSignal<string>();
-  const programs = createPoll<Programs>('/api/controllers', () => PROGRAMS_MS);
   let timer: ReturnType<typeof setTimeout> | undefined;
   const settle = (): void => {
     clearTimeout(timer);
@@ -82,19 +78,10 @@ function ControllerChoice(props: {
     const state = lab.state();
     return state?.controller === 'program' ? state.program?.name : state?.controller;
   });
-  /** Those that are connected, and the one that carries. */
-  const names = createMemo<readonly string[]>(
-    () => {
-      const connected = (programs.data()?.programs ?? []).filter((one) => one.is_connected);
-      const state = lab.state();
-      const own = state?.controller === 'program' ? state.program?.name : undefined;
-      const all = new Set(connected.map((one) => one.name));
-      if (own !== undefined) all.add(own);
-      return [...all].sort();
-    },
-    [],
-    { equals: (a, b) => a.join(' ') === b.join(' ') },
-  );
+  const names = createPrograms(() => {
+    const state = lab.state();
+    return state?.controller === 'program' ? state.program?.name : undefined;
+  });
   createEffect(
     on(active, (now) => {
       if (now === choice()) settle();

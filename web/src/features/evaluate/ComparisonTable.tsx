@@ -2,12 +2,15 @@
 
 import { For, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
-import type { Comparison, ControllerName, PairedMean } from '../../net/protocol.gen';
+import type { Comparison, PairedMean } from '../../net/protocol.gen';
 import { difference } from './table';
 import './tables.css';
 
+/** Programs have their own names. */
+const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
+
 function label(controller: string): string {
-  return CONTROLLER_LABELS[controller as ControllerName];
+  return LABELS.get(controller) ?? controller;
 }
 
 function paired(mean: PairedMean | null, scale: number, digits: number): string {

@@ -8,12 +8,14 @@ import {
   type PolicyField,
   policyOptions,
 } from '../../lab/parameters';
+import { createPrograms } from '../../lab/programs';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import { roughly } from '../../ui/format';
 import type { EvaluationList } from './evaluations';
 import { draft, setDraft } from './draft';
 import {
+  chooseControllers,
   type Draft,
   estimate_s,
   type Faults,
@@ -27,6 +29,7 @@ import type { Session, Trial } from '../../lab/slices';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
+const LABELS = new Map<string, string>(Object.entries(CONTROLLER_LABELS));
 
 function Fault(props: { id: string; text: string | undefined }): JSX.Element {
   return (
@@ -147,6 +150,7 @@ export function EvaluationForm(props: {
   const { lab } = props;
   const [faults, setFaults] = createSignal<Faults>({});
   const [busy, setBusy] = createSignal(false);
+  const programs = createPrograms(() => draft().program || undefined);
   // A changed field loses its error message.
   const change = (field: Field, part: Partial<Draft>): void => {
     setDraft({ ...draft(), ...part });
@@ -187,12 +191,12 @@ export function EvaluationForm(props: {
     >
       <Choice
         legend="Controllers"
-        all={CONTROLLERS}
-        chosen={draft().controllers}
-        label={(name) => CONTROLLER_LABELS[name]}
+        all={[...CONTROLLERS, ...programs()]}
+        chosen={[...draft().controllers, draft().program]}
+        label={(name) => LABELS.get(name) ?? name}
         fault={faults().controllers}
-        onChoose={(controllers) => {
-          change('controllers', { controllers });
+        onChoose={(chosen) => {
+          change('controllers', chooseControllers(chosen, draft().program));
         }}
       />
       <Show when={draft().controllers.includes('rl')}>

@@ -2,7 +2,7 @@
 
 import { For, Show, type JSX } from 'solid-js';
 import { fixed } from '../../ui/format';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { controllerLabel } from '../../lab/parameters';
 import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net/protocol.gen';
 import { IntervalBar } from './IntervalBar';
 import { cm, decisionWords, percentRange, ratio } from './table';
@@ -164,7 +164,7 @@ export function EvaluationTable(props: {
                 {(cell) => (
                   <>
                     <tr data-testid="evaluation-row">
-                      <th scope="row">{CONTROLLER_LABELS[cell().controller]}</th>
+                      <th scope="row">{controllerLabel(cell())}</th>
                       <td>{cell().map}</td>
                       <td>{cell().disturbances}</td>
                       <Show

@@ -1,7 +1,7 @@
 // Trials whose bead was not delivered. Each can be set up again.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
-import { CONTROLLER_LABELS } from '../../lab/parameters';
+import { controllerLabel } from '../../lab/parameters';
 import type { EvaluationFailure, EvaluationReport } from '../../net/protocol.gen';
 import { setUpAgain } from './setUp';
 import { reason } from './table';
@@ -21,13 +21,16 @@ function FailureRow(props: {
   const cell = () => props.report.cells[props.failure.cell];
   const label = (): string => {
     const now = cell();
-    return now ? `${CONTROLLER_LABELS[now.controller]}, ${now.map}, ${now.disturbances}` : '';
+    return now ? `${controllerLabel(now)}, ${now.map}, ${now.disturbances}` : '';
   };
   const setUp = (): void => {
     const now = cell();
     const defaults = lab.scene()?.defaults;
     if (!now || !defaults) return;
     lab.send(setUpAgain(now, props.failure, defaults));
+    if (now.program !== null) {
+      lab.send({ type: 'select_controller', controller: 'program', program: now.program });
+    }
     props.onLaboratory();
   };
   return (

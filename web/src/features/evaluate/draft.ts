@@ -8,5 +8,5 @@ export const [draft, setDraft] = createSignal<Draft>(PAPERS);
 
 /** Fills in a policy and a map; the rest stays. */
 export function fillIn(policy: string, map: string): void {
-  setDraft({ ...draft(), controllers: ['rl'], rl_policy: policy, maps: [map] });
+  setDraft({ ...draft(), controllers: ['rl'], program: '', rl_policy: policy, maps: [map] });
 }

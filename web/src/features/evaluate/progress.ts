@@ -1,6 +1,6 @@
 // Progress and remaining time of an evaluation. Pure.
 
-import { CONTROLLER_LABELS, policyName } from '../../lab/parameters';
+import { CONTROLLER_LABELS, controllerLabel, policyName } from '../../lab/parameters';
 import type { Cell, ControllerName, EvaluationSummary } from '../../net/protocol.gen';
 
 export function isActive({ stage }: EvaluationSummary): boolean {
@@ -76,11 +76,11 @@ export function stageWords(summary: EvaluationSummary): string {
 
 /** `RL, ERRT on posts; 0 and 3 disturbances`. */
 export function subject({ query }: EvaluationSummary): string {
-  const { rl_policy } = query;
+  const { rl_policy, program } = query;
   const label = (name: ControllerName): string =>
     name === 'rl' && rl_policy !== 'auto'
       ? `${CONTROLLER_LABELS.rl} (${policyName(rl_policy)})`
-      : CONTROLLER_LABELS[name];
+      : controllerLabel({ controller: name, program: name === 'program' ? program : null });
   const controllers = query.controllers.map(label).join(', ');
   const disturbances = query.disturbances.join(' and ');
   const noun = disturbances === '1' ? 'disturbance' : 'disturbances';

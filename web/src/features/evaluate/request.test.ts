@@ -1,5 +1,13 @@
 import { describe, expect, it } from 'vitest';
-import { estimate_s, faultsOf, PAPERS, queryOf, sizeWords, toggled } from './request';
+import {
+  chooseControllers,
+  estimate_s,
+  faultsOf,
+  PAPERS,
+  queryOf,
+  sizeWords,
+  toggled,
+} from './request';
 import { cellOf, summaryOf } from './testing';
 
 const PAPERS_QUERY = {
@@ -9,6 +17,7 @@ const PAPERS_QUERY = {
   episodes: 30,
   seed: 1,
   rl_policy: 'auto',
+  program: null,
 };
 
 describe('queryOf', () => {
@@ -25,6 +34,15 @@ describe('queryOf', () => {
     expect(queryOf(draft)).toMatchObject({ query: { rl_policy: draft.rl_policy } });
     expect(queryOf({ ...draft, controllers: ['errt'] })).toMatchObject({
       query: { rl_policy: 'auto' },
+    });
+  });
+
+  it('names a program beside the controllers, or alone', () => {
+    expect(queryOf({ ...PAPERS, program: 'mine' })).toMatchObject({
+      query: { controllers: ['rl', 'program'], program: 'mine' },
+    });
+    expect(queryOf({ ...PAPERS, controllers: [], program: 'mine' })).toMatchObject({
+      query: { controllers: ['program'], program: 'mine' },
     });
   });
 
@@ -47,9 +65,21 @@ describe('queryOf', () => {
   });
 });
 
+describe('chooseControllers', () => {
+  it.each<[string[], string, string[], string]>([
+    [['errt', 'rl'], '', ['rl', 'errt'], ''],
+    [['rl', 'mine'], '', ['rl'], 'mine'],
+    [['rl', 'mine', 'other'], 'mine', ['rl'], 'other'],
+    [['mine'], 'mine', [], 'mine'],
+  ])('%o after %o', (chosen, last, controllers, program) => {
+    expect(chooseControllers(chosen, last)).toEqual({ controllers, program });
+  });
+});
+
 describe('faultsOf', () => {
   it('shows a refusal at its field', () => {
     expect(faultsOf({ detail: 'no', field: 'maps[1]' })).toEqual({ maps: 'no' });
+    expect(faultsOf({ detail: 'gone', field: 'program' })).toEqual({ controllers: 'gone' });
     expect(faultsOf({ detail: 'no', field: 'episodes' })).toEqual({ episodes: 'no' });
   });
 

@@ -1,6 +1,7 @@
 // The request for an evaluation, from the form's fields. Pure.
 
 import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
+import { CONTROLLERS } from '../../lab/parameters';
 import { counted } from '../../ui/format';
 import { secondsAnEpisode } from './progress';
 
@@ -9,6 +10,8 @@ export type Field = 'controllers' | 'rl_policy' | 'maps' | 'disturbances' | 'epi
 export interface Draft {
   readonly controllers: readonly ControllerName[];
   readonly rl_policy: string;
+  /** Name of a program; empty without one. */
+  readonly program: string;
   readonly maps: readonly string[];
   readonly disturbances: readonly number[];
   /** As typed; empty if it is not a number. */
@@ -20,6 +23,7 @@ export interface Draft {
 export const PAPERS: Draft = {
   controllers: ['rl'],
   rl_policy: 'auto',
+  program: '',
   maps: ['colon'],
   disturbances: [0, 3],
   episodes: '30',
@@ -33,7 +37,8 @@ const WHOLE = /^\d+$/;
 /** The query, or the faults of the draft. The server checks the limits. */
 export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Faults } {
   const faults: Partial<Record<Field, string>> = {};
-  if (draft.controllers.length === 0) faults.controllers = 'Choose at least one controller.';
+  if (draft.controllers.length === 0 && draft.program === '')
+    faults.controllers = 'Choose at least one controller.';
   if (draft.maps.length === 0) faults.maps = 'Choose at least one map.';
   if (draft.disturbances.length === 0)
     faults.disturbances = 'Choose at least one number of disturbances.';
@@ -44,16 +49,17 @@ export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Fa
     faults.seed = 'The seed must be a whole number from 0 to 9007199254740991.';
   }
   if (Object.keys(faults).length > 0) return { faults };
-  const { controllers, rl_policy, maps, disturbances } = draft;
+  const { controllers, rl_policy, program, maps, disturbances } = draft;
   return {
     query: {
-      controllers: [...controllers],
+      controllers: program === '' ? [...controllers] : [...controllers, 'program'],
       maps: [...maps],
       disturbances: [...disturbances],
       episodes: Number(draft.episodes),
       seed,
       // Without RL there is no policy to name.
       rl_policy: controllers.includes('rl') ? rl_policy : 'auto',
+      program: program === '' ? null : program,
     },
   };
 }
@@ -67,9 +73,10 @@ const FIELDS: readonly Field[] = [
   'seed',
 ];
 
-/** The server's refusal at the field that it names: `maps[1]` belongs to the maps. */
+/** The server's refusal at the field that it names: `maps[1]` belongs to the maps, `program` to the controllers. */
 export function faultsOf(refusal: { detail: string; field?: string | undefined }): Faults {
-  const name = refusal.field?.replace(/\[.*$/, '');
+  const named = refusal.field?.replace(/\[.*$/, '');
+  const name = named === 'program' ? 'controllers' : named;
   const field = FIELDS.find((one) => one === name) ?? 'form';
   return { [field]: refusal.detail };
 }
@@ -77,6 +84,19 @@ export function faultsOf(refusal: { detail: string; field?: string | undefined }
 /** Adds or removes `item`, in the order of `all`. */
 export function toggled<T>(all: readonly T[], chosen: readonly T[], item: T, on: boolean): T[] {
   return all.filter((one) => (one === item ? on : chosen.includes(one)));
+}
+
+/** Controllers and the program after a choice among both: another program takes the place of the last one. */
+export function chooseControllers(
+  chosen: readonly string[],
+  last: string,
+): Pick<Draft, 'controllers' | 'program'> {
+  const programs = chosen.filter((name) => !CONTROLLERS.some((own) => own === name));
+  const added = programs.find((name) => name !== last);
+  return {
+    controllers: CONTROLLERS.filter((name) => chosen.includes(name)),
+    program: added ?? programs[0] ?? '',
+  };
 }
 
 /** `4 cells, 120 episodes`. */
@@ -94,7 +114,10 @@ export function estimate_s(
   for (const map of query.maps) {
     for (const disturbances of query.disturbances) {
       for (const controller of query.controllers) {
-        const episode_s = secondsAnEpisode({ controller, map, disturbances }, measured);
+        const episode_s = secondsAnEpisode(
+          { controller, map, disturbances, program: query.program },
+          measured,
+        );
         if (episode_s === undefined) return undefined;
         sum_s += episode_s * query.episodes;
       }

@@ -8,6 +8,10 @@ import type { OverlayMessage } from './layers.gen';
  */
 export type Branch = { controller: ControllerName, 
 /**
+ * Name of the program, with the controller `program`.
+ */
+program: string | null, 
+/**
  * Tool x, y and bead x, y in metres, from the first sample after the moment.
  */
 samples: Array<[number, number, number, number]>, 

@@ -30,7 +30,11 @@ seed: number,
 /**
  * Policy of the controller `rl`, as the parameter `rl_policy`.
  */
-rl_policy: string, };
+rl_policy: string, 
+/**
+ * Name of a connected program, with the controller `program`.
+ */
+program: string | null, };
 
 /**
  * The subject of one row of the table.
@@ -43,7 +47,11 @@ controller: ControllerName, map: string,
 /**
  * Scripted disturbances per trial.
  */
-disturbances: number, };
+disturbances: number, 
+/**
+ * Name of the program, with the controller `program`.
+ */
+program: string | null, };
 
 export type EvaluationStage = "waiting" | "running" | "done" | "cancelled" | "failed";
 
@@ -103,7 +111,11 @@ controller: ControllerName, map: string,
 /**
  * Scripted disturbances per trial.
  */
-disturbances: number, };
+disturbances: number, 
+/**
+ * Name of the program, with the controller `program`.
+ */
+program: string | null, };
 
 /**
  * An evaluation without its rows.

@@ -1,0 +1,94 @@
+//! What is to be evaluated, for the command line and for Python.
+
+use std::sync::Arc;
+
+use super::{Cell, Experiment, Manner, Venue};
+use crate::map::MapError;
+use crate::policy::Policy;
+use crate::program::Program;
+use crate::scenario::{ControllerName, Parameters};
+use crate::trial::Arena;
+
+/// Who carries the bead.
+#[derive(Clone)]
+pub enum Contender {
+    Own(ControllerName),
+    Program(Arc<Program>),
+}
+
+/// Every contender on every map with every number of disturbances, at the same starts, goals and seeds.
+pub struct Plan {
+    /// Names of maps, or paths of SVGs.
+    pub maps: Vec<String>,
+    pub contenders: Vec<Contender>,
+    /// Scripted disturbances per trial.
+    pub disturbances: Vec<u32>,
+    /// Trials per row.
+    pub episodes: u32,
+    pub seed: u64,
+    pub parameters: Parameters,
+    pub manner: Manner,
+    /// Instead of the shipped policies.
+    pub policy: Option<Policy>,
+}
+
+/// Why a plan is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    #[error("controller is {0:?}, which needs a person or a program")]
+    NotAutomatic(&'static str),
+    #[error(
+        "{controller} on {map} with {disturbances} disturbances is requested twice; maps with the same file name count \
+         as one"
+    )]
+    Twice { controller: String, map: String, disturbances: u32 },
+    #[error(transparent)]
+    Map(#[from] MapError),
+}
+
+impl Plan {
+    /// One experiment per row, with the contenders of a map next to each other.
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn experiments(&self) -> Result<Vec<Experiment>, PlanError> {
+        let mut experiments: Vec<Experiment> = Vec::new();
+        for map in &self.maps {
+            let arena = Arena::open(map)?;
+            let arena = match &self.policy {
+                Some(policy) => arena.with_policy(policy.clone()),
+                None => arena,
+            };
+            let venue = Venue::of(arena);
+            for &disturbances in &self.disturbances {
+                for contender in &self.contenders {
+                    let (controller, program) = match contender {
+                        Contender::Own(name) if !ControllerName::AUTOMATIC.contains(name) => {
+                            return Err(PlanError::NotAutomatic(name.as_str()));
+                        }
+                        Contender::Own(name) => (*name, None),
+                        Contender::Program(program) => (ControllerName::Program, Some(program.clone())),
+                    };
+                    let name = program.as_ref().map(|program| program.name.clone());
+                    let cell = Cell { controller, map: venue.arena.map.name().to_owned(), disturbances, program: name };
+                    // Two cells with the same name would count as the same trials.
+                    if experiments.iter().any(|other| other.cell == cell) {
+                        let controller = cell.controller().to_owned();
+                        return Err(PlanError::Twice { controller, map: cell.map, disturbances });
+                    }
+                    experiments.push(Experiment {
+                        cell,
+                        venue: venue.clone(),
+                        map: map.clone(),
+                        episodes: self.episodes,
+                        seed: self.seed,
+                        parameters: self.parameters.clone(),
+                        manner: self.manner,
+                        program,
+                    });
+                }
+            }
+        }
+        Ok(experiments)
+    }
+}

@@ -1,0 +1,92 @@
+// Chooses controllers and starts a comparison.
+
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
+import { isFailure } from '../../lab/failure';
+import { controllerLabel, CONTROLLERS } from '../../lab/parameters';
+import type { Compared, Events, Session, Trial } from '../../lab/slices';
+import type { ControllerName } from '../../net/protocol.gen';
+import { clock } from '../../ui/format';
+
+/** The controllers that can be compared, and the session's program. */
+export const COMPARABLE: readonly ControllerName[] = [...CONTROLLERS, 'program'];
+
+export function CompareStart(props: { lab: Session & Trial & Events & Compared }): JSX.Element {
+  const { lab } = props;
+  const [chosen, setChosen] = createSignal<ReadonlySet<ControllerName>>(new Set(COMPARABLE));
+  const toggle = (name: ControllerName, on: boolean): void => {
+    const next = new Set(chosen());
+    if (on) next.add(name);
+    else next.delete(name);
+    setChosen(next);
+  };
+  /** The session's program, while it is connected. */
+  const program = createMemo(() => {
+    const last = lab.state()?.program;
+    return last?.is_connected === true ? last.name : undefined;
+  });
+  const offered = createMemo(() =>
+    COMPARABLE.filter((name) => name !== 'program' || program() !== undefined),
+  );
+  const wanted = (): ControllerName[] => offered().filter((name) => chosen().has(name));
+  const label = (name: ControllerName): string =>
+    controllerLabel({ controller: name, program: name === 'program' ? (program() ?? null) : null });
+  /** At the end of an attempt there is nothing left to compare. */
+  const isOver = (): boolean => {
+    const phase = lab.state()?.phase ?? '';
+    return phase === 'delivered' || isFailure(phase);
+  };
+  /** Where the branches begin. */
+  const from = (): number | undefined => (isOver() ? attemptStart(lab) : lab.state()?.tick);
+  const title = (): string => {
+    if (from() === undefined) return START_NOT_KEPT;
+    const moment = isOver() ? 'the moment at which the goal was set' : 'this moment';
+    return `Continues from ${moment} under each controller, without changing the session`;
+  };
+  return (
+    <div class="compare-start">
+      <fieldset>
+        <legend class="visually-hidden">Controllers to compare</legend>
+        <For each={offered()}>
+          {(name) => (
+            <label class="check">
+              <input
+                type="checkbox"
+                checked={chosen().has(name)}
+                aria-label={`Compare ${label(name)}`}
+                onChange={(event) => {
+                  toggle(name, event.currentTarget.checked);
+                }}
+              />
+              {label(name)}
+            </label>
+          )}
+        </For>
+      </fieldset>
+      <button
+        type="button"
+        class="small primary"
+        disabled={!lab.canOperate() || wanted().length === 0 || from() === undefined}
+        title={title()}
+        onClick={() => {
+          const tick = from();
+          if (tick === undefined) return;
+          lab.send({ type: 'fork', tick, controllers: wanted() });
+        }}
+      >
+        Start comparison
+      </button>
+      <span class="compare-of" role="status">
+        <Show when={lab.comparison.shown()}>
+          {(comparison) => (
+            <>
+              from {clock(comparison().sim_time_s)}
+              <Show when={comparison().running}>, running …</Show>
+              <Show when={comparison().failed}>{(reason) => <>: failed: {reason()}</>}</Show>
+            </>
+          )}
+        </Show>
+      </span>
+    </div>
+  );
+}
