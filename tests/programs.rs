@@ -11,9 +11,12 @@ use ferry::trial::{
     REASON_BYTES_MOST, Seen, Source, Trial, replay,
 };
 
+use futures_util::{SinkExt, StreamExt};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
 use tokio_tungstenite::connect_async;
-use tokio_tungstenite::tungstenite::Error;
+use tokio_tungstenite::tungstenite::{Error, Message};
 
 use crate::support::{Browser, Laboratory, gpu};
 
@@ -301,6 +304,86 @@ async fn a_program_is_evaluated_and_compared_beside_ferrys_controllers() {
         }
         tokio::time::sleep(Duration::from_millis(50)).await;
     }
+    laboratory.close().await;
+}
+
+/// A message of a program, or one that was damaged.
+fn damaged(rng: &mut ChaCha8Rng) -> String {
+    let whole = [
+        r#"{"type":"act","request":1,"target_m":[0.1,-0.3]}"#,
+        r#"{"type":"hold","request":1,"reason":"it thinks"}"#,
+        r#"{"type":"act","request":18446744073709551615,"target_m":[1e308,-1e308]}"#,
+        "[[[[[[[[",
+        "",
+    ];
+    let parts =
+        ["{", "}", "[", "]", "\"", ":", ",", "NaN", "null", "-", "1e999", "é", "\u{0}", "type", "act", "\\ud800"];
+    let mut text = whole[rng.random_range(0..whole.len())].replace(":1,", &format!(":{},", rng.random_range(1..900)));
+    for _ in 0..rng.random_range(0..4) {
+        let places: Vec<usize> = text.char_indices().map(|(at, _)| at).chain([text.len()]).collect();
+        let at = places[rng.random_range(0..places.len())];
+        if rng.random() {
+            text.insert_str(at, parts[rng.random_range(0..parts.len())]);
+        } else {
+            text.truncate(at);
+        }
+    }
+    text
+}
+
+/// Sends damaged messages as fast as the server reads them. Returns how many it has refused.
+async fn send_damaged(program: Browser, count: u64, seed: u64) -> u64 {
+    let (mut to, mut from) = program.socket.split();
+    let sending = async move {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        for _ in 0..count {
+            let text = damaged(&mut rng);
+            let message = if rng.random_range(0..50) == 0 { Message::binary(text) } else { Message::text(text) };
+            to.send(message).await.unwrap();
+        }
+        to.send(Message::Close(None)).await.unwrap();
+    };
+    let counting = async move {
+        let mut refused = 0;
+        while let Some(Ok(message)) = from.next().await {
+            if let Message::Text(text) = message {
+                let message: Value = serde_json::from_str(&text).unwrap();
+                refused += u64::from(message["type"] == "error");
+                assert!(message["type"] != "error" || message["message"].as_str().is_some_and(|text| !text.is_empty()));
+            }
+        }
+        refused
+    };
+    tokio::join!(sending, counting).1
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_hundred_thousand_damaged_messages_do_no_harm() {
+    // The server reads 500 messages per second of each.
+    const PROGRAMS: u64 = 20;
+    const EACH: u64 = 5000;
+    let laboratory = Laboratory::open().await;
+    let mut programs = vec![connect(&laboratory, "mine").await];
+    for number in 1..PROGRAMS {
+        programs.push(connect(&laboratory, &format!("other-{number}")).await);
+    }
+    // It is asked meanwhile.
+    let mut page = open_page(&laboratory).await;
+    page.send(json!({"type": "set_speed", "factor": 0.25})).await;
+    let sending: Vec<_> =
+        programs.into_iter().zip(1..).map(|(program, seed)| tokio::spawn(send_damaged(program, EACH, seed))).collect();
+    let mut refused = 0;
+    for one in sending {
+        refused += one.await.unwrap();
+    }
+    assert!(refused > PROGRAMS * EACH / 2, "{refused}");
+    let state = page.state("a state", |m| m["program"]["is_connected"] == false).await;
+    assert_eq!((&state["running"], &state["refusal"]), (&json!(true), &json!("the program: mine is not connected")));
+    // The session goes on with a program that answers well.
+    page.send(json!({"type": "set_speed", "factor": 4})).await;
+    let answering = tokio::spawn(go_straight(connect(&laboratory, "mine").await));
+    page.state("a delivery", |m| m["phase"] == "delivered").await;
+    answering.abort();
     laboratory.close().await;
 }
 
