@@ -24,6 +24,7 @@ PYTEST_VERSION := 9.2.0
 NBCONVERT_VERSION := 7.17.2
 IPYKERNEL_VERSION := 7.4.0
 MATPLOTLIB_VERSION := 3.11.2
+TYPES_TQDM_VERSION := 4.70.0.20261106
 TORCH_VERSION := 2.15.0
 STABLE_BASELINES3_VERSION := 2.9.2
 ONNX_VERSION := 1.23.2
@@ -36,7 +37,7 @@ MATURIN := $(VENV)/maturin-$(MATURIN_VERSION)
 # The package is tested where only it is installed, with what it asks for.
 WHEEL_VENV := target/wheel-venv
 RL_VENV := target/rl-venv
-WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)-nbconvert-$(NBCONVERT_VERSION)
+WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)-nbconvert-$(NBCONVERT_VERSION)-types-tqdm-$(TYPES_TQDM_VERSION)
 RL_TOOLS := $(RL_VENV)/torch-$(TORCH_VERSION)-stable-baselines3-$(STABLE_BASELINES3_VERSION)-ray-$(RAY_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 # Graphics drivers print long warnings when it is not set.
@@ -182,7 +183,7 @@ $(WHEEL_TOOLS):
 	python3 -m venv $(WHEEL_VENV)
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check ruff==$(RUFF_VERSION) mypy==$(MYPY_VERSION) \
 		pytest==$(PYTEST_VERSION) nbconvert==$(NBCONVERT_VERSION) ipykernel==$(IPYKERNEL_VERSION) \
-		matplotlib==$(MATPLOTLIB_VERSION)
+		matplotlib==$(MATPLOTLIB_VERSION) types-tqdm==$(TYPES_TQDM_VERSION)
 	touch $@
 
 $(TOOLS):

@@ -89,10 +89,12 @@ def evaluate(
     """
     check_engine(engine)
     named = _named(controllers)
+    maps = [fspath(one) for one in ([map] if isinstance(map, str | PathLike) else map)]
+    counts = [disturbances] if isinstance(disturbances, int) else list(disturbances)
     settings = {
         "controllers": [(name, isinstance(one, Controller)) for name, one in named],
-        "maps": [fspath(one) for one in ([map] if isinstance(map, str | PathLike) else map)],
-        "disturbances": [disturbances] if isinstance(disturbances, int) else list(disturbances),
+        "maps": maps,
+        "disturbances": counts,
         "episodes": episodes,
         "seed": seed,
         "changes": changes(parameters),
@@ -101,9 +103,9 @@ def evaluate(
         "policy": None if policy is None else fspath(policy),
     }
     own = [one for _, one in named if isinstance(one, Controller)]
-    rows = math.prod(len(settings[field]) for field in ("controllers", "maps", "disturbances"))
-    with tqdm(total=rows * episodes, unit=" trials", disable=None) as bar:
-        parts = _tasks(settings, own, rows * episodes, bar) if engine else [_part(settings, own, 1, 1, 0, bar)]
+    trials = len(named) * len(maps) * len(counts) * episodes
+    with tqdm(total=trials, unit=" trials", disable=None) as bar:
+        parts = _tasks(settings, own, trials, bar) if engine else [_part(settings, own, 1, 1, 0, bar)]
     return Evaluation(json.loads(_ferry.merge(parts)))
 
 

@@ -49,7 +49,7 @@ def train(
     check_engine(engine)
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
-    where = [fspath(map), recipe, episodes, changes(settings)]
+    where = (fspath(map), recipe, episodes, changes(settings))
     files = [out / OUT.format(seed) for seed in seeds]
     with tqdm(total=len(files), unit=" trainings", disable=None) as bar:
         if engine:
