@@ -220,7 +220,7 @@ export class Lab extends Messages {
 
   async run() {
     await this.button('Run').click();
-    await until('running', () => this.state.running);
+    await this.shown('running', () => this.state.running);
   }
 
   async pause() {
