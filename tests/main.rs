@@ -8,6 +8,7 @@ mod challenges;
 mod circles;
 mod commands;
 mod comparisons;
+mod connected_programs;
 mod contract;
 mod crashes;
 mod determinism;
