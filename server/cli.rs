@@ -1,10 +1,12 @@
 //! The command line.
 
 mod attempts;
+mod check;
 mod evaluate;
 mod map;
 mod maps;
 mod merge;
+mod recovery;
 mod render;
 mod replay;
 mod serve;
@@ -40,8 +42,12 @@ enum Command {
     /// Export what people did in challenges
     #[command(subcommand)]
     Attempts(attempts::Command),
+    /// Run stored trials again, and fail if a controller delivers less often
+    Check(check::Arguments),
     /// Repeat the paper's experiment: random trials, counted
     Evaluate(evaluate::Arguments),
+    /// Try disturbances from one moment, and map where the bead is still delivered
+    Recovery(recovery::Arguments),
     /// Render one image to a PNG file, headless
     Render(render::Arguments),
     /// Check a map and print its properties
@@ -77,7 +83,9 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
     match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
         Command::Serve(arguments) => serve::run(&arguments),
         Command::Attempts(command) => attempts::run(&command),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
+        Command::Recovery(arguments) => recovery::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),

@@ -11,13 +11,14 @@ mod manner;
 mod paper;
 mod plan;
 mod query;
+mod regression;
 mod report;
 mod shard;
 mod statistics;
 mod summary;
 
 pub use comparison::{Comparison, PairedMean};
-pub use evaluation::{CellProgress, CellResult, Evaluation, Progress, Stage};
+pub use evaluation::{CellProgress, CellResult, Evaluation, Progress};
 pub use evaluations::{Evaluations, SubmitError};
 pub use experiment::{
     Episode, EvaluateError, Experiment, Recorders, Venue, Watch, episode, episode_in, run, run_one, run_trials,
@@ -28,7 +29,8 @@ pub use manner::Manner;
 pub use paper::PaperRow;
 pub use plan::{Contender, Plan, PlanError};
 pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
+pub use regression::{Baseline, BaselineError, Change, ERROR_RATE, Trials};
 pub use report::{Report, ReportError};
 pub use shard::{MergeError, Merged, Part, PartError, Shard, ShardError, merge};
-pub use statistics::wilson95;
+pub use statistics::{LEVEL, PairedCounts, corrected_level, wilson, wilson95};
 pub use summary::{Failure, Row};

@@ -35,6 +35,7 @@ use crate::jobs::Queue;
 use crate::learn::Trainings;
 use crate::policy;
 use crate::recording::{Archive, Retention};
+use crate::recovery::Recoveries;
 use crate::scenario::Scenario;
 use crate::trial::{Catalog, TrialError};
 
@@ -124,6 +125,7 @@ pub struct Server {
     /// Programs outside of Ferry that decide control steps.
     programs: Programs,
     evaluations: Evaluations,
+    recoveries: Recoveries,
     trainings: Trainings,
     sessions: Arc<Sessions>,
     /// Permits for long computations.
@@ -163,6 +165,7 @@ impl Server {
             contests: Contests::in_folder(data.join("challenges")),
             programs: Programs::default(),
             evaluations: Evaluations::new(jobs.clone()),
+            recoveries: Recoveries::new(jobs.clone()),
             trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
             jobs,
             gpu,

@@ -1,11 +1,13 @@
 //! Images, camera frames and gray images, their encodings, and the pinhole camera model.
 
+mod comparison;
 mod pinhole;
 
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 use serde::{Deserialize, Serialize};
 
+pub use comparison::PictureDifference;
 pub use pinhole::{CameraMount, Pinhole};
 
 /// An image of RGBA8 pixels.
@@ -44,6 +46,19 @@ pub enum EncodeError {
     /// Error of the JPEG encoder.
     #[error("jpeg: {0}")]
     Jpeg(#[from] jpeg_encoder::EncodingError),
+}
+
+/// Why a picture cannot be read or compared.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    #[error("not a PNG: {0}")]
+    Png(#[from] png::DecodingError),
+    #[error("the PNG is too large")]
+    TooLarge,
+    #[error("the PNG has {kind}, it must have 8 bits per channel, RGB or RGBA")]
+    Kind { kind: String },
+    #[error("the picture has {} × {} pixels, the other one {} × {}", .found.0, .found.1, .expected.0, .expected.1)]
+    Size { found: (u32, u32), expected: (u32, u32) },
 }
 
 impl Picture {

@@ -1,5 +1,7 @@
 //! Jobs in the background: one after the other, at low priority, on threads and a graphics device of their own.
 
+mod life;
+mod shelf;
 #[cfg(test)]
 mod tests;
 mod workshop;
@@ -12,6 +14,8 @@ use std::thread::JoinHandle;
 use crate::camera::Gpu;
 use crate::faults;
 
+pub use life::{Life, Stage};
+pub use shelf::{Shelf, Shelved};
 pub use workshop::{Workshop, WorkshopError, gentle_pool};
 
 /// Maximum number of waiting jobs.

@@ -12,9 +12,10 @@
 //! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
 //! - floor 8: [`challenge`]: a trial for a person's hand: its score, ghosts and board.
 //! - floor 9: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
-//! - floor 10: [`recording`], [`protocol`]: Rerun; every wire type.
-//! - floor 11: [`http`]: axum routes and the WebSocket.
-//! - floor 12: [`cli`]: assembling.
+//! - floor 10: [`recovery`]: disturbances from one moment, in bulk.
+//! - floor 11: [`recording`], [`protocol`]: Rerun; every wire type.
+//! - floor 12: [`http`]: axum routes and the WebSocket.
+//! - floor 13: [`cli`]: assembling.
 
 /// Panics here when a test has requested it (see `faults`). Other builds contain nothing.
 macro_rules! fault_point {
@@ -46,6 +47,7 @@ pub mod policy;
 pub mod program;
 pub mod protocol;
 pub mod recording;
+pub mod recovery;
 pub mod robot;
 pub mod scenario;
 pub mod session;

@@ -10,7 +10,7 @@ use crate::control::transport::program::Answer;
 use crate::geometry::Rect;
 use crate::perception::Percept;
 use crate::scenario::Parameters;
-use crate::trial::{Input, Question, REASON_BYTES_MOST, Seen, Trial, TrialError};
+use crate::trial::{Input, Question, REASON_BYTES_MOST, Seen, Source, TickRecord, Trial, TrialError};
 
 /// A live session waits this long for an answer; then the arm holds for this control step.
 pub const LIVE_WITHIN: Duration = Duration::from_millis(100);
@@ -301,6 +301,25 @@ fn asked(
     let (percept, obstacles) = (seen.percept.clone(), trial.blocks_m(seen));
     let asked = Asked { trial: place.name.to_owned(), question, percept, obstacles, leg, within, reply };
     (Sent::Question(Box::new(asked)), answered)
+}
+
+/// A tick of a trial; a carrier decides its control steps.
+///
+/// # Errors
+/// [`ProgramError`].
+///
+/// # Panics
+/// With a carrier, in an asynchronous task.
+pub fn tick(
+    trial: &mut Trial,
+    carrier: Option<Carrier<'_>>,
+    camera: &mut dyn ImageSource,
+) -> Result<TickRecord, ProgramError> {
+    let source = match carrier.filter(|_| trial.step_is_due()) {
+        Some(carrier) => Source::Seen(Box::new(carrier.decide(trial, camera)?)),
+        None => Source::Camera(camera),
+    };
+    Ok(trial.tick(source)?)
 }
 
 /// Gives an answer to the trial; one that the trial refuses is a hold that says so.

@@ -12,6 +12,7 @@ mod conversation;
 mod described;
 mod error;
 mod evaluations;
+mod jobs;
 mod layers;
 mod magnetics;
 mod maps;
@@ -21,6 +22,7 @@ mod parse;
 mod policies;
 mod programs;
 mod recordings;
+mod recoveries;
 mod seed;
 mod server;
 mod trainings;
@@ -38,9 +40,10 @@ pub use comparison::{Branch, ComparisonMessage, MomentMessage};
 pub use conversation::{Conversation, Outgoing};
 pub use error::ErrorMessage;
 pub use evaluations::{
-    Cell, EvaluationCell, EvaluationFailure, EvaluationQuery, EvaluationReport, EvaluationStage, EvaluationSummary,
-    Evaluations, PaperRow,
+    Cell, EvaluationCell, EvaluationFailure, EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations,
+    PaperRow,
 };
+pub use jobs::JobStage;
 pub use layers::{
     BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, OverlayMessage, PixelBlock, PlanLayer,
     SeenMessage, SensedObstacle, ValueCell, ValueMap, ValueQuery,
@@ -51,6 +54,7 @@ pub use numbers::{Numbers3, Numbers6, Rows3};
 pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
+pub use recoveries::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrial, RecoveryTrials};
 pub use server::{CaseSummary, EventMessage, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use trainings::{
     EpisodeEnding, Examination, FusionName, RecipeName, TrainingCells, TrainingEpisode, TrainingFrame, TrainingMessage,

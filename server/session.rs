@@ -37,7 +37,9 @@ use crate::challenge::{Challenge, ChallengeName};
 use crate::plant::PositionerKind;
 use crate::program::Program;
 use crate::scenario::{Parameters, Scenario};
-use crate::trial::{Arena, Case, Catalog, Event, Input, LogError, Moment, Sight, Sink, Trial, TrialError};
+use crate::trial::{
+    Arena, Case, Catalog, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
+};
 
 pub use branch_point::{BranchPoint, Progress};
 pub use error::CommandError;
@@ -88,6 +90,13 @@ pub enum Command {
     Rewind(u64),
     /// Back to the end of the kept run of this number; pauses. The present is kept.
     Return(u32),
+    /// Another moment takes the place of the present, with inputs that are applied at their ticks; pauses. The present is
+    /// kept.
+    TakeUp {
+        moment: Box<Origin>,
+        about: String,
+        inputs: Vec<Timed>,
+    },
 }
 
 /// What a session keeps when another scenario is loaded.

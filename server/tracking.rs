@@ -65,6 +65,11 @@ impl Tracker {
         Self { under_way: VecDeque::new(), estimate, drift: Vector2::zeros(), silent_ticks: 0, rng }
     }
 
+    /// All further random numbers come from `rng`.
+    pub fn reseed(&mut self, rng: ChaCha8Rng) {
+        self.rng = rng;
+    }
+
     pub fn estimate(&self) -> Estimate {
         self.estimate
     }

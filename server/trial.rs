@@ -13,6 +13,7 @@ mod entry;
 mod event;
 mod input;
 mod log;
+mod origin;
 mod outcome;
 mod phase;
 mod record;
@@ -45,6 +46,7 @@ pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
 pub use input::{Input, InputError, REASON_BYTES_MOST};
 pub use log::{InputLog, LogError, LogWriter};
+pub use origin::Origin;
 pub use outcome::GOAL_RADIUS_M;
 pub use phase::{LEGS_PER_GOAL, Phase, SETTLE_S, StopReason};
 pub use record::{Moment, Seen, Sight, TickRecord};
@@ -214,7 +216,8 @@ impl Trial {
         let mut frame = camera.capture(&subject)?;
         let noise_levels = world.parameters.camera_noise_levels;
         if noise_levels > 0.0 {
-            frame.picture.add_noise(noise_levels, &mut Stream::Camera(world.tick as u32).rng(self.scenario.seed));
+            let seed = world.script.seed(self.scenario.seed);
+            frame.picture.add_noise(noise_levels, &mut Stream::Camera(world.tick as u32).rng(seed));
         }
         Ok(frame)
     }

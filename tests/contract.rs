@@ -29,7 +29,7 @@ fn ask(ferry: &Ferry, method: &str, path: &str, body: &str) -> Value {
     serde_json::from_str(&response.body_mut().read_to_string().unwrap()).unwrap()
 }
 
-/// Prepares data for the requests: a session with a goal, a finished training with its policy, another policy, a finished evaluation, and one that runs until it is cancelled.
+/// Prepares data for the requests: a session with a goal, a finished training with its policy, another policy, a finished evaluation, a finished recovery map, and an evaluation that runs until it is cancelled.
 /// Returns the id of a recording.
 async fn fill(ferry: &Ferry) -> String {
     let training = json!({"map": "u-turn", "name": "kept", "seed": 1, "settings": {"updates": 1}});
@@ -39,6 +39,8 @@ async fn fill(ferry: &Ferry) -> String {
     let query =
         json!({"controllers": ["attractor", "errt"], "maps": ["posts"], "disturbances": [0], "episodes": 2, "seed": 1});
     ask(ferry, "POST", "/api/evaluations", &query.to_string());
+    let mapped = json!({"map": "posts", "controllers": ["errt"], "grid": 4, "repeats": 1});
+    ask(ferry, "POST", "/api/recoveries", &mapped.to_string());
     let long = json!({"controllers": ["errt"], "maps": ["posts"], "disturbances": [0], "episodes": 1000, "seed": 1});
     ask(ferry, "POST", "/api/evaluations", &long.to_string());
     let mut browser = Browser::at(ferry.address).await;
@@ -48,7 +50,8 @@ async fn fill(ferry: &Ferry) -> String {
     browser.send(json!({"type": "step", "ticks": 200})).await;
     browser.until("200 ticks", |m| m["type"] == "state" && m["tick"] == 200).await;
     for _ in 0..600 {
-        if ask(ferry, "GET", "/api/evaluations/evaluation-1", "")["stage"] == "done" {
+        let is_done = |path| ask(ferry, "GET", path, "")["stage"] == "done";
+        if is_done("/api/evaluations/evaluation-1") && is_done("/api/recoveries/recovery-1") {
             let recordings = ask(ferry, "GET", "/api/recordings", "");
             return recordings["recordings"][0]["id"].as_str().unwrap().to_owned();
         }

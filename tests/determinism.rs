@@ -66,6 +66,7 @@ fn input() -> impl Strategy<Value = Input> {
         place().prop_map(|(x_m, y_m)| Input::Place { x_m, y_m }),
         disturbance().prop_map(Input::Disturb),
         (place(), any::<bool>()).prop_map(|((x_m, y_m), approach)| Input::Steer { x_m, y_m, approach }),
+        (0..3u64).prop_map(|seed| Input::Reseed { seed }),
         place().prop_map(|(x_m, y_m)| Input::Go { x_m, y_m }),
         Just(Input::Hold { reason: "it thinks".to_owned() }),
         (any::<bool>(), any::<bool>()).prop_map(|(rolls, tilted)| Input::Configure(Box::new(Parameters {
@@ -130,11 +131,12 @@ proptest! {
         let mut camera = camera();
         let mut whole = Trial::new(scenario(seed), posts()).unwrap();
         run(&mut whole, &script, cut, &mut camera);
-        let bytes = postcard::to_stdvec(&whole.snapshot()).unwrap();
+        let mut bytes = Vec::new();
+        ciborium::into_writer(&whole.snapshot(), &mut bytes).unwrap();
         let expected = run(&mut whole, &script, 400 - cut, &mut camera);
 
         let mut resumed = Trial::new(scenario(seed), posts()).unwrap();
-        resumed.restore(postcard::from_bytes(&bytes).unwrap());
+        resumed.restore(ciborium::from_reader(&*bytes).unwrap());
         let found = run(&mut resumed, &script, 400 - cut, &mut camera);
         prop_assert_eq!(expected, found);
     }

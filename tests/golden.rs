@@ -13,8 +13,6 @@ use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrienta
 use ferry::scenario::Parameters;
 use ferry::trial::Arena;
 
-/// A pixel counts as different when a channel differs by more than this many levels.
-const TOLERANCE: u8 = 8;
 /// Maximum share of different pixels.
 const MOST_DIFFERENT: f64 = 0.001;
 
@@ -66,16 +64,12 @@ fn camera(gpu: &Arc<Gpu>, quality: Quality) -> Camera {
     arena.camera(gpu).unwrap().with_quality(quality)
 }
 
-fn read(name: &str) -> (u32, u32, Vec<u8>) {
+fn read(name: &str) -> Picture {
     let path = golden(name);
-    let file = std::fs::File::open(&path).unwrap_or_else(|error| {
+    let bytes = std::fs::read(&path).unwrap_or_else(|error| {
         panic!("{}: {error}; FERRY_GENERATE=1 cargo test --release golden draws it", path.display())
     });
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
-    let mut rgba = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut rgba).unwrap();
-    rgba.truncate(info.buffer_size());
-    (info.width, info.height, rgba)
+    Picture::from_png(&bytes).unwrap()
 }
 
 fn compare_all(choice: AdapterChoice) {
@@ -84,11 +78,7 @@ fn compare_all(choice: AdapterChoice) {
         let mut camera = camera(&gpu, quality);
         let frame = draw(&mut camera, &subject());
         assert!(draw(&mut camera, &subject()) == frame, "{name} differs the second time on {}", gpu.adapter_name());
-        let (width, height, expected) = read(name);
-        assert_eq!((width, height), (frame.width_px, frame.height_px), "{name}");
-        let differs = |(a, b): &(&[u8], &[u8])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > TOLERANCE);
-        let count = frame.rgba.chunks(4).zip(expected.chunks(4)).filter(differs).count();
-        let share = count as f64 / f64::from(width * height);
+        let share = frame.difference(&read(name)).unwrap().share;
         if share > MOST_DIFFERENT {
             std::fs::create_dir_all("test-output").unwrap();
             let path = format!("test-output/{name}.png");

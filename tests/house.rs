@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const FLOORS: [&[&str]; 12] = [
+const FLOORS: [&[&str]; 13] = [
     &["geometry", "image", "files", "faults"],
     &["robot", "magnetics", "map"],
     &["plant"],
@@ -13,6 +13,7 @@ const FLOORS: [&[&str]; 12] = [
     &["trial"],
     &["challenge", "program"],
     &["learn", "evaluate", "session"],
+    &["recovery"],
     &["recording", "protocol"],
     &["http"],
     &["cli", "main", "lib"],

@@ -12,8 +12,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::camera::Gpu;
 use crate::evaluate::{
-    Cell, Contender, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard, Watch, run, run_one,
-    run_trials, unrecorded,
+    Cell, Contender, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard, Trials, Watch, run,
+    run_one, run_trials, unrecorded,
 };
 use crate::files::replace;
 use crate::policy::Policy;
@@ -22,6 +22,7 @@ use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Nowhere, Sink};
 
 pub use output::Output;
+pub(super) use output::{interval, table};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -109,6 +110,20 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
     Ok(plan.experiments()?)
 }
 
+/// What each trial gave, for a baseline.
+pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Trials>> {
+    let has_other = arguments.shard.is_some() || arguments.episode.is_some() || arguments.record.is_some();
+    anyhow::ensure!(!has_other, "a baseline is made without --shard, --episode and --record");
+    let experiments = experiments(arguments)?;
+    let episodes = evaluate(arguments, &experiments, gpu)?;
+    let row = |(experiment, episodes): (&Experiment, &Vec<Episode>)| {
+        let Cell { map, disturbances, .. } = &experiment.cell;
+        let name = format!("{} on {map}, {disturbances} disturbances", experiment.cell.controller());
+        Trials::of(name, episodes.iter().map(|episode| episode.delivered))
+    };
+    Ok(experiments.iter().zip(&episodes).map(row).collect())
+}
+
 /// Runs the experiments on all cores, with a progress bar.
 fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Vec<Episode>>> {
     let trials = match arguments.episode {
@@ -144,7 +159,7 @@ fn evaluate(arguments: &Arguments, experiments: &[Experiment], gpu: &Arc<Gpu>) -
     Ok(episodes)
 }
 
-fn progress_bar(trials: u64) -> anyhow::Result<ProgressBar> {
+pub(super) fn progress_bar(trials: u64) -> anyhow::Result<ProgressBar> {
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} trials, {msg}{elapsed}, {eta} left")?;
     let bar = ProgressBar::new(trials).with_style(style);
     bar.enable_steady_tick(std::time::Duration::from_millis(500));

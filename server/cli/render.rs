@@ -1,17 +1,22 @@
 //! `ferry render`.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context;
 
 use crate::camera::Subject;
 use crate::evaluate::Trace;
+use crate::files::read_at_most;
 use crate::geometry::{Point2, Point3};
+use crate::image::Picture;
 use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::nearest_fit};
 use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Arena, Case, Tally};
+
+/// Largest golden picture.
+const PNG_BYTES_MOST: u64 = 64 << 20;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -43,6 +48,12 @@ pub struct Arguments {
     /// File to write: PNG, or SVG for a scenario
     #[arg(long)]
     out: PathBuf,
+    /// Compare the frame with this PNG, and fail if it differs; the difference is written beside OUT
+    #[arg(long, value_name = "GOLDEN.png", conflicts_with = "scenario")]
+    compare: Option<PathBuf>,
+    /// Largest share of the pixels that may differ, 0 to 1; a pixel differs by more than 8 of 255 levels
+    #[arg(long, value_name = "SHARE", default_value_t = 0.001, requires = "compare", value_parser = parse_share)]
+    tolerance: f64,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -50,6 +61,11 @@ enum View {
     Camera,
     Scene,
     Plan,
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    let share = text.parse::<f64>().ok().filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| "must be 0 to 1".to_owned())
 }
 
 fn parse_point(text: &str) -> Result<Point2<f64>, String> {
@@ -116,5 +132,31 @@ fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
         View::Plan => camera.plan(&subject, 1280, 720)?,
     };
     std::fs::write(&arguments.out, picture.to_png()?).with_context(|| arguments.out.display().to_string())?;
-    Ok(ExitCode::SUCCESS)
+    match &arguments.compare {
+        Some(golden) => compare(&picture, golden, arguments),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Compares a frame with a golden picture, and writes where they differ if it is too much.
+fn compare(picture: &Picture, golden: &Path, arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let name = || golden.display().to_string();
+    let bytes = read_at_most(golden, PNG_BYTES_MOST).with_context(name)?;
+    let difference = picture.difference(&Picture::from_png(&bytes).with_context(name)?).with_context(name)?;
+    let percent = |share: f64| share * 100.0;
+    if difference.share <= arguments.tolerance {
+        println!("{:.3} % of the pixels differ, {:.3} % may", percent(difference.share), percent(arguments.tolerance));
+        return Ok(ExitCode::SUCCESS);
+    }
+    let stem = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
+    let path = arguments.out.with_file_name(format!("{stem}-difference.png"));
+    std::fs::write(&path, difference.picture.to_png()?).with_context(|| path.display().to_string())?;
+    println!(
+        "{:.3} % of the pixels differ from {}, {:.3} % may; see {}",
+        percent(difference.share),
+        golden.display(),
+        percent(arguments.tolerance),
+        path.display()
+    );
+    Ok(ExitCode::FAILURE)
 }

@@ -98,6 +98,13 @@ impl Carrier {
         }
     }
 
+    /// All further random numbers come from `seed`; the memory stays.
+    pub fn reseed(&mut self, seed: u64) {
+        if let Self::Errt(errt) = self {
+            errt.reseed(seed);
+        }
+    }
+
     pub fn rl(&self) -> Option<&rl::Rl> {
         if let Self::Rl(rl) = self { Some(rl) } else { None }
     }

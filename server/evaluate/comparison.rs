@@ -59,11 +59,13 @@ impl Comparison {
         let count = |wanted: [bool; 2]| {
             pairs.iter().filter(|(one, other)| [one.delivered, other.delivered] == wanted).count() as u32
         };
+        let [both, first_only, second_only, neither] =
+            [[true, true], [true, false], [false, true], [false, false]].map(count);
         let counts = PairedCounts {
-            both: count([true, true]),
-            first: count([true, false]),
-            second: count([false, true]),
-            neither: count([false, false]),
+            both: both.into(),
+            first: first_only.into(),
+            second: second_only.into(),
+            neither: neither.into(),
         };
         let (delivered_difference, delivered_difference95) = counts.difference(LEVEL);
         let over = |is_counted: &dyn Fn(&Episode) -> bool, value: &dyn Fn(&Episode) -> Option<f64>| {
@@ -81,10 +83,10 @@ impl Comparison {
             controller: first.0.controller().to_owned(),
             against: second.0.controller().to_owned(),
             episodes: pairs.len() as u32,
-            both: counts.both,
-            first_only: counts.first,
-            second_only: counts.second,
-            neither: counts.neither,
+            both,
+            first_only,
+            second_only,
+            neither,
             delivered_difference,
             delivered_difference95,
             delivered_difference_corrected: counts.difference(level).1,

@@ -1,17 +1,15 @@
 //! One evaluation: its query, progress and results.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
+use crate::jobs::Life;
 use crate::map::Map;
 use crate::policy;
 use crate::program::Program;
 use crate::scenario::Parameters;
 
-/// An evaluation. Its job updates it; all others only read.
 #[derive(Debug)]
 pub struct Evaluation {
     pub id: String,
@@ -23,34 +21,12 @@ pub struct Evaluation {
     pub(super) policies: Arc<policy::Library>,
     /// The program of the query.
     program: Option<Arc<Program>>,
-    /// Cancellation flag, checked at every tick of every trial.
-    stop: AtomicBool,
-    progress: Mutex<Progress>,
+    pub life: Life<Progress>,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Another job is running.
-    Waiting,
-    Running,
-    /// All cells are complete.
-    Done,
-    /// It was cancelled; completed rows are kept.
-    Cancelled,
-    /// A trial failed with an error; completed rows are kept.
-    Failed(String),
-}
-
-impl Stage {
-    /// Whether the evaluation has ended.
-    pub fn is_final(&self) -> bool {
-        !matches!(self, Self::Waiting | Self::Running)
-    }
-}
-
+/// What an evaluation has found so far.
 #[derive(Clone, Debug)]
 pub struct Progress {
-    pub stage: Stage,
     /// One entry per cell.
     pub cells: Vec<CellProgress>,
     /// Results of the completed cells, in order. An interrupted cell has no result: its trials that ended first are
@@ -102,18 +78,8 @@ impl Evaluation {
         policies: Arc<policy::Library>,
         program: Option<Arc<Program>>,
     ) -> Arc<Self> {
-        let progress =
-            Progress { stage: Stage::Waiting, cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
-        Arc::new(Self {
-            id,
-            query,
-            cells,
-            maps,
-            policies,
-            program,
-            stop: AtomicBool::new(false),
-            progress: Mutex::new(progress),
-        })
+        let progress = Progress { cells: vec![CellProgress::default(); cells.len()], results: Vec::new() };
+        Arc::new(Self { id, query, cells, maps, policies, program, life: Life::new(progress) })
     }
 
     /// The venue of a cell's trials.
@@ -121,56 +87,13 @@ impl Evaluation {
         self.maps.iter().find(|map| map.name() == cell.map)
     }
 
-    pub fn progress(&self) -> Progress {
-        self.lock().clone()
-    }
-
-    pub fn stage(&self) -> Stage {
-        self.lock().stage.clone()
-    }
-
-    /// Cancels the evaluation: running trials stop at their next tick. Returns false if it had already ended.
-    pub fn cancel(&self) -> bool {
-        let mut progress = self.lock();
-        if progress.stage == Stage::Waiting {
-            progress.stage = Stage::Cancelled;
-            return true;
-        }
-        let runs = progress.stage == Stage::Running;
-        if runs {
-            self.stop.store(true, Ordering::Relaxed);
-        }
-        runs
-    }
-
-    pub(super) fn stop(&self) -> &AtomicBool {
-        &self.stop
-    }
-
-    /// Starts the evaluation. Returns false if it was cancelled.
-    pub(super) fn start(&self) -> bool {
-        let mut progress = self.lock();
-        let waits = progress.stage == Stage::Waiting;
-        if waits {
-            progress.stage = Stage::Running;
-        }
-        waits
-    }
-
     pub(super) fn note(&self, cell: usize, began: Instant, episode: &Episode) {
-        let mut progress = self.lock();
-        let cell = &mut progress.cells[cell];
-        cell.done += 1;
-        cell.delivered += u32::from(episode.delivered);
-        cell.elapsed_s = began.elapsed().as_secs_f64();
-    }
-
-    pub(super) fn add(&self, result: CellResult) {
-        self.lock().results.push(Arc::new(result));
-    }
-
-    pub(super) fn end(&self, stage: Stage) {
-        self.lock().stage = stage;
+        self.life.update(|progress| {
+            let cell = &mut progress.cells[cell];
+            cell.done += 1;
+            cell.delivered += u32::from(episode.delivered);
+            cell.elapsed_s = began.elapsed().as_secs_f64();
+        });
     }
 
     /// The experiment of a cell.
@@ -185,10 +108,5 @@ impl Evaluation {
             manner: Manner::default(),
             program: self.program.clone().filter(|_| cell.program.is_some()),
         }
-    }
-
-    /// Ignores lock poisoning: a panicking trial holds no lock here, and the numbers would still be consistent.
-    fn lock(&self) -> MutexGuard<'_, Progress> {
-        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -17,10 +17,10 @@ use crate::control::CONTROL_PERIOD_S;
 use crate::image::CameraFrame;
 use crate::map::{FreeSpace, MapError};
 use crate::plant::BEAD_RADIUS_M;
-use crate::program::{Carrier, Program, ProgramError};
+use crate::program::{self, Carrier, Program, ProgramError};
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::trial::{
-    Arena, Beginning, GOAL_RADIUS_M, LEGS_PER_GOAL, Nowhere, Phase, Sink, Source, Tally, TickRecord, TrialError,
+    Arena, Beginning, GOAL_RADIUS_M, LEGS_PER_GOAL, Nowhere, Phase, Sink, Tally, TickRecord, TrialError,
 };
 
 /// A map prepared for many trials.
@@ -39,12 +39,12 @@ impl Venue {
     }
 
     /// Takes a camera for this map; [`Self::keep`] returns it.
-    fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
+    pub(crate) fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, CameraError> {
         let kept = self.cameras.lock().unwrap_or_else(PoisonError::into_inner).pop();
         kept.map_or_else(|| self.arena.camera(gpu), Ok)
     }
 
-    fn keep(&self, camera: Camera) {
+    pub(crate) fn keep(&self, camera: Camera) {
         self.cameras.lock().unwrap_or_else(PoisonError::into_inner).push(camera);
     }
 }
@@ -250,11 +250,7 @@ pub fn episode_in(
         let mut noting = Noting { camera, was_used: false };
         person.act(&mut trial)?;
         let started = Instant::now();
-        let source = match carrier.filter(|_| trial.step_is_due()) {
-            Some(carrier) => Source::Seen(Box::new(carrier.decide(&mut trial, &mut noting)?)),
-            None => Source::Camera(&mut noting),
-        };
-        let record = trial.tick(source)?;
+        let record = program::tick(&mut trial, carrier, &mut noting)?;
         if noting.was_used {
             decision_s.push(started.elapsed().as_secs_f64());
         }

@@ -1,19 +1,20 @@
 //! Runs an evaluation in the background.
 
+use std::sync::Arc;
 use std::time::Instant;
 
-use super::{CellResult, EvaluateError, Evaluation, Stage, Venue, Watch, run, unrecorded};
-use crate::jobs::{Job, Workshop};
+use super::{CellResult, EvaluateError, Evaluation, Venue, Watch, run, unrecorded};
+use crate::jobs::{Job, Shelved, Stage, Workshop};
 use crate::map::MapError;
 use crate::trial::Arena;
 
 impl Job for Evaluation {
     fn is_waiting(&self) -> bool {
-        self.stage() == Stage::Waiting
+        self.life.stage() == Stage::Waiting
     }
 
     fn begin(&self) -> bool {
-        self.start()
+        self.life.begin()
     }
 
     fn run(&self, workshop: &Workshop) {
@@ -24,15 +25,25 @@ impl Job for Evaluation {
             Err(error) => Stage::Failed(error.to_string()),
         };
         tracing::info!(id = self.id, ?stage, "evaluation ends");
-        self.end(stage);
+        self.life.end(stage);
     }
 
     fn fail(&self, reason: String) {
-        self.end(Stage::Failed(reason));
+        self.life.end(Stage::Failed(reason));
     }
 
     fn interrupt(&self) {
-        self.cancel();
+        self.life.cancel();
+    }
+}
+
+impl Shelved for Evaluation {
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn stage(&self) -> Stage {
+        self.life.stage()
     }
 }
 
@@ -44,13 +55,14 @@ impl Evaluation {
             let venue = Venue::of(Arena::with_policies(map.clone(), self.policies.clone()));
             let experiment = self.experiment(cell, &venue);
             let watch = Watch {
-                stop: self.stop(),
+                stop: self.life.stop(),
                 progress: &|_, episode| self.note(index, began, episode),
                 recorders: &unrecorded,
             };
             let one = std::slice::from_ref(&experiment);
             let episodes = workshop.pool.install(|| run(one, &workshop.gpu, &watch))?;
-            self.add(CellResult::of(cell, episodes.into_iter().flatten().collect()));
+            let result = Arc::new(CellResult::of(cell, episodes.into_iter().flatten().collect()));
+            self.life.update(|progress| progress.results.push(result));
         }
         Ok(())
     }
@@ -58,8 +70,6 @@ impl Evaluation {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use crate::camera::{AdapterChoice, Gpu};
     use crate::evaluate::{Cell, EvaluationQuery};
@@ -87,9 +97,10 @@ mod tests {
         let workshop = Workshop::new(&gpu).unwrap();
         let [bad, good] = ["nowhere", "open"].map(evaluation);
         bad.run(&workshop);
-        let Stage::Failed(message) = bad.stage() else { panic!("there is no such map") };
+        let Stage::Failed(message) = bad.life.stage() else { panic!("there is no such map") };
         assert!(message.contains("nowhere"), "{message}");
         good.run(&workshop);
-        assert_eq!((good.stage(), good.progress().results.len()), (Stage::Done, 1));
+        let done = good.life.read(|stage, progress| (stage.clone(), progress.results.len()));
+        assert_eq!(done, (Stage::Done, 1));
     }
 }

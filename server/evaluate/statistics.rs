@@ -13,11 +13,11 @@ pub fn corrected_level(count: usize) -> f64 {
 
 /// Wilson's score interval at 95 % for `k` of `n` (Wilson 1927).
 pub fn wilson95(k: u32, n: u32) -> [f64; 2] {
-    wilson(k, n, LEVEL)
+    wilson(f64::from(k), f64::from(n), LEVEL)
 }
 
-fn wilson(k: u32, n: u32, level: f64) -> [f64; 2] {
-    let (k, n) = (f64::from(k), f64::from(n));
+/// Wilson's score interval for `k` of `n`.
+pub fn wilson(k: f64, n: f64, level: f64) -> [f64; 2] {
     let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
     let (p, z2) = (k / n, z * z);
     let center = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
@@ -26,16 +26,16 @@ fn wilson(k: u32, n: u32, level: f64) -> [f64; 2] {
 }
 
 /// Counts of paired successes and failures at the same trials.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairedCounts {
     /// Both succeeded.
-    pub both: u32,
+    pub both: f64,
     /// Only the first succeeded.
-    pub first: u32,
+    pub first: f64,
     /// Only the second succeeded.
-    pub second: u32,
+    pub second: f64,
     /// Both failed.
-    pub neither: u32,
+    pub neither: f64,
 }
 
 impl PairedCounts {
@@ -43,12 +43,11 @@ impl PairedCounts {
     /// "Improved confidence intervals for the difference between binomial proportions based on paired data", method
     /// 10: Wilson's intervals joined, with a correlation corrected for continuity).
     pub fn difference(self, level: f64) -> (f64, [f64; 2]) {
-        let [a, b, c, d] = [self.both, self.first, self.second, self.neither].map(f64::from);
+        let Self { both: a, first: b, second: c, neither: d } = self;
         let n = a + b + c + d;
         let (p1, p2) = ((a + b) / n, (a + c) / n);
-        let total = self.both + self.first + self.second + self.neither;
-        let [l1, u1] = wilson(self.both + self.first, total, level);
-        let [l2, u2] = wilson(self.both + self.second, total, level);
+        let [l1, u1] = wilson(a + b, n, level);
+        let [l2, u2] = wilson(a + c, n, level);
         let product = (a + b) * (c + d) * (a + c) * (b + d);
         let correlation = match a * d - b * c {
             _ if product == 0.0 => 0.0,
@@ -92,7 +91,7 @@ mod tests {
     #[test]
     fn newcombe_agrees_with_published_values() {
         // The worked example of Altman et al., "Statistics with Confidence" (2000), §6: 0.20 (0.056 to 0.329).
-        let counts = PairedCounts { both: 20, first: 12, second: 2, neither: 16 };
+        let counts = PairedCounts { both: 20.0, first: 12.0, second: 2.0, neither: 16.0 };
         let (difference, [low, high]) = counts.difference(LEVEL);
         assert!((difference - 0.2).abs() < 1e-12);
         assert!((low - 0.056).abs() < 5e-4 && (high - 0.329).abs() < 5e-4, "{low} {high}");
@@ -100,13 +99,13 @@ mod tests {
 
     #[test]
     fn swapping_the_pair_negates_the_difference_and_zero_is_not_certain() {
-        let counts = PairedCounts { both: 150, first: 30, second: 3, neither: 17 };
+        let counts = PairedCounts { both: 150.0, first: 30.0, second: 3.0, neither: 17.0 };
         let turned = PairedCounts { first: counts.second, second: counts.first, ..counts };
         let ((d, [low, high]), (t, [t_low, t_high])) = (counts.difference(LEVEL), turned.difference(LEVEL));
         assert!((d + t).abs() < 1e-12 && (low + t_high).abs() < 1e-12 && (high + t_low).abs() < 1e-12);
         assert!(low < d && d < high && low > 0.0);
         // 200 of 200 delivered by both says little about differences below 2 %.
-        let (d, [low, high]) = PairedCounts { both: 200, ..PairedCounts::default() }.difference(LEVEL);
+        let (d, [low, high]) = PairedCounts { both: 200.0, ..PairedCounts::default() }.difference(LEVEL);
         assert!(d == 0.0 && (-0.03..-0.01).contains(&low) && (low + high).abs() < 1e-12, "{low} {high}");
     }
 

@@ -328,6 +328,14 @@ impl Connection {
                 let case = Box::new(Case::from_json(case.as_bytes()).map_err(CommandError::from)?);
                 self.hub.session.send(Command::Open(case)).await?;
             }
+            ClientMessage::OpenTry { recovery, cell, controller, repeat } => {
+                let command = self.server.recoveries.find(&recovery).and_then(|job| {
+                    let (moment, about, inputs) = job.set_up(cell, controller, repeat)?;
+                    Some(Command::TakeUp { moment: Box::new(moment), about, inputs })
+                });
+                let command = command.ok_or(CommandError::NoTry { recovery, cell, repeat })?;
+                self.hub.session.send(command).await?;
+            }
             ClientMessage::SelectController { controller: ControllerName::Program, program: Some(name) } => {
                 let program = self.server.programs.find(&name).ok_or(CommandError::NoProgram { name })?;
                 self.hub.session.send(Command::Attach(program)).await?;

@@ -7,6 +7,7 @@ use serde::de::DeserializeOwned;
 use utoipa::IntoParams;
 
 use super::problem::Problem;
+use crate::scenario::ControllerName;
 
 /// The parameters, by name.
 pub struct Path<T>(pub T);
@@ -88,6 +89,52 @@ pub struct ReportPath {
     /// `report.html`, `report.csv` or `report.json`.
     #[param(example = "report.html")]
     pub file: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct RecoveryPath {
+    /// Name of a recovery map.
+    #[param(example = "recovery-1")]
+    pub id: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct RecoveryFilePath {
+    /// Name of a recovery map.
+    #[param(example = "recovery-1")]
+    pub id: String,
+    /// `map.html` or `map.csv`.
+    #[param(example = "map.html")]
+    pub file: String,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct CellPath {
+    /// Name of a recovery map.
+    #[param(example = "recovery-1")]
+    pub id: String,
+    /// Number of a cell.
+    #[param(example = 0)]
+    pub cell: u32,
+}
+
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct TryPath {
+    /// Name of a recovery map.
+    #[param(example = "recovery-1")]
+    pub id: String,
+    /// Number of a cell.
+    #[param(example = 0)]
+    pub cell: u32,
+    #[param(example = "errt")]
+    pub controller: ControllerName,
+    /// Number of the trial, from 0.
+    #[param(example = 0)]
+    pub repeat: u32,
 }
 
 #[derive(Deserialize, IntoParams)]

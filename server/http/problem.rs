@@ -62,6 +62,11 @@ impl Problem {
         &self.detail
     }
 
+    /// A job that can no longer be cancelled.
+    pub fn already_ended(what: &str, id: &str) -> Self {
+        Self::new(StatusCode::CONFLICT, "already_ended", format!("{what} {id:?} has ended already"))
+    }
+
     pub fn not_found(what: &str, name: &str) -> Self {
         Self::new(StatusCode::NOT_FOUND, "not_found", format!("there is no {what} {name:?}"))
     }

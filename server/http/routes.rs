@@ -11,6 +11,7 @@ pub mod maps;
 mod moments;
 mod policies;
 mod recordings;
+mod recoveries;
 mod sessions;
 mod trainings;
 pub mod values;
@@ -71,6 +72,11 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(evaluations::list, evaluations::create))
         .routes(routes!(evaluations::report, evaluations::cancel))
         .routes(routes!(evaluations::file))
+        .routes(routes!(recoveries::list, recoveries::create))
+        .routes(routes!(recoveries::report, recoveries::cancel))
+        .routes(routes!(recoveries::file))
+        .routes(routes!(recoveries::tries))
+        .routes(routes!(recoveries::case))
         .routes(routes!(trainings::list, trainings::create))
         .routes(routes!(trainings::report, trainings::delete))
         .routes(routes!(trainings::pause))

@@ -116,6 +116,17 @@ pub enum ClientMessage {
     OpenCase {
         case: String,
     },
+    /// Sets up a trial of a recovery map: the moment, the controller, the noise and the disturbance. The present is kept as
+    /// a run.
+    OpenTry {
+        /// Id of the recovery map.
+        recovery: String,
+        /// Number of the cell.
+        cell: u32,
+        controller: ControllerName,
+        /// From 0.
+        repeat: u32,
+    },
     /// Applies a disturbance of the bead or of the tracker now.
     Disturb {
         disturbance: Disturbance,
@@ -193,7 +204,11 @@ impl ClientMessage {
             Self::Disturb { disturbance } => Command::Input(Input::Disturb(disturbance)),
             Self::Rewind { tick } => Command::Rewind(tick),
             Self::ReturnTo { run } => Command::Return(run),
-            Self::OpenCase { .. } | Self::Compare { .. } | Self::TakeControl {} | Self::ReleaseControl {} => {
+            Self::OpenCase { .. }
+            | Self::OpenTry { .. }
+            | Self::Compare { .. }
+            | Self::TakeControl {}
+            | Self::ReleaseControl {} => {
                 return None;
             }
         })

@@ -53,5 +53,6 @@ macro_rules! describe {
 }
 
 mod case;
+mod recovery;
 mod report;
 mod scenario;

@@ -39,6 +39,7 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::NoChallenge => ("no_challenge", None),
             CommandError::NoProgram { .. } => ("no_program", Some("program")),
             CommandError::NoRun { .. } => ("no_run", Some("run")),
+            CommandError::NoTry { .. } => ("no_try", Some("recovery")),
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),
             CommandError::Forgotten => ("forgotten", None),

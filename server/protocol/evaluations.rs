@@ -5,8 +5,10 @@ use ts_rs::TS;
 use utoipa::ToSchema;
 use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
+use super::jobs::JobStage;
 use super::numbers::Numbers2;
-use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Stage};
+use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row};
+use crate::jobs::Stage;
 use crate::scenario::{ControllerName, RlPolicy};
 
 /// Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
@@ -81,19 +83,6 @@ pub struct PaperRow {
     pub tracking_error_max_y_m: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, TS, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EvaluationStage {
-    /// Another job is running.
-    Waiting,
-    Running,
-    /// All cells are complete.
-    Done,
-    Cancelled,
-    /// A trial failed with an error.
-    Failed,
-}
-
 /// A cell of an evaluation with its progress.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct EvaluationCell {
@@ -115,7 +104,7 @@ pub struct EvaluationCell {
 pub struct EvaluationSummary {
     pub id: String,
     pub query: EvaluationQuery,
-    pub stage: EvaluationStage,
+    pub stage: JobStage,
     /// Why it failed, if it did.
     pub message: Option<String>,
     /// Its cells, in the order in which they run.
@@ -176,20 +165,14 @@ pub struct Evaluations {
 
 impl From<&Evaluation> for EvaluationSummary {
     fn from(evaluation: &Evaluation) -> Self {
-        Self::at(evaluation, evaluation.progress())
+        evaluation.life.read(|stage, progress| Self::at(evaluation, stage, progress))
     }
 }
 
 impl EvaluationSummary {
-    fn at(evaluation: &Evaluation, progress: Progress) -> Self {
-        let (stage, message) = match progress.stage {
-            Stage::Waiting => (EvaluationStage::Waiting, None),
-            Stage::Running => (EvaluationStage::Running, None),
-            Stage::Done => (EvaluationStage::Done, None),
-            Stage::Cancelled => (EvaluationStage::Cancelled, None),
-            Stage::Failed(message) => (EvaluationStage::Failed, Some(message)),
-        };
-        let cells = evaluation.cells.iter().cloned().zip(progress.cells);
+    fn at(evaluation: &Evaluation, stage: &Stage, progress: &Progress) -> Self {
+        let (stage, message) = JobStage::of(stage);
+        let cells = evaluation.cells.iter().cloned().zip(&progress.cells);
         Self {
             id: evaluation.id.clone(),
             query: evaluation.query.clone().into(),
@@ -211,8 +194,10 @@ impl EvaluationSummary {
 
 impl From<&Evaluation> for EvaluationReport {
     fn from(evaluation: &Evaluation) -> Self {
-        let progress = evaluation.progress();
-        let results = progress.results.clone();
+        let (summary, progress) = evaluation
+            .life
+            .read(|stage, progress| (EvaluationSummary::at(evaluation, stage, progress), progress.clone()));
+        let results = &progress.results;
         let failures = results
             .iter()
             .zip(0..)
@@ -221,7 +206,7 @@ impl From<&Evaluation> for EvaluationReport {
             failures: failures.collect(),
             comparisons: Comparison::all(&progress.done(&evaluation.cells)),
             rows: results.iter().map(|result| result.row.clone()).collect(),
-            summary: EvaluationSummary::at(evaluation, progress),
+            summary,
         }
     }
 }

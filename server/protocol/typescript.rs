@@ -20,6 +20,7 @@ use crate::magnetics::force::FARTHEST_M;
 use crate::map::{MAX_SVG_BYTES, Map, WALL_HEIGHT_M};
 use crate::perception::{OBSERVATION_SIZE_PX, OBSTACLE_MEAN};
 use crate::plant::PositionerKind;
+use crate::recovery::{Basin, BasinDifference, CellRow, Kind, Outcome};
 use crate::scenario::{
     ControllerName, Disturbance, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scenario,
     Scripted, When,
@@ -123,7 +124,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 15] {
+fn modules() -> [(&'static str, Vec<Declaration>); 16] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -148,7 +149,23 @@ fn modules() -> [(&'static str, Vec<Declaration>); 15] {
         ("values", declared![ValueQuery, ValueCell, ValueMap]),
         (
             "evaluations",
-            declared![EvaluationQuery, Cell, EvaluationStage, PaperRow, EvaluationCell, EvaluationSummary, Evaluations],
+            declared![JobStage, EvaluationQuery, Cell, PaperRow, EvaluationCell, EvaluationSummary, Evaluations],
+        ),
+        (
+            "recoveries",
+            declared![
+                Kind,
+                Outcome,
+                RecoveryQuery,
+                RecoverySummary,
+                CellRow,
+                Basin,
+                BasinDifference,
+                RecoveryReport,
+                Recoveries,
+                RecoveryTrial,
+                RecoveryTrials,
+            ],
         ),
         ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
         ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),

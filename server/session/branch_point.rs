@@ -5,12 +5,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::camera::{Camera, Gpu, ImageSource};
-use crate::program::{Carrier, Program, ProgramError};
+use crate::program::{self, Carrier, Program, ProgramError};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, Parameters, Scenario};
-use crate::trial::{
-    Arena, Counters, Input, InputError, Moment, Source, Tally, TickRecord, Trial, TrialError, TrialState,
-};
+use crate::scenario::{ControllerName, Parameters};
+use crate::trial::{Arena, Counters, Input, InputError, Moment, Origin, Source, Tally, TickRecord, TrialError};
 
 /// Maximum duration of a branch.
 const HORIZON_S: f64 = 60.0;
@@ -18,9 +16,9 @@ const HORIZON_S: f64 = 60.0;
 /// A snapshot of a session, and the inputs after it.
 #[derive(Clone, Debug)]
 pub struct BranchPoint {
-    scenario: Scenario,
-    arena: Arc<Arena>,
-    state: TrialState,
+    pub origin: Origin,
+    /// Inputs since the trial's start, if they are all known.
+    pub told: Option<Vec<(u64, Input)>>,
     /// Inputs after the snapshot, with the tick before which they were applied.
     inputs: Vec<(u64, Input)>,
     /// Name of the session.
@@ -44,23 +42,22 @@ pub struct Progress<'a> {
 
 impl BranchPoint {
     pub(super) fn new(
-        trial: &Trial,
-        state: TrialState,
+        origin: Origin,
+        told: Option<Vec<(u64, Input)>>,
         inputs: Vec<(u64, Input)>,
         session: &str,
         program: Option<Arc<Program>>,
     ) -> Self {
-        let (scenario, arena) = (trial.scenario().clone(), trial.arena().clone());
-        Self { scenario, arena, state, inputs, session: session.to_owned(), program }
+        Self { origin, told, inputs, session: session.to_owned(), program }
     }
 
     /// The program that can carry the bead in a branch.
-    pub fn program(&self) -> Option<&Program> {
-        self.program.as_deref().filter(|program| program.standing().is_connected)
+    pub fn program(&self) -> Option<&Arc<Program>> {
+        self.program.as_ref().filter(|program| program.standing().is_connected)
     }
 
     pub fn tick(&self) -> u64 {
-        self.state.world.tick
+        self.origin.tick()
     }
 
     /// Tick at which branches end at the latest.
@@ -70,45 +67,38 @@ impl BranchPoint {
 
     /// Counters at the moment.
     pub fn counters(&self) -> Counters {
-        self.state.world.counters
+        self.origin.state.world.counters
     }
 
     /// Sub-controller 2 at that moment.
     pub fn controller(&self) -> ControllerName {
-        self.state.controller
+        self.origin.state.controller
     }
 
     pub fn arena(&self) -> &Arc<Arena> {
-        &self.arena
+        &self.origin.arena
     }
 
     /// Parameters at the moment.
     pub fn parameters(&self) -> &Parameters {
-        &self.state.world.parameters
+        &self.origin.state.world.parameters
     }
 
     /// A separate camera.
     pub fn camera(&self, gpu: &Arc<Gpu>) -> Result<Camera, TrialError> {
-        Ok(self.arena.camera(gpu)?)
+        Ok(self.origin.arena.camera(gpu)?)
     }
 
     /// Whether a goal is set at the moment or before [`Self::until_tick`].
     pub fn has_goal(&self) -> bool {
         let comes =
             |&(tick, ref input): &(u64, Input)| tick < self.until_tick() && matches!(input, Input::SetGoal { .. });
-        self.state.world.goal_m.is_some() || self.inputs.iter().any(comes)
-    }
-
-    fn trial(&self) -> Result<Trial, TrialError> {
-        let mut trial = Trial::new(self.scenario.clone(), self.arena.clone())?;
-        trial.take_events();
-        trial.restore(self.state.clone());
-        Ok(trial)
+        self.origin.state.world.goal_m.is_some() || self.inputs.iter().any(comes)
     }
 
     /// The moment with the observation and decision of its control step.
     pub fn relive(&self, camera: &mut dyn ImageSource) -> Result<(Moment, TickRecord), TrialError> {
-        let mut trial = self.trial()?;
+        let mut trial = self.origin.trial()?;
         let before = trial.moment();
         let at = |&&(tick, ref input): &&(u64, Input)| tick == self.tick() && is_answer(input);
         for (_, answer) in self.inputs.iter().filter(at) {
@@ -149,26 +139,22 @@ impl BranchPoint {
         camera: &mut dyn ImageSource,
         watch: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
     ) -> Result<(), ProgramError> {
-        let mut trial = self.trial()?;
-        if controller != self.state.controller {
+        let mut trial = self.origin.trial()?;
+        if controller != self.controller() {
             trial.apply(Input::SelectController(controller)).map_err(TrialError::from)?;
         }
         let is_taken = |(_, input): &&(u64, Input)| !matches!(input, Input::SelectController(_)) && !is_answer(input);
         let mut inputs = self.inputs.iter().filter(is_taken).peekable();
         let mut tally = Tally::default();
         let mut delivered_tick = None;
-        let deliveries = self.state.world.counters.deliveries;
+        let deliveries = self.counters().deliveries;
         loop {
             let tick = trial.state().world.tick;
             while let Some((_, input)) = inputs.next_if(|(at, _)| *at <= tick) {
                 // For example, the bead may not fit where the hand put it in the session.
                 let _: Result<(), InputError> = trial.apply(input.clone());
             }
-            let source = match carrier.filter(|_| trial.step_is_due()) {
-                Some(carrier) => Source::Seen(Box::new(carrier.decide(&mut trial, camera)?)),
-                None => Source::Camera(camera),
-            };
-            let record = trial.tick(source)?;
+            let record = program::tick(&mut trial, carrier, camera)?;
             tally.add(&record.moment);
             if delivered_tick.is_none() && record.moment.counters.deliveries > deliveries {
                 delivered_tick = Some(record.tick);

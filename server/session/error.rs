@@ -48,6 +48,9 @@ pub enum CommandError {
     /// No kept run has this number.
     #[error("run is {number}, there is no kept run of this number")]
     NoRun { number: u32 },
+    /// No such trial of a recovery map has ended.
+    #[error("recovery is {recovery:?}, it has no trial {repeat} of cell {cell} with this controller")]
+    NoTry { recovery: String, cell: u32, repeat: u32 },
     /// There is no goal.
     #[error("tick {tick}: no goal was set, so there is nothing to compare")]
     NoGoal { tick: u64 },

@@ -4,17 +4,23 @@ use super::worker::Worker;
 use super::{BranchPoint, CommandError, Recalled};
 use crate::camera::ImageSource;
 use crate::control::step_is_due;
-use crate::trial::{Case, Timed, TrialState};
+use crate::trial::{Case, Input, Origin, Timed, TrialState};
 
 impl<E: ImageSource> Worker<E> {
     /// The trial as a test case, with all its inputs.
     pub(super) fn case(&self) -> Result<Case, CommandError> {
         let tick = self.trial.state().world.tick;
-        let told = self.timeline.inputs_from_start().ok_or(CommandError::Forgotten)?;
-        let waiting = self.trial.waiting_inputs().iter().map(|input| (tick, input.clone()));
-        let inputs = told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting);
-        let inputs = inputs.map(|(tick, input)| Timed { tick, input }).collect();
+        let told = self.told(tick).ok_or(CommandError::Forgotten)?;
+        let inputs = told.into_iter().map(|(tick, input)| Timed { tick, input }).collect();
         Case::of(&self.trial, inputs).ok_or(CommandError::NothingCarried { tick })
+    }
+
+    /// All inputs up to a tick.
+    fn told(&self, tick: u64) -> Option<Vec<(u64, Input)>> {
+        let now = self.trial.state().world.tick;
+        let waiting = self.trial.waiting_inputs().iter().filter(|_| tick == now).map(|input| (now, input.clone()));
+        let told = self.timeline.inputs_from_start()?;
+        Some(told.into_iter().filter(|&(at, _)| at <= tick).chain(waiting).collect())
     }
 
     pub(super) fn recall(&self, tick: u64, which: Recalled) -> Result<BranchPoint, CommandError> {
@@ -27,7 +33,9 @@ impl<E: ImageSource> Worker<E> {
         };
         let mut inputs = self.timeline.inputs_after(state.world.tick);
         inputs.extend(self.case_inputs_after(state.world.tick));
-        Ok(BranchPoint::new(&self.trial, state, inputs, &self.name, self.program.clone()))
+        let told = self.told(state.world.tick);
+        let origin = Origin::at(&self.trial, state);
+        Ok(BranchPoint::new(origin, told, inputs, &self.name, self.program.clone()))
     }
 
     /// The last kept state at or before a tick; `None` for a tick after the newest state.

@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use super::kept_runs::KeptRun;
 use super::opened_case::OpenedCase;
+use super::timeline::Timeline;
 use super::worker::{End, Worker};
 use super::{CommandError, Kept, Scenery};
 use crate::camera::ImageSource;
 use crate::map::is_added;
 use crate::scenario::Scenario;
-use crate::trial::{Arena, Beginning, Case, Event, EventKind, Input, InputError, Sight, Timed, Trial, TrialError};
+use crate::trial::{
+    Arena, Beginning, Case, Event, EventKind, Input, InputError, Origin, Sight, Timed, Trial, TrialError,
+};
 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn load(&mut self, mut scenario: Scenario, kept: Kept) -> Result<(), CommandError> {
@@ -112,6 +115,26 @@ impl<E: ImageSource> Worker<E> {
         let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
         self.sink.note(&event);
         self.report(event);
+        Ok(())
+    }
+
+    pub(super) fn take_up_moment(
+        &mut self,
+        Origin { scenario, arena, state }: Origin,
+        about: String,
+        inputs: Vec<Timed>,
+    ) -> Result<(), CommandError> {
+        let timeline = Timeline::from_state(state.clone());
+        let text = format!("set up: {about}");
+        let case = Some(Arc::new(OpenedCase::new(about, inputs, None)));
+        let run = KeptRun { scenario, arena, state, timeline, journal: Arc::default(), case };
+        let prepared = self.prepare(&run)?;
+        self.take_up(run, prepared);
+        let event = Event::new(self.trial.state().world.tick, EventKind::Session, text);
+        self.sink.note(&event);
+        self.report(event);
+        self.apply_case();
+        self.observe();
         Ok(())
     }
 

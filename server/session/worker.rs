@@ -324,6 +324,7 @@ impl<E: ImageSource> Worker<E> {
                 self.observe();
             }
             Command::Return(number) => self.return_to(number)?,
+            Command::TakeUp { moment, about, inputs } => self.take_up_moment(*moment, about, inputs)?,
         }
         Ok(())
     }

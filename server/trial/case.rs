@@ -1,5 +1,6 @@
 //! Test cases: a scenario, the operator's inputs, and the expected result. The page saves a trial as a case.
 
+use std::iter::Peekable;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::{Arena, Counters, Input, InputError, LoggedMap, Source, TickRecord, Trial, TrialError};
 use crate::camera::ImageSource;
 use crate::files::read_at_most;
-use crate::map::{Map, MapError};
+use crate::map::MapError;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Scenario, Shipped, ShippedError};
 
@@ -152,9 +153,7 @@ impl Case {
         let scenario = trial.scenario().clone();
         let about = format!("{} on {}, with disturbances by hand.", scenario.controller.as_str(), scenario.map);
         let expect = Expectation { deliveries, by_tick: world.tick + ticks(time_s) };
-        let own = &trial.arena().map;
-        let is_shipped = Map::shipped(own.name()).is_ok_and(|map| map.svg() == own.svg());
-        let map = (!is_shipped).then(|| LoggedMap::from(own));
+        let map = LoggedMap::unless_shipped(&trial.arena().map);
         (deliveries > 0).then_some(Self { about, scenario, map, inputs, expect: Some(expect) })
     }
 
@@ -164,6 +163,19 @@ impl Case {
     /// The map is invalid or cannot be found.
     pub fn arena(&self) -> Result<Arc<Arena>, MapError> {
         self.map.as_ref().map_or_else(|| Arena::open(&self.scenario.map), LoggedMap::arena)
+    }
+
+    /// The trial after this many ticks, with the inputs up to then. Impossible ones are left out.
+    pub fn after(&self, ticks: u64, arena: &Arc<Arena>, camera: &mut dyn ImageSource) -> Result<Trial, TrialError> {
+        let mut trial = Trial::new(self.scenario.clone(), arena.clone())?;
+        let mut inputs = self.inputs.iter().peekable();
+        loop {
+            apply_due(&mut trial, &mut inputs, &mut Vec::new());
+            if trial.state().world.tick >= ticks {
+                return Ok(trial);
+            }
+            trial.tick(Source::Camera(camera))?;
+        }
     }
 
     /// Runs the case until its expectation is met or its time is over; without an expectation, until it rests.
@@ -179,12 +191,7 @@ impl Case {
         let mut inputs = self.inputs.iter().peekable();
         let mut refused = Vec::new();
         loop {
-            let tick = trial.state().world.tick;
-            while let Some(Timed { tick, input }) = inputs.next_if(|timed| timed.tick <= tick) {
-                if let Err(error) = trial.apply(input.clone()) {
-                    refused.push((*tick, error));
-                }
-            }
+            apply_due(&mut trial, &mut inputs, &mut refused);
             let record = trial.tick(Source::Camera(camera))?;
             let stopped = watch(&record).is_break();
             let moment = &record.moment;
@@ -200,6 +207,20 @@ impl Case {
                 let (phase, counters) = (moment.phase.to_string(), moment.counters);
                 return Ok(CaseOutcome { tick: record.tick, phase, counters, refused });
             }
+        }
+    }
+}
+
+/// Applies the inputs that are due, and notes those that are refused.
+fn apply_due(
+    trial: &mut Trial,
+    inputs: &mut Peekable<std::slice::Iter<'_, Timed>>,
+    refused: &mut Vec<(u64, InputError)>,
+) {
+    let now = trial.state().world.tick;
+    while let Some(Timed { tick, input }) = inputs.next_if(|timed| timed.tick <= now) {
+        if let Err(error) = trial.apply(input.clone()) {
+            refused.push((*tick, error));
         }
     }
 }

@@ -61,6 +61,12 @@ impl From<&Map> for LoggedMap {
 }
 
 impl LoggedMap {
+    /// `None` for a map that ships with Ferry.
+    pub fn unless_shipped(map: &Map) -> Option<Self> {
+        let is_shipped = Map::shipped(map.name()).is_ok_and(|shipped| shipped.svg() == map.svg());
+        (!is_shipped).then(|| Self::from(map))
+    }
+
     /// The map.
     ///
     /// # Errors

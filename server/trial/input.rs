@@ -10,7 +10,7 @@ use crate::control::transport::you::Steering;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
 use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
-use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters};
+use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters, Stream};
 
 /// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
 const WAITING_MOST: usize = 50_000;
@@ -48,6 +48,11 @@ pub enum Input {
         y_m: f64,
         /// Whether the hand also steers while sub-controller 1 is active.
         approach: bool,
+    },
+    /// All random numbers from now on are those of another seed, as if the trial had its luck again.
+    Reseed {
+        /// Replaces the scenario's seed.
+        seed: u64,
     },
     /// The answer of a program for the next control step: the tool goes there, as far as a step reaches.
     Go { x_m: f64, y_m: f64 },
@@ -182,7 +187,8 @@ impl Trial {
                     self.events.push(Event::new(self.state.world.tick, EventKind::Session, text));
                 }
                 self.state.controller = *name;
-                self.state.controller_state.carrier = Carrier::new(*name, self.scenario.seed);
+                let seed = self.state.world.script.seed(self.scenario.seed);
+                self.state.controller_state.carrier = Carrier::new(*name, seed);
             }
             Input::Configure(parameters) => self.configure(parameters)?,
             Input::Disturb(disturbance) => {
@@ -190,6 +196,7 @@ impl Trial {
                 self.apply_disturbance(disturbance);
             }
             Input::Steer { x_m, y_m, approach } => self.steer(Point2::new(*x_m, *y_m), *approach)?,
+            Input::Reseed { seed } => self.reseed(*seed),
             Input::Go { x_m, y_m } => {
                 let target_m = Point2::new(*x_m, *y_m);
                 check_finite("target_m", target_m)?;
@@ -221,6 +228,13 @@ impl Trial {
         };
         program.answer(answer);
         Ok(())
+    }
+
+    fn reseed(&mut self, seed: u64) {
+        let TrialState { world, controller_state, .. } = &mut self.state;
+        world.script.seed = Some(seed);
+        world.tracker.reseed(Stream::Tracker.rng(seed));
+        controller_state.carrier.reseed(seed);
     }
 
     fn set_goal(&mut self, goal: Point2<f64>) -> Result<(), InputError> {

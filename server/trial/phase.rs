@@ -68,8 +68,13 @@ impl std::fmt::Display for Phase {
 }
 
 impl Phase {
+    /// Whether a limit or a jump to the magnet has ended the task.
+    pub fn has_failed(self) -> bool {
+        matches!(self, Self::LiftedOff | Self::Stopped(_))
+    }
+
     /// Whether an evaluated episode ends here.
     pub fn is_final(self) -> bool {
-        matches!(self, Self::Delivered | Self::LiftedOff | Self::Stopped(_))
+        self == Self::Delivered || self.has_failed()
     }
 }

@@ -14,7 +14,7 @@ const TICK_MOST: u64 = 1 << 53;
 /// Fields that contain ticks or grow no faster.
 const TICKS: [&str; 6] = ["tick", "since_tick", "reached_tick", "drift_until", "dropout_until", "version"];
 /// Fields that may contain any number, or are checked elsewhere.
-const ANY: [&str; 8] = ["rng", "seen", "known", "parameters", "pending", "refusal", "judged", "remaining"];
+const ANY: [&str; 9] = ["rng", "seed", "seen", "known", "parameters", "pending", "refusal", "judged", "remaining"];
 
 /// A state that no trial can reach.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -24,6 +24,10 @@ pub struct Script {
     pub drift_until: u64,
     /// Tick at which the tracker reports again.
     pub dropout_until: u64,
+    /// What replaces the scenario's seed since [`Input::Reseed`](super::Input::Reseed).
+    // Left out of hashes while it is missing, so that older logs keep theirs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
 }
 
 /// Random numbers of one displacement.
@@ -34,13 +38,18 @@ pub(super) enum Draw {
 }
 
 impl Script {
+    /// The seed of the random numbers to come, for a scenario's seed.
+    pub(super) fn seed(&self, of_scenario: u64) -> u64 {
+        self.seed.unwrap_or(of_scenario)
+    }
+
     /// A generator for each displacement, so that every controller gets the same ones, whatever else was drawn.
     pub(super) fn draws(&self, seed: u64, draw: Draw) -> ChaCha8Rng {
         let stream = match draw {
             Draw::Step => Stream::DisturbanceStep(self.struck),
             Draw::Place => Stream::DisturbancePlace(self.struck),
         };
-        stream.rng(seed)
+        stream.rng(self.seed(seed))
     }
 
     /// Draws the step at which the next displacement is applied, for a leg of at least `least_steps` steps.

@@ -78,7 +78,7 @@ impl Output {
 }
 
 /// A table of text, the first `left` columns as words, the others as numbers.
-fn table(head: &[&str], left: usize) -> Table {
+pub(in crate::cli) fn table(head: &[&str], left: usize) -> Table {
     let mut table = Table::new();
     table.load_style(TableStyle::new()).set_header(head.to_vec());
     for column in table.column_iter_mut().skip(left) {
@@ -87,7 +87,7 @@ fn table(head: &[&str], left: usize) -> Table {
     table
 }
 
-fn interval([low, high]: [f64; 2]) -> String {
+pub(in crate::cli) fn interval([low, high]: [f64; 2]) -> String {
     format!("{low:.3} to {high:.3}")
 }
 

@@ -80,6 +80,10 @@ impl Errt {
         Self { planner: Planner::new(seed), task: None, followed: None, plans: 0, latest: Latest::default() }
     }
 
+    pub(super) fn reseed(&mut self, seed: u64) {
+        self.planner.reseed(seed);
+    }
+
     pub fn planner(&self) -> &Planner {
         &self.planner
     }

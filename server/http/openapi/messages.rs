@@ -57,7 +57,7 @@ mod tests {
             let example = |field: &str| match field {
                 "type" => variant["properties"]["type"]["enum"][0].clone(),
                 "controller" => json!("errt"),
-                "map" | "case" => json!("posts"),
+                "map" | "case" | "recovery" => json!("posts"),
                 "challenge" => json!("easy-1"),
                 "parameters" => json!({}),
                 "disturbance" => json!({"dropout": {"for_s": 1.0}}),

@@ -76,7 +76,7 @@ fn written(
     name: &str,
     address: &str,
 ) -> Result<(&'static str, String), Problem> {
-    let progress = evaluation.progress();
+    let progress = evaluation.life.read(|_, progress| progress.clone());
     let report = Report::of(server.gpu.adapter_name(), evaluation.query.seed, &progress.done(&evaluation.cells));
     Ok(match name {
         "report.html" => ("text/html; charset=utf-8", report.to_html(address)),
@@ -94,9 +94,8 @@ pub async fn cancel(
     Path(EvaluationPath { id }): Path<EvaluationPath>,
 ) -> Result<Response, Problem> {
     let evaluation = find(&server, &id)?;
-    if !evaluation.cancel() {
-        let detail = format!("evaluation {id:?} has ended already");
-        return Err(Problem::new(StatusCode::CONFLICT, "already_ended", detail));
+    if !evaluation.life.cancel() {
+        return Err(Problem::already_ended("evaluation", &id));
     }
     // Its trials stop at their next tick.
     Ok((StatusCode::ACCEPTED, Json(EvaluationSummary::from(&*evaluation))).into_response())

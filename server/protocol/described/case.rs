@@ -99,6 +99,11 @@ pub enum Input {
         /// Whether the hand also steers while sub-controller 1 is active.
         approach: bool,
     },
+    /// All random numbers from now on are those of another seed, as if the trial had its luck again.
+    Reseed {
+        /// Replaces the scenario's seed.
+        seed: u64,
+    },
     /// The answer of a program for the next control step: the tool goes there, as far as a step reaches.
     Go { x_m: f64, y_m: f64 },
     /// The answer of a program for the next control step: the arm holds.

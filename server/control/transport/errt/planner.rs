@@ -151,6 +151,11 @@ impl Planner {
         }
     }
 
+    /// All further random numbers come from `seed`.
+    pub fn reseed(&mut self, seed: u64) {
+        self.rng = Stream::Planner.rng(seed);
+    }
+
     /// Starts a search and drops the previous one. A path may be found, or found impossible, immediately.
     ///
     /// `obstacles` must have been made for clearances up to that of `parameters`.

@@ -2,6 +2,8 @@
 
 import type { ControllerName } from './experiment.gen';
 
+export type JobStage = "waiting" | "running" | "done" | "cancelled" | "failed";
+
 /**
  * Body of `POST /api/evaluations`: every controller on every map with every number of disturbances, each on the
  * same starts, goals and seeds.
@@ -52,8 +54,6 @@ disturbances: number,
  * Name of the program, with the controller `program`.
  */
 program: string | null, };
-
-export type EvaluationStage = "waiting" | "running" | "done" | "cancelled" | "failed";
 
 /**
  * The paper's numbers for a row.
@@ -120,7 +120,7 @@ program: string | null, };
 /**
  * An evaluation without its rows.
  */
-export type EvaluationSummary = { id: string, query: EvaluationQuery, stage: EvaluationStage, 
+export type EvaluationSummary = { id: string, query: EvaluationQuery, stage: JobStage, 
 /**
  * Why it failed, if it did.
  */

@@ -13,7 +13,19 @@ export type ClientMessage = { "type": "set_goal", x_m: number, y_m: number, } | 
 /**
  * Name of a program, with the controller `program`. Omitted: the one that was selected last.
  */
-program?: string, } | { "type": "configure", parameters: Parameters, } | { "type": "steer", x_m: number, y_m: number, approach?: boolean, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number | string, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "play_challenge", challenge: string, } | { "type": "open_case", case: string, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "return_to", run: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "take_control", } | { "type": "release_control", };
+program?: string, } | { "type": "configure", parameters: Parameters, } | { "type": "steer", x_m: number, y_m: number, approach?: boolean, } | { "type": "run", } | { "type": "pause", } | { "type": "step", ticks: number, } | { "type": "set_speed", factor: number, } | { "type": "reset", seed?: number, } | { "type": "load_scenario", map: string, controller?: ControllerName, positioner?: PositionerKind, seed?: number | string, start_m?: [number, number], goal_m?: [number, number], parameters?: Parameters, disturbances?: number, script?: Array<Scripted>, } | { "type": "play_challenge", challenge: string, } | { "type": "open_case", case: string, } | { "type": "open_try", 
+/**
+ * Id of the recovery map.
+ */
+recovery: string, 
+/**
+ * Number of the cell.
+ */
+cell: number, controller: ControllerName, 
+/**
+ * From 0.
+ */
+repeat: number, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "return_to", run: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Role of a browser.

@@ -1,6 +1,6 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
-import type { EvaluationCell, EvaluationQuery, EvaluationStage } from './evaluations.gen';
+import type { EvaluationCell, EvaluationQuery, JobStage } from './evaluations.gen';
 
 /**
  * One row of the table.
@@ -226,7 +226,7 @@ comparisons: Array<Comparison>,
 /**
  * Trials that did not deliver.
  */
-failures: Array<EvaluationFailure>, id: string, query: EvaluationQuery, stage: EvaluationStage, 
+failures: Array<EvaluationFailure>, id: string, query: EvaluationQuery, stage: JobStage, 
 /**
  * Why it failed, if it did.
  */

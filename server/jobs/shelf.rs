@@ -1,0 +1,78 @@
+//! The jobs of one kind: waiting, running, and the last ones that ended.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::{Job, Queue, QueueError, Stage};
+
+/// Number of ended jobs that are kept.
+const KEPT: usize = 16;
+
+/// A job that is found by its id.
+pub trait Shelved: Job + 'static {
+    fn id(&self) -> &str;
+    fn stage(&self) -> Stage;
+}
+
+/// Jobs by id.
+pub struct Shelf<J> {
+    queue: Arc<Queue>,
+    /// Before the number of each id.
+    name: &'static str,
+    kept: Mutex<Kept<J>>,
+}
+
+struct Kept<J> {
+    /// In the order of submission.
+    jobs: VecDeque<Arc<J>>,
+    /// Number of jobs so far, for their ids.
+    made: u64,
+}
+
+impl<J: Shelved> Kept<J> {
+    /// Removes the oldest ended jobs.
+    fn prune(&mut self) {
+        let ended = self.jobs.iter().filter(|job| job.stage().is_final()).count();
+        for _ in KEPT..ended {
+            if let Some(oldest) = self.jobs.iter().position(|job| job.stage().is_final()) {
+                self.jobs.remove(oldest);
+            }
+        }
+    }
+}
+
+impl<J: Shelved> Shelf<J> {
+    /// Jobs that run in a queue; their ids are the name with a number.
+    pub fn new(queue: Arc<Queue>, name: &'static str) -> Self {
+        Self { queue, name, kept: Mutex::new(Kept { jobs: VecDeque::new(), made: 0 }) }
+    }
+
+    /// Makes a job for its id, and queues it.
+    ///
+    /// # Errors
+    /// [`QueueError`]; then nothing has changed.
+    pub fn submit(&self, make: impl FnOnce(String) -> Arc<J>) -> Result<Arc<J>, QueueError> {
+        let mut kept = self.lock();
+        let job = make(format!("{}-{}", self.name, kept.made + 1));
+        self.queue.submit(job.clone())?;
+        kept.made += 1;
+        kept.jobs.push_back(job.clone());
+        kept.prune();
+        Ok(job)
+    }
+
+    pub fn find(&self, id: &str) -> Option<Arc<J>> {
+        self.lock().jobs.iter().find(|job| job.id() == id).cloned()
+    }
+
+    /// All kept jobs, in the order of submission.
+    pub fn all(&self) -> Vec<Arc<J>> {
+        let mut kept = self.lock();
+        kept.prune();
+        kept.jobs.iter().cloned().collect()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Kept<J>> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,114 @@
+//! One trial of a recovery map.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use super::Spot;
+use super::survey::Recovery;
+use crate::camera::ImageSource;
+use crate::evaluate::EvaluateError;
+use crate::program::{self, Carrier};
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::ControllerName;
+use crate::trial::{Beginning, Input, Phase, Sink, Timed, TrialError};
+
+/// A trial that neither delivers nor ends is lost after this time.
+const MOST_S: f64 = 900.0;
+
+/// How a trial ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    Delivered,
+    /// Delivered, but after more than `within_s`.
+    Late,
+    Lost,
+}
+
+/// The end of a trial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tried {
+    pub outcome: Outcome,
+    /// From the moment to the delivery, or to the end of the trial.
+    pub time_s: f64,
+    /// Control steps since the moment.
+    pub steps: u32,
+    /// Phase at the end.
+    pub phase: Phase,
+    /// The last tick.
+    pub tick: u64,
+    /// Hashes after the last tick.
+    pub world_hash: u64,
+    pub controller_hash: u64,
+}
+
+impl Recovery {
+    /// The inputs at the moment and after it: the controller, the noise, and a disturbance.
+    pub(super) fn inputs(&self, controller: ControllerName, seed: u64, spot: Option<Spot>) -> Vec<Timed> {
+        let state = &self.start.origin.state;
+        let (tick, plant) = (state.world.tick, &state.world.plant);
+        let mut inputs = vec![Input::Reseed { seed }];
+        if plant.hand.is_some() {
+            inputs.push(Input::Release);
+        }
+        if controller != state.controller {
+            inputs.push(Input::SelectController(controller));
+        }
+        let inputs = inputs.into_iter().map(|input| Timed { tick, input });
+        inputs.chain(spot.into_iter().flat_map(|spot| spot.inputs(tick, plant.bead.position_m))).collect()
+    }
+
+    /// Runs a trial to its end.
+    pub(super) fn attempt(
+        &self,
+        inputs: &[Timed],
+        spot: Option<Spot>,
+        carrier: Option<Carrier<'_>>,
+        camera: &mut dyn ImageSource,
+        sink: &mut dyn Sink,
+        stop: &AtomicBool,
+    ) -> Result<Tried, EvaluateError> {
+        let mut trial = self.start.origin.trial()?;
+        let begin = trial.state().world.tick;
+        let steps = trial.state().world.counters.steps;
+        sink.begin(&trial, if self.start.is_fresh() { Beginning::SetUp } else { Beginning::Resumed });
+        let over = begin + spot.map_or(0, Spot::lasts_ticks);
+        let most = over + (MOST_S / SERVO_PERIOD_S) as u64;
+        let mut inputs = inputs.iter().peekable();
+        let mut delivered = None;
+        loop {
+            let now = trial.state().world.tick;
+            while let Some(Timed { input, .. }) = inputs.next_if(|timed| timed.tick <= now) {
+                trial.apply(input.clone()).map_err(TrialError::from)?;
+            }
+            let record = program::tick(&mut trial, carrier, camera)?;
+            if stop.load(Ordering::Relaxed) {
+                return Err(EvaluateError::Stopped);
+            }
+            sink.record(&record);
+            let phase = record.moment.phase;
+            delivered =
+                delivered.filter(|_| phase == Phase::Delivered).or((phase == Phase::Delivered).then_some(now + 1));
+            let rests = phase.is_final() && record.moment.hand.is_none() && inputs.peek().is_none() && now >= over;
+            if !rests && now < most {
+                continue;
+            }
+            let time_s = (delivered.unwrap_or(now + 1) - begin) as f64 * SERVO_PERIOD_S;
+            let outcome = match delivered {
+                Some(_) if time_s <= self.query.within_s => Outcome::Delivered,
+                Some(_) => Outcome::Late,
+                None => Outcome::Lost,
+            };
+            return Ok(Tried {
+                outcome,
+                time_s,
+                steps: record.moment.counters.steps - steps,
+                phase,
+                tick: now + 1,
+                world_hash: trial.state().world_hash(),
+                controller_hash: trial.state().controller_hash(),
+            });
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The recovery maps of a server, in its queue of background jobs.
+
+use std::sync::Arc;
+
+use super::survey::unrecorded;
+use super::{Cell, Findings, Recovery, RecoveryError, RecoveryQuery, Start};
+use crate::evaluate::EvaluateError;
+use crate::jobs::{Job, Life, Queue, QueueError, Shelf, Shelved, Stage, Workshop};
+use crate::scenario::ControllerName;
+use crate::trial::{Case, Origin, Timed};
+
+/// A recovery map in the background.
+pub struct RecoveryJob {
+    pub id: String,
+    /// The session of its moment, and the number of its trial there.
+    pub session: Option<(String, u64)>,
+    pub recovery: Recovery,
+    pub life: Life<Findings>,
+}
+
+impl RecoveryJob {
+    /// A trial that has ended, to be set up in a session: the moment, what it is, and the inputs after it.
+    pub fn set_up(&self, cell: u32, controller: ControllerName, repeat: u32) -> Option<(Origin, String, Vec<Timed>)> {
+        let recovery = &self.recovery;
+        self.find(cell, controller, repeat, |cell, controller, repeat| {
+            let about = format!("{}, {}", self.id, recovery.trial_name(cell, controller, repeat));
+            (recovery.start.origin.clone(), about, recovery.inputs_of(cell, controller, repeat))
+        })
+    }
+
+    /// A trial that has ended as a test case. `None` inside if the inputs before the moment are not known.
+    pub fn case(&self, cell: u32, controller: ControllerName, repeat: u32) -> Option<Option<Case>> {
+        self.find(cell, controller, repeat, |cell, controller, repeat| self.recovery.case(cell, controller, repeat))
+    }
+
+    fn find<T>(
+        &self,
+        cell: u32,
+        controller: ControllerName,
+        repeat: u32,
+        read: impl FnOnce(&Cell, usize, usize) -> T,
+    ) -> Option<T> {
+        let controller = self.recovery.query.controllers.iter().position(|&name| name == controller)?;
+        self.life.read(|_, findings| {
+            let cell = findings.cells.get(cell as usize)?;
+            cell.tries[controller].get(repeat as usize)?.as_ref()?;
+            Some(read(cell, controller, repeat as usize))
+        })
+    }
+}
+
+impl Job for RecoveryJob {
+    fn is_waiting(&self) -> bool {
+        self.life.stage() == Stage::Waiting
+    }
+
+    fn begin(&self) -> bool {
+        self.life.begin()
+    }
+
+    fn run(&self, workshop: &Workshop) {
+        tracing::info!(id = self.id, "recovery map begins");
+        let run = || self.recovery.run(&workshop.gpu, &self.life, &unrecorded, &|_| ());
+        let stage = match workshop.pool.install(run) {
+            Ok(()) => Stage::Done,
+            Err(EvaluateError::Stopped) => Stage::Cancelled,
+            Err(error) => Stage::Failed(error.to_string()),
+        };
+        tracing::info!(id = self.id, ?stage, "recovery map ends");
+        self.life.end(stage);
+    }
+
+    fn fail(&self, reason: String) {
+        self.life.end(Stage::Failed(reason));
+    }
+
+    fn interrupt(&self) {
+        self.life.cancel();
+    }
+}
+
+impl Shelved for RecoveryJob {
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn stage(&self) -> Stage {
+        self.life.stage()
+    }
+}
+
+/// Why a recovery map is rejected.
+#[derive(Debug, thiserror::Error)]
+pub enum SubmitRecoveryError {
+    #[error(transparent)]
+    Query(#[from] RecoveryError),
+    #[error(transparent)]
+    Queue(#[from] QueueError),
+}
+
+/// Recovery maps by id: waiting, running, and the last ones that ended.
+pub struct Recoveries(Shelf<RecoveryJob>);
+
+impl Recoveries {
+    /// Recovery maps that run in a queue.
+    pub fn new(queue: Arc<Queue>) -> Self {
+        Self(Shelf::new(queue, "recovery"))
+    }
+
+    /// # Errors
+    /// [`SubmitRecoveryError`]; then nothing has changed.
+    pub fn submit(
+        &self,
+        session: Option<(String, u64)>,
+        query: RecoveryQuery,
+        start: Start,
+    ) -> Result<Arc<RecoveryJob>, SubmitRecoveryError> {
+        let recovery = Recovery::new(query, start)?;
+        let make = |id| Arc::new(RecoveryJob { id, session, recovery, life: Life::new(Findings::default()) });
+        Ok(self.0.submit(make)?)
+    }
+
+    pub fn find(&self, id: &str) -> Option<Arc<RecoveryJob>> {
+        self.0.find(id)
+    }
+
+    pub fn all(&self) -> Vec<Arc<RecoveryJob>> {
+        self.0.all()
+    }
+}
