@@ -9,6 +9,7 @@ import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
 import { LABORATORY, LAYERS } from './laboratory';
 import { PARAMETERS, SOME_PARAMETERS } from './parameters';
+import { RECOVERY } from './recovery';
 import type { Row, Section } from './row';
 import { STEER } from './steer';
 import { TRAIN } from './train';
@@ -27,6 +28,7 @@ const SECTIONS_BY_TEST: SectionsByTest = {
   'the 3-D view': [SCENE_VIEW],
   'recordings and evaluations': [RECORDINGS, EVALUATE],
   'events and comparisons': [EVENTS, COMPARE],
+  'recovery maps': [RECOVERY],
   lessons: [LESSONS],
   challenges: [CHALLENGE],
   'the map editor': [DRAW],

@@ -7,7 +7,7 @@ const ids = MAP_LAYERS.map(({ id }) => id);
 
 it('layers keep the ids that browsers have stored', () => {
   expect(ids.join(' ')).toBe(
-    'singularity value seen flow blocks rectangles sensed obstacles plan ghosts challenge field trail camera capture',
+    'singularity value recovery seen flow blocks rectangles sensed obstacles plan ghosts challenge field trail camera capture',
   );
 });
 
@@ -19,6 +19,7 @@ it('layers that are shown by default do not cover the map', () => {
     'challenge',
     'ghosts',
     'plan',
+    'recovery',
     'sensed',
     'trail',
   ]);

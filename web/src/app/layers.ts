@@ -8,6 +8,7 @@ import { FIELD_LAYER } from '../features/field/fieldLayer';
 import { FLOW_LAYER } from '../features/flow/flowLayer';
 import { BLOCKS_LAYER, RECTANGLES_LAYER, SEEN_LAYER } from '../features/observed/observedLayers';
 import { OBSTACLES_LAYER, PLAN_LAYER } from '../features/planner/plannerLayers';
+import { RECOVERY_LAYER } from '../features/recovery/recoveryLayer';
 import { SINGULARITY_LAYER } from '../features/singularity/singularityLayer';
 import { TRAIL_LAYER } from '../features/trail/trailLayer';
 import { VALUE_LAYER } from '../features/values/valueLayer';
@@ -17,6 +18,7 @@ import type { InScene } from '../scene/sceneLayer';
 export const MAP_LAYERS: readonly (MapLayer & InScene)[] = [
   SINGULARITY_LAYER,
   VALUE_LAYER,
+  RECOVERY_LAYER,
   SEEN_LAYER,
   FLOW_LAYER,
   BLOCKS_LAYER,

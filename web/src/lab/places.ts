@@ -4,7 +4,7 @@ import type { ClientMessage, ErrorMessage } from '../net/protocol.gen';
 import type { Model } from './model';
 
 /** Panels at which a message can appear. */
-export type Place = 'workspace' | 'controller' | 'playback' | 'session' | 'compare';
+export type Place = 'workspace' | 'controller' | 'playback' | 'session' | 'compare' | 'recovery';
 
 export const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   set_goal: 'workspace',
@@ -22,6 +22,7 @@ export const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   reset: 'playback',
   load_scenario: 'playback',
   open_case: 'playback',
+  open_try: 'recovery',
   play_challenge: 'playback',
   rewind: 'playback',
   return_to: 'playback',
@@ -61,7 +62,7 @@ export function placeOfError(
   const place = PLACE_OF_CODE[error.code];
   if (place) return place;
   // Their refusals name fields of other commands.
-  if (lastCommand === 'fork' || lastCommand === 'open_case') {
+  if (lastCommand === 'fork' || lastCommand === 'open_case' || lastCommand === 'open_try') {
     return PLACE_OF_COMMAND[lastCommand];
   }
   const field = error.field?.split('.').at(-1);

@@ -1,8 +1,9 @@
 // The server's evaluations, polled: often while one runs.
 
-import { createEffect, createSignal, type Accessor } from 'solid-js';
+import type { Accessor } from 'solid-js';
+import { createDetail } from '../../net/detail';
 import { createPoll } from '../../net/poll';
-import { get, post, remove } from '../../net/requests';
+import { post, remove } from '../../net/requests';
 import type {
   EvaluationQuery,
   EvaluationReport,
@@ -50,32 +51,7 @@ export function createEvaluationList(): EvaluationList {
 export function createReport(
   summary: Accessor<EvaluationSummary | undefined>,
 ): Accessor<EvaluationReport | undefined> {
-  const [report, setReport] = createSignal<EvaluationReport>();
-  let pending: string | undefined;
-  // Each poll of the list requests the report again if the last answer did not arrive.
-  createEffect(() => {
-    const now = summary();
-    const had = report();
-    if (!now) return;
-    if (had && version(had) === version(now)) {
-      // An answer for an evaluation that was chosen in between is ignored.
-      pending = undefined;
-      return;
-    }
-    if (pending === version(now)) return;
-    const requested = version(now);
-    pending = requested;
-    void get<EvaluationReport>(`${PATH}/${now.id}`)
-      .then((answer) => {
-        if (pending === requested) setReport(answer);
-      })
-      // The list shows the reason of a failure.
-      .catch(() => undefined)
-      .finally(() => {
-        if (pending === requested) pending = undefined;
-      });
-  });
-  return () => (report()?.id === summary()?.id ? report() : undefined);
+  return createDetail<EvaluationSummary, EvaluationReport>(PATH, summary, version);
 }
 
 /** Changes when a report's rows or failures change. */

@@ -1,0 +1,95 @@
+// The trials of a cell: each can be set up in the session or saved as a test case.
+
+import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
+import type { Notices, Session } from '../../lab/slices';
+import { get, getText } from '../../net/requests';
+import type { RecoveryReport, RecoveryTrial, RecoveryTrials } from '../../net/protocol.gen';
+import { download } from '../../ui/download';
+import { cellWords, rowsOf, spotWords, trialWords } from './cells';
+import { PATH } from './recoveries';
+import type { Chosen } from './store';
+
+const textOf = (reason: unknown): string =>
+  reason instanceof Error ? reason.message : String(reason);
+
+export function CellCard(props: {
+  lab: Session & Notices;
+  report: RecoveryReport;
+  chosen: Chosen;
+  label: string;
+}): JSX.Element {
+  const [trials, setTrials] = createSignal<readonly RecoveryTrial[]>([]);
+  const row = () =>
+    rowsOf(props.report, props.chosen.name).find(({ cell }) => cell === props.chosen.cell);
+  const controller = () => props.report.controllers[props.report.names.indexOf(props.chosen.name)];
+  const say = (reason: unknown): void => {
+    props.lab.notify('recovery', textOf(reason));
+  };
+  createEffect(
+    on([() => `${props.report.id}/cells/${props.chosen.cell}`, () => row()?.repeats], ([path]) => {
+      get<RecoveryTrials>(`${PATH}/${path}`)
+        .then((answer) => setTrials(answer.trials))
+        .catch(say);
+    }),
+  );
+  const own = () => trials().filter((trial) => trial.controller === controller());
+  const save = (trial: RecoveryTrial): void => {
+    const { cell } = props.chosen;
+    const path = `${props.report.id}/cells/${cell}/${trial.controller}/${trial.repeat}/case.json`;
+    getText(`${PATH}/${path}`)
+      .then((text) => {
+        const name = `${props.report.id}-cell-${cell}-${trial.controller}-${trial.repeat}.json`;
+        download(name, new Blob([text], { type: 'application/json' }));
+      })
+      .catch(say);
+  };
+  return (
+    <Show when={row()}>
+      {(row) => (
+        <section class="recovery-card" aria-label="The chosen cell">
+          <p>
+            <strong>{props.label}</strong>, {spotWords(row(), props.report.kind)}:{' '}
+            <span data-testid="recovery-cell">{cellWords(row())}</span>.
+          </p>
+          <ul>
+            <For each={own()}>
+              {(trial) => (
+                <li>
+                  <span>{trialWords(trial)}</span>
+                  <button
+                    type="button"
+                    class="small"
+                    aria-label={`Set up trial ${trial.repeat + 1}`}
+                    title="Goes to the moment and sets this trial up, exactly; Run plays it. The present is kept as a run."
+                    disabled={!props.lab.canOperate()}
+                    onClick={() => {
+                      props.lab.send({
+                        type: 'open_try',
+                        recovery: props.report.id,
+                        cell: props.chosen.cell,
+                        controller: trial.controller,
+                        repeat: trial.repeat,
+                      });
+                    }}
+                  >
+                    Set up
+                  </button>
+                  <button
+                    type="button"
+                    class="small"
+                    aria-label={`Save trial ${trial.repeat + 1} as a test case`}
+                    onClick={() => {
+                      save(trial);
+                    }}
+                  >
+                    Save
+                  </button>
+                </li>
+              )}
+            </For>
+          </ul>
+        </section>
+      )}
+    </Show>
+  );
+}

@@ -1,0 +1,104 @@
+// One controller's cells, or the difference of two, to look at and to choose from.
+
+import { For, Show, type JSX } from 'solid-js';
+import type { Polygon, Rect, RecoveryReport } from '../../net/protocol.gen';
+import type { Look } from './cells';
+import { mm } from './cells';
+import { drawingOf, nextShape } from './shapes';
+
+const STEPS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowRight: [1, 0],
+  ArrowLeft: [-1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+const FAINTEST = 0.25;
+const DOT = 7;
+
+function outline(ring: readonly (readonly [number, number])[]): string {
+  return `M${ring.map(([x_m, y_m]) => `${mm(x_m).toFixed(1)} ${(-mm(y_m)).toFixed(1)}`).join('L')}z`;
+}
+
+const wallsPath = (walls: readonly Polygon[]): string =>
+  walls.flatMap(({ exterior, holes }) => [exterior, ...holes].map(outline)).join('');
+
+/** Stripes and crosses, so that the figure is read without its colours, too. */
+function Patterns(): JSX.Element {
+  return (
+    <defs>
+      <pattern id="recovery-late" width="8" height="8" patternUnits="userSpaceOnUse">
+        <rect class="late-ground" width="8" height="8" />
+        <path class="late-lines" d="M-2 2l4-4M0 8l8-8M6 10l4-4" />
+      </pattern>
+      <pattern id="recovery-lost" width="8" height="8" patternUnits="userSpaceOnUse">
+        <rect class="lost-ground" width="8" height="8" />
+        <path class="lost-lines" d="M2 2l4 4M6 2l-4 4" />
+      </pattern>
+    </defs>
+  );
+}
+
+export function RecoveryFigure(props: {
+  report: RecoveryReport;
+  /** The controller whose cells are drawn. */
+  name: string;
+  label: string;
+  looks: ReadonlyMap<number, Look>;
+  workspace: Rect;
+  walls: readonly Polygon[];
+  chosen: number | undefined;
+  dropped: number | undefined;
+  onChoose: (cell: number) => void;
+}): JSX.Element {
+  const drawing = () => drawingOf(props.report, props.name, props.workspace);
+  const dot = (at: readonly [number, number], kind: string): JSX.Element => (
+    <circle class={`dot ${kind}`} cx={mm(at[0])} cy={-mm(at[1])} r={DOT} />
+  );
+  return (
+    <svg
+      class="recovery-figure"
+      viewBox={drawing().box.join(' ')}
+      role="application"
+      tabindex="0"
+      aria-label={`${props.label}: cells. Arrow keys choose one.`}
+      onKeyDown={(event) => {
+        const step = STEPS[event.key];
+        if (!step || event.ctrlKey || event.altKey || event.metaKey) return;
+        event.preventDefault();
+        event.stopPropagation();
+        const next = nextShape(drawing().shapes, props.chosen, step);
+        if (next !== undefined) props.onChoose(next);
+      }}
+    >
+      <Patterns />
+      <Show when={props.report.kind === 'place'}>
+        <path class="wall" fill-rule="evenodd" d={wallsPath(props.walls)} />
+      </Show>
+      <For each={drawing().shapes}>
+        {(shape) => {
+          const look = (): Look | undefined => props.looks.get(shape.cell);
+          return (
+            <path
+              d={shape.path}
+              class="cell"
+              data-cell={shape.cell}
+              data-kind={look()?.kind}
+              classList={{
+                chosen: props.chosen === shape.cell,
+                dropped: props.dropped === shape.cell,
+              }}
+              fill-opacity={FAINTEST + (1 - FAINTEST) * (look()?.strength ?? 0)}
+              onClick={() => {
+                props.onChoose(shape.cell);
+              }}
+            />
+          );
+        }}
+      </For>
+      <Show when={props.report.kind === 'place'}>
+        {dot(props.report.bead_m, 'bead')}
+        <Show when={props.report.goal_m}>{(goal_m) => dot(goal_m(), 'goal')}</Show>
+      </Show>
+    </svg>
+  );
+}

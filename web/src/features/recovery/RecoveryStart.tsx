@@ -1,0 +1,164 @@
+// Chooses what is tried from the shown moment, and starts a recovery map.
+
+import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { controllerLabel, CONTROLLERS } from '../../lab/parameters';
+import type { Session, Trial } from '../../lab/slices';
+import type { ControllerName, RecoveryKind } from '../../net/protocol.gen';
+import { clock } from '../../ui/format';
+import { TruthSelect } from '../../ui/ServerSelect';
+import { type RecoveryList, isActive } from './recoveries';
+import { store } from './store';
+
+const KINDS: readonly (readonly [RecoveryKind, string])[] = [
+  ['place', 'put the bead elsewhere'],
+  ['push', 'push the bead'],
+  ['drag', 'pull the bead by hand'],
+  ['blind', 'blind the tracker'],
+];
+const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
+  place: 'Columns',
+  push: 'Directions',
+  drag: 'Directions',
+  blind: 'Times',
+};
+const SEED = 1;
+const WITHIN_S = 60;
+
+function Whole(props: {
+  label: string;
+  value: string;
+  onInput: (value: string) => void;
+}): JSX.Element {
+  return (
+    <label class="recovery-number">
+      {props.label}
+      <input
+        type="number"
+        class="number"
+        min="1"
+        step="1"
+        value={props.value}
+        onInput={({ currentTarget }) => {
+          props.onInput(currentTarget.value);
+        }}
+      />
+    </label>
+  );
+}
+
+export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList }): JSX.Element {
+  const { lab } = props;
+  const [refusal, setRefusal] = createSignal<string>();
+  const { draft, setDraft } = store;
+  const program = createMemo(() => {
+    const last = lab.state()?.program;
+    return last?.is_connected === true ? last.name : undefined;
+  });
+  const offered = createMemo((): readonly ControllerName[] =>
+    program() === undefined ? CONTROLLERS : [...CONTROLLERS, 'program'],
+  );
+  const wanted = (): ControllerName[] =>
+    offered().filter((name) => !draft().left_out.includes(name));
+  const label = (name: ControllerName): string =>
+    controllerLabel({ controller: name, program: name === 'program' ? (program() ?? null) : null });
+  const start = async (): Promise<void> => {
+    const tick = lab.state()?.tick;
+    if (tick === undefined) return;
+    setRefusal(undefined);
+    const { kind, grid, repeats } = draft();
+    try {
+      await props.list.start({
+        session: lab.session,
+        tick,
+        kind,
+        controllers: wanted(),
+        grid: Number(grid),
+        repeats: Number(repeats),
+        seed: SEED,
+        within_s: WITHIN_S,
+        full: false,
+      });
+    } catch (reason) {
+      setRefusal(reason instanceof Error ? reason.message : String(reason));
+    }
+  };
+  const running = (): string | undefined => {
+    const shown = props.list.shown();
+    return shown && isActive(shown) ? shown.id : undefined;
+  };
+  return (
+    <div class="recovery-start">
+      <TruthSelect
+        label="Disturbance"
+        value={draft().kind}
+        options={KINDS}
+        refusals={0}
+        disabled={false}
+        onChoose={(value) => {
+          const kind = KINDS.find(([name]) => name === value)?.[0];
+          if (kind) setDraft({ ...draft(), kind });
+        }}
+      />
+      <Whole
+        label={COLUMNS[draft().kind]}
+        value={draft().grid}
+        onInput={(grid) => setDraft({ ...draft(), grid })}
+      />
+      <Whole
+        label="Repeats"
+        value={draft().repeats}
+        onInput={(repeats) => setDraft({ ...draft(), repeats })}
+      />
+      <fieldset>
+        <legend class="visually-hidden">Controllers to try</legend>
+        <For each={offered()}>
+          {(name) => (
+            <label class="check">
+              <input
+                type="checkbox"
+                checked={!draft().left_out.includes(name)}
+                aria-label={`Try ${label(name)}`}
+                onChange={({ currentTarget }) => {
+                  const others = draft().left_out.filter((one) => one !== name);
+                  setDraft({
+                    ...draft(),
+                    left_out: currentTarget.checked ? others : [...others, name],
+                  });
+                }}
+              />
+              {label(name)}
+            </label>
+          )}
+        </For>
+      </fieldset>
+      <button
+        type="button"
+        class="small primary"
+        disabled={!lab.canOperate() || wanted().length === 0}
+        title="Tries each disturbance from the shown moment under each controller, beside the session"
+        onClick={() => void start()}
+      >
+        Map recovery from {clock(lab.state()?.sim_time_s ?? 0)}
+      </button>
+      <Show when={running()}>
+        {(id) => (
+          <button
+            type="button"
+            class="small"
+            disabled={!lab.canOperate()}
+            onClick={() => {
+              props.list.cancel(id()).catch((reason: unknown) => {
+                setRefusal(reason instanceof Error ? reason.message : String(reason));
+              });
+            }}
+          >
+            Cancel map
+          </button>
+        )}
+      </Show>
+      <div role="alert">
+        <Show when={refusal()}>{(text) => <p class="refusal">{text()}</p>}</Show>
+      </div>
+    </div>
+  );
+}

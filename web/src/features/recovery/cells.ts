@@ -1,0 +1,87 @@
+// What the cells of a recovery map say. Pure.
+
+import type { Basin, RecoveryCell, RecoveryReport, RecoveryTrial } from '../../net/protocol.gen';
+import { fixed } from '../../ui/format';
+
+/** How a cell is drawn. */
+export interface Look {
+  readonly kind: 'delivered' | 'late' | 'lost' | 'first' | 'second' | 'equal';
+  /** 0 to 1; the stronger, the more opaque. */
+  readonly strength: number;
+}
+
+const CM2_PER_M2 = 1e4;
+const MM_PER_M = 1000;
+const MN_PER_N = 1000;
+const CM_PER_M = 100;
+
+/** What happened most often in a cell; of two, the better one. */
+export function look({ delivered, late, lost, repeats }: RecoveryCell): Look {
+  const most = Math.max(delivered, late, lost);
+  if (most === delivered) return { kind: 'delivered', strength: delivered / repeats };
+  return { kind: most === late ? 'late' : 'lost', strength: 1 };
+}
+
+/** The share that one controller delivers, minus that of another. */
+export function difference(first: RecoveryCell, second: RecoveryCell): Look {
+  const points = first.delivered / first.repeats - second.delivered / second.repeats;
+  if (points === 0) return { kind: 'equal', strength: 1 };
+  return { kind: points > 0 ? 'first' : 'second', strength: Math.abs(points) };
+}
+
+export const rowsOf = (
+  { cells }: Pick<RecoveryReport, 'cells'>,
+  name: string,
+): readonly RecoveryCell[] => cells.filter(({ controller }) => controller === name);
+
+/** `2 delivered, 1 lost (lifted off); median 12.3 s`. */
+export function cellWords(row: RecoveryCell): string {
+  const parts = [`${row.delivered} delivered`];
+  if (row.late > 0) parts.push(`${row.late} late`);
+  if (row.lost > 0) parts.push(`${row.lost} lost${row.why === null ? '' : ` (${row.why})`}`);
+  const median = row.time_s_median === null ? '' : `; median ${fixed(row.time_s_median, 1)} s`;
+  return `${parts.join(', ')}${median}`;
+}
+
+/** What was done to the bead or to the tracker. */
+export function spotWords(row: RecoveryCell, kind: RecoveryReport['kind']): string {
+  if (kind === 'place') {
+    return `bead put to x ${fixed(row.x_m ?? 0, 3)} m, y ${fixed(row.y_m ?? 0, 3)} m`;
+  }
+  const strength = row.strength ?? 0;
+  if (kind === 'blind') {
+    return `tracker blind for ${fixed(strength, 1)} s, ${fixed(row.at_s ?? 0, 1)} s after the moment`;
+  }
+  const degrees = Math.round(((row.direction_rad ?? 0) * 180) / Math.PI);
+  return kind === 'push'
+    ? `pushed toward ${degrees}° with ${fixed(strength * MN_PER_N, 1)} mN`
+    : `pulled toward ${degrees}° over ${fixed(strength * CM_PER_M, 0)} cm`;
+}
+
+/** `0.33 (0.28 to 0.39), 195 cm²`. */
+export function basinWords({ share, share95: [low, high], area_m2 }: Basin): string {
+  const area = area_m2 === null ? '' : `, ${fixed(area_m2 * CM2_PER_M2, 0)} cm²`;
+  return `${fixed(share, 2)} (${fixed(low, 2)} to ${fixed(high, 2)})${area}`;
+}
+
+/** `trial 2: lost, stopped: 150 steps …, 42.0 s`. */
+export function trialWords(trial: RecoveryTrial): string {
+  const end = trial.outcome === 'lost' ? `lost: ${trial.phase}` : trial.outcome;
+  return `trial ${trial.repeat + 1}: ${end}, ${fixed(trial.time_s, 1)} s`;
+}
+
+/** The cell of a place, if the map has one there. */
+export function cellAt(
+  report: RecoveryReport,
+  [x_m, y_m]: readonly [number, number],
+): number | undefined {
+  const has = (row: RecoveryCell): boolean => {
+    if (row.x_m === null || row.y_m === null || row.size_m === null) return false;
+    const half_m = row.size_m / 2;
+    return Math.abs(x_m - row.x_m) <= half_m && Math.abs(y_m - row.y_m) <= half_m;
+  };
+  return report.cells.find(has)?.cell;
+}
+
+/** A length for a drawing, in thousandths of a metre. */
+export const mm = (length_m: number): number => length_m * MM_PER_M;
