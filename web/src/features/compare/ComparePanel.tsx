@@ -4,6 +4,7 @@ import { For, Show, createMemo, type JSX } from 'solid-js';
 import type uPlot from 'uplot';
 import { axisLabel, centimetres, clock, fixed } from '../../ui/format';
 import { errors_m, lastTick } from '../../lab/comparison';
+import { COMPARABLE } from '../../lab/ControllerChecks';
 import { createPalette } from '../../ui/palette';
 import { controllerLabel } from '../../lab/parameters';
 import type { Branch, ComparisonMessage } from '../../net/protocol.gen';
@@ -12,7 +13,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { PanelProps, TabPanel } from '../../lab/panel';
 import type { Compared, Events, Notices, Session, Trial } from '../../lab/slices';
-import { COMPARABLE, CompareStart } from './CompareStart';
+import { CompareStart } from './CompareStart';
 import './compare.css';
 
 const CM = 100;

@@ -1,15 +1,12 @@
 // Chooses controllers and starts a comparison.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import { Show, createSignal, type JSX } from 'solid-js';
 import { attemptStart, START_NOT_KEPT } from '../../lab/attemptStart';
+import { COMPARABLE, ControllerChecks, createOffered } from '../../lab/ControllerChecks';
 import { isFailure } from '../../lab/failure';
-import { controllerLabel, CONTROLLERS } from '../../lab/parameters';
 import type { Compared, Events, Session, Trial } from '../../lab/slices';
 import type { ControllerName } from '../../net/protocol.gen';
 import { clock } from '../../ui/format';
-
-/** The controllers that can be compared, and the session's program. */
-export const COMPARABLE: readonly ControllerName[] = [...CONTROLLERS, 'program'];
 
 export function CompareStart(props: { lab: Session & Trial & Events & Compared }): JSX.Element {
   const { lab } = props;
@@ -20,17 +17,8 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
     else next.delete(name);
     setChosen(next);
   };
-  /** The session's program, while it is connected. */
-  const program = createMemo(() => {
-    const last = lab.state()?.program;
-    return last?.is_connected === true ? last.name : undefined;
-  });
-  const offered = createMemo(() =>
-    COMPARABLE.filter((name) => name !== 'program' || program() !== undefined),
-  );
+  const { offered, label } = createOffered(lab);
   const wanted = (): ControllerName[] => offered().filter((name) => chosen().has(name));
-  const label = (name: ControllerName): string =>
-    controllerLabel({ controller: name, program: name === 'program' ? (program() ?? null) : null });
   /** At the end of an attempt there is nothing left to compare. */
   const isOver = (): boolean => {
     const phase = lab.state()?.phase ?? '';
@@ -45,24 +33,13 @@ export function CompareStart(props: { lab: Session & Trial & Events & Compared }
   };
   return (
     <div class="compare-start">
-      <fieldset>
-        <legend class="visually-hidden">Controllers to compare</legend>
-        <For each={offered()}>
-          {(name) => (
-            <label class="check">
-              <input
-                type="checkbox"
-                checked={chosen().has(name)}
-                aria-label={`Compare ${label(name)}`}
-                onChange={(event) => {
-                  toggle(name, event.currentTarget.checked);
-                }}
-              />
-              {label(name)}
-            </label>
-          )}
-        </For>
-      </fieldset>
+      <ControllerChecks
+        verb="Compare"
+        offered={offered()}
+        label={label}
+        isChosen={(name) => chosen().has(name)}
+        onToggle={toggle}
+      />
       <button
         type="button"
         class="small primary"

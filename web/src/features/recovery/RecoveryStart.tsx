@@ -1,7 +1,7 @@
 // Chooses what is tried from the shown moment, and starts a recovery map.
 
-import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
-import { controllerLabel, CONTROLLERS } from '../../lab/parameters';
+import { Show, createSignal, type JSX } from 'solid-js';
+import { ControllerChecks, createOffered } from '../../lab/ControllerChecks';
 import type { Session, Trial } from '../../lab/slices';
 import type { ControllerName, RecoveryKind } from '../../net/protocol.gen';
 import { clock } from '../../ui/format';
@@ -50,17 +50,9 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
   const { lab } = props;
   const [refusal, setRefusal] = createSignal<string>();
   const { draft, setDraft } = store;
-  const program = createMemo(() => {
-    const last = lab.state()?.program;
-    return last?.is_connected === true ? last.name : undefined;
-  });
-  const offered = createMemo((): readonly ControllerName[] =>
-    program() === undefined ? CONTROLLERS : [...CONTROLLERS, 'program'],
-  );
+  const { offered, label } = createOffered(lab);
   const wanted = (): ControllerName[] =>
     offered().filter((name) => !draft().left_out.includes(name));
-  const label = (name: ControllerName): string =>
-    controllerLabel({ controller: name, program: name === 'program' ? (program() ?? null) : null });
   const start = async (): Promise<void> => {
     const tick = lab.state()?.tick;
     if (tick === undefined) return;
@@ -109,28 +101,16 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
         value={draft().repeats}
         onInput={(repeats) => setDraft({ ...draft(), repeats })}
       />
-      <fieldset>
-        <legend class="visually-hidden">Controllers to try</legend>
-        <For each={offered()}>
-          {(name) => (
-            <label class="check">
-              <input
-                type="checkbox"
-                checked={!draft().left_out.includes(name)}
-                aria-label={`Try ${label(name)}`}
-                onChange={({ currentTarget }) => {
-                  const others = draft().left_out.filter((one) => one !== name);
-                  setDraft({
-                    ...draft(),
-                    left_out: currentTarget.checked ? others : [...others, name],
-                  });
-                }}
-              />
-              {label(name)}
-            </label>
-          )}
-        </For>
-      </fieldset>
+      <ControllerChecks
+        verb="Try"
+        offered={offered()}
+        label={label}
+        isChosen={(name) => !draft().left_out.includes(name)}
+        onToggle={(name, on) => {
+          const others = draft().left_out.filter((one) => one !== name);
+          setDraft({ ...draft(), left_out: on ? others : [...others, name] });
+        }}
+      />
       <button
         type="button"
         class="small primary"
