@@ -30,7 +30,7 @@ pub use paper::PaperRow;
 pub use plan::{Contender, Plan, PlanError};
 pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
 pub use regression::{Baseline, BaselineError, Change, ERROR_RATE, Trials};
-pub use report::{Report, ReportError};
+pub use report::{Report, ReportError, html_document};
 pub use shard::{MergeError, Merged, Part, PartError, Shard, ShardError, merge};
 pub use statistics::{LEVEL, PairedCounts, corrected_level, wilson, wilson95};
 pub use summary::{Failure, Row};

@@ -2,6 +2,8 @@
 
 mod html;
 
+pub use html::html_document;
+
 use serde::Serialize;
 
 use super::{Cell, Comparison, Episode, Failure, PaperRow, Row};

@@ -32,6 +32,32 @@ small { opacity: .75; }
 
 pub(super) fn document(report: &Report, page: &str) -> String {
     let title = format!("Ferry: {} rows, seed {}", report.rows.len(), report.seed);
+    let body = html! {
+        h1 { "Evaluation" }
+        p {
+            "Ferry " (report.ferry) ", seed " (report.seed) ", rendered by " (report.adapter) ". "
+            em { "Reached" } ": the tool came within 2 cm of the goal, the paper's test. "
+            em { "Delivered" } ": the bead did too. All controllers of a map met the same starts, goals, seeds \
+             and pushes. Intervals are at 95 %."
+        }
+        (rows(report))
+        (comparisons(&report.comparisons))
+        (failures(&report.failures, page))
+        h2 { "The first episode of each row" }
+        @for (row, figure) in report.rows.iter().zip(&report.figures) {
+            @if let Some(svg) = figure {
+                figure {
+                    figcaption { (subject(row)) }
+                    (PreEscaped(svg))
+                }
+            }
+        }
+    };
+    html_document(&title, STYLE, body)
+}
+
+/// A document that needs no other file.
+pub fn html_document(title: &str, style: &str, body: Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -39,28 +65,10 @@ pub(super) fn document(report: &Report, page: &str) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width";
                 title { (title) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(style)) }
             }
             body {
-                h1 { "Evaluation" }
-                p {
-                    "Ferry " (report.ferry) ", seed " (report.seed) ", rendered by " (report.adapter) ". "
-                    em { "Reached" } ": the tool came within 2 cm of the goal, the paper's test. "
-                    em { "Delivered" } ": the bead did too. All controllers of a map met the same starts, goals, seeds \
-                     and pushes. Intervals are at 95 %."
-                }
-                (rows(report))
-                (comparisons(&report.comparisons))
-                (failures(&report.failures, page))
-                h2 { "The first episode of each row" }
-                @for (row, figure) in report.rows.iter().zip(&report.figures) {
-                    @if let Some(svg) = figure {
-                        figure {
-                            figcaption { (subject(row)) }
-                            (PreEscaped(svg))
-                        }
-                    }
-                }
+                (body)
                 p { small { "A simulation; not safety-rated." } }
             }
         }

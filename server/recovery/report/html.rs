@@ -1,8 +1,9 @@
 //! The report of a recovery map as a single HTML file.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::{CellRow, Report};
+use crate::evaluate::html_document;
 use crate::geometry::Point2;
 use crate::map::Map;
 
@@ -32,44 +33,32 @@ const WIDTH: f64 = 600.0;
 pub(super) fn document(report: &Report, map: &Map) -> String {
     let kind = report.kind.as_str();
     let title = format!("Ferry: recovery map ({kind}) on {}, seed {}", report.map, report.seed);
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width";
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                h1 { "Recovery map: " (kind) " on " (report.map) }
-                p {
-                    "Ferry " (report.ferry) ", rendered by " (report.adapter) ". From tick " (report.tick) ", seed "
-                    (report.seed) ", " (report.repeats) " trials per cell and controller. A delivery within "
-                    (report.within_s) " s is in time. Intervals are at 95 %."
+    let body = html! {
+        h1 { "Recovery map: " (kind) " on " (report.map) }
+        p {
+            "Ferry " (report.ferry) ", rendered by " (report.adapter) ". From tick " (report.tick) ", seed "
+            (report.seed) ", " (report.repeats) " trials per cell and controller. A delivery within "
+            (report.within_s) " s is in time. Intervals are at 95 %."
+        }
+        @if !report.changes.is_empty() {
+            p { "Parameters other than the default: " (report.changes.join(", ")) }
+        }
+        p.key {
+            (key(DELIVERED)) " delivered: the more trials, the darker; "
+            (key("url(#late)")) " mostly late; " (key("url(#lost)")) " mostly lost."
+        }
+        div.maps {
+            @for name in &report.controllers {
+                figure {
+                    figcaption { (name) }
+                    (figure(report, map, name))
                 }
-                @if !report.changes.is_empty() {
-                    p { "Parameters other than the default: " (report.changes.join(", ")) }
-                }
-                p.key {
-                    (key(DELIVERED)) " delivered: the more trials, the darker; "
-                    (key("url(#late)")) " mostly late; " (key("url(#lost)")) " mostly lost."
-                }
-                div.maps {
-                    @for name in &report.controllers {
-                        figure {
-                            figcaption { (name) }
-                            (figure(report, map, name))
-                        }
-                    }
-                }
-                (basins(report))
-                (differences(report))
-                p { small { "A simulation; not safety-rated." } }
             }
         }
-    }
-    .into_string()
+        (basins(report))
+        (differences(report))
+    };
+    html_document(&title, STYLE, body)
 }
 
 fn key(fill: &str) -> Markup {
