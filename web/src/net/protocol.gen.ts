@@ -99,7 +99,7 @@ export const SHIPPED_MAPS: readonly string[] = ['attractor-example', 'attractor-
 
 /** Settings of the recipes. */
 export const RECIPES = {
-  quick: {"discount":0.96,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.1,"updates":8000},
+  quick: {"discount":0.96,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.1,"updates":10000},
   full: {"discount":0.9,"exploration":0.05,"fusion":"late","learning_rate":0.001,"n_step":1,"noisy":true,"progress_reward":0.1,"step_penalty":0.0,"updates":12000},
   paper: {"discount":0.99,"exploration":0.0,"fusion":"early","learning_rate":0.0001,"n_step":3,"noisy":true,"progress_reward":0.0,"step_penalty":0.0,"updates":12000},
 } as const;
