@@ -12,19 +12,22 @@ use ferry::trial::{Case, CaseOutcome};
 use crate::support::{Browser, Laboratory, ferry, files, gpu};
 
 impl Laboratory {
-    /// The report of a recovery map once it has ended.
+    /// The report of a recovery map once it has ended; fails after a minute without progress.
     async fn mapped(&self, query: Value) -> Value {
         let (status, made) = self.ask("POST", "/api/recoveries", &query.to_string()).await;
         assert_eq!(status, 202, "{made}");
         let path = format!("/api/recoveries/{}", made["id"].as_str().unwrap());
-        let begun = Instant::now();
+        let (mut last, mut since) = (Value::Null, Instant::now());
         loop {
             let (status, report) = self.ask("GET", &path, "").await;
             assert_eq!(status, 200, "{report}");
             if !["waiting", "running"].contains(&report["stage"].as_str().unwrap()) {
                 return report;
             }
-            assert!(begun.elapsed() < Duration::from_secs(120), "{} of {}", report["done"], report["planned"]);
+            if report["done"] != last {
+                (last, since) = (report["done"].clone(), Instant::now());
+            }
+            assert!(since.elapsed() < Duration::from_secs(60), "{} of {}", report["done"], report["planned"]);
             tokio::time::sleep(Duration::from_millis(50)).await;
         }
     }

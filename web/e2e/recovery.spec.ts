@@ -17,7 +17,7 @@ async function middleOf(lab: Lab): Promise<Point> {
 }
 
 test('a recovery map of a live moment shows its cells, and a trial is set up', async ({ lab }) => {
-  await makeMap(lab);
+  await makeMap(lab, '2');
   await expect(progress(lab)).toContainText('place on posts');
   const { tick } = lab.state;
   const first = cells(lab).first();

@@ -19,7 +19,7 @@ const shown = (lab: Lab) => lab.text('recovery-progress');
 
 export const RECOVERY: Section = {
   name: 'recovery maps',
-  ready: makeMap,
+  ready: (lab) => makeMap(lab),
   rows: {
     'combobox Disturbance': { see: valueOf },
     'spinbutton Directions': { see: valueOf },
@@ -43,7 +43,7 @@ export const RECOVERY: Section = {
     'combobox Show': { see: valueOf },
     'button /^Map recovery from/': {
       see: maps,
-      ready: chooseSmall,
+      ready: (lab) => chooseSmall(lab),
       after: isDone,
     },
     'combobox Recovery map': { see: valueOf },
