@@ -148,7 +148,8 @@ fn a_planner_restored_during_a_search_finds_the_same_path() {
     let mut searched = 0;
     for _ in 0..12 {
         let kept = trial.snapshot();
-        let bytes = postcard::to_stdvec(&kept).unwrap();
+        let mut bytes = Vec::new();
+        ciborium::into_writer(&kept, &mut bytes).unwrap();
         let mut course = || -> Vec<u64> {
             (0..63)
                 .map(|_| {
@@ -160,7 +161,7 @@ fn a_planner_restored_during_a_search_finds_the_same_path() {
         };
         let first = course();
         // Serialisation drops what was derived from the map; it is calculated again.
-        trial.restore(postcard::from_bytes(&bytes).unwrap());
+        trial.restore(ciborium::from_reader(&*bytes).unwrap());
         let mut again = || -> Vec<u64> {
             (0..63).map(|_| trial.tick(Source::Camera(&mut camera)).unwrap().controller_hash).collect()
         };

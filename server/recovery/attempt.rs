@@ -4,14 +4,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use super::Spot;
-use super::survey::Recovery;
 use crate::camera::ImageSource;
 use crate::evaluate::EvaluateError;
 use crate::program::{self, Carrier};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::ControllerName;
-use crate::trial::{Beginning, Input, Phase, Sink, Timed, TrialError};
+use crate::trial::{Beginning, Origin, Phase, Sink, Timed, TrialError};
 
 /// A trial that neither delivers nor ends is lost after this time.
 const MOST_S: f64 = 900.0;
@@ -43,37 +40,30 @@ pub struct Tried {
     pub controller_hash: u64,
 }
 
-impl Recovery {
-    /// The inputs at the moment and after it: the controller, the noise, and a disturbance.
-    pub(super) fn inputs(&self, controller: ControllerName, seed: u64, spot: Option<Spot>) -> Vec<Timed> {
-        let state = &self.start.origin.state;
-        let (tick, plant) = (state.world.tick, &state.world.plant);
-        let mut inputs = vec![Input::Reseed { seed }];
-        if plant.hand.is_some() {
-            inputs.push(Input::Release);
-        }
-        if controller != state.controller {
-            inputs.push(Input::SelectController(controller));
-        }
-        let inputs = inputs.into_iter().map(|input| Timed { tick, input });
-        inputs.chain(spot.into_iter().flat_map(|spot| spot.inputs(tick, plant.bead.position_m))).collect()
-    }
+/// What all trials of a recovery map have in common.
+pub(super) struct Setting<'a> {
+    pub origin: &'a Origin,
+    /// What a recording begins with.
+    pub beginning: Beginning,
+    pub within_s: f64,
+}
 
-    /// Runs a trial to its end.
-    pub(super) fn attempt(
+impl Setting<'_> {
+    /// Runs a trial to its end, which comes `over_ticks` after the moment at the earliest.
+    pub fn attempt(
         &self,
         inputs: &[Timed],
-        spot: Option<Spot>,
+        over_ticks: u64,
         carrier: Option<Carrier<'_>>,
         camera: &mut dyn ImageSource,
         sink: &mut dyn Sink,
         stop: &AtomicBool,
     ) -> Result<Tried, EvaluateError> {
-        let mut trial = self.start.origin.trial()?;
+        let mut trial = self.origin.trial()?;
         let begin = trial.state().world.tick;
         let steps = trial.state().world.counters.steps;
-        sink.begin(&trial, if self.start.is_fresh() { Beginning::SetUp } else { Beginning::Resumed });
-        let over = begin + spot.map_or(0, Spot::lasts_ticks);
+        sink.begin(&trial, self.beginning);
+        let over = begin + over_ticks;
         let most = over + (MOST_S / SERVO_PERIOD_S) as u64;
         let mut inputs = inputs.iter().peekable();
         let mut delivered = None;
@@ -96,7 +86,7 @@ impl Recovery {
             }
             let time_s = (delivered.unwrap_or(now + 1) - begin) as f64 * SERVO_PERIOD_S;
             let outcome = match delivered {
-                Some(_) if time_s <= self.query.within_s => Outcome::Delivered,
+                Some(_) if time_s <= self.within_s => Outcome::Delivered,
                 Some(_) => Outcome::Late,
                 None => Outcome::Lost,
             };

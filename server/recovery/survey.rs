@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::attempt::Setting;
 use super::findings::Cell;
 use super::grid::Grid;
 use super::{Findings, Kind, RecoveryError, RecoveryQuery, Spot, Tried};
@@ -12,7 +13,7 @@ use crate::evaluate::{EvaluateError, Venue};
 use crate::jobs::Life;
 use crate::program::{Carrier, Program};
 use crate::scenario::ControllerName;
-use crate::trial::{Case, Expectation, LoggedMap, Nowhere, Origin, Sink, Timed};
+use crate::trial::{Beginning, Case, Expectation, Input, LoggedMap, Nowhere, Origin, Sink, Timed};
 
 /// The moment of a recovery map.
 #[derive(Clone, Debug)]
@@ -119,6 +120,21 @@ impl Recovery {
     fn seed(&self, cell: &Cell, repeat: usize) -> u64 {
         let number = cell.number.wrapping_mul(u64::from(self.query.repeats)).wrapping_add(repeat as u64);
         self.query.seed.wrapping_add(number)
+    }
+
+    /// The inputs at the moment and after it: the controller, the noise, and a disturbance.
+    fn inputs(&self, controller: ControllerName, seed: u64, spot: Option<Spot>) -> Vec<Timed> {
+        let state = &self.start.origin.state;
+        let (tick, plant) = (state.world.tick, &state.world.plant);
+        let mut inputs = vec![Input::Reseed { seed }];
+        if plant.hand.is_some() {
+            inputs.push(Input::Release);
+        }
+        if controller != state.controller {
+            inputs.push(Input::SelectController(controller));
+        }
+        let inputs = inputs.into_iter().map(|input| Timed { tick, input });
+        inputs.chain(spot.into_iter().flat_map(|spot| spot.inputs(tick, plant.bead.position_m))).collect()
     }
 
     /// The inputs of a trial, from the moment on.
@@ -268,7 +284,11 @@ impl Run<'_> {
         let is_program = recovery.query.controllers[controller] == ControllerName::Program;
         let program = recovery.start.program.as_deref().filter(|_| is_program);
         let carrier = program.map(|program| Carrier { program, trial: name });
-        let tried = recovery.attempt(inputs, spot, carrier, &mut camera, &mut *sink, self.life.stop());
+        let start = &recovery.start;
+        let beginning = if start.is_fresh() { Beginning::SetUp } else { Beginning::Resumed };
+        let setting = Setting { origin: &start.origin, beginning, within_s: recovery.query.within_s };
+        let over_ticks = spot.map_or(0, Spot::lasts_ticks);
+        let tried = setting.attempt(inputs, over_ticks, carrier, &mut camera, &mut *sink, self.life.stop());
         if let Some(carrier) = carrier {
             carrier.end();
         }
