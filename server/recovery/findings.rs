@@ -95,8 +95,6 @@ pub struct Findings {
     pub done: usize,
     /// Number of trials that are planned; it grows where cells are divided.
     pub planned: usize,
-    /// Time to the delivery without a disturbance, for each controller; only for [`Kind::Blind`](super::Kind::Blind).
-    pub undisturbed_s: Vec<Option<f64>>,
 }
 
 #[cfg(test)]

@@ -109,7 +109,6 @@ impl Recovery {
             Kind::Blind => {
                 let undisturbed_s = run.undisturbed()?;
                 let slowest_s = undisturbed_s.iter().flatten().fold(1.0, |slowest: f64, &time_s| slowest.max(time_s));
-                life.update(|findings| findings.undisturbed_s = undisturbed_s);
                 run.all(&self.spots(slowest_s))
             }
             Kind::Push | Kind::Drag => run.all(&self.spots(0.0)),
