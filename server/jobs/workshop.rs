@@ -38,21 +38,21 @@ pub(super) fn lower_priority() {
     }
 }
 
-/// A pool with all cores except one, at low priority.
+/// A pool with all cores, at low priority: a live session takes a core from it at once.
 ///
 /// # Errors
 /// The threads could not start.
 pub fn gentle_pool(name: &'static str) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
-    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     ThreadPoolBuilder::new()
-        .num_threads(cores.saturating_sub(1).max(1))
+        .num_threads(cores)
         .thread_name(move |index| format!("{name} {index}"))
         .start_handler(|_| lower_priority())
         .build()
 }
 
 impl Workshop {
-    /// A pool with all cores except one, and a device like `gpu`. Call it on a thread with low priority: a software
+    /// A pool with all cores, and a device like `gpu`. Call it on a thread with low priority: a software
     /// graphics driver starts its threads here, and they inherit the priority.
     ///
     /// # Errors
