@@ -3,6 +3,7 @@
 mod attempts;
 mod check;
 mod evaluate;
+mod formats;
 mod map;
 mod maps;
 mod merge;

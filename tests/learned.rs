@@ -42,7 +42,13 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
     let venue = Venue::of(Arena::open("colon").unwrap());
     for (disturbances, least) in [(0, 39), (3, 38)] {
         let experiment = Experiment {
-            cell: Cell { controller: ControllerName::Rl, map: "colon".to_owned(), disturbances, program: None },
+            cell: Cell {
+                controller: ControllerName::Rl,
+                map: "colon".to_owned(),
+                disturbances,
+                program: None,
+                varied: Vec::new(),
+            },
             venue: venue.clone(),
             map: "colon".to_owned(),
             episodes: 40,

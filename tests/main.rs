@@ -33,6 +33,7 @@ mod recordings;
 mod recoveries;
 mod reference;
 mod rendering;
+mod robustness;
 mod shards;
 mod sights;
 mod stopping;

@@ -100,6 +100,59 @@ fn merged_shards_are_the_whole_evaluation() {
 }
 
 #[test]
+fn merged_shards_are_the_whole_recovery_map() {
+    const QUERY: [&str; 11] = [
+        "recovery",
+        "--map",
+        "posts",
+        "--controller",
+        "errt,attractor",
+        "--grid",
+        "5",
+        "--repeats",
+        "2",
+        "--seed",
+        "3",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for kind in ["place", "blind"] {
+        let query = [&QUERY[..], &["--kind", kind]].concat();
+        let whole = ferry(&[&query[..], &["--full", "--json"]].concat());
+        let files: Vec<String> = (1..=3)
+            .map(|number| {
+                let file = folder.path().join(format!("{kind}-{number}.json")).display().to_string();
+                let output = ferry(&[&query[..], &["--shard", &format!("{number}/3"), "--out", &file]].concat());
+                assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+                file
+            })
+            .collect();
+        let [one, two, three] = files.iter().map(String::as_str).collect::<Vec<_>>().try_into().unwrap();
+        let html = folder.path().join("a.html").display().to_string();
+        let merged = ferry(&["merge", two, three, one, "--json", "--html", &html]);
+        let [merged, whole]: [Value; 2] =
+            [&merged, &whole].map(|output| serde_json::from_slice(&output.stdout).unwrap());
+        assert!(merged["cells"].as_array().unwrap().len() > 10);
+        assert_eq!(merged, whole);
+        assert!(std::fs::read_to_string(html).unwrap().contains("<svg"));
+
+        assert!(refusal(&[one, three]).contains("a shard is missing: 2/3"));
+        let changed = |name: &str, change: &dyn Fn(&mut Value)| {
+            let mut part: Value = serde_json::from_slice(&std::fs::read(two).unwrap()).unwrap();
+            change(&mut part);
+            let path = folder.path().join(name).display().to_string();
+            std::fs::write(&path, part.to_string()).unwrap();
+            path
+        };
+        let seed = changed("seed.json", &|part| part["subject"]["query"]["seed"] = 4.into());
+        assert!(refusal(&[one, &seed, three]).contains("seed.json: subject.query.seed is 4, but 3 in"));
+        let twice = changed("twice.json", &|part| part["trials"][1] = part["trials"][0].clone());
+        assert!(refusal(&[one, &twice, three]).contains("twice.json: it does not have the trials of shard 2/3"));
+        let later = changed("later.json", &|part| part["ferry_recovery_part"] = 2.into());
+        assert!(refusal(&[one, &later, three]).contains("ferry_recovery_part is 2, this Ferry reads 1"));
+    }
+}
+
+#[test]
 fn a_shard_needs_a_number_and_a_file() {
     for (arguments, text) in [
         (&["--shard", "5/4", "--out", "x"][..], "\"5/4\" is not a shard: it must be I/N"),

@@ -49,11 +49,11 @@ class Mazes:
     def remaining_m(self) -> NDArray[np.float64]: ...
     def picture(self, lane: int, width_px: int, height_px: int) -> NDArray[np.uint8]: ...
 
-class Evaluation:
-    """All rows of an evaluation, ready to run."""
+class Job:
+    """An evaluation or a recovery map, ready to run."""
 
-    def __new__(
-        cls,
+    @staticmethod
+    def evaluation(
         *,
         controllers: Sequence[tuple[str, bool]],
         maps: Sequence[str],
@@ -61,11 +61,28 @@ class Evaluation:
         episodes: int,
         seed: int,
         changes: Sequence[str],
+        vary: Sequence[str],
         by_hand: bool,
         tool_apart: bool,
         policy: str | None,
-    ) -> Evaluation: ...
+    ) -> Job: ...
+    @staticmethod
+    def recovery(
+        *,
+        controllers: Sequence[tuple[str, bool]],
+        map: str,
+        scenario: str | None,
+        at_s: float,
+        kind: str,
+        grid: int,
+        repeats: int,
+        seed: int,
+        within_s: float,
+        full: bool,
+        changes: Sequence[str],
+    ) -> Job: ...
     def done(self) -> int: ...
+    def planned(self) -> int: ...
     def stop(self) -> None: ...
     def run(self, number: int, count: int, threads: int) -> bytes: ...
     def receive(self, own: int) -> str | bytes | None: ...
@@ -73,4 +90,4 @@ class Evaluation:
     def send(self, own: int, text: str) -> None: ...
 
 def merge(parts: Sequence[bytes]) -> str:
-    """The report of an evaluation as JSON, from the files of all its shards."""
+    """The report of an evaluation or of a recovery map as JSON, from the files of all its shards."""

@@ -24,6 +24,7 @@ RETRIES = 5
 SHARDS_MOST = 10_000
 LOOK_S = 0.2
 
+Kind = Literal["evaluation", "recovery"]
 Controllers = Controller | str | Sequence[Controller | str] | Mapping[str, Controller | str]
 
 
@@ -57,6 +58,7 @@ def evaluate(
     episodes: int = 30,
     seed: int = 1,
     parameters: Mapping[str, Any] | None = None,
+    vary: Mapping[str, tuple[float, float, int]] | None = None,
     by_hand: bool = False,
     tool_apart: bool = False,
     policy: str | PathLike[str] | None = None,
@@ -76,6 +78,8 @@ def evaluate(
         episodes: trials for each row, 1 to 100,000.
         seed: seed of the trials.
         parameters: Ferry's parameters by name, as in ``ferry evaluate --set``.
+        vary: parameters that take several values, at most two, each with the first value, the last one and how many;
+            every combination has its rows, and ``row["varied"]`` says which.
         by_hand: a hand draws the bead through free space; otherwise it is lifted.
         tool_apart: the tool starts at least 15 cm from the bead; otherwise above it.
         policy: a policy's file for ``"rl"``, instead of the shipped ones.
@@ -88,9 +92,10 @@ def evaluate(
         Exception: whatever :meth:`Controller.act` raises.
     """
     check_engine(engine)
-    named = _named(controllers)
+    named = with_names(controllers)
     maps = [fspath(one) for one in ([map] if isinstance(map, str | PathLike) else map)]
     counts = [disturbances] if isinstance(disturbances, int) else list(disturbances)
+    varied = vary or {}
     settings = {
         "controllers": [(name, isinstance(one, Controller)) for name, one in named],
         "maps": maps,
@@ -98,14 +103,19 @@ def evaluate(
         "episodes": episodes,
         "seed": seed,
         "changes": changes(parameters),
+        "vary": [f"{name}={first}:{last}:{count}" for name, (first, last, count) in varied.items()],
         "by_hand": by_hand,
         "tool_apart": tool_apart,
         "policy": None if policy is None else fspath(policy),
     }
     own = [one for _, one in named if isinstance(one, Controller)]
-    trials = len(named) * len(maps) * len(counts) * episodes
+    values = math.prod(max(1, count) for _, _, count in varied.values())
+    trials = len(named) * len(maps) * len(counts) * values * episodes
     with tqdm(total=trials, unit=" trials", disable=None) as bar:
-        parts = _tasks(settings, own, trials, bar) if engine else [_part(settings, own, 1, 1, 0, bar)]
+        if engine:
+            parts = in_shards("evaluation", settings, own, trials, bar)
+        else:
+            parts = [part("evaluation", settings, own, bar=bar)]
     return Evaluation(json.loads(_ferry.merge(parts)))
 
 
@@ -122,7 +132,7 @@ def changes(parameters: Mapping[str, Any] | None) -> list[str]:
     ]
 
 
-def _named(controllers: Controllers) -> list[tuple[str, Controller | str]]:
+def with_names(controllers: Controllers) -> list[tuple[str, Controller | str]]:
     """Each controller with its name; Ferry's with their own."""
     if isinstance(controllers, Controller | str):
         controllers = [controllers]
@@ -143,16 +153,17 @@ def _named(controllers: Controllers) -> list[tuple[str, Controller | str]]:
     return named
 
 
-def _part(
+def part(
+    kind: Kind,
     settings: Mapping[str, Any],
     own: Sequence[Controller],
-    number: int,
-    count: int,
-    threads: int = 1,
+    number: int = 1,
+    count: int = 1,
+    threads: int = 0,
     bar: tqdm[Any] | None = None,
 ) -> bytes:
-    """Runs a shard, and returns its file."""
-    native = _ferry.Evaluation(**settings)
+    """Runs a shard of a job on some threads, 0 for one per core, and returns its file."""
+    native: _ferry.Job = getattr(_ferry.Job, kind)(**settings)
     with ThreadPoolExecutor(1 + len(own)) as pool:
         answering = [pool.submit(_answer, native, index, one) for index, one in enumerate(own)]
         running = pool.submit(native.run, number, count, threads)
@@ -161,6 +172,7 @@ def _part(
         try:
             while not ended.wait(LOOK_S):
                 if bar is not None:
+                    bar.total = native.planned()
                     bar.update(native.done() - bar.n)
         finally:
             native.stop()
@@ -171,7 +183,7 @@ def _part(
         return running.result()
 
 
-def _answer(native: _ferry.Evaluation, index: int, controller: Controller) -> None:
+def _answer(native: _ferry.Job, index: int, controller: Controller) -> None:
     """Answers all questions to one controller. What it raises ends the evaluation."""
     trials = Trials(controller)
     try:
@@ -190,10 +202,17 @@ def _answer(native: _ferry.Evaluation, index: int, controller: Controller) -> No
         raise
 
 
-def _tasks(settings: Mapping[str, Any], own: Sequence[Controller], trials: int, bar: tqdm[Any]) -> list[bytes]:
+def in_shards(
+    kind: Kind,
+    settings: Mapping[str, Any],
+    own: Sequence[Controller],
+    trials: int,
+    bar: tqdm[Any],
+) -> list[bytes]:
+    """The files of all shards, each a task of Ray."""
     count = max(1, min(math.ceil(trials / TRIALS_A_TASK), SHARDS_MOST))
-    shards = [(settings, list(own), number, count) for number in range(1, count + 1)]
-    return in_parallel(_part, shards, lambda _: bar.update(min(trials / count, trials - bar.n)))
+    shards = [(kind, settings, list(own), number, count, 1) for number in range(1, count + 1)]
+    return in_parallel(part, shards, lambda _: bar.update(min(trials / count, trials - bar.n)))
 
 
 def in_parallel(

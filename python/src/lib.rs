@@ -1,6 +1,6 @@
 //! The native part of the Python package `ferry`.
 
-mod evaluation;
+mod job;
 mod lattice;
 mod maze;
 
@@ -82,6 +82,6 @@ fn _ferry(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(observation, module)?)?;
     module.add_class::<lattice::Lattice>()?;
     module.add_class::<maze::Mazes>()?;
-    module.add_function(wrap_pyfunction!(evaluation::merge, module)?)?;
-    module.add_class::<evaluation::Evaluation>()
+    module.add_function(wrap_pyfunction!(job::merge, module)?)?;
+    module.add_class::<job::Job>()
 }

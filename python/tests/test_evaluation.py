@@ -59,6 +59,15 @@ def test_it_gives_what_the_command_gives() -> None:
     assert untimed(done.report) == untimed(json.loads(printed))
 
 
+def test_a_varied_parameter_has_rows_for_its_values() -> None:
+    done = ferry.evaluate(["attractor", "errt"], map="open", episodes=2, vary={"friction": (0.2, 0.4, 3)})
+    varied = [(row["controller"], row["varied"][0]["name"], row["varied"][0]["value"]) for row in done.rows]
+    assert varied == [(name, "friction", value) for value in (0.2, 0.3, 0.4) for name in ("attractor", "errt")]
+    assert [one["varied"][0]["value"] for one in done.comparisons] == [0.2, 0.3, 0.4]
+    with pytest.raises(ValueError, match="friction is 1.5"):
+        ferry.evaluate("attractor", map="open", episodes=1, vary={"friction": (0.5, 1.5, 2)})
+
+
 class Broken(ferry.Controller):
     def act(self, percept: ferry.Percept) -> Any:
         return "left" if percept.leg.trial.endswith("1") else ferry.Step(tuple(percept.goal_m))

@@ -35,7 +35,7 @@ def untimed(report: Any) -> list[dict[str, Any]]:
 
 def busy_workers() -> list[int]:
     listed = subprocess.run(["ps", "-eo", "pid,args"], capture_output=True, text=True, check=True).stdout
-    return [int(line.split()[0]) for line in listed.splitlines() if "ray::_part" in line]
+    return [int(line.split()[0]) for line in listed.splitlines() if "ray::part" in line]
 
 
 def test_a_lost_worker_changes_nothing() -> None:
@@ -83,3 +83,11 @@ def test_trainings_with_several_seeds_give_what_the_command_gives(tmp_path: Path
     assert spread[0].read_bytes() != spread[1].read_bytes()
     with pytest.raises(ValueError, match="discount is 2"):
         ferry.train("u-turn", tmp_path, settings={"discount": 2})
+
+
+def test_a_recovery_map_is_the_same() -> None:
+    settings: dict[str, Any] = {"map": "posts", "grid": 8, "repeats": 2, "seed": 6}
+    controllers: list[ferry.Controller | str] = [Straight(), "attractor"]
+    alone = ferry.recovery(controllers, **settings, full=True)
+    assert len(alone.cells) > 16
+    assert ferry.recovery(controllers, **settings, engine="ray").report == alone.report

@@ -12,8 +12,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::camera::Gpu;
 use crate::evaluate::{
-    Cell, Contender, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard, Trials, Watch, run,
-    run_one, run_trials, unrecorded,
+    Cell, Contender, Episode, EvaluateError, Experiment, Manner, Part, Plan, Report, Shard, Trials, Variation, Watch,
+    run, run_one, run_trials, unrecorded,
 };
 use crate::files::replace;
 use crate::policy::Policy;
@@ -47,6 +47,10 @@ pub struct Arguments {
     /// Set a parameter, for example attractor_law=literal; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Give a parameter several values, for example friction=0.1:0.4:4 for four from 0.1 to 0.4. Twice: two
+    /// parameters in all combinations
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT")]
+    vary: Vec<Variation>,
     /// Disturb with a hand that draws the bead through free space at 0.2 m/s, instead of lifting it
     #[arg(long)]
     by_hand: bool,
@@ -74,7 +78,7 @@ pub fn run_command(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some((shard, path)) = arguments.shard.zip(arguments.out.as_deref()) {
         return run_shard(&experiments, shard, path);
     }
-    arguments.output.prepare()?;
+    arguments.output.formats.prepare()?;
     let gpu = super::open_gpu()?;
     let episodes = evaluate(arguments, &experiments, &gpu)?;
     let done: Vec<(&Cell, &[Episode])> =
@@ -104,6 +108,7 @@ fn experiments(arguments: &Arguments) -> anyhow::Result<Vec<Experiment>> {
         episodes: arguments.episodes,
         seed: arguments.seed,
         parameters: Parameters::default().with(&arguments.set).context("--set")?,
+        vary: arguments.vary.clone(),
         manner: Manner { by_hand: arguments.by_hand, tool_apart: arguments.tool_apart },
         policy: arguments.policy.as_deref().map(Policy::open).transpose()?,
     };
@@ -117,9 +122,7 @@ pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Ve
     let experiments = experiments(arguments)?;
     let episodes = evaluate(arguments, &experiments, gpu)?;
     let row = |(experiment, episodes): (&Experiment, &Vec<Episode>)| {
-        let Cell { map, disturbances, .. } = &experiment.cell;
-        let name = format!("{} on {map}, {disturbances} disturbances", experiment.cell.controller());
-        Trials::of(name, episodes.iter().map(|episode| episode.delivered))
+        Trials::of(experiment.cell.to_string(), episodes.iter().map(|episode| episode.delivered))
     };
     Ok(experiments.iter().zip(&episodes).map(row).collect())
 }

@@ -6,15 +6,16 @@ use std::process::ExitCode;
 use anyhow::Context;
 
 use super::evaluate::Output;
-use crate::evaluate::{Part, Report, merge};
+use crate::evaluate::{Part, PartError, Report, merge};
 use crate::files::read_at_most;
+use crate::recovery::{self, RecoveryPart, merge_recovery};
 
 /// Largest file of a shard.
 const BYTES_MOST: u64 = 4 << 30;
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The files of all shards, from `ferry evaluate --shard I/N --out FILE`
+    /// The files of all shards, from `--shard I/N --out FILE` of `ferry evaluate` or `ferry recovery`
     #[arg(required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -23,12 +24,29 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let read = |path: &PathBuf| {
-        let name = path.display().to_string();
-        let bytes = read_at_most(path, BYTES_MOST).with_context(|| name.clone())?;
-        let part = Part::read(&bytes).with_context(|| name.clone())?;
-        anyhow::Ok((name, part))
+        let bytes = read_at_most(path, BYTES_MOST).with_context(|| path.display().to_string())?;
+        anyhow::Ok((path.display().to_string(), bytes))
     };
-    let merged = merge(arguments.files.iter().map(read).collect::<Result<_, _>>()?)?;
-    arguments.output.prepare()?;
+    let files: Vec<(String, Vec<u8>)> = arguments.files.iter().map(read).collect::<Result<_, _>>()?;
+    if files.iter().any(|(_, bytes)| RecoveryPart::is_named_in(bytes)) {
+        let merged = merge_recovery(parts(files, RecoveryPart::read)?)?;
+        arguments.output.formats.prepare()?;
+        let report = recovery::Report::of(&merged.subject, &merged.adapter, &merged.findings);
+        return super::recovery::write(&arguments.output.formats, &report, &merged.subject);
+    }
+    let merged = merge(parts(files, Part::read)?)?;
+    arguments.output.formats.prepare()?;
     arguments.output.write(&Report::of(&merged.adapter, merged.seed, &merged.done()), merged.manner)
+}
+
+/// What the files have, each with its name.
+fn parts<P>(
+    files: Vec<(String, Vec<u8>)>,
+    read: impl Fn(&[u8]) -> Result<P, PartError>,
+) -> anyhow::Result<Vec<(String, P)>> {
+    let part = |(name, bytes): (String, Vec<u8>)| {
+        let part = read(&bytes).with_context(|| name.clone())?;
+        Ok((name, part))
+    };
+    files.into_iter().map(part).collect()
 }

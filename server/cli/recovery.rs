@@ -7,14 +7,15 @@ use std::sync::Arc;
 use anyhow::Context;
 
 use super::evaluate::{interval, progress_bar, table};
+use super::formats::{Formats, Formatted};
 use crate::camera::Gpu;
-use crate::evaluate::{EvaluateError, Trials};
+use crate::evaluate::{EvaluateError, Shard, Trials};
+use crate::files::replace;
 use crate::jobs::Life;
 use crate::recording::Recorder;
-use crate::recovery::{Findings, Kind, Outcome, Recovery, RecoveryQuery, Report, Start};
-use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, Scenario};
-use crate::trial::{Arena, Case, Nowhere, Origin, Sink, Timed};
+use crate::recovery::{Findings, Kind, Outcome, Recovery, RecoveryPart, RecoveryPlan, RecoveryQuery, Report, Subject};
+use crate::scenario::ControllerName;
+use crate::trial::{Nowhere, Sink};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -51,48 +52,51 @@ pub struct Arguments {
     /// Set a parameter, for example threshold_m=0.02; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Print only one JSON object
-    #[arg(long)]
-    json: bool,
-    /// Write the cells to this CSV file
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Write maps and tables to this self-contained HTML file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
     /// Record every trial to this folder: .rrd for Rerun, .ferry for `ferry replay`, and .json as a test case
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
+    /// Run only every N-th trial of the finest grid, beginning with the I-th, and write them to --out for `ferry merge`
+    #[arg(long, value_name = "I/N", requires = "out", conflicts_with = "record")]
+    shard: Option<Shard>,
+    /// File of the shard
+    #[arg(long, value_name = "FILE", requires = "shard")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    formats: Formats,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
-        std::fs::write(path, "").with_context(|| path.display().to_string())?;
-    }
     let gpu = super::open_gpu()?;
+    let adapter = gpu.adapter_name();
+    if let Some((shard, path)) = arguments.shard.zip(arguments.out.as_deref()) {
+        let (recovery, findings) = survey(arguments, &gpu, true)?;
+        let part = RecoveryPart::of(&recovery, shard, adapter, &findings)?;
+        replace(path, &serde_json::to_vec(&part)?).with_context(|| path.display().to_string())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    arguments.formats.prepare()?;
     let (recovery, findings) = survey(arguments, &gpu, arguments.full)?;
-    let report = Report::of(&recovery, gpu.adapter_name(), &findings);
     if let Some(folder) = &arguments.record {
         write_cases(folder, &recovery, &findings)?;
     }
-    if let Some(path) = &arguments.csv {
-        std::fs::write(path, report.to_csv()?).with_context(|| path.display().to_string())?;
-    }
-    if let Some(path) = &arguments.html {
-        let map = &recovery.start.origin.arena.map;
-        std::fs::write(path, report.to_html(map)).with_context(|| path.display().to_string())?;
-    }
-    if arguments.json {
-        println!("{}", serde_json::to_string(&report)?);
-    } else {
-        print(&report);
-    }
-    Ok(ExitCode::SUCCESS)
+    let subject = recovery.subject()?;
+    write(&arguments.formats, &Report::of(&subject, adapter, &findings), &subject)
+}
+
+/// Writes the files, and prints the report.
+pub(super) fn write(formats: &Formats, report: &Report, subject: &Subject) -> anyhow::Result<ExitCode> {
+    let formatted = Formatted {
+        csv: &|| Ok(report.to_csv()?),
+        html: &|| Ok(report.to_html(&subject.map.map()?)),
+        print: &|| print(report),
+    };
+    formats.write(report, &formatted)
 }
 
 /// What each trial gave, for a baseline. All cells are tried, so that there are always the same trials.
 pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Vec<Trials>> {
-    anyhow::ensure!(arguments.record.is_none(), "a baseline is made without --record");
+    let has_other = arguments.record.is_some() || arguments.shard.is_some();
+    anyhow::ensure!(!has_other, "a baseline is made without --record and --shard");
     let (recovery, findings) = survey(arguments, gpu, true)?;
     let row = |(index, name): (usize, &str)| {
         let ended = findings.cells.iter().flat_map(|cell| cell.ended(index));
@@ -104,12 +108,6 @@ pub(super) fn trials(arguments: &Arguments, gpu: &Arc<Gpu>) -> anyhow::Result<Ve
 
 /// Tries everything on all cores, with a progress bar.
 fn survey(arguments: &Arguments, gpu: &Arc<Gpu>, is_full: bool) -> anyhow::Result<(Recovery, Findings)> {
-    let case = case(arguments)?;
-    let arena = case.arena()?;
-    let tick = (arguments.at_s / SERVO_PERIOD_S) as u64;
-    let moment = case.after(tick, &arena, &mut arena.camera(gpu)?)?;
-    let told: Vec<Timed> = case.inputs.into_iter().filter(|timed| timed.tick <= tick).collect();
-    let start = Start { origin: Origin::of(&moment), told: Some(told), program: None };
     let query = RecoveryQuery {
         kind: arguments.kind,
         controllers: arguments.controller.clone(),
@@ -119,7 +117,15 @@ fn survey(arguments: &Arguments, gpu: &Arc<Gpu>, is_full: bool) -> anyhow::Resul
         within_s: arguments.within_s,
         is_full,
     };
-    let recovery = Recovery::new(query, start)?;
+    let plan = RecoveryPlan {
+        map: arguments.map.clone(),
+        scenario: arguments.scenario.clone(),
+        at_s: arguments.at_s,
+        query,
+        changes: arguments.set.clone(),
+        program: None,
+    };
+    let recovery = plan.recovery(gpu)?;
     let life = Life::new(Findings::default());
     let bar = progress_bar(0)?;
     let recorders = |name: &str| -> Result<Box<dyn Sink>, EvaluateError> {
@@ -128,32 +134,13 @@ fn survey(arguments: &Arguments, gpu: &Arc<Gpu>, is_full: bool) -> anyhow::Resul
             Recorder::to_folder(folder, name).map_err(|error| EvaluateError::Recording(error.to_string()))?;
         Ok(Box::new(recorder))
     };
-    recovery.run(gpu, &life, &recorders, &|findings| {
+    recovery.run(arguments.shard, gpu, &life, &recorders, &|findings| {
         bar.set_length(findings.planned as u64);
         bar.set_position(findings.done as u64);
     })?;
     bar.finish_and_clear();
     let findings = life.read(|_, findings| findings.clone());
     Ok((recovery, findings))
-}
-
-fn case(arguments: &Arguments) -> anyhow::Result<Case> {
-    anyhow::ensure!(
-        (0.0..=86_400.0).contains(&arguments.at_s),
-        "--at-s is {}, it must be 0 to 86400 (one day)",
-        arguments.at_s
-    );
-    let mut case = match &arguments.scenario {
-        Some(name) => Case::open(name)?,
-        None => {
-            let Arena { map, space, .. } = &*Arena::open(&arguments.map)?;
-            let first = arguments.controller.first().copied().unwrap_or(ControllerName::Attractor);
-            let scenario = Scenario::random(map, &arguments.map, space, first, 0, arguments.seed, 0)?;
-            Case { about: String::new(), scenario, map: None, inputs: Vec::new(), expect: None }
-        }
-    };
-    case.scenario.parameters = case.scenario.parameters.with(&arguments.set).context("--set")?;
-    Ok(case)
 }
 
 /// One file per trial, beside its log.

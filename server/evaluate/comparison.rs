@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::statistics::{LEVEL, PairedCounts, corrected_level, mean};
-use super::{Cell, Episode};
+use super::{Cell, Episode, Setting};
 
 /// Two controllers compared trial by trial, with the same starts, goals, seeds and disturbances.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -11,6 +11,8 @@ pub struct Comparison {
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
+    /// What varied parameters are in both rows.
+    pub varied: Vec<Setting>,
     /// Controller that is compared.
     pub controller: String,
     /// Controller that it is compared with.
@@ -80,6 +82,7 @@ impl Comparison {
         Self {
             map: first.0.map.clone(),
             disturbances: first.0.disturbances,
+            varied: first.0.varied.clone(),
             controller: first.0.controller().to_owned(),
             against: second.0.controller().to_owned(),
             episodes: pairs.len() as u32,
@@ -98,11 +101,12 @@ impl Comparison {
         }
     }
 
-    /// Compares every pair of controllers with the same map and disturbances, in the order of the rows.
+    /// Compares every pair of controllers with the same map, disturbances and parameters, in the order of the rows.
     pub fn all(rows: &[(&Cell, &[Episode])]) -> Vec<Self> {
         let alike = |first: &(&Cell, &[Episode]), second: &(&Cell, &[Episode])| {
             second.0.map == first.0.map
                 && second.0.disturbances == first.0.disturbances
+                && second.0.varied == first.0.varied
                 && second.0.controller() != first.0.controller()
         };
         let mut pairs = Vec::new();

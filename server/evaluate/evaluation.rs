@@ -3,12 +3,13 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::variation::applied;
 use super::{Cell, Episode, EvaluationQuery, Experiment, Failure, Manner, Row, Venue};
 use crate::jobs::Life;
 use crate::map::Map;
 use crate::policy;
 use crate::program::Program;
-use crate::scenario::Parameters;
+use crate::scenario::{Parameters, SetError};
 
 #[derive(Debug)]
 pub struct Evaluation {
@@ -97,16 +98,18 @@ impl Evaluation {
     }
 
     /// The experiment of a cell.
-    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Experiment {
-        Experiment {
+    pub(super) fn experiment(&self, cell: &Cell, venue: &Arc<Venue>) -> Result<Experiment, SetError> {
+        let parameters = Parameters { rl_policy: self.query.rl_policy.clone(), ..Parameters::default() };
+        let parameters = applied(&parameters, &cell.varied)?;
+        Ok(Experiment {
             cell: cell.clone(),
             venue: venue.clone(),
             map: cell.map.clone(),
             episodes: self.query.episodes,
             seed: self.query.seed,
-            parameters: Parameters { rl_policy: self.query.rl_policy.clone(), ..Parameters::default() },
+            parameters,
             manner: Manner::default(),
             program: self.program.clone().filter(|_| cell.program.is_some()),
-        }
+        })
     }
 }

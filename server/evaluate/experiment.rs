@@ -8,10 +8,10 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::Cell;
 use super::course::Course;
 use super::figure::Trace;
 use super::manner::Manner;
+use super::{Cell, Setting, VariationError};
 use crate::camera::{Camera, CameraError, Gpu, ImageSource, Subject};
 use crate::control::CONTROL_PERIOD_S;
 use crate::image::CameraFrame;
@@ -36,6 +36,11 @@ impl Venue {
     pub fn of(arena: Arc<Arena>) -> Arc<Self> {
         let room = FreeSpace::new(&arena.map, BEAD_RADIUS_M);
         Arc::new(Self { arena, room, cameras: Mutex::default() })
+    }
+
+    /// Area in which the bead has room.
+    pub fn room_m2(&self) -> f64 {
+        self.room.area_m2()
     }
 
     /// Takes a camera for this map; [`Self::keep`] returns it.
@@ -69,7 +74,9 @@ pub struct Experiment {
 impl Experiment {
     /// A name for the trial of an index that no other has.
     pub fn trial_name(&self, index: u32) -> String {
-        format!("{}-{}-{}-{index:04}", self.cell.map, self.cell.controller(), self.cell.disturbances)
+        let Cell { map, disturbances, varied, .. } = &self.cell;
+        let varied: String = varied.iter().map(|Setting { name, value }| format!("-{name}-{value}")).collect();
+        format!("{map}-{}-{disturbances}{varied}-{index:04}", self.cell.controller())
     }
 
     /// The trial of an index. Start and goal do not depend on the controller.
@@ -180,6 +187,9 @@ pub enum EvaluateError {
     /// A program did not decide.
     #[error(transparent)]
     Program(#[from] ProgramError),
+    /// A parameter cannot have a value.
+    #[error("vary: {0}")]
+    Vary(#[from] VariationError),
     /// The experiment was cancelled.
     #[error("stopped before its end")]
     Stopped,

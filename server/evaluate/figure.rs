@@ -26,6 +26,12 @@ const DRAWN_EVERY: usize = 5;
 #[error("figure: {0}")]
 pub struct FigureError(String);
 
+impl From<DrawingError> for FigureError {
+    fn from(error: DrawingError) -> Self {
+        Self(error.to_string())
+    }
+}
+
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Sample {
     time_s: f64,
@@ -73,8 +79,7 @@ impl Trace {
     /// [`FigureError`] with the message of the plotting library.
     pub fn to_svg(&self) -> Result<String, FigureError> {
         let mut svg = String::new();
-        self.draw(&SVGBackend::with_string(&mut svg, SIZE_PX).into_drawing_area())
-            .map_err(|error| FigureError(error.to_string()))?;
+        self.draw(&SVGBackend::with_string(&mut svg, SIZE_PX).into_drawing_area())?;
         Ok(svg)
     }
 

@@ -3,47 +3,35 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::{CellResult, EvaluateError, Evaluation, Venue, Watch, run, unrecorded};
-use crate::jobs::{Job, Shelved, Stage, Workshop};
+use super::{CellResult, EvaluateError, Evaluation, Progress, VariationError, Venue, Watch, run, unrecorded};
+use crate::jobs::{Life, Shelved, Stage, Workshop};
 use crate::map::MapError;
 use crate::trial::Arena;
 
-impl Job for Evaluation {
-    fn is_waiting(&self) -> bool {
-        self.life.stage() == Stage::Waiting
-    }
-
-    fn begin(&self) -> bool {
-        self.life.begin()
-    }
-
-    fn run(&self, workshop: &Workshop) {
-        tracing::info!(id = self.id, "evaluation begins");
-        let stage = match self.run_cells(workshop) {
-            Ok(()) => Stage::Done,
-            Err(EvaluateError::Stopped) => Stage::Cancelled,
-            Err(error) => Stage::Failed(error.to_string()),
-        };
-        tracing::info!(id = self.id, ?stage, "evaluation ends");
-        self.life.end(stage);
-    }
-
-    fn fail(&self, reason: String) {
-        self.life.end(Stage::Failed(reason));
-    }
-
-    fn interrupt(&self) {
-        self.life.cancel();
-    }
-}
-
 impl Shelved for Evaluation {
+    type Found = Progress;
+
     fn id(&self) -> &str {
         &self.id
     }
 
-    fn stage(&self) -> Stage {
-        self.life.stage()
+    fn life(&self) -> &Life<Progress> {
+        &self.life
+    }
+
+    fn work(&self, workshop: &Workshop) -> Stage {
+        EvaluateError::stage_after(self.run_cells(workshop))
+    }
+}
+
+impl EvaluateError {
+    /// The stage in which a job ends.
+    pub fn stage_after(ran: Result<(), Self>) -> Stage {
+        match ran {
+            Ok(()) => Stage::Done,
+            Err(Self::Stopped) => Stage::Cancelled,
+            Err(error) => Stage::Failed(error.to_string()),
+        }
     }
 }
 
@@ -53,7 +41,7 @@ impl Evaluation {
             let began = Instant::now();
             let map = self.map(cell).ok_or_else(|| MapError::Unknown { name: cell.map.clone() })?;
             let venue = Venue::of(Arena::with_policies(map.clone(), self.policies.clone()));
-            let experiment = self.experiment(cell, &venue);
+            let experiment = self.experiment(cell, &venue).map_err(VariationError::from)?;
             let watch = Watch {
                 stop: self.life.stop(),
                 progress: &|_, episode| self.note(index, began, episode),
@@ -73,11 +61,18 @@ mod tests {
     use super::*;
     use crate::camera::{AdapterChoice, Gpu};
     use crate::evaluate::{Cell, EvaluationQuery};
+    use crate::jobs::Job;
     use crate::map::Map;
     use crate::scenario::{ControllerName, RlPolicy};
 
     fn evaluation(map: &str) -> Arc<Evaluation> {
-        let cell = Cell { controller: ControllerName::Attractor, map: map.into(), disturbances: 0, program: None };
+        let cell = Cell {
+            controller: ControllerName::Attractor,
+            map: map.into(),
+            disturbances: 0,
+            program: None,
+            varied: Vec::new(),
+        };
         let query = EvaluationQuery {
             controllers: vec![cell.controller],
             maps: vec![cell.map.clone()],
@@ -86,6 +81,7 @@ mod tests {
             seed: 1,
             rl_policy: RlPolicy::Auto,
             program: None,
+            vary: Vec::new(),
         };
         let maps = Map::shipped(map).into_iter().collect();
         Evaluation::new("a test".into(), query, vec![cell], maps, Arc::default(), None)

@@ -27,6 +27,9 @@ impl PaperRow {
     /// RL alone was counted, in one maze, after which `colon` is drawn. The paper does not say how many disturbances
     /// an episode had; its figure has three.
     pub fn of(cell: &Cell) -> Option<Self> {
+        if !cell.varied.is_empty() {
+            return None;
+        }
         let (successes, printed, errors_m) = match (cell.controller, cell.map.as_str(), cell.disturbances) {
             (ControllerName::Rl, "colon", 0) => (30, "100\u{a0}%", Some([0.02, 0.08, 0.09])),
             (ControllerName::Rl, "colon", 3) => (29, "96.6\u{a0}%", None),

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{Cell, Experiment, Manner, Venue};
+use super::variation::applied;
+use super::{Cell, Experiment, Manner, Setting, Variation, VariationError, Venue};
 use crate::map::MapError;
 use crate::policy::Policy;
 use crate::program::Program;
-use crate::scenario::{ControllerName, Parameters};
+use crate::scenario::{ControllerName, Parameters, SetError};
 use crate::trial::Arena;
 
 /// Who carries the bead.
@@ -14,6 +15,17 @@ use crate::trial::Arena;
 pub enum Contender {
     Own(ControllerName),
     Program(Arc<Program>),
+}
+
+impl Contender {
+    /// The name of the controller, and the program.
+    fn taken(&self) -> Result<(ControllerName, Option<Arc<Program>>), PlanError> {
+        match self {
+            Self::Own(name) if !ControllerName::AUTOMATIC.contains(name) => Err(PlanError::NotAutomatic(name.as_str())),
+            Self::Own(name) => Ok((*name, None)),
+            Self::Program(program) => Ok((ControllerName::Program, Some(program.clone()))),
+        }
+    }
 }
 
 /// Every contender on every map with every number of disturbances, at the same starts, goals and seeds.
@@ -27,6 +39,8 @@ pub struct Plan {
     pub episodes: u32,
     pub seed: u64,
     pub parameters: Parameters,
+    /// Parameters that take several values: each combination has its rows.
+    pub vary: Vec<Variation>,
     pub manner: Manner,
     /// Instead of the shipped policies.
     pub policy: Option<Policy>,
@@ -37,6 +51,10 @@ pub struct Plan {
 pub enum PlanError {
     #[error("controller is {0:?}, which needs a person or a program")]
     NotAutomatic(&'static str),
+    #[error("vary: {0}")]
+    Vary(#[from] VariationError),
+    #[error("vary: {0}")]
+    Setting(#[from] SetError),
     #[error(
         "{controller} on {map} with {disturbances} disturbances is requested twice; maps with the same file name count \
          as one"
@@ -52,6 +70,9 @@ impl Plan {
     /// # Errors
     /// [`PlanError`].
     pub fn experiments(&self) -> Result<Vec<Experiment>, PlanError> {
+        let combinations = Variation::combinations(&self.vary)?;
+        let with = |settings: Vec<Setting>| Ok((applied(&self.parameters, &settings)?, settings));
+        let combinations = combinations.into_iter().map(with).collect::<Result<Vec<_>, PlanError>>()?;
         let mut experiments: Vec<Experiment> = Vec::new();
         for map in &self.maps {
             let arena = Arena::open(map)?;
@@ -61,31 +82,32 @@ impl Plan {
             };
             let venue = Venue::of(arena);
             for &disturbances in &self.disturbances {
-                for contender in &self.contenders {
-                    let (controller, program) = match contender {
-                        Contender::Own(name) if !ControllerName::AUTOMATIC.contains(name) => {
-                            return Err(PlanError::NotAutomatic(name.as_str()));
+                for (parameters, varied) in &combinations {
+                    for contender in &self.contenders {
+                        let (controller, program) = contender.taken()?;
+                        let cell = Cell {
+                            controller,
+                            map: venue.arena.map.name().to_owned(),
+                            disturbances,
+                            program: program.as_ref().map(|program| program.name.clone()),
+                            varied: varied.clone(),
+                        };
+                        // Two cells with the same name would count as the same trials.
+                        if experiments.iter().any(|other| other.cell == cell) {
+                            let controller = cell.controller().to_owned();
+                            return Err(PlanError::Twice { controller, map: cell.map, disturbances });
                         }
-                        Contender::Own(name) => (*name, None),
-                        Contender::Program(program) => (ControllerName::Program, Some(program.clone())),
-                    };
-                    let name = program.as_ref().map(|program| program.name.clone());
-                    let cell = Cell { controller, map: venue.arena.map.name().to_owned(), disturbances, program: name };
-                    // Two cells with the same name would count as the same trials.
-                    if experiments.iter().any(|other| other.cell == cell) {
-                        let controller = cell.controller().to_owned();
-                        return Err(PlanError::Twice { controller, map: cell.map, disturbances });
+                        experiments.push(Experiment {
+                            cell,
+                            venue: venue.clone(),
+                            map: map.clone(),
+                            episodes: self.episodes,
+                            seed: self.seed,
+                            parameters: parameters.clone(),
+                            manner: self.manner,
+                            program,
+                        });
                     }
-                    experiments.push(Experiment {
-                        cell,
-                        venue: venue.clone(),
-                        map: map.clone(),
-                        episodes: self.episodes,
-                        seed: self.seed,
-                        parameters: self.parameters.clone(),
-                        manner: self.manner,
-                        program,
-                    });
                 }
             }
         }

@@ -2,12 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::variation::applied;
+use super::{Setting, Variation, VariationError};
 use crate::map::{Library, Map, MapError};
 use crate::policy::PolicyError;
-use crate::scenario::{ControllerName, RlPolicy};
+use crate::scenario::{ControllerName, Parameters, RlPolicy};
 
-/// Maximum number of cells per evaluation.
-pub const CELL_LIMIT: usize = 24;
+/// Maximum number of cells per evaluation: three controllers over 8 × 8 values of two parameters have 192.
+pub const CELL_LIMIT: usize = 240;
+/// Maximum number of trials per evaluation.
+const TRIAL_LIMIT: u64 = 24_000;
 /// Trials per cell.
 const EPISODES: std::ops::RangeInclusive<u32> = 1..=1000;
 /// Scripted disturbances per trial. With more, few trials end within their steps.
@@ -31,10 +35,12 @@ pub struct EvaluationQuery {
     pub rl_policy: RlPolicy,
     /// Name of the program, with the controller `program`.
     pub program: Option<String>,
+    /// Parameters that take several values, at most two.
+    pub vary: Vec<Variation>,
 }
 
 /// The subject of one row of the table.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,
@@ -44,12 +50,23 @@ pub struct Cell {
     /// Name of the program, with the controller `program`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub program: Option<String>,
+    /// What varied parameters are in this row.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub varied: Vec<Setting>,
 }
 
 impl Cell {
     /// The name of the controller or of the program.
     pub fn controller(&self) -> &str {
         self.program.as_deref().unwrap_or(self.controller.as_str())
+    }
+}
+
+impl std::fmt::Display for Cell {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { map, disturbances, varied, .. } = self;
+        write!(f, "{} on {map}, {disturbances} disturbances", self.controller())?;
+        varied.iter().try_for_each(|setting| write!(f, ", {setting}"))
     }
 }
 
@@ -78,9 +95,13 @@ pub enum QueryError {
     /// Out of range.
     #[error("{field} is {value}, it must be {} to {}", .allowed.start(), .allowed.end())]
     Range { field: String, value: u32, allowed: std::ops::RangeInclusive<u32> },
+    #[error("vary: {0}")]
+    Vary(#[from] VariationError),
     /// More cells than one evaluation may have.
-    #[error("controllers × maps × disturbances are {cells} cells, the limit is {CELL_LIMIT}")]
+    #[error("controllers × maps × disturbances × values are {cells} cells, the limit is {CELL_LIMIT}")]
     TooManyCells { cells: usize },
+    #[error("episodes is {episodes}, which makes {trials} trials in {cells} cells; the limit is {TRIAL_LIMIT}")]
+    TooManyTrials { episodes: u32, cells: usize, trials: u64 },
 }
 
 impl QueryError {
@@ -93,7 +114,9 @@ impl QueryError {
             Self::Program { .. } => "program".to_owned(),
             Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
+            Self::Vary(_) => "vary".to_owned(),
             Self::TooManyCells { .. } => "maps".to_owned(),
+            Self::TooManyTrials { .. } => "episodes".to_owned(),
         }
     }
 }
@@ -113,7 +136,11 @@ impl EvaluationQuery {
         }
         distinct("maps", &self.maps, Clone::clone)?;
         distinct("disturbances", &self.disturbances, u32::to_string)?;
-        let cells = self.controllers.len() * self.maps.len() * self.disturbances.len();
+        let combinations = Variation::combinations(&self.vary)?;
+        for varied in &combinations {
+            applied(&Parameters::default(), varied).map_err(VariationError::from)?;
+        }
+        let cells = self.controllers.len() * self.maps.len() * self.disturbances.len() * combinations.len();
         if cells > CELL_LIMIT {
             return Err(QueryError::TooManyCells { cells });
         }
@@ -129,15 +156,22 @@ impl EvaluationQuery {
         if !EPISODES.contains(&self.episodes) {
             return Err(QueryError::Range { field: "episodes".into(), value: self.episodes, allowed: EPISODES });
         }
+        let trials = u64::from(self.episodes) * cells as u64;
+        if trials > TRIAL_LIMIT {
+            return Err(QueryError::TooManyTrials { episodes: self.episodes, cells, trials });
+        }
         let mut made = Vec::with_capacity(cells);
         for map in &self.maps {
             for &disturbances in &self.disturbances {
-                made.extend(self.controllers.iter().map(|&controller| Cell {
-                    controller,
-                    map: map.clone(),
-                    disturbances,
-                    program: self.program.clone().filter(|_| controller == ControllerName::Program),
-                }));
+                for varied in &combinations {
+                    made.extend(self.controllers.iter().map(|&controller| Cell {
+                        controller,
+                        map: map.clone(),
+                        disturbances,
+                        program: self.program.clone().filter(|_| controller == ControllerName::Program),
+                        varied: varied.clone(),
+                    }));
+                }
             }
         }
         Ok(made)
@@ -183,7 +217,23 @@ mod tests {
             seed: 1,
             rl_policy: RlPolicy::Auto,
             program: None,
+            vary: Vec::new(),
         }
+    }
+
+    fn variation(text: &str) -> Variation {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn each_value_has_the_controllers_side_by_side() {
+        let varied = EvaluationQuery { vary: vec![variation("friction=0.1:0.3:3")], ..query() };
+        let cells = varied.cells().unwrap();
+        assert_eq!(cells.len(), 8 * 3);
+        let names: Vec<String> =
+            cells.iter().take(4).map(|cell| format!("{} {}", cell.varied[0], cell.controller())).collect();
+        let expected = ["friction=0.1 errt", "friction=0.1 attractor", "friction=0.2 errt", "friction=0.2 attractor"];
+        assert_eq!(names, expected);
     }
 
     #[test]
@@ -226,7 +276,17 @@ mod tests {
             (EvaluationQuery { disturbances: vec![3, 3], ..query() }, "disturbances[1]", &["\"3\""]),
             (EvaluationQuery { episodes: 0, ..query() }, "episodes", &["episodes is 0", "1 to 1000"]),
             (EvaluationQuery { episodes: 1001, ..query() }, "episodes", &["1001"]),
-            (EvaluationQuery { maps: all, disturbances: vec![0, 1], ..query() }, "maps", &["32 cells", "24"]),
+            (
+                EvaluationQuery { maps: all, vary: vec![variation("friction=0:1:20")], ..query() },
+                "maps",
+                &["640 cells", "240"],
+            ),
+            (EvaluationQuery { vary: vec![variation("friction=0:2:3")], ..query() }, "vary", &["friction is 2"]),
+            (
+                EvaluationQuery { episodes: 1000, vary: vec![variation("friction=0:1:5")], ..query() },
+                "episodes",
+                &["episodes is 1000", "40000 trials", "40 cells", "24000"],
+            ),
         ] {
             let error = bad.cells().and_then(|_| bad.maps(&Library::default())).unwrap_err();
             assert_eq!(error.field(), field, "{error}");

@@ -1,5 +1,6 @@
 //! The report of an evaluation, for people and programs.
 
+mod curves;
 mod html;
 
 pub use html::html_document;
@@ -60,6 +61,16 @@ impl Report {
         }
     }
 
+    /// Parameters of all rows that differ from the default, each as `NAME=VALUE`; without varied ones.
+    pub fn changes(&self) -> Vec<&str> {
+        let Some(row) = self.rows.first() else { return Vec::new() };
+        let is_varied = |change: &str| {
+            let name = change.split('=').next();
+            row.varied.iter().any(|setting| Some(setting.name.as_str()) == name)
+        };
+        row.changes.iter().map(String::as_str).filter(|change| !is_varied(change)).collect()
+    }
+
     /// The rows as CSV (RFC 4180), with a head.
     pub fn to_csv(&self) -> Result<String, ReportError> {
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -82,6 +93,10 @@ struct CsvRow<'a> {
     controller: &'a str,
     map: &'a str,
     disturbances: u32,
+    varied_1: Option<&'a str>,
+    value_1: Option<f64>,
+    varied_2: Option<&'a str>,
+    value_2: Option<f64>,
     episodes: u32,
     successes: u32,
     successes_wilson95_low: f64,
@@ -90,6 +105,8 @@ struct CsvRow<'a> {
     delivered_wilson95_low: f64,
     delivered_wilson95_high: f64,
     tracking_error_mean_m: f64,
+    tracking_error_mean95_low_m: Option<f64>,
+    tracking_error_mean95_high_m: Option<f64>,
     tracking_error_mean_x_m: f64,
     tracking_error_mean_y_m: f64,
     tracking_error_max_x_m: f64,
@@ -109,10 +126,16 @@ struct CsvRow<'a> {
 
 impl<'a> From<&'a Row> for CsvRow<'a> {
     fn from(row: &'a Row) -> Self {
+        let name = |index: usize| row.varied.get(index).map(|setting| setting.name.as_str());
+        let value = |index: usize| row.varied.get(index).map(|setting| setting.value);
         Self {
             controller: &row.controller,
             map: &row.map,
             disturbances: row.disturbances,
+            varied_1: name(0),
+            value_1: value(0),
+            varied_2: name(1),
+            value_2: value(1),
             episodes: row.episodes,
             successes: row.successes,
             successes_wilson95_low: row.successes_wilson95[0],
@@ -121,6 +144,8 @@ impl<'a> From<&'a Row> for CsvRow<'a> {
             delivered_wilson95_low: row.wilson95[0],
             delivered_wilson95_high: row.wilson95[1],
             tracking_error_mean_m: row.tracking_error_mean_m,
+            tracking_error_mean95_low_m: row.tracking_error_mean95_m.map(|[low, _]| low),
+            tracking_error_mean95_high_m: row.tracking_error_mean95_m.map(|[_, high]| high),
             tracking_error_mean_x_m: row.tracking_error_mean_x_m,
             tracking_error_mean_y_m: row.tracking_error_mean_y_m,
             tracking_error_max_x_m: row.tracking_error_max_x_m,

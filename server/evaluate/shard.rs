@@ -1,4 +1,4 @@
-//! An evaluation in parts, on several machines or as several processes, and their merging.
+//! Parts of an evaluation or a recovery map, on several machines or as several processes.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -6,18 +6,15 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
+use xxhash_rust::xxh3::Xxh3Default;
 
-use super::{Cell, Episode, Experiment, Manner};
-use crate::scenario::{ControllerName, Parameters};
+use super::Experiment;
 use crate::trial::TrialError;
 
-/// Format of a shard's file.
-const FORMAT: u32 = 1;
 /// Largest number of shards.
 const SHARDS_MOST: u32 = 10_000;
 
-/// One of several parts of an evaluation, `I/N`: every N-th trial, beginning with the I-th.
+/// One of several parts, `I/N`: every N-th trial, beginning with the I-th.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Shard {
     /// From 1.
@@ -55,104 +52,47 @@ impl Shard {
         self.of(&experiments.iter().map(|one| one.episodes).collect::<Vec<u32>>())
     }
 
-    fn of(self, episodes: &[u32]) -> Vec<(usize, u32)> {
+    pub(super) fn of(self, episodes: &[u32]) -> Vec<(usize, u32)> {
         let all = episodes.iter().enumerate().flat_map(|(number, &count)| (0..count).map(move |index| (number, index)));
-        all.skip(self.number as usize - 1).step_by(self.count as usize).collect()
+        self.among(all).collect()
+    }
+
+    /// Its share of all trials.
+    pub fn among<T>(self, all: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+        all.skip(self.number as usize - 1).step_by(self.count as usize)
     }
 }
 
 /// What decides the bits of a result, besides the settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Machine {
+pub struct Machine {
     /// Hash of the program.
     build: String,
     /// Graphics adapter.
-    adapter: String,
+    pub adapter: String,
     /// The vector instructions of the processor.
     processor: String,
 }
 
-/// What the trials of one row have in common.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Subject {
-    cell: Cell,
-    /// Hash of the drawing.
-    map_hash: String,
-    /// Hash of the policy's file; `None` without a policy.
-    policy_hash: Option<String>,
-    episodes: u32,
-    seed: u64,
-    parameters: Parameters,
-    manner: Manner,
-}
-
-/// The trials of a shard, as a file.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Part {
-    ferry_part: u32,
-    shard: Shard,
-    machine: Machine,
-    subjects: Vec<Subject>,
-    /// With the number of their row.
-    episodes: Vec<(usize, Episode)>,
-}
-
-/// Why a shard has no file, or a file is not that of a shard.
-#[derive(Debug, thiserror::Error)]
-pub enum PartError {
-    #[error("not a shard of an evaluation: {0}")]
-    Foreign(#[from] serde_json::Error),
-    #[error("ferry_part is {found}, this Ferry reads {FORMAT}")]
-    Format { found: u32 },
-    #[error("the program could not be read: {0}")]
-    Build(#[from] std::io::Error),
-    #[error(transparent)]
-    Trial(#[from] TrialError),
-}
-
-impl Part {
+impl Machine {
+    /// This one, with a graphics adapter.
+    ///
     /// # Errors
-    /// [`PartError::Build`], [`PartError::Trial`].
-    pub fn of(
-        experiments: &[Experiment],
-        shard: Shard,
-        adapter: &str,
-        episodes: Vec<(usize, Episode)>,
-    ) -> Result<Self, PartError> {
-        let machine = Machine { build: build()?, adapter: adapter.to_owned(), processor: processor() };
-        let subject = |one: &Experiment| -> Result<Subject, TrialError> {
-            let arena = &one.venue.arena;
-            let policy_hash = match one.cell.controller {
-                ControllerName::Rl => Some(format!("{:016x}", arena.policy(&one.parameters.rl_policy)?.hash())),
-                _ => None,
-            };
-            Ok(Subject {
-                cell: one.cell.clone(),
-                map_hash: format!("{:016x}", xxh3_64(arena.map.svg().as_bytes())),
-                policy_hash,
-                episodes: one.episodes,
-                seed: one.seed,
-                parameters: one.parameters.clone(),
-                manner: one.manner,
-            })
-        };
-        let subjects = experiments.iter().map(subject).collect::<Result<_, _>>()?;
-        Ok(Self { ferry_part: FORMAT, shard, machine, subjects, episodes })
+    /// The program's own file cannot be read.
+    pub fn this(adapter: &str) -> std::io::Result<Self> {
+        Ok(Self { build: build()?, adapter: adapter.to_owned(), processor: processor() })
     }
+}
 
-    /// # Errors
-    /// [`PartError::Foreign`], [`PartError::Format`].
-    pub fn read(bytes: &[u8]) -> Result<Self, PartError> {
-        #[derive(Deserialize)]
-        struct Head {
-            ferry_part: u32,
-        }
-        let Head { ferry_part } = serde_json::from_slice(bytes)?;
-        if ferry_part != FORMAT {
-            return Err(PartError::Format { found: ferry_part });
-        }
-        Ok(serde_json::from_slice(bytes)?)
-    }
+/// What the file of a shard has.
+pub trait Piece {
+    fn shard(&self) -> Shard;
+
+    /// What all shards share.
+    fn common(&self) -> Value;
+
+    /// Whether it has the trials of its shard.
+    fn is_whole(&self) -> bool;
 }
 
 /// Why shards do not belong together.
@@ -170,32 +110,19 @@ pub enum MergeError {
     Trials { file: String, shard: Shard },
 }
 
-/// A whole evaluation.
-#[derive(Debug)]
-pub struct Merged {
-    pub adapter: String,
-    pub seed: u64,
-    pub manner: Manner,
-    rows: Vec<(Cell, Vec<Episode>)>,
-}
-
-impl Merged {
-    /// The rows with their trials, in order.
-    pub fn done(&self) -> Vec<(&Cell, &[Episode])> {
-        self.rows.iter().map(|(cell, episodes)| (cell, episodes.as_slice())).collect()
-    }
-}
-
-/// Merges all shards of an evaluation, each with the name of its file.
+/// Checks that files, each with its name, are all shards of one whole, and returns the first one.
 ///
 /// # Errors
 /// [`MergeError`].
-pub fn merge(parts: Vec<(String, Part)>) -> Result<Merged, MergeError> {
-    let (first_file, first) = parts.first().ok_or(MergeError::None)?;
-    let (common, count) = (common(first), first.shard.count);
+pub fn check_all<P: Piece>(pieces: &[(String, P)]) -> Result<&P, MergeError> {
+    let (first_file, first) = pieces.first().ok_or(MergeError::None)?;
+    let with_count =
+        |piece: &P| serde_json::json!({ "shard": { "count": piece.shard().count }, "common": piece.common() });
+    let common = with_count(first);
     let mut files: BTreeMap<Shard, &str> = BTreeMap::new();
-    for (file, part) in &parts {
-        if let Some((field, value, other_value)) = first_difference(&self::common(part), &common, "") {
+    for (file, piece) in pieces {
+        if let Some((field, value, other_value)) = first_difference(&with_count(piece), &common, "") {
+            let field = field.strip_prefix("common.").unwrap_or(&field).to_owned();
             return Err(MergeError::Differs {
                 file: file.clone(),
                 field,
@@ -204,37 +131,31 @@ pub fn merge(parts: Vec<(String, Part)>) -> Result<Merged, MergeError> {
                 other_value,
             });
         }
-        let shard = part.shard;
+        let shard = piece.shard();
         if let Some(other) = files.insert(shard, file) {
             return Err(MergeError::Twice { file: file.clone(), shard, other: other.to_owned() });
         }
-        let episodes: Vec<u32> = part.subjects.iter().map(|subject| subject.episodes).collect();
-        let has: Vec<(usize, u32)> = part.episodes.iter().map(|(number, episode)| (*number, episode.index)).collect();
-        if has != shard.of(&episodes) {
+        if !piece.is_whole() {
             return Err(MergeError::Trials { file: file.clone(), shard });
         }
     }
+    let count = first.shard().count;
     let all = (1..=count).map(|number| Shard { number, count });
     let missing: Vec<Shard> = all.filter(|shard| !files.contains_key(shard)).collect();
-    if !missing.is_empty() {
-        return Err(MergeError::Missing(missing));
-    }
-    let adapter = first.machine.adapter.clone();
-    let (seed, manner) = first.subjects.first().map_or_else(Default::default, |one| (one.seed, one.manner));
-    let mut rows: Vec<(Cell, Vec<Episode>)> =
-        first.subjects.iter().map(|subject| (subject.cell.clone(), Vec::new())).collect();
-    for (number, episode) in parts.into_iter().flat_map(|(_, part)| part.episodes) {
-        rows[number].1.push(episode);
-    }
-    for (_, episodes) in &mut rows {
-        episodes.sort_by_key(|episode| episode.index);
-    }
-    Ok(Merged { adapter, seed, manner, rows })
+    if missing.is_empty() { Ok(first) } else { Err(MergeError::Missing(missing)) }
 }
 
-/// What all shards of an evaluation share.
-fn common(part: &Part) -> Value {
-    serde_json::json!({ "shard": { "count": part.shard.count }, "machine": part.machine, "subjects": part.subjects })
+/// Why a shard has no file, or a file is not that of a shard.
+#[derive(Debug, thiserror::Error)]
+pub enum PartError {
+    #[error("not a shard: {0}")]
+    Foreign(#[from] serde_json::Error),
+    #[error("{field} is {found}, this Ferry reads {reads}")]
+    Format { field: &'static str, found: u32, reads: u32 },
+    #[error("the program could not be read: {0}")]
+    Build(#[from] std::io::Error),
+    #[error(transparent)]
+    Trial(#[from] TrialError),
 }
 
 /// The path of the first difference, and both values.

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::statistics::wilson95;
-use super::{Cell, Episode, Manner};
+use super::statistics::{LEVEL, wilson95};
+use super::{Cell, Episode, Manner, Setting};
 use crate::geometry::Point2;
 use crate::scenario::ControllerName;
 
@@ -15,6 +15,9 @@ pub struct Row {
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
+    /// What varied parameters are in this row.
+    #[serde(default)]
+    pub varied: Vec<Setting>,
     pub episodes: u32,
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
@@ -26,6 +29,9 @@ pub struct Row {
     pub wilson95: [f64; 2],
     /// Mean over trials of the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
+    /// Its 95 % interval (Student's t); missing for fewer than two trials.
+    #[serde(default)]
+    pub tracking_error_mean95_m: Option<[f64; 2]>,
     /// Mean over trials of the mean absolute difference in x during transport.
     pub tracking_error_mean_x_m: f64,
     /// The same in y.
@@ -71,17 +77,20 @@ impl Row {
         decisions.sort_by(f64::total_cmp);
         let last = decisions.len().saturating_sub(1) as f64;
         let quantile_ms = |q: f64| decisions.get((last * q).round() as usize).map_or(0.0, |s| s * 1e3);
+        let errors_m: Vec<f64> = episodes.iter().map(|e| e.tally.mean_m()).collect();
         let (reached, delivered) = (total(&|e| e.reached), total(&|e| e.delivered));
         Self {
             controller: cell.controller().to_owned(),
             map: cell.map.clone(),
             disturbances: cell.disturbances,
+            varied: cell.varied.clone(),
             episodes: count,
             successes: reached,
             successes_wilson95: wilson95(reached, count),
             delivered,
             wilson95: wilson95(delivered, count),
             tracking_error_mean_m: mean(&|e| e.tally.mean_m()),
+            tracking_error_mean95_m: super::statistics::mean(&errors_m, LEVEL).map(|(_, interval)| interval),
             tracking_error_mean_x_m: mean(&|e| e.tally.mean_axes_m()[0]),
             tracking_error_mean_y_m: mean(&|e| e.tally.mean_axes_m()[1]),
             tracking_error_max_x_m: mean(&|e| e.tally.max_m()[0]),
@@ -114,6 +123,8 @@ pub struct Failure {
     pub map: String,
     /// Scripted disturbances.
     pub disturbances: u32,
+    /// What varied parameters are in its row.
+    pub varied: Vec<Setting>,
     /// Index of the trial.
     pub index: u32,
     /// Seed of the trial itself.
@@ -147,6 +158,7 @@ impl Failure {
             controller: cell.controller().to_owned(),
             map: cell.map.clone(),
             disturbances: cell.disturbances,
+            varied: cell.varied.clone(),
             index: episode.index,
             seed: episode.scenario.seed,
             start_m: episode.scenario.start_m,

@@ -3,15 +3,46 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::{Job, Queue, QueueError, Stage};
+use super::{Job, Life, Queue, QueueError, Stage, Workshop};
 
 /// Number of ended jobs that are kept.
 const KEPT: usize = 16;
 
 /// A job that is found by its id.
-pub trait Shelved: Job + 'static {
+pub trait Shelved: Send + Sync + 'static {
+    type Found: Send;
+
     fn id(&self) -> &str;
-    fn stage(&self) -> Stage;
+
+    fn life(&self) -> &Life<Self::Found>;
+
+    /// Runs until it has ended or was cancelled, and returns the stage in which it ends.
+    fn work(&self, workshop: &Workshop) -> Stage;
+}
+
+impl<J: Shelved> Job for J {
+    fn is_waiting(&self) -> bool {
+        self.life().stage() == Stage::Waiting
+    }
+
+    fn begin(&self) -> bool {
+        self.life().begin()
+    }
+
+    fn run(&self, workshop: &Workshop) {
+        tracing::info!(id = self.id(), "job begins");
+        let stage = self.work(workshop);
+        tracing::info!(id = self.id(), ?stage, "job ends");
+        self.life().end(stage);
+    }
+
+    fn fail(&self, reason: String) {
+        self.life().end(Stage::Failed(reason));
+    }
+
+    fn interrupt(&self) {
+        self.life().cancel();
+    }
 }
 
 /// Jobs by id.
@@ -32,9 +63,9 @@ struct Kept<J> {
 impl<J: Shelved> Kept<J> {
     /// Removes the oldest ended jobs.
     fn prune(&mut self) {
-        let ended = self.jobs.iter().filter(|job| job.stage().is_final()).count();
+        let ended = self.jobs.iter().filter(|job| job.life().stage().is_final()).count();
         for _ in KEPT..ended {
-            if let Some(oldest) = self.jobs.iter().position(|job| job.stage().is_final()) {
+            if let Some(oldest) = self.jobs.iter().position(|job| job.life().stage().is_final()) {
                 self.jobs.remove(oldest);
             }
         }

@@ -7,7 +7,7 @@ use utoipa::openapi::schema::{Array, ArrayBuilder, ObjectBuilder, Type};
 
 use super::jobs::JobStage;
 use super::numbers::Numbers2;
-use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row};
+use crate::evaluate::{self, Comparison, DISTURBANCES, Evaluation, Failure, Progress, Row, Setting, Variation};
 use crate::jobs::Stage;
 use crate::scenario::{ControllerName, RlPolicy};
 
@@ -39,6 +39,10 @@ pub struct EvaluationQuery {
     /// Name of a connected program, with the controller `program`.
     #[serde(default)]
     pub program: Option<String>,
+    /// Parameters that take several values, at most two. Each combination has its cells.
+    #[serde(default)]
+    #[schema(max_items = 2)]
+    pub vary: Vec<Variation>,
 }
 
 /// The derive has no limits for the items of a list.
@@ -52,7 +56,7 @@ fn disturbances() -> Array {
 }
 
 /// The subject of one row of the table.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
 pub struct Cell {
     /// Sub-controller 2.
     pub controller: ControllerName,
@@ -61,6 +65,8 @@ pub struct Cell {
     pub disturbances: u32,
     /// Name of the program, with the controller `program`.
     pub program: Option<String>,
+    /// What varied parameters are in this cell.
+    pub varied: Vec<Setting>,
 }
 
 /// The paper's numbers for a row.
@@ -231,22 +237,23 @@ impl EvaluationFailure {
 
 impl From<EvaluationQuery> for evaluate::EvaluationQuery {
     fn from(value: EvaluationQuery) -> Self {
-        let EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program } = value;
-        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program }
+        let EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary } = value;
+        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary }
     }
 }
 
 impl From<evaluate::EvaluationQuery> for EvaluationQuery {
     fn from(value: evaluate::EvaluationQuery) -> Self {
-        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program } = value;
-        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program }
+        let evaluate::EvaluationQuery { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary } =
+            value;
+        Self { controllers, maps, disturbances, episodes, seed, rl_policy, program, vary }
     }
 }
 
 impl From<evaluate::Cell> for Cell {
     fn from(value: evaluate::Cell) -> Self {
-        let evaluate::Cell { controller, map, disturbances, program } = value;
-        Self { controller, map, disturbances, program }
+        let evaluate::Cell { controller, map, disturbances, program, varied } = value;
+        Self { controller, map, disturbances, program, varied }
     }
 }
 

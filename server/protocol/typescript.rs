@@ -13,7 +13,7 @@ use super::*;
 use crate::camera::VIEW_PX;
 use crate::control::CONTROL_PERIOD_S;
 use crate::control::transport::errt::MOST_EDGES;
-use crate::evaluate::{Comparison, PairedMean, Row};
+use crate::evaluate::{Comparison, PairedMean, Row, Setting, Variation};
 use crate::geometry::{Polygon, Rect};
 use crate::learn::Recipe;
 use crate::magnetics::force::FARTHEST_M;
@@ -149,7 +149,16 @@ fn modules() -> [(&'static str, Vec<Declaration>); 16] {
         ("values", declared![ValueQuery, ValueCell, ValueMap]),
         (
             "evaluations",
-            declared![JobStage, EvaluationQuery, Cell, PaperRow, EvaluationCell, EvaluationSummary, Evaluations],
+            declared![
+                Variation,
+                JobStage,
+                EvaluationQuery,
+                Cell,
+                PaperRow,
+                EvaluationCell,
+                EvaluationSummary,
+                Evaluations
+            ],
         ),
         (
             "recoveries",
@@ -167,7 +176,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 16] {
                 RecoveryTrials,
             ],
         ),
-        ("report", declared![Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
+        ("report", declared![Setting, Row, PairedMean, Comparison, EvaluationFailure, EvaluationReport]),
         ("recordings", declared![RecordingFile, RecordingContent, RecordingList, RecordingTitle]),
         ("maps", declared![NarrowPlace, MapFacts, MapReport, MapCheck]),
         (

@@ -24,7 +24,7 @@ pub enum Outcome {
 }
 
 /// The end of a trial.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
     pub outcome: Outcome,
     /// From the moment to the delivery, or to the end of the trial.
@@ -35,6 +35,8 @@ pub struct Tried {
     pub phase: Phase,
     /// The last tick.
     pub tick: u64,
+    /// Deliveries of the trial at the end, with those before the moment.
+    pub deliveries: u32,
     /// Hashes after the last tick.
     pub world_hash: u64,
     pub controller_hash: u64,
@@ -96,6 +98,7 @@ impl Setting<'_> {
                 steps: record.moment.counters.steps - steps,
                 phase,
                 tick: now + 1,
+                deliveries: trial.state().world.counters.deliveries,
                 world_hash: trial.state().world_hash(),
                 controller_hash: trial.state().controller_hash(),
             });

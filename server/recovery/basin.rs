@@ -6,8 +6,7 @@
 
 use serde::Serialize;
 
-use super::findings::Cell;
-use super::{Findings, Outcome, Spot};
+use super::{Findings, Outcome};
 use crate::evaluate::{LEVEL, PairedCounts, corrected_level, wilson};
 
 /// The part of a map from which a controller delivers in time.
@@ -64,16 +63,10 @@ impl Weights {
     }
 }
 
-/// Area of all cells; `None` for other kinds than places.
-fn area_m2(cells: &[Cell]) -> Option<f64> {
-    let area = |cell: &Cell| matches!(cell.spot, Spot::Place { .. }).then(|| cell.spot.weight());
-    cells.iter().map(area).sum()
-}
-
 impl Basin {
     /// The basin of each controller; those without trials are left out.
     pub fn all(findings: &Findings, names: &[&str]) -> Vec<Self> {
-        let area_m2 = area_m2(&findings.cells);
+        let area_m2 = findings.room_m2;
         let basin = |(index, name): (usize, &&str)| {
             let (mut weights, mut delivered_weight) = (Weights::default(), 0.0);
             let (mut trials, mut delivered) = (0, 0);
@@ -145,7 +138,7 @@ impl BasinDifference {
             share_difference,
             share_difference95,
             share_difference_corrected: paired.difference(level).1,
-            area_difference_m2: area_m2(&findings.cells).map(|area_m2| area_m2 * share_difference),
+            area_difference_m2: findings.room_m2.map(|area_m2| area_m2 * share_difference),
         })
     }
 }
@@ -154,7 +147,8 @@ impl BasinDifference {
 mod tests {
     use super::*;
     use crate::geometry::Point2;
-    use crate::recovery::Tried;
+    use crate::recovery::findings::Cell;
+    use crate::recovery::{Spot, Tried};
     use crate::trial::Phase;
 
     fn cell(size_m: f64, delivered: [[bool; 2]; 2]) -> Cell {
@@ -164,7 +158,16 @@ mod tests {
                 .map(|delivered| {
                     let outcome = if delivered { Outcome::Delivered } else { Outcome::Lost };
                     let phase = Phase::Delivered;
-                    Some(Tried { outcome, time_s: 1.0, steps: 1, phase, tick: 1, world_hash: 0, controller_hash: 0 })
+                    Some(Tried {
+                        outcome,
+                        time_s: 1.0,
+                        steps: 1,
+                        phase,
+                        tick: 1,
+                        deliveries: 1,
+                        world_hash: 0,
+                        controller_hash: 0,
+                    })
                 })
                 .to_vec();
         }
@@ -175,18 +178,19 @@ mod tests {
     fn coarse_cells_count_by_their_area() {
         let findings = Findings {
             cells: vec![cell(0.03, [[true, true], [true, false]]), cell(0.01, [[false, false], [true, true]])],
+            room_m2: Some(2e-3),
             ..Findings::default()
         };
         let [first, second] = &Basin::all(&findings, &["a", "b"])[..] else { panic!("two basins") };
         assert!((first.share - 0.9).abs() < 1e-12 && (second.share - 0.55).abs() < 1e-12);
-        assert!((first.area_m2.unwrap() - 9e-4).abs() < 1e-12);
+        assert!((first.area_m2.unwrap() - 1.8e-3).abs() < 1e-12);
         // Kish: (18 + 2)² ÷ (2 · 81 + 2 · 1) = 2.439 trials; statsmodels proportion_confint(2.195, 2.439, method="wilson").
         let [low, high] = first.share95;
         assert!((low - 0.316_360).abs() < 1e-6 && (high - 0.994_319).abs() < 1e-6, "{low} {high}");
         let [difference] = &BasinDifference::all(&findings, &["a", "b"])[..] else { panic!("one pair") };
         assert_eq!((difference.both, difference.first_only, difference.second_only, difference.neither), (1, 1, 2, 0));
         assert!((difference.share_difference - 0.35).abs() < 1e-12);
-        assert!((difference.area_difference_m2.unwrap() - 3.5e-4).abs() < 1e-12);
+        assert!((difference.area_difference_m2.unwrap() - 7e-4).abs() < 1e-12);
     }
 
     #[test]

@@ -95,6 +95,8 @@ pub struct Findings {
     pub done: usize,
     /// Number of trials that are planned; it grows where cells are divided.
     pub planned: usize,
+    /// Area in which the bead has room; only for maps of places.
+    pub room_m2: Option<f64>,
 }
 
 #[cfg(test)]
@@ -107,7 +109,7 @@ mod tests {
         let mut cell = Cell::new(Spot::Push { direction_rad: 0.0, force_n: 0.01 }, 0, 2, 5);
         assert_eq!((cell.tally(0), cell.median_s(0), cell.why(0)), (Tally::default(), None, None));
         let tried = |outcome, time_s, phase| {
-            Some(Tried { outcome, time_s, steps: 1, phase, tick: 1, world_hash: 0, controller_hash: 0 })
+            Some(Tried { outcome, time_s, steps: 1, phase, tick: 1, world_hash: 0, controller_hash: 0, deliveries: 1 })
         };
         cell.tries[1] = vec![
             tried(Outcome::Delivered, 3.0, Phase::Delivered),

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use super::survey::unrecorded;
-use super::{Cell, Findings, Recovery, RecoveryError, RecoveryQuery, Start};
+use super::{Cell, Findings, Recovery, RecoveryError, RecoveryQuery, Start, unrecorded};
 use crate::evaluate::EvaluateError;
-use crate::jobs::{Job, Life, Queue, QueueError, Shelf, Shelved, Stage, Workshop};
+use crate::jobs::{Life, Queue, QueueError, Shelf, Shelved, Stage, Workshop};
 use crate::scenario::ControllerName;
 use crate::trial::{Case, Origin, Timed};
 
@@ -49,43 +48,20 @@ impl RecoveryJob {
     }
 }
 
-impl Job for RecoveryJob {
-    fn is_waiting(&self) -> bool {
-        self.life.stage() == Stage::Waiting
-    }
-
-    fn begin(&self) -> bool {
-        self.life.begin()
-    }
-
-    fn run(&self, workshop: &Workshop) {
-        tracing::info!(id = self.id, "recovery map begins");
-        let run = || self.recovery.run(&workshop.gpu, &self.life, &unrecorded, &|_| ());
-        let stage = match workshop.pool.install(run) {
-            Ok(()) => Stage::Done,
-            Err(EvaluateError::Stopped) => Stage::Cancelled,
-            Err(error) => Stage::Failed(error.to_string()),
-        };
-        tracing::info!(id = self.id, ?stage, "recovery map ends");
-        self.life.end(stage);
-    }
-
-    fn fail(&self, reason: String) {
-        self.life.end(Stage::Failed(reason));
-    }
-
-    fn interrupt(&self) {
-        self.life.cancel();
-    }
-}
-
 impl Shelved for RecoveryJob {
+    type Found = Findings;
+
     fn id(&self) -> &str {
         &self.id
     }
 
-    fn stage(&self) -> Stage {
-        self.life.stage()
+    fn life(&self) -> &Life<Findings> {
+        &self.life
+    }
+
+    fn work(&self, workshop: &Workshop) -> Stage {
+        let run = || self.recovery.run(None, &workshop.gpu, &self.life, &unrecorded, &|_| ());
+        EvaluateError::stage_after(workshop.pool.install(run))
     }
 }
 

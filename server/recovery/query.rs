@@ -54,7 +54,7 @@ impl Kind {
     }
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoveryQuery {
     pub kind: Kind,
     /// Sub-controllers 2.
@@ -86,6 +86,8 @@ pub enum RecoveryError {
     Range { field: &'static str, value: f64, min: f64, max: f64 },
     #[error("grid, repeats and controllers make {trials} trials, the limit is {TRIALS_MOST}")]
     TooManyTrials { trials: usize },
+    #[error("grid is {grid}: no cell has room for the bead at its centre, use more columns")]
+    NoCell { grid: u32 },
     #[error("tick {tick}: no goal is set, so there is nothing to deliver")]
     NoGoal { tick: u64 },
     /// The operator must place the goal again.
@@ -101,7 +103,7 @@ impl RecoveryError {
                 format!("controllers[{index}]")
             }
             Self::Range { field, .. } => (*field).to_owned(),
-            Self::TooManyTrials { .. } => "grid".to_owned(),
+            Self::TooManyTrials { .. } | Self::NoCell { .. } => "grid".to_owned(),
             Self::NoGoal { .. } | Self::Ended { .. } => "tick".to_owned(),
         }
     }
@@ -135,10 +137,12 @@ impl RecoveryQuery {
         Ok(())
     }
 
-    /// Checks the number of trials for a number of cells.
-    pub(super) fn check_trials(&self, cells: usize) -> Result<(), RecoveryError> {
-        let trials = cells * self.controllers.len() * self.repeats as usize;
-        if trials > TRIALS_MOST { Err(RecoveryError::TooManyTrials { trials }) } else { Ok(()) }
+    pub(super) fn check_trials(&self, trials: usize) -> Result<(), RecoveryError> {
+        match trials {
+            0 => Err(RecoveryError::NoCell { grid: self.grid }),
+            1..=TRIALS_MOST => Ok(()),
+            _ => Err(RecoveryError::TooManyTrials { trials }),
+        }
     }
 }
 
@@ -175,8 +179,9 @@ mod tests {
             assert!(error.to_string().contains(text), "{error}");
         }
         assert!(with(&[ControllerName::Program]).check(true).is_ok());
-        assert!(query.check_trials(16_666).is_ok());
-        assert!(query.check_trials(16_667).unwrap_err().to_string().contains("100002 trials"));
+        assert!(query.check_trials(100_000).is_ok());
+        assert!(query.check_trials(0).unwrap_err().to_string().contains("grid is 24"));
+        assert!(query.check_trials(100_001).unwrap_err().to_string().contains("100001 trials"));
         assert_eq!("drag".parse::<Kind>().unwrap(), Kind::Drag);
         assert!("shove".parse::<Kind>().unwrap_err().to_string().contains("\"shove\""));
     }

@@ -5,7 +5,7 @@ mod html;
 use serde::Serialize;
 
 use super::findings::Cell;
-use super::{Basin, BasinDifference, Findings, Kind, Recovery, Spot};
+use super::{Basin, BasinDifference, Findings, Kind, Spot, Subject};
 use crate::evaluate::ReportError;
 use crate::geometry::Point2;
 use crate::map::Map;
@@ -109,25 +109,24 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn of(recovery: &Recovery, adapter: &str, findings: &Findings) -> Self {
-        let Recovery { query, start, .. } = recovery;
-        let world = &start.origin.state.world;
-        let names = recovery.controllers();
+    pub fn of(subject: &Subject, adapter: &str, findings: &Findings) -> Self {
+        let Subject { query, .. } = subject;
+        let names: Vec<&str> = subject.controllers.iter().map(String::as_str).collect();
         Self {
             ferry: env!("CARGO_PKG_VERSION").to_owned(),
             adapter: adapter.to_owned(),
-            map: start.origin.arena.map.name().to_owned(),
+            map: subject.map.name.clone(),
             kind: query.kind,
-            controllers: names.iter().map(|&name| name.to_owned()).collect(),
+            controllers: subject.controllers.clone(),
             grid: query.grid,
             repeats: query.repeats,
             seed: query.seed,
             within_s: query.within_s,
-            tick: world.tick,
-            bead_m: world.plant.bead.position_m,
-            tool_m: world.plant.positioner.tool_m().xy(),
-            goal_m: world.goal_m,
-            changes: world.parameters.changes(),
+            tick: subject.tick,
+            bead_m: subject.bead_m,
+            tool_m: subject.tool_m,
+            goal_m: subject.goal_m,
+            changes: subject.changes.clone(),
             cells: CellRow::all(findings, &names),
             basins: Basin::all(findings, &names),
             differences: BasinDifference::all(findings, &names),

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::attempt::Setting;
 use super::findings::Cell;
 use super::grid::Grid;
-use super::{Findings, Kind, RecoveryError, RecoveryQuery, Spot, Tried};
+use super::{Findings, Kind, Outcome, RecoveryError, RecoveryQuery, Spot, Tried};
 use crate::camera::Gpu;
-use crate::evaluate::{EvaluateError, Venue};
+use crate::evaluate::{EvaluateError, Shard, Venue};
 use crate::jobs::Life;
 use crate::program::{Carrier, Program};
 use crate::scenario::ControllerName;
@@ -58,12 +58,17 @@ impl Recovery {
         }
         let venue = Venue::of(start.origin.arena.clone());
         let recovery = Self { query, start, venue };
-        let cells = match recovery.query.kind {
-            Kind::Place => recovery.grid().fine().len(),
-            _ => recovery.spots(1.0).len(),
-        };
-        recovery.query.check_trials(cells)?;
+        recovery.query.check_trials(recovery.trials())?;
         Ok(recovery)
+    }
+
+    /// Number of trials over the whole finest grid.
+    pub fn trials(&self) -> usize {
+        let cells = match self.query.kind {
+            Kind::Place => self.grid().fine().len(),
+            _ => self.spots(1.0).len(),
+        };
+        cells * self.query.controllers.len() * self.query.repeats as usize
     }
 
     fn grid(&self) -> Grid {
@@ -92,20 +97,25 @@ impl Recovery {
         (0..self.query.controllers.len()).map(|index| self.controller(index)).collect()
     }
 
-    /// Tries everything; `progress` is called after each trial.
+    /// Tries everything, or what belongs to a shard; `progress` is called after each trial. A shard of a map of places
+    /// needs the whole finest grid: which coarse cells are divided depends on all trials.
     ///
     /// # Errors
     /// [`EvaluateError`], also when `life` was cancelled.
     pub fn run(
         &self,
+        shard: Option<Shard>,
         gpu: &Arc<Gpu>,
         life: &Life<Findings>,
         recorders: Recorders<'_>,
         progress: &(dyn Fn(&Findings) + Sync),
     ) -> Result<(), EvaluateError> {
-        let run = Run { recovery: self, gpu, life, recorders, progress };
+        let run = Run { recovery: self, shard, gpu, life, recorders, progress };
         match self.query.kind {
-            Kind::Place => run.places(),
+            Kind::Place => {
+                life.update(|findings| findings.room_m2 = Some(self.venue.room_m2()));
+                run.places()
+            }
             Kind::Blind => {
                 let undisturbed_s = run.undisturbed()?;
                 let slowest_s = undisturbed_s.iter().flatten().fold(1.0, |slowest: f64, &time_s| slowest.max(time_s));
@@ -170,7 +180,10 @@ impl Recovery {
         );
         let inputs =
             self.start.told.iter().flatten().cloned().chain(self.inputs_of(cell, controller, repeat)).collect();
-        let deliveries = state.world.counters.deliveries + 1;
+        let next = state.world.counters.deliveries + 1;
+        // A bead that was delivered at the moment, and that a disturbance has left there, is not delivered again.
+        let tried = cell.tries[controller][repeat].filter(|tried| tried.outcome == Outcome::Delivered);
+        let deliveries = tried.map_or(next, |tried| tried.deliveries);
         let by_tick = state.world.tick + (self.query.within_s / crate::robot::ur5::SERVO_PERIOD_S) as u64;
         self.start.told.as_ref().map(|_| Case {
             about,
@@ -185,6 +198,7 @@ impl Recovery {
 /// A recovery map while it runs.
 struct Run<'a> {
     recovery: &'a Recovery,
+    shard: Option<Shard>,
     gpu: &'a Arc<Gpu>,
     life: &'a Life<Findings>,
     recorders: Recorders<'a>,
@@ -195,7 +209,7 @@ impl Run<'_> {
     /// All cells of a grid of places, or coarse ones, which are divided where a neighbour differs.
     fn places(&self) -> Result<(), EvaluateError> {
         let grid = self.recovery.grid();
-        if self.recovery.query.is_full {
+        if self.recovery.query.is_full || self.shard.is_some() {
             let fine = grid.fine();
             return self.add(fine.iter().map(|&place| (grid.spot(place), place.center as u64)).collect());
         }
@@ -217,7 +231,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn usual(&self, cell: &Cell) -> Vec<super::Outcome> {
+    fn usual(&self, cell: &Cell) -> Vec<Outcome> {
         (0..self.recovery.query.controllers.len()).map(|controller| cell.tally(controller).usual()).collect()
     }
 
@@ -233,7 +247,6 @@ impl Run<'_> {
         let count = new.len();
         self.life.update(|findings| {
             first = findings.cells.len();
-            findings.planned += count * controllers * repeats as usize;
             findings.cells.extend(new.into_iter().map(|(spot, number)| Cell::new(spot, number, controllers, repeats)));
         });
         let mut spread: Vec<usize> = (0..count).collect();
@@ -242,8 +255,13 @@ impl Run<'_> {
             let cells = spread.iter().map(move |index| first + index);
             cells.flat_map(move |cell| (0..controllers).map(move |controller| (cell, controller, repeat)))
         });
+        let turns: Vec<Turn> = match self.shard {
+            Some(shard) => shard.among(turns).collect(),
+            None => turns.collect(),
+        };
+        self.life.update(|findings| findings.planned += turns.len());
         // In this order, on any number of threads.
-        turns.collect::<Vec<Turn>>().into_iter().par_bridge().try_for_each(|turn| self.turn(turn))
+        turns.into_iter().par_bridge().try_for_each(|turn| self.turn(turn))
     }
 
     fn turn(&self, (index, controller, repeat): Turn) -> Result<(), EvaluateError> {
@@ -268,7 +286,7 @@ impl Run<'_> {
             let inputs = self.recovery.inputs(controller, query.seed, None);
             let name = format!("undisturbed-{}", self.recovery.controller(index));
             let tried = self.one(&name, index, &inputs, None)?;
-            Ok((tried.outcome != super::Outcome::Lost).then_some(tried.time_s))
+            Ok((tried.outcome != Outcome::Lost).then_some(tried.time_s))
         });
         times.collect()
     }
@@ -299,6 +317,6 @@ impl Run<'_> {
 }
 
 /// Records nothing.
-pub(super) fn unrecorded(_: &str) -> Result<Box<dyn Sink>, EvaluateError> {
+pub fn unrecorded(_: &str) -> Result<Box<dyn Sink>, EvaluateError> {
     Ok(Box::new(Nowhere::default()))
 }

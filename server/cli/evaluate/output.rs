@@ -1,54 +1,37 @@
 //! What `ferry evaluate` and `ferry merge` print and write.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::Context;
-use comfy_table::{CellAlignment, Table, TableStyle};
+use comfy_table::{CellAlignment, ColumnConstraint, Table, TableStyle};
 
-use crate::evaluate::{Comparison, Failure, Manner, PairedMean, Report, Row};
+use crate::cli::formats::{Formats, Formatted};
+use crate::evaluate::{Comparison, Failure, Manner, PairedMean, Report, Row, Setting};
 
 #[derive(clap::Args)]
 pub struct Output {
-    /// Print only one JSON object
-    #[arg(long)]
-    json: bool,
-    /// Write the rows to this CSV file
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Write rows, differences, failures and figures to this self-contained HTML file
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    #[command(flatten)]
+    pub(in crate::cli) formats: Formats,
     /// Address of the page for the links in the report
     #[arg(long, value_name = "ADDRESS", default_value = "http://127.0.0.1:8080")]
     page: String,
 }
 
 impl Output {
-    /// Opens the files before anything runs, so that an error is reported early.
-    pub fn prepare(&self) -> anyhow::Result<()> {
-        for path in [&self.csv, &self.html].into_iter().flatten() {
-            std::fs::write(path, "").with_context(|| path.display().to_string())?;
-        }
-        Ok(())
-    }
-
     /// Writes the files, and prints the report.
     pub fn write(&self, report: &Report, manner: Manner) -> anyhow::Result<ExitCode> {
-        if let Some(path) = &self.csv {
-            std::fs::write(path, report.to_csv()?).with_context(|| path.display().to_string())?;
-        }
-        if let Some(path) = &self.html {
-            std::fs::write(path, report.to_html(&self.page)).with_context(|| path.display().to_string())?;
-        }
-        if self.json {
-            println!("{}", serde_json::to_string(report)?);
-            return Ok(ExitCode::SUCCESS);
-        }
+        let formatted = Formatted {
+            csv: &|| Ok(report.to_csv()?),
+            html: &|| Ok(report.to_html(&self.page)),
+            print: &|| self.print(report, manner),
+        };
+        self.formats.write(report, &formatted)
+    }
+
+    fn print(&self, report: &Report, manner: Manner) {
         println!("seed {}, rendered by {}", report.seed, report.adapter);
-        let changes = report.rows.first().map(|row| row.changes.join(", "));
-        if let Some(changes) = changes.filter(|changes| !changes.is_empty()) {
-            println!("parameters other than the default: {changes}");
+        let changes = report.changes();
+        if !changes.is_empty() {
+            println!("parameters other than the default: {}", changes.join(", "));
         }
         if manner.by_hand {
             println!("disturbed by a hand that draws the bead through free space");
@@ -58,10 +41,11 @@ impl Output {
         }
         println!("{}", rows_table(&report.rows));
         for row in report.rows.iter().filter(|row| row.beyond_steps > 0) {
-            let Row { controller, map, disturbances, beyond_steps, episodes, .. } = row;
+            let Row { controller, map, disturbances, varied, beyond_steps, episodes, .. } = row;
             println!(
-                "{controller} on {map}, {disturbances} disturbances: {beyond_steps} of {episodes} goals are farther than \
-                 step_limit allows"
+                "{controller} on {map}, {disturbances} disturbances{}: {beyond_steps} of {episodes} goals are farther than \
+                 step_limit allows",
+                after_comma(varied)
             );
         }
         if !report.comparisons.is_empty() {
@@ -73,7 +57,6 @@ impl Output {
             println!("{}", comparisons_table(&report.comparisons));
         }
         print_failures(&report.failures, &self.page);
-        Ok(ExitCode::SUCCESS)
     }
 }
 
@@ -91,10 +74,16 @@ pub(in crate::cli) fn interval([low, high]: [f64; 2]) -> String {
     format!("{low:.3} to {high:.3}")
 }
 
+/// What varied parameters are, after a comma; nothing without any.
+fn after_comma(varied: &[Setting]) -> String {
+    varied.iter().map(|setting| format!(", {setting}")).collect()
+}
+
 fn rows_table(rows: &[Row]) -> Table {
     let head = [
         "controller",
         "map",
+        "varied",
         "dist.",
         "reached",
         "95 % Wilson",
@@ -109,12 +98,13 @@ fn rows_table(rows: &[Row]) -> Table {
         "trained here",
         "ms/step p50 p99",
     ];
-    let mut table = table(&head, 2);
+    let mut table = table(&head, 3);
     for row in rows {
         let pair = |x_m: f64, y_m: f64| format!("{:.1} {:.1}", x_m * 1e3, y_m * 1e3);
         table.add_row(vec![
             row.controller.clone(),
             row.map.clone(),
+            Setting::line(&row.varied),
             row.disturbances.to_string(),
             format!("{}/{}", row.successes, row.episodes),
             interval(row.successes_wilson95),
@@ -130,6 +120,15 @@ fn rows_table(rows: &[Row]) -> Table {
             format!("{:.1} {:.1}", row.decision_ms_p50, row.decision_ms_p99),
         ]);
     }
+    without_empty(table, 2)
+}
+
+/// Without a column if no row has anything in it.
+fn without_empty(mut table: Table, column: usize) -> Table {
+    let is_empty = table.row_iter().all(|row| row.cell_iter().nth(column).is_none_or(|cell| cell.content().is_empty()));
+    if is_empty && let Some(column) = table.column_mut(column) {
+        column.set_constraint(ColumnConstraint::Hidden);
+    }
     table
 }
 
@@ -137,6 +136,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
     let head = [
         "first - second",
         "map",
+        "varied",
         "dist.",
         "both, first, second, neither",
         "delivered, points",
@@ -145,7 +145,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
         "path/shortest",
         "steps of all",
     ];
-    let mut table = table(&head, 2);
+    let mut table = table(&head, 3);
     let signed = |mean: f64, [low, high]: [f64; 2], scale: f64, digits: usize| {
         let [mean, low, high] = [mean, low, high].map(|value| value * scale);
         format!("{mean:+.digits$} ({low:+.digits$} to {high:+.digits$})")
@@ -157,6 +157,7 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
         table.add_row(vec![
             format!("{} - {}", one.controller, one.against),
             one.map.clone(),
+            Setting::line(&one.varied),
             one.disturbances.to_string(),
             format!("{}, {}, {}, {}", one.both, one.first_only, one.second_only, one.neither),
             signed(one.delivered_difference, one.delivered_difference95, 100.0, 1),
@@ -166,17 +167,18 @@ fn comparisons_table(comparisons: &[Comparison]) -> Table {
             one.steps_of_all.map_or("-".to_owned(), |all| signed(all.mean, all.interval_corrected, 1.0, 1)),
         ]);
     }
-    table
+    without_empty(table, 2)
 }
 
 /// Prints each failure with its reason and a link to replay it.
 fn print_failures(failures: &[Failure], page: &str) {
     for failure in failures {
         println!(
-            "\n{} on {}, {} disturbances, trial {}: {} ({} steps)",
+            "\n{} on {}, {} disturbances{}, trial {}: {} ({} steps)",
             failure.controller,
             failure.map,
             failure.disturbances,
+            after_comma(&failure.varied),
             failure.index,
             failure.reason(),
             failure.steps,

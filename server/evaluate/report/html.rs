@@ -3,8 +3,9 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::Report;
+use super::curves::Curves;
 use crate::evaluate::comparison::PairedMean;
-use crate::evaluate::{Comparison, Failure, PaperRow, Row};
+use crate::evaluate::{Comparison, Failure, PaperRow, Row, Setting};
 
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8886; --mark: #0a63c2; --paper: #c85a00; }
@@ -39,6 +40,9 @@ pub(super) fn document(report: &Report, page: &str) -> String {
             em { "Reached" } ": the tool came within 2 cm of the goal, the paper's test. "
             em { "Delivered" } ": the bead did too. All controllers of a map met the same starts, goals, seeds \
              and pushes. Intervals are at 95 %."
+        }
+        @for figure in Curves::all(&report.rows) {
+            figure { (PreEscaped(figure.to_svg().unwrap_or_default())) }
         }
         (rows(report))
         (comparisons(&report.comparisons))
@@ -77,13 +81,15 @@ pub fn html_document(title: &str, style: &str, body: Markup) -> String {
 }
 
 fn subject(row: &Row) -> String {
-    format!("{} on {}, {} disturbances", row.controller, row.map, row.disturbances)
+    let varied: String = row.varied.iter().map(|setting| format!(", {setting}")).collect();
+    format!("{} on {}, {} disturbances{varied}", row.controller, row.map, row.disturbances)
 }
 
 fn rows(report: &Report) -> Markup {
+    let is_varied = report.rows.iter().any(|row| !row.varied.is_empty());
     html! {
-        @if let Some(changes) = report.rows.first().map(|row| &row.changes).filter(|changes| !changes.is_empty()) {
-            p { "Parameters other than the default: " (changes.join(", ")) }
+        @if !report.changes().is_empty() {
+            p { "Parameters other than the default: " (report.changes().join(", ")) }
         }
         @for row in report.rows.iter().filter(|row| row.trained_on_map == Some(false)) {
             p { (subject(row)) ": the policy was not trained on this map." }
@@ -93,7 +99,9 @@ fn rows(report: &Report) -> Markup {
         }
         div.scroll { table {
             thead { tr {
-                th scope="col" { "Controller" } th.text scope="col" { "Map" } th scope="col" { "Disturbances" }
+                th scope="col" { "Controller" } th.text scope="col" { "Map" }
+                @if is_varied { th.text scope="col" { "Varied" } }
+                th scope="col" { "Disturbances" }
                 th scope="col" { "Reached" } th scope="col" { "Wilson" }
                 th scope="col" { "Delivered" } th scope="col" { "Wilson" }
                 th scope="col" { "Mean error" br; small { "distance; in x, in y; mm" } }
@@ -107,6 +115,7 @@ fn rows(report: &Report) -> Markup {
                     tr {
                         th scope="row" { (row.controller) }
                         td.text { (row.map) }
+                        @if is_varied { td.text { (Setting::line(&row.varied)) } }
                         td { (row.disturbances) }
                         td { (row.successes) "/" (row.episodes) }
                         td { (interval(row.successes, row.episodes, row.successes_wilson95)) }
@@ -180,7 +189,7 @@ fn comparisons(comparisons: &[Comparison]) -> Markup {
                     @for one in comparisons {
                         tr {
                             th scope="row" { (one.controller) " – " (one.against) }
-                            td.text { (one.map) }
+                            td.text { (one.map) " " small { (Setting::line(&one.varied)) } }
                             td { (one.disturbances) }
                             td { (one.both) ", " (one.first_only) ", " (one.second_only) ", " (one.neither) }
                             td {
@@ -232,7 +241,7 @@ fn failures(failures: &[Failure], page: &str) -> Markup {
                     @for failure in failures {
                         tr {
                             th scope="row" { (failure.controller) }
-                            td.text { (failure.map) }
+                            td.text { (failure.map) " " small { (Setting::line(&failure.varied)) } }
                             td { (failure.disturbances) }
                             td {
                                 @match &failure.link {

@@ -113,11 +113,12 @@ impl From<SubmitError> for Problem {
                 let code = match query {
                     QueryError::Map { .. } => "map_refused",
                     QueryError::Policy(_) => "unknown_policy",
-                    QueryError::TooManyCells { .. } => "too_many",
+                    QueryError::TooManyCells { .. } | QueryError::TooManyTrials { .. } => "too_many",
                     QueryError::Program { .. } => "no_program",
                     QueryError::Person { .. }
                     | QueryError::Empty { .. }
                     | QueryError::Twice { .. }
+                    | QueryError::Vary(_)
                     | QueryError::Range { .. } => "out_of_range",
                 };
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, detail).field(&query.field())

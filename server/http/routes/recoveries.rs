@@ -121,7 +121,8 @@ pub async fn file(
 
 fn written(server: &Server, job: &RecoveryJob, name: &str) -> Result<(&'static str, String), Problem> {
     let adapter = server.gpu.adapter_name();
-    let report = job.life.read(|_, findings| Report::of(&job.recovery, adapter, findings));
+    let subject = job.recovery.subject().map_err(Problem::internal)?;
+    let report = job.life.read(|_, findings| Report::of(&subject, adapter, findings));
     match name {
         "map.html" => Ok(("text/html; charset=utf-8", report.to_html(&job.recovery.start.origin.arena.map))),
         "map.csv" => Ok(("text/csv; charset=utf-8", report.to_csv().map_err(Problem::internal)?)),

@@ -12,11 +12,37 @@ describe! {
     evaluate::Row as Row;
     evaluate::Comparison as Comparison;
     evaluate::PairedMean as PairedMean;
+    evaluate::Setting as Setting;
+    evaluate::Variation as Variation;
 }
 
 describe_schema! {
     evaluate::Report as Report;
     evaluate::Failure as Failure;
+}
+
+/// A parameter with evenly spaced values, ends included.
+#[derive(Serialize, Deserialize, TS, ToSchema)]
+#[serde(remote = "crate::evaluate::Variation")]
+pub struct Variation {
+    /// Name of a parameter that is a number.
+    #[schema(example = "friction")]
+    pub name: String,
+    /// First value, in the unit of the name.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+    /// Number of values, 2 to 20.
+    #[schema(minimum = 2, maximum = 20)]
+    pub count: u32,
+}
+
+/// A varied parameter's value in one row.
+#[derive(Serialize, Deserialize, TS, ToSchema)]
+#[serde(remote = "crate::evaluate::Setting")]
+pub struct Setting {
+    pub name: String,
+    pub value: f64,
 }
 
 /// One row of the table.
@@ -28,6 +54,9 @@ pub struct Row {
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
+    /// What varied parameters are in this row.
+    #[serde(default)]
+    pub varied: Vec<evaluate::Setting>,
     pub episodes: u32,
     /// Trials whose tool reached the goal (paper's test).
     pub successes: u32,
@@ -41,6 +70,10 @@ pub struct Row {
     pub wilson95: [f64; 2],
     /// Mean over trials of the mean distance of tool and bead during transport.
     pub tracking_error_mean_m: f64,
+    /// Its 95 % interval (Student's t); missing for fewer than two trials.
+    #[serde(default)]
+    #[schema(value_type = Option<Numbers2>)]
+    pub tracking_error_mean95_m: Option<[f64; 2]>,
     /// Mean over trials of the mean absolute difference in x during transport.
     pub tracking_error_mean_x_m: f64,
     /// The same in y.
@@ -83,6 +116,8 @@ pub struct Comparison {
     pub map: String,
     /// Scripted disturbances per trial.
     pub disturbances: u32,
+    /// What varied parameters are in both rows.
+    pub varied: Vec<evaluate::Setting>,
     /// Controller that is compared.
     pub controller: String,
     /// Controller that it is compared with.
@@ -138,6 +173,8 @@ pub struct Failure {
     pub map: String,
     /// Scripted disturbances.
     pub disturbances: u32,
+    /// What varied parameters are in its row.
+    pub varied: Vec<evaluate::Setting>,
     /// Index of the trial.
     pub index: u32,
     /// Seed of the trial itself.

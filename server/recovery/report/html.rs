@@ -6,6 +6,7 @@ use super::{CellRow, Report};
 use crate::evaluate::html_document;
 use crate::geometry::Point2;
 use crate::map::Map;
+use crate::recovery::Kind;
 
 const STYLE: &str = "
 :root { color-scheme: light dark; --line: #8886; }
@@ -131,7 +132,7 @@ fn figure(report: &Report, map: &Map, controller: &str) -> Markup {
     match rows.first() {
         Some(row) if row.x_m.is_some() => places(report, map, &rows),
         Some(row) if row.at_s.is_some() => losses(&rows),
-        _ => directions(&rows),
+        _ => directions(&rows, report.kind),
     }
 }
 
@@ -181,15 +182,17 @@ fn places(report: &Report, map: &Map, rows: &[&CellRow]) -> Markup {
     }
 }
 
+/// The different values of a column, in order.
+fn steps(rows: &[&CellRow], value: fn(&CellRow) -> Option<f64>) -> Vec<f64> {
+    let mut steps: Vec<f64> = rows.iter().filter_map(|row| value(row)).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.dedup();
+    steps
+}
+
 /// Times to the right, durations upward.
 fn losses(rows: &[&CellRow]) -> Markup {
-    let steps = |value: fn(&CellRow) -> Option<f64>| {
-        let mut steps: Vec<f64> = rows.iter().filter_map(|row| value(row)).collect();
-        steps.sort_by(f64::total_cmp);
-        steps.dedup();
-        steps
-    };
-    let (times_s, durations_s) = (steps(|row| row.at_s), steps(|row| row.strength));
+    let (times_s, durations_s) = (steps(rows, |row| row.at_s), steps(rows, |row| row.strength));
     let (wide, high) = ((WIDTH - 40.0) / times_s.len() as f64, 30.0);
     let bottom = high * durations_s.len() as f64;
     let place =
@@ -215,9 +218,10 @@ fn losses(rows: &[&CellRow]) -> Markup {
 }
 
 /// Rings of sectors, the strongest outside.
-fn directions(rows: &[&CellRow]) -> Markup {
-    let most = rows.iter().filter_map(|row| row.strength).fold(0.0, f64::max);
-    let least = rows.iter().filter_map(|row| row.strength).fold(f64::INFINITY, f64::min);
+fn directions(rows: &[&CellRow], kind: Kind) -> Markup {
+    let strengths = steps(rows, |row| row.strength);
+    let (least, most) = (strengths.first().copied().unwrap_or(1.0), strengths.last().copied().unwrap_or(1.0));
+    let (per_unit, unit) = if kind == Kind::Push { (1e3, "mN") } else { (1e2, "cm") };
     let count = rows.iter().filter(|row| row.strength == Some(least)).count();
     let half = std::f64::consts::PI / count.max(1) as f64;
     let scale = (WIDTH / 2.0 - 30.0) / (most + least);
@@ -240,6 +244,12 @@ fn directions(rows: &[&CellRow]) -> Markup {
                     path d=(sector(direction_rad, strength)) fill=(fill) fill-opacity=(opacity) stroke="#fff" {
                         title { (words(row)) }
                     }
+                }
+            }
+            @for (index, &strength) in strengths.iter().enumerate() {
+                text y=((strength + least / 2.0) * scale + 4.0) text-anchor="middle" font-size="12" stroke="#fff"
+                    stroke-width="3" paint-order="stroke" {
+                    (format!("{:.1}", strength * per_unit)) @if index + 1 == strengths.len() { " " (unit) }
                 }
             }
         }

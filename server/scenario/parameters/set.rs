@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::descriptor::Kind;
 use super::presets::{Preset, text};
-use super::{ParameterError, Parameters, RlPolicy};
+use super::{Parameter, ParameterError, Parameters, RlPolicy};
 
 /// Names at least this similar to an unknown one are suggested, from 0 to 1.
 const SIMILAR: f64 = 0.85;
@@ -70,6 +70,15 @@ impl Parameters {
     }
 }
 
+impl Parameter {
+    /// # Errors
+    /// [`SetError::Unknown`].
+    pub fn named(name: &str) -> Result<&'static Self, SetError> {
+        let found = Parameters::ALL.iter().find(|parameter| parameter.name == name);
+        found.ok_or_else(|| SetError::Unknown { name: name.to_owned() })
+    }
+}
+
 fn split(change: &str) -> Result<(&str, &str), SetError> {
     change.split_once('=').ok_or_else(|| SetError::Form(change.to_owned()))
 }
@@ -82,8 +91,7 @@ fn set(values: &mut Value, change: &str) -> Result<(), SetError> {
 }
 
 fn parsed(name: &str, text: &str) -> Result<(&'static str, Value), SetError> {
-    let parameter = Parameters::ALL.iter().find(|parameter| parameter.name == name);
-    let parameter = parameter.ok_or_else(|| SetError::Unknown { name: name.to_owned() })?;
+    let parameter = Parameter::named(name)?;
     let field = parameter.name;
     let before = match parameter.kind {
         Kind::Number(number) if number.whole => "a whole number, ",

@@ -238,6 +238,22 @@ export const EVALUATE: Section = {
       see: valueOf,
       after: (lab) => lab.label('Policy of RL').selectOption('auto'),
     },
+    'combobox Vary a parameter': { see: valueOf, after: choose('Vary a parameter', '') },
+    'combobox Vary a second parameter': {
+      see: valueOf,
+      ready: choose('Vary a parameter', 'friction'),
+      after: choose('Vary a parameter', ''),
+    },
+    ...Object.fromEntries(
+      ['From', 'To', 'Values'].map((name) => [
+        `spinbutton ${name}`,
+        {
+          ...typed,
+          ready: choose('Vary a parameter', 'friction'),
+          after: choose('Vary a parameter', ''),
+        },
+      ]),
+    ),
     'spinbutton Episodes per cell': typed,
     'spinbutton Seed': typed,
     ...REPORT_ROWS,

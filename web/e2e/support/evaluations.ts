@@ -9,7 +9,7 @@ const RUN_MS = 60_000;
 export async function startEvaluation(
   request: APIRequestContext,
   origin: string,
-  query: Omit<EvaluationReport['query'], 'rl_policy' | 'program'>,
+  query: Omit<EvaluationReport['query'], 'rl_policy' | 'program' | 'vary'>,
 ) {
   const response = await request.post(`${origin}/api/evaluations`, { data: query });
   expect(response.ok(), await response.text()).toBe(true);

@@ -134,6 +134,7 @@ export function Page(): JSX.Element {
         <Match when={view() === 'evaluate'}>
           <EvaluateView
             lab={lab}
+            theme={theme}
             onLaboratory={() => {
               setView('laboratory');
             }}

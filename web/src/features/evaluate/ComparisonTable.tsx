@@ -4,6 +4,7 @@ import { For, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { Comparison, PairedMean } from '../../net/protocol.gen';
 import { difference } from './table';
+import { variedWords } from './varied';
 import './tables.css';
 
 /** Programs have their own names. */
@@ -77,7 +78,7 @@ export function ComparisonTable(props: { comparisons: readonly Comparison[] }): 
                 <th scope="row">
                   {label(one.controller)} − {label(one.against)}
                 </th>
-                <td>{one.map}</td>
+                <td>{[one.map, variedWords(one.varied)].filter(Boolean).join('; ')}</td>
                 <td>{one.disturbances}</td>
                 <td>{[one.both, one.first_only, one.second_only, one.neither].join(' · ')}</td>
                 <td>{difference(one.delivered_difference, one.delivered_difference95, 100, 1)}</td>

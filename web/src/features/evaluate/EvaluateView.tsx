@@ -1,6 +1,7 @@
 // The Evaluate view: the request on the left, the results on the right.
 
 import { For, Show, createMemo, createSignal, type JSX } from 'solid-js';
+import type { Theme } from '../../ui/theme';
 import { EvaluationForm } from './EvaluationForm';
 import { EvaluationPanel } from './EvaluationPanel';
 import { createEvaluationList } from './evaluations';
@@ -40,6 +41,7 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
 
 export function EvaluateView(props: {
   lab: Session & Trial;
+  theme: () => Theme;
   onLaboratory: () => void;
 }): JSX.Element {
   const list = createEvaluationList();
@@ -100,6 +102,7 @@ export function EvaluateView(props: {
             lab={props.lab}
             list={list}
             summary={summary()}
+            theme={props.theme}
             onLaboratory={props.onLaboratory}
           />
         )}

@@ -26,6 +26,7 @@ import {
   toggled,
 } from './request';
 import type { Session, Trial } from '../../lab/slices';
+import { VaryFields } from './VaryFields';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
@@ -225,6 +226,13 @@ export function EvaluationForm(props: {
         fault={faults().disturbances}
         onChoose={(disturbances) => {
           change('disturbances', { disturbances });
+        }}
+      />
+      <VaryFields
+        value={draft().vary}
+        fault={faults().vary}
+        onInput={(vary) => {
+          change('vary', { vary });
         }}
       />
       <div class="wholes">

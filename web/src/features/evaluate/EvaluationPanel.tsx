@@ -2,11 +2,13 @@
 
 import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { roughly } from '../../ui/format';
+import type { Theme } from '../../ui/theme';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { ComparisonTable } from './ComparisonTable';
 import { createReport, type EvaluationList } from './evaluations';
 import { EvaluationTable } from './EvaluationTable';
 import { FailureList } from './FailureList';
+import { LazyRobustnessPlots } from './LazyRobustnessPlots';
 import {
   episodesDone,
   episodesInAll,
@@ -54,6 +56,7 @@ export function EvaluationPanel(props: {
   lab: Session & Trial;
   list: EvaluationList;
   summary: EvaluationSummary;
+  theme: () => Theme;
   onLaboratory: () => void;
 }): JSX.Element {
   const { lab } = props;
@@ -112,6 +115,13 @@ export function EvaluationPanel(props: {
           {(text) => <p class="refusal">{text()}</p>}
         </Show>
       </div>
+      <Show when={report()}>
+        {(now) => (
+          <Show when={props.summary.id} keyed>
+            <LazyRobustnessPlots summary={props.summary} rows={now().rows} theme={props.theme} />
+          </Show>
+        )}
+      </Show>
       <EvaluationTable summary={props.summary} rows={report()?.rows ?? []} />
       <p class="hint">
         All controllers get the same starts, goals, seeds and disturbances on a map. The paper

@@ -6,6 +6,7 @@ import { controllerLabel } from '../../lab/parameters';
 import type { EvaluationCell, EvaluationSummary, PaperRow, Row } from '../../net/protocol.gen';
 import { IntervalBar } from './IntervalBar';
 import { cm, decisionWords, percentRange, ratio } from './table';
+import { variedWords } from './varied';
 import './tables.css';
 
 function Share(props: {
@@ -104,6 +105,7 @@ export function EvaluationTable(props: {
   summary: EvaluationSummary;
   rows: readonly Row[];
 }): JSX.Element {
+  const isVaried = (): boolean => props.summary.query.vary.length > 0;
   // Keyed by number, so that new data changes a row's content and does not replace the row.
   const numbers = (): number[] => props.summary.cells.map((_, index) => index);
   return (
@@ -113,6 +115,9 @@ export function EvaluationTable(props: {
           <tr>
             <th scope="col">Controller</th>
             <th scope="col">Map</th>
+            <Show when={isVaried()}>
+              <th scope="col">Varied</th>
+            </Show>
             <th scope="col" title="Scripted disturbances per episode">
               Dist.
             </th>
@@ -166,6 +171,9 @@ export function EvaluationTable(props: {
                     <tr data-testid="evaluation-row">
                       <th scope="row">{controllerLabel(cell())}</th>
                       <td>{cell().map}</td>
+                      <Show when={isVaried()}>
+                        <td>{variedWords(cell().varied)}</td>
+                      </Show>
                       <td>{cell().disturbances}</td>
                       <Show
                         when={props.rows[index]}

@@ -5,6 +5,7 @@ import { controllerLabel } from '../../lab/parameters';
 import type { EvaluationFailure, EvaluationReport } from '../../net/protocol.gen';
 import { setUpAgain } from './setUp';
 import { reason } from './table';
+import { variedWords } from './varied';
 import type { Session, Trial } from '../../lab/slices';
 import './tables.css';
 
@@ -21,13 +22,19 @@ function FailureRow(props: {
   const cell = () => props.report.cells[props.failure.cell];
   const label = (): string => {
     const now = cell();
-    return now ? `${controllerLabel(now)}, ${now.map}, ${now.disturbances}` : '';
+    if (!now) return '';
+    const { map, disturbances, varied } = now;
+    return [controllerLabel(now), map, disturbances, variedWords(varied)]
+      .filter((word) => word !== '')
+      .join(', ');
   };
   const setUp = (): void => {
     const now = cell();
     const defaults = lab.scene()?.defaults;
     if (!now || !defaults) return;
-    lab.send(setUpAgain(now, props.failure, defaults));
+    lab.send(
+      setUpAgain(now, props.failure, { ...defaults, rl_policy: props.report.query.rl_policy }),
+    );
     if (now.program !== null) {
       lab.send({ type: 'select_controller', controller: 'program', program: now.program });
     }

@@ -2,6 +2,7 @@
 
 import { CONTROLLER_LABELS, controllerLabel, policyName } from '../../lab/parameters';
 import type { Cell, ControllerName, EvaluationSummary } from '../../net/protocol.gen';
+import { numberField } from './varied';
 
 export function isActive({ stage }: EvaluationSummary): boolean {
   return stage === 'running' || stage === 'waiting';
@@ -84,7 +85,8 @@ export function subject({ query }: EvaluationSummary): string {
   const controllers = query.controllers.map(label).join(', ');
   const disturbances = query.disturbances.join(' and ');
   const noun = disturbances === '1' ? 'disturbance' : 'disturbances';
-  return `${controllers} on ${query.maps.join(', ')}; ${disturbances} ${noun}`;
+  const varied = query.vary.map(({ name }) => `; ${numberField(name).label} varied`).join('');
+  return `${controllers} on ${query.maps.join(', ')}; ${disturbances} ${noun}${varied}`;
 }
 
 /** Announcement for screen readers. It changes at each quarter, each row, and the end. */

@@ -18,6 +18,7 @@ const PAPERS_QUERY = {
   seed: 1,
   rl_policy: 'auto',
   program: null,
+  vary: [],
 };
 
 describe('queryOf', () => {
@@ -44,6 +45,19 @@ describe('queryOf', () => {
     expect(queryOf({ ...PAPERS, controllers: [], program: 'mine' })).toMatchObject({
       query: { controllers: ['program'], program: 'mine' },
     });
+  });
+
+  it('gives varied values in stored units', () => {
+    const vary = [{ name: 'threshold_m', from: '1', to: '4', count: '4' }] as const;
+    const made = queryOf({ ...PAPERS, vary });
+    expect(made).toMatchObject({
+      query: { vary: [{ name: 'threshold_m', from: 0.01, to: 0.04, count: 4 }] },
+    });
+    expect('query' in made && sizeWords(made.query)).toBe('8 cells, 240 episodes');
+    for (const wrong of [{ from: '' }, { to: 'far' }, { count: '2.5' }]) {
+      const one = queryOf({ ...PAPERS, vary: [{ ...vary[0], ...wrong }] });
+      expect(one).toHaveProperty('faults.vary');
+    }
   });
 
   it('reports every field that is empty or not a number', () => {

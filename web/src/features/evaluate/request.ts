@@ -1,11 +1,22 @@
 // The request for an evaluation, from the form's fields. Pure.
 
 import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
-import { CONTROLLERS } from '../../lab/parameters';
+import { CONTROLLERS, type NumberName } from '../../lab/parameters';
 import { counted } from '../../ui/format';
 import { secondsAnEpisode } from './progress';
+import { numberField } from './varied';
 
-export type Field = 'controllers' | 'rl_policy' | 'maps' | 'disturbances' | 'episodes' | 'seed';
+export type Field =
+  'controllers' | 'rl_policy' | 'maps' | 'disturbances' | 'vary' | 'episodes' | 'seed';
+
+/** A parameter that takes several values, as typed. */
+export interface VariedDraft {
+  readonly name: NumberName;
+  /** In the shown unit; empty if it is not a number. */
+  readonly from: string;
+  readonly to: string;
+  readonly count: string;
+}
 
 export interface Draft {
   readonly controllers: readonly ControllerName[];
@@ -14,6 +25,8 @@ export interface Draft {
   readonly program: string;
   readonly maps: readonly string[];
   readonly disturbances: readonly number[];
+  /** At most two. */
+  readonly vary: readonly VariedDraft[];
   /** As typed; empty if it is not a number. */
   readonly episodes: string;
   readonly seed: string;
@@ -26,6 +39,7 @@ export const PAPERS: Draft = {
   program: '',
   maps: ['colon'],
   disturbances: [0, 3],
+  vary: [],
   episodes: '30',
   seed: '1',
 };
@@ -33,6 +47,13 @@ export const PAPERS: Draft = {
 export type Faults = Readonly<Partial<Record<Field | 'form', string | undefined>>>;
 
 const WHOLE = /^\d+$/;
+
+const isNumber = (text: string): boolean => text.trim() !== '' && Number.isFinite(Number(text));
+
+/** From the shown unit, without the noise of binary fractions. */
+function stored(name: NumberName, text: string): number {
+  return Number((Number(text) / numberField(name).scale).toPrecision(12));
+}
 
 /** The query, or the faults of the draft. The server checks the limits. */
 export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Faults } {
@@ -42,6 +63,11 @@ export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Fa
   if (draft.maps.length === 0) faults.maps = 'Choose at least one map.';
   if (draft.disturbances.length === 0)
     faults.disturbances = 'Choose at least one number of disturbances.';
+  const wrong = draft.vary.find(
+    ({ from, to, count }) => !isNumber(from) || !isNumber(to) || !WHOLE.test(count),
+  );
+  if (wrong)
+    faults.vary = `${numberField(wrong.name).label}: type the first value, the last one and how many.`;
   if (!WHOLE.test(draft.episodes))
     faults.episodes = 'Episodes must be a whole number from 1 to 1000.';
   const seed = Number(draft.seed);
@@ -60,6 +86,12 @@ export function queryOf(draft: Draft): { query: EvaluationQuery } | { faults: Fa
       // Without RL there is no policy to name.
       rl_policy: controllers.includes('rl') ? rl_policy : 'auto',
       program: program === '' ? null : program,
+      vary: draft.vary.map(({ name, from, to, count }) => ({
+        name,
+        from: stored(name, from),
+        to: stored(name, to),
+        count: Number(count),
+      })),
     },
   };
 }
@@ -69,6 +101,7 @@ const FIELDS: readonly Field[] = [
   'rl_policy',
   'maps',
   'disturbances',
+  'vary',
   'episodes',
   'seed',
 ];
@@ -99,9 +132,15 @@ export function chooseControllers(
   };
 }
 
+/** Number of combinations of the varied values. */
+function combinations({ vary }: EvaluationQuery): number {
+  return vary.reduce((product, { count }) => product * count, 1);
+}
+
 /** `4 cells, 120 episodes`. */
 export function sizeWords(query: EvaluationQuery): string {
-  const cells = query.controllers.length * query.maps.length * query.disturbances.length;
+  const cells =
+    query.controllers.length * query.maps.length * query.disturbances.length * combinations(query);
   return `${counted(cells, 'cell')}, ${counted(cells * query.episodes, 'episode')}`;
 }
 
@@ -115,11 +154,11 @@ export function estimate_s(
     for (const disturbances of query.disturbances) {
       for (const controller of query.controllers) {
         const episode_s = secondsAnEpisode(
-          { controller, map, disturbances, program: query.program },
+          { controller, map, disturbances, program: query.program, varied: [] },
           measured,
         );
         if (episode_s === undefined) return undefined;
-        sum_s += episode_s * query.episodes;
+        sum_s += episode_s * query.episodes * combinations(query);
       }
     }
   }

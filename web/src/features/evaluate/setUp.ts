@@ -2,11 +2,11 @@
 
 import type { Cell, ClientMessage, EvaluationFailure, Parameters } from '../../net/protocol.gen';
 
-/** Evaluations use the default parameters. */
+/** Evaluations use these parameters, and what is varied. */
 export function setUpAgain(
   cell: Cell,
   failure: EvaluationFailure,
-  defaults: Parameters,
+  parameters: Parameters,
 ): ClientMessage {
   return {
     type: 'load_scenario',
@@ -14,7 +14,10 @@ export function setUpAgain(
     controller: cell.controller,
     disturbances: cell.disturbances,
     seed: failure.seed,
-    parameters: defaults,
+    parameters: {
+      ...parameters,
+      ...Object.fromEntries(cell.varied.map(({ name, value }) => [name, value])),
+    },
     ...(failure.start_m && { start_m: failure.start_m }),
     ...(failure.goal_m && { goal_m: failure.goal_m }),
   };

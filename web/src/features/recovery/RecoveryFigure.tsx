@@ -95,6 +95,13 @@ export function RecoveryFigure(props: {
           );
         }}
       </For>
+      <For each={drawing().labels}>
+        {({ text, at: [x, y] }) => (
+          <text class="axis number" x={x} y={y} aria-hidden="true">
+            {text}
+          </text>
+        )}
+      </For>
       <Show when={props.report.kind === 'place'}>
         {dot(props.report.bead_m, 'bead')}
         <Show when={props.report.goal_m}>{(goal_m) => dot(goal_m(), 'goal')}</Show>

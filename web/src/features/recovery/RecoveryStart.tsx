@@ -21,8 +21,6 @@ const COLUMNS: Readonly<Record<RecoveryKind, string>> = {
   drag: 'Directions',
   blind: 'Times',
 };
-const SEED = 1;
-const WITHIN_S = 60;
 
 function Whole(props: {
   label: string;
@@ -35,7 +33,7 @@ function Whole(props: {
       <input
         type="number"
         class="number"
-        min="1"
+        min="0"
         step="1"
         value={props.value}
         onInput={({ currentTarget }) => {
@@ -57,7 +55,7 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
     const tick = lab.state()?.tick;
     if (tick === undefined) return;
     setRefusal(undefined);
-    const { kind, grid, repeats } = draft();
+    const { kind, grid, repeats, within_s, seed } = draft();
     try {
       await props.list.start({
         session: lab.session,
@@ -66,8 +64,8 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
         controllers: wanted(),
         grid: Number(grid),
         repeats: Number(repeats),
-        seed: SEED,
-        within_s: WITHIN_S,
+        seed: Number(seed),
+        within_s: Number(within_s),
         full: false,
       });
     } catch (reason) {
@@ -101,6 +99,12 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
         value={draft().repeats}
         onInput={(repeats) => setDraft({ ...draft(), repeats })}
       />
+      <Whole
+        label="In time, s"
+        value={draft().within_s}
+        onInput={(within_s) => setDraft({ ...draft(), within_s })}
+      />
+      <Whole label="Noise seed" value={draft().seed} onInput={(seed) => setDraft({ ...draft(), seed })} />
       <ControllerChecks
         verb="Try"
         offered={offered()}

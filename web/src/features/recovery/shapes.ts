@@ -1,6 +1,7 @@
 // The cells of a recovery map as shapes of a drawing. Pure.
 
 import type { Rect, RecoveryCell, RecoveryReport } from '../../net/protocol.gen';
+import { fixed } from '../../ui/format';
 import { mm, rowsOf } from './cells';
 
 export interface Shape {
@@ -11,14 +12,26 @@ export interface Shape {
   readonly middle: readonly [x: number, y: number];
 }
 
+/** A number of an axis, centred at its place. */
+export interface Label {
+  readonly text: string;
+  readonly at: readonly [x: number, y: number];
+}
+
 export interface Drawing {
   readonly box: readonly [x: number, y: number, width: number, height: number];
   readonly shapes: readonly Shape[];
+  readonly labels: readonly Label[];
 }
 
 const ROUND = 200;
 const BLIND_WIDE = 320;
 const BLIND_HIGH = 160;
+/** Room for the numbers of the axes. */
+const LEFT = 26;
+const BELOW = 16;
+/** Least distance of two times. */
+const APART = 46;
 /** A little space between cells. */
 const GAP = 0.06;
 
@@ -43,6 +56,7 @@ function places(rows: readonly RecoveryCell[], workspace: Rect): Drawing {
   return {
     box: [mm(x_min_m), -mm(y_max_m), mm(x_max_m - x_min_m), mm(y_max_m - y_min_m)],
     shapes,
+    labels: [],
   };
 }
 
@@ -55,7 +69,7 @@ function steps(
 }
 
 /** Rings of sectors, the strongest outside. */
-function sectors(rows: readonly RecoveryCell[]): Drawing {
+function sectors(rows: readonly RecoveryCell[], kind: 'push' | 'drag'): Drawing {
   const [strengths, directions] = [steps(rows, 'strength'), steps(rows, 'direction_rad')];
   const ring = ROUND / (strengths.length + 1);
   const half = Math.PI / Math.max(1, directions.length);
@@ -71,7 +85,13 @@ function sectors(rows: readonly RecoveryCell[]): Drawing {
     const middle = [radius * Math.cos(direction), -radius * Math.sin(direction)] as const;
     return { cell: row.cell, path, middle };
   });
-  return { box: [-ROUND, -ROUND, 2 * ROUND, 2 * ROUND], shapes };
+  const [scale, unit] = kind === 'push' ? [1000, 'mN'] : [100, 'cm'];
+  const labels = strengths.map((strength, index): Label => {
+    const isLast = index === strengths.length - 1;
+    const text = `${fixed(strength * scale, 1)}${isLast ? ` ${unit}` : ''}`;
+    return { text, at: [0, ring * (index + 1.5)] };
+  });
+  return { box: [-ROUND, -ROUND, 2 * ROUND, 2 * ROUND], shapes, labels };
 }
 
 /** Times to the right, durations upward. */
@@ -87,14 +107,27 @@ function losses(rows: readonly RecoveryCell[]): Drawing {
       path: box(x, y, wide * (1 - GAP), high * (1 - GAP)),
     };
   });
-  return { box: [0, 0, BLIND_WIDE, BLIND_HIGH], shapes };
+  const every = Math.ceil(APART / wide);
+  const labels = [
+    ...durations.map((duration, index): Label => ({
+      text: `${fixed(duration, 1)} s`,
+      at: [-LEFT / 2, BLIND_HIGH - (index + 0.5) * high],
+    })),
+    ...times
+      .map((time, index): Label => ({
+        text: `at ${fixed(time, 1)} s`,
+        at: [(index + 0.5) * wide, BLIND_HIGH + BELOW / 2],
+      }))
+      .filter((_, index) => index % every === 0),
+  ];
+  return { box: [-LEFT, 0, LEFT + BLIND_WIDE, BLIND_HIGH + BELOW], shapes, labels };
 }
 
 /** The cells of a controller. */
 export function drawingOf(report: RecoveryReport, name: string, workspace: Rect): Drawing {
   const rows = rowsOf(report, name);
   if (report.kind === 'place') return places(rows, workspace);
-  return report.kind === 'blind' ? losses(rows) : sectors(rows);
+  return report.kind === 'blind' ? losses(rows) : sectors(rows, report.kind);
 }
 
 /** The next shape from one toward a side; the same one at the edge. */

@@ -10,6 +10,8 @@ export interface Draft {
   /** As typed. */
   readonly grid: string;
   readonly repeats: string;
+  readonly within_s: string;
+  readonly seed: string;
 }
 
 /** Each controller beside the others, or the first minus the second of two, by their index. */
@@ -27,6 +29,8 @@ function createStore() {
     left_out: [],
     grid: '24',
     repeats: '3',
+    within_s: '60',
+    seed: '1',
   });
   const [wanted, setWanted] = createSignal<string>();
   const [report, setReport] = createSignal<RecoveryReport>();

@@ -1,6 +1,28 @@
 // Generated from server/protocol.rs; `FERRY_GENERATE=1 cargo test --release protocol` renews it.
 
 import type { ControllerName } from './experiment.gen';
+import type { Setting } from './report.gen';
+
+/**
+ * A parameter with evenly spaced values, ends included.
+ */
+export type Variation = { 
+/**
+ * Name of a parameter that is a number.
+ */
+name: string, 
+/**
+ * First value, in the unit of the name.
+ */
+from: number, 
+/**
+ * Last value.
+ */
+to: number, 
+/**
+ * Number of values, 2 to 20.
+ */
+count: number, };
 
 export type JobStage = "waiting" | "running" | "done" | "cancelled" | "failed";
 
@@ -36,7 +58,11 @@ rl_policy: string,
 /**
  * Name of a connected program, with the controller `program`.
  */
-program: string | null, };
+program: string | null, 
+/**
+ * Parameters that take several values, at most two. Each combination has its cells.
+ */
+vary: Array<Variation>, };
 
 /**
  * The subject of one row of the table.
@@ -53,7 +79,11 @@ disturbances: number,
 /**
  * Name of the program, with the controller `program`.
  */
-program: string | null, };
+program: string | null, 
+/**
+ * What varied parameters are in this cell.
+ */
+varied: Array<Setting>, };
 
 /**
  * The paper's numbers for a row.
@@ -115,7 +145,11 @@ disturbances: number,
 /**
  * Name of the program, with the controller `program`.
  */
-program: string | null, };
+program: string | null, 
+/**
+ * What varied parameters are in this cell.
+ */
+varied: Array<Setting>, };
 
 /**
  * An evaluation without its rows.

@@ -3,6 +3,11 @@
 import type { EvaluationCell, EvaluationQuery, JobStage } from './evaluations.gen';
 
 /**
+ * A varied parameter's value in one row.
+ */
+export type Setting = { name: string, value: number, };
+
+/**
  * One row of the table.
  */
 export type Row = { 
@@ -13,7 +18,11 @@ controller: string, map: string,
 /**
  * Scripted disturbances per trial.
  */
-disturbances: number, episodes: number, 
+disturbances: number, 
+/**
+ * What varied parameters are in this row.
+ */
+varied: Array<Setting>, episodes: number, 
 /**
  * Trials whose tool reached the goal (paper's test).
  */
@@ -34,6 +43,10 @@ wilson95: [number, number],
  * Mean over trials of the mean distance of tool and bead during transport.
  */
 tracking_error_mean_m: number, 
+/**
+ * Its 95 % interval (Student's t); missing for fewer than two trials.
+ */
+tracking_error_mean95_m: [number, number] | null, 
 /**
  * Mean over trials of the mean absolute difference in x during transport.
  */
@@ -108,6 +121,10 @@ export type Comparison = { map: string,
  * Scripted disturbances per trial.
  */
 disturbances: number, 
+/**
+ * What varied parameters are in both rows.
+ */
+varied: Array<Setting>, 
 /**
  * Controller that is compared.
  */
