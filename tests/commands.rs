@@ -88,7 +88,10 @@ fn every_controller_gets_the_same_trials_and_each_trial_is_recorded() {
 
     let rows = std::fs::read_to_string(&csv).unwrap();
     assert_eq!(rows.lines().count(), 9);
-    assert!(rows.starts_with("controller,map,disturbances,episodes,successes,"), "{rows}");
+    assert!(
+        rows.starts_with("controller,map,disturbances,varied_1,value_1,varied_2,value_2,episodes,successes,"),
+        "{rows}"
+    );
     let page = std::fs::read_to_string(&html).unwrap();
     assert_eq!(page.matches("<figure>").count(), 8);
     for foreign in ["src=", "<link", "@import", "url("] {

@@ -183,11 +183,26 @@ async fn bad_queries_are_refused_by_field_and_value() {
         (json!({"seed": 1.5}), 400, "malformed", "seed", &["1.5"]),
         (json!({"wings": 2}), 400, "malformed", "wings", &["wings"]),
         (
-            json!({"controllers": ["rl", "errt", "attractor"], "maps": ["open", "posts", "colon"], "disturbances": [0, 1, 2]}),
+            json!({"controllers": ["rl", "errt", "attractor"], "maps": ["open", "posts", "colon"], "disturbances": [0, 1, 2],
+                "vary": [{"name": "friction", "from": 0.1, "to": 0.4, "count": 10}]}),
             422,
             "too_many",
             "maps",
-            &["27 cells", "24"],
+            &["270 cells", "240"],
+        ),
+        (
+            json!({"vary": [{"name": "friction", "from": 0.1, "to": 1.4, "count": 2}]}),
+            422,
+            "out_of_range",
+            "vary",
+            &["friction is 1.4, it must be 0 to 1"],
+        ),
+        (
+            json!({"vary": [{"name": "frictoin", "from": 0.1, "to": 0.4, "count": 2}]}),
+            422,
+            "out_of_range",
+            "vary",
+            &["did you mean friction?"],
         ),
     ] {
         let (answered, problem) = lab.ask("POST", "/api/evaluations", &query(change.clone()).to_string()).await;

@@ -33,9 +33,14 @@ impl<S: Send + Sync> FromRequest<S> for WholeBody {
     }
 }
 
+/// Reads a JSON object.
 pub fn parse<'a, T: Deserialize<'a>>(body: &'a [u8]) -> Result<T, Problem> {
     let mut reader = serde_json::Deserializer::from_slice(body);
     let malformed = |detail: String| Problem::new(StatusCode::BAD_REQUEST, "malformed", detail);
+    // Serde reads the fields of an object from an array, too, without their names.
+    if body.trim_ascii_start().first() == Some(&b'[') {
+        return Err(malformed("the body is an array, it must be a JSON object".to_owned()));
+    }
     let value = serde_path_to_error::deserialize(&mut reader)
         .map_err(|error| malformed(error.to_string()).field(&error.path().to_string()))?;
     reader.end().map_err(|error| malformed(error.to_string()))?;

@@ -104,7 +104,11 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
         value={draft().within_s}
         onInput={(within_s) => setDraft({ ...draft(), within_s })}
       />
-      <Whole label="Noise seed" value={draft().seed} onInput={(seed) => setDraft({ ...draft(), seed })} />
+      <Whole
+        label="Noise seed"
+        value={draft().seed}
+        onInput={(seed) => setDraft({ ...draft(), seed })}
+      />
       <ControllerChecks
         verb="Try"
         offered={offered()}
