@@ -64,7 +64,7 @@ def test_a_varied_parameter_has_rows_for_its_values() -> None:
     varied = [(row["controller"], row["varied"][0]["name"], row["varied"][0]["value"]) for row in done.rows]
     assert varied == [(name, "friction", value) for value in (0.2, 0.3, 0.4) for name in ("attractor", "errt")]
     assert [one["varied"][0]["value"] for one in done.comparisons] == [0.2, 0.3, 0.4]
-    with pytest.raises(ValueError, match="friction is 1.5"):
+    with pytest.raises(ValueError, match=r"friction is 1\.5"):
         ferry.evaluate("attractor", map="open", episodes=1, vary={"friction": (0.5, 1.5, 2)})
 
 
