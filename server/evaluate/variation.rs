@@ -108,7 +108,7 @@ impl Variation {
     /// Every combination of the values, the last parameter changing first; one empty combination without parameters.
     ///
     /// # Errors
-    /// [`VariationError`]. Whether a value is allowed is checked by [`applied`].
+    /// [`VariationError`]. Whether a value is allowed is checked when it is set.
     pub fn combinations(variations: &[Self]) -> Result<Vec<Vec<Setting>>, VariationError> {
         if variations.len() > VARIED_MOST {
             return Err(VariationError::TooMany(variations.len()));
