@@ -161,15 +161,7 @@ impl Challenge {
         let (difficulty, seed) = (name.difficulty, xxh3_64(name.to_string().as_bytes()));
         let arena = Arena::open(difficulty.map())?;
         for index in 0..DRAWS {
-            let drawn = Scenario::random(
-                &arena.map,
-                difficulty.map(),
-                &arena.space,
-                ControllerName::You,
-                difficulty.disturbances(),
-                seed,
-                index,
-            )?;
+            let drawn = arena.random(difficulty.map(), ControllerName::You, difficulty.disturbances(), seed, index)?;
             let path_m = drawn.start_m.zip(drawn.goal_m).and_then(|(start, goal)| arena.space.shortest_m(start, goal));
             if let Some(path_m) = path_m.filter(|path_m| difficulty.path_m().contains(path_m)) {
                 let parameters = Parameters { step_limit: STEP_LIMIT, ..drawn.parameters };

@@ -20,7 +20,7 @@ pub use parameters::{
     AddedPolicy, AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind,
     RlPolicy, SetError, SwitchingLaw, Unit,
 };
-pub use random::{CLEARANCE_M, LEAST_DISTANCE_M, RandomTrialError, start_point};
+pub use random::{CLEARANCE_M, Ground, LEAST_DISTANCE_M, RandomTrialError, start_point};
 pub use shipped::{Shipped, ShippedError};
 pub use streams::Stream;
 

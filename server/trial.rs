@@ -31,7 +31,7 @@ use crate::control::{approach, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::map::MapError;
-use crate::plant::{Plant, PlantState, Positioner, PositionerKind};
+use crate::plant::{Plant, PlantState, PositionerKind};
 use crate::policy::PolicyError;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ParameterError, RandomTrialError, Scenario, Stream, start_point};
@@ -127,12 +127,8 @@ impl Trial {
     /// Creates the trial of a scenario. `arena` must be made from the scenario's map.
     pub fn new(scenario: Scenario, arena: Arc<Arena>) -> Result<Self, TrialError> {
         scenario.parameters.check()?;
-        let limits = arena.limits(&scenario.parameters);
         let kind = scenario.positioner.unwrap_or_else(|| PositionerKind::of(&arena.map));
-        let above = |start: Point2<f64>| {
-            let tool_m = Point3::new(start.x, start.y, scenario.parameters.tool_height_m);
-            limits.position(tool_m, &Positioner::home(kind, tool_m)).map(|positioner| (tool_m, positioner))
-        };
+        let above = |start| arena.above(start, kind, &scenario.parameters);
         let start = match scenario.start_m {
             Some(start) => start,
             None => start_point(&arena.map, &arena.space, scenario.seed, &|start| above(start).is_ok())?,

@@ -27,7 +27,7 @@ fn camera() -> Camera {
 fn scenario(seed: u64) -> Scenario {
     let arena = posts();
     let controller = ControllerName::ALL[seed as usize % ControllerName::ALL.len()];
-    let random = Scenario::random(&arena.map, "posts", &arena.space, controller, 2, seed, 0).unwrap();
+    let random = arena.random("posts", controller, 2, seed, 0).unwrap();
     // Half of them without an arm, all with a script.
     let positioner = seed.is_multiple_of(2).then_some(PositionerKind::PlanarStage);
     let script = vec![

@@ -83,7 +83,7 @@ fn the_papers_robot_has_errors_near_the_papers() {
     let arena = Arena::open("colon").unwrap();
     let (mut mean_x_m, mut largest_x_m) = (0.0, 0.0);
     for index in 0..6 {
-        let random = Scenario::random(&arena.map, "colon", &arena.space, ControllerName::Rl, 0, 41, index).unwrap();
+        let random = arena.random("colon", ControllerName::Rl, 0, 41, index).unwrap();
         let (episode, _) = run(Scenario { parameters: parameters.clone(), ..random }, &arena);
         assert!(episode.delivered, "{index}: {}", episode.outcome);
         mean_x_m += episode.tally.mean_axes_m()[0] / 6.0;

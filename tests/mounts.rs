@@ -148,7 +148,7 @@ fn all_three_controllers_work_under_the_realistic_mount() {
             let delivered = |parameters: &Parameters| {
                 let one = |index| {
                     let arena = &venue.arena;
-                    let random = Scenario::random(&arena.map, map, &arena.space, controller, 0, 4, index).unwrap();
+                    let random = arena.random(map, controller, 0, 4, index).unwrap();
                     let scenario = Scenario { parameters: parameters.clone(), ..random };
                     let mut camera = arena.camera(&gpu()).unwrap();
                     let go_on = &mut |_: &_| ControlFlow::Continue(());

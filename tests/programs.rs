@@ -13,7 +13,7 @@ use ferry::trial::{
 use crate::support::gpu;
 
 fn scenario(arena: &Arena) -> Scenario {
-    Scenario::random(&arena.map, "posts", &arena.space, ControllerName::Program, 1, 4, 0).unwrap()
+    arena.random("posts", ControllerName::Program, 1, 4, 0).unwrap()
 }
 
 /// A place on the shortest path to the goal, or beyond it in the same direction.

@@ -64,7 +64,7 @@ fn losses(
         .into_par_iter()
         .map(|index| {
             let arena = &venue.arena;
-            let random = Scenario::random(&arena.map, map, &arena.space, controller, 0, 2026, index).unwrap();
+            let random = arena.random(map, controller, 0, 2026, index).unwrap();
             let plain = Scenario { parameters: parameters.clone(), ..random };
             // No path is shorter than the straight line, so the transport has at least this many steps.
             let least = ((plain.goal_m.unwrap() - plain.start_m.unwrap()).norm() / 0.01) as u32;

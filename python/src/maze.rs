@@ -204,7 +204,7 @@ impl Mazes {
 impl Mazes {
     fn trial(&self, seed: u64) -> PyResult<Trial> {
         let Self { arena, map, disturbances, .. } = self;
-        let random = Scenario::random(&arena.map, map, &arena.space, ControllerName::Program, *disturbances, seed, 0);
+        let random = arena.random(map, ControllerName::Program, *disturbances, seed, 0);
         let scenario = Scenario { parameters: self.parameters.clone(), ..random.map_err(bad)? };
         Trial::new(scenario, arena.clone()).map_err(bad)
     }

@@ -82,15 +82,8 @@ impl Experiment {
     /// The trial of an index. Start and goal do not depend on the controller.
     pub fn scenario(&self, index: u32) -> Result<Scenario, TrialError> {
         let arena = &self.venue.arena;
-        let random = Scenario::random(
-            &arena.map,
-            &self.map,
-            &arena.space,
-            self.cell.controller,
-            self.cell.disturbances,
-            self.seed,
-            u64::from(index),
-        )?;
+        let random =
+            arena.random(&self.map, self.cell.controller, self.cell.disturbances, self.seed, u64::from(index))?;
         Ok(Scenario { parameters: self.parameters.clone(), ..random })
     }
 }

@@ -165,8 +165,7 @@ mod tests {
     fn a_trial_may_begin_apart_and_the_bead_is_where_it_would_be() {
         let arena = Arena::open("colon").unwrap();
         for index in 0..20 {
-            let scenario =
-                Scenario::random(&arena.map, "colon", &arena.space, ControllerName::Errt, 2, 1, index).unwrap();
+            let scenario = arena.random("colon", ControllerName::Errt, 2, 1, index).unwrap();
             let manner = Manner { by_hand: true, tool_apart: true };
             let (trial, person) = manner.begin(&scenario, &arena).unwrap();
             assert_eq!(person.remaining, 2);

@@ -7,7 +7,7 @@ use crate::camera::{CameraError, Gpu};
 use crate::map::MapError;
 use crate::program::Program;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, RandomTrialError, Scenario, SetError, ShippedError};
+use crate::scenario::{ControllerName, RandomTrialError, SetError, ShippedError};
 use crate::trial::{Arena, Case, Origin, Timed, TrialError};
 
 /// Latest moment: one day.
@@ -69,10 +69,10 @@ impl RecoveryPlan {
         let mut case = match &self.scenario {
             Some(name) => Case::open(name)?,
             None => {
-                let Arena { map, space, .. } = &*Arena::open(&self.map)?;
+                let arena = Arena::open(&self.map)?;
                 let first = self.query.controllers.iter().find(|name| **name != ControllerName::Program);
                 let first = first.copied().unwrap_or(ControllerName::Attractor);
-                let scenario = Scenario::random(map, &self.map, space, first, 0, self.query.seed, 0)?;
+                let scenario = arena.random(&self.map, first, 0, self.query.seed, 0)?;
                 Case { about: String::new(), scenario, map: None, inputs: Vec::new(), expect: None }
             }
         };

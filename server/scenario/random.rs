@@ -20,7 +20,10 @@ const DRAWS: usize = 2000;
 
 /// The map has no fair pair of start and goal.
 #[derive(Debug, thiserror::Error)]
-#[error("map: {map:?} has no two free points {LEAST_DISTANCE_M} m apart that keep {CLEARANCE_M} m from the walls")]
+#[error(
+    "map: {map:?} has no two free points in the tool's reach that are {LEAST_DISTANCE_M} m apart and keep {CLEARANCE_M} m \
+     from the walls"
+)]
 pub struct RandomTrialError {
     /// Name of the map.
     pub map: String,
@@ -38,17 +41,29 @@ pub fn start_point(
     drawn.find(|&point| is_reached(point)).ok_or_else(|| RandomTrialError { map: map.name().to_owned() })
 }
 
-impl Scenario {
+/// Where random trials begin and end.
+pub struct Ground<'a> {
+    pub map: &'a Map,
+    /// Name or path of the map, as in scenarios.
+    pub name: &'a str,
+    pub space: &'a FreeSpace,
+    /// Whether the tool reaches a place.
+    pub is_reached: &'a dyn Fn(Point2<f64>) -> bool,
+}
+
+impl Ground<'_> {
     /// The `index`-th random trial of a seed. It is the same for every controller and independent of earlier draws.
+    ///
+    /// # Errors
+    /// [`RandomTrialError`].
     pub fn random(
-        map: &Map,
-        map_name: &str,
-        space: &FreeSpace,
+        &self,
         controller: ControllerName,
         disturbances: u32,
         seed: u64,
         index: u64,
-    ) -> Result<Self, RandomTrialError> {
+    ) -> Result<Scenario, RandomTrialError> {
+        let map = self.map;
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(index + 1);
         // Every prefix of the trials contains the minimum share of blocked pairs.
@@ -57,7 +72,7 @@ impl Scenario {
         let refuse = || RandomTrialError { map: map.name().to_owned() };
         let mut fallback = None;
         for _ in 0..DRAWS {
-            let Some((start, goal)) = draw_pair(map, space, &mut rng) else { continue };
+            let Some((start, goal)) = self.draw_pair(&mut rng) else { continue };
             if !must_be_blocked || !map.line_is_clear(start, goal, LINE_HALF_WIDTH_M) {
                 fallback = Some((start, goal));
                 break;
@@ -65,8 +80,8 @@ impl Scenario {
             fallback = fallback.or(Some((start, goal)));
         }
         let (start, goal) = fallback.ok_or_else(refuse)?;
-        Ok(Self {
-            map: map_name.to_owned(),
+        Ok(Scenario {
+            map: self.name.to_owned(),
             controller,
             positioner: None,
             seed: trial_seed(seed, index),
@@ -77,21 +92,22 @@ impl Scenario {
             script: Vec::new(),
         })
     }
+
+    fn draw_pair(&self, rng: &mut impl Rng) -> Option<(Point2<f64>, Point2<f64>)> {
+        let Self { map, space, .. } = self;
+        let start = space.sample(map, None, rng)?;
+        let goal = space.sample(map, space.component_at(start), rng)?;
+        // The straight line is a lower bound and cheap to compute.
+        let far = (goal - start).norm() >= LEAST_DISTANCE_M
+            || space.geodesic_m(start, goal).is_some_and(|length_m| length_m >= LEAST_DISTANCE_M);
+        (far && (self.is_reached)(start) && (self.is_reached)(goal)).then_some((start, goal))
+    }
 }
 
 /// The seed of a single trial: 53 bits, so that JavaScript numbers represent it exactly.
 fn trial_seed(seed: u64, index: u64) -> u64 {
     const BITS: u32 = 53;
     (seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (u64::BITS - BITS)).wrapping_add(index) & ((1 << BITS) - 1)
-}
-
-fn draw_pair(map: &Map, space: &FreeSpace, rng: &mut impl Rng) -> Option<(Point2<f64>, Point2<f64>)> {
-    let start = space.sample(map, None, rng)?;
-    let goal = space.sample(map, space.component_at(start), rng)?;
-    // The straight line is a lower bound and cheap to compute.
-    let far = (goal - start).norm() >= LEAST_DISTANCE_M
-        || space.geodesic_m(start, goal).is_some_and(|length_m| length_m >= LEAST_DISTANCE_M);
-    far.then_some((start, goal))
 }
 
 #[cfg(test)]
@@ -113,7 +129,8 @@ mod tests {
     fn trials_are_fair_and_independent_of_each_other() {
         let map = Map::shipped("posts").unwrap();
         let space = FreeSpace::new(&map, CLEARANCE_M);
-        let make = |index| Scenario::random(&map, "posts", &space, ControllerName::Attractor, 0, 1, index).unwrap();
+        let ground = Ground { map: &map, name: "posts", space: &space, is_reached: &|_| true };
+        let make = |index| ground.random(ControllerName::Attractor, 0, 1, index).unwrap();
         let trials: Vec<Scenario> = (0..50).map(make).collect();
         let mut blocked = 0;
         for trial in &trials {
@@ -124,5 +141,11 @@ mod tests {
         }
         assert!(blocked >= 30, "{blocked} of 50 blocked");
         assert_eq!(trials[33], make(33));
+        let left = Ground { is_reached: &|place| place.x < 0.0, ..ground };
+        for trial in (0..20).map(|index| left.random(ControllerName::Attractor, 0, 1, index).unwrap()) {
+            assert!(trial.start_m.unwrap().x < 0.0 && trial.goal_m.unwrap().x < 0.0);
+        }
+        let none = Ground { is_reached: &|_| false, ..left };
+        assert!(none.random(ControllerName::Attractor, 0, 1, 0).unwrap_err().to_string().contains("reach"));
     }
 }

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use crate::camera::{Camera, CameraError, Gpu, StaticScene, VIEW_PX};
+use crate::control::Refusal;
 use crate::control::limits::Limits;
+use crate::geometry::{Point2, Point3};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
-use crate::plant::{PositionerKind, TOOL_LENGTH_M};
+use crate::plant::{Positioner, PositionerKind, TOOL_LENGTH_M};
 use crate::policy::{Library, Policy, PolicyError};
 use crate::robot;
-use crate::scenario::{CLEARANCE_M, Parameters, RlPolicy};
+use crate::scenario::{CLEARANCE_M, ControllerName, Ground, Parameters, RandomTrialError, RlPolicy, Scenario};
 
 /// A map prepared for trials; many trials share one.
 #[derive(Clone, Debug)]
@@ -108,6 +110,37 @@ impl Arena {
             flight_speed_m_s: parameters.approach_speed_m_s,
             tool_orientation: parameters.tool_orientation,
         }
+    }
+
+    /// The tool above a place, and the positioner that holds it there.
+    pub(super) fn above(
+        &self,
+        place: Point2<f64>,
+        kind: PositionerKind,
+        parameters: &Parameters,
+    ) -> Result<(Point3<f64>, Positioner), Refusal> {
+        let tool_m = Point3::new(place.x, place.y, parameters.tool_height_m);
+        let positioner = self.limits(parameters).position(tool_m, &Positioner::home(kind, tool_m))?;
+        Ok((tool_m, positioner))
+    }
+
+    /// The `index`-th random trial of a seed, between places that the tool reaches with the default parameters; `name` is that
+    /// of the map, or its path.
+    ///
+    /// # Errors
+    /// [`RandomTrialError`].
+    pub fn random(
+        &self,
+        name: &str,
+        controller: ControllerName,
+        disturbances: u32,
+        seed: u64,
+        index: u64,
+    ) -> Result<Scenario, RandomTrialError> {
+        let (kind, parameters) = (PositionerKind::of(&self.map), Parameters::default());
+        let is_reached = |place| self.above(place, kind, &parameters).is_ok();
+        let ground = Ground { map: &self.map, name, space: &self.space, is_reached: &is_reached };
+        ground.random(controller, disturbances, seed, index)
     }
 
     /// A camera that looks at this map.

@@ -7,14 +7,14 @@ use std::time::Instant;
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Camera, Gpu};
 use ferry::recording::{Archive, Options, Recorder, Retention};
-use ferry::scenario::{ControllerName, Scenario};
+use ferry::scenario::ControllerName;
 use ferry::trial::{Arena, Beginning, Nowhere, Sink, Source, Trial};
 
 const TICKS: u64 = 2500;
 const TURNS: usize = 30;
 
 fn run_s(arena: &Arc<Arena>, camera: &mut Camera, sink: &mut dyn Sink) -> f64 {
-    let scenario = Scenario::random(&arena.map, "colon", &arena.space, ControllerName::Errt, 3, 5, 0).unwrap();
+    let scenario = arena.random("colon", ControllerName::Errt, 3, 5, 0).unwrap();
     let mut trial = Trial::new(scenario, arena.clone()).unwrap();
     sink.begin(&trial, Beginning::SetUp);
     let begun = Instant::now();

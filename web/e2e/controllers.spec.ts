@@ -11,6 +11,13 @@ const WITHOUT_GOAL = /Set a goal/i;
 /** Checks that a layer changes the picture around `points`, and that hiding it restores it. */
 async function expectLayer(lab: Lab, layer: string, points: readonly PointLike[]) {
   await lab.layer(layer, false);
+  // The plan is drawn with the next frame.
+  await lab.page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        requestAnimationFrame(() => requestAnimationFrame(resolve));
+      }),
+  );
   const bare = await lab.pixelsAround(...points);
   await lab.layer(layer);
   await until(`the layer ${layer}`, async () => (await lab.pixelsAround(...points)) !== bare);

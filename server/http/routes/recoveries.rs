@@ -56,7 +56,7 @@ async fn start(server: &Arc<Server>, query: &RecoveryQuery) -> Result<(Option<(S
         (None, Some(name)) => {
             let arena = server.catalog.arena(name).map_err(|error| unknown("map", &error))?;
             let first = query.controllers.first().copied().unwrap_or(Scenario::idle(name, 0).controller);
-            let random = Scenario::random(&arena.map, name, &arena.space, first, 0, query.seed, 0);
+            let random = arena.random(name, first, 0, query.seed, 0);
             Some(random.map_err(|error| unknown("map", &error))?)
         }
         (None, None) => None,
