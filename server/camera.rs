@@ -16,6 +16,7 @@
 //! | `target` | colour, depth and readback memory for one image size |
 //! | `mesh`, `geometry_buffers` | triangles, and their copies on the device |
 //! | `static_scene` | walls and floor as triangles for the controllers' view |
+//! | `moved_walls` | what moving walls cover, for both |
 //! | `diorama` | walls, floor and table for people |
 //! | `robot` | the robot as simple solids, for the page too |
 //! | `arm` | robot, gripper and magnet, where they are now |
@@ -31,6 +32,7 @@ mod error;
 mod geometry_buffers;
 mod gpu;
 mod mesh;
+mod moved_walls;
 mod optics;
 mod pipeline;
 pub mod robot;
@@ -52,7 +54,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Isometry3, Point2, Polygon, Rect};
+use crate::geometry::{Band, Isometry3, Point2, Polygon, Rect};
 use crate::image::{CameraFrame, CameraMount, Picture};
 
 pub use error::CameraError;
@@ -127,7 +129,7 @@ pub struct StaticScene<'a> {
 }
 
 /// The moving parts of a state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
     /// Copied into the frame.
     pub tick: u64,
@@ -142,6 +144,8 @@ pub struct Subject {
     /// Edge lengths of the magnet along x, y and z of `base`.
     pub block_size_m: [f64; 3],
     pub mount: CameraMount,
+    /// What the walls cover beyond their drawn place; `None` if they are rigid.
+    pub moved_walls: Option<Arc<[Band]>>,
 }
 
 impl Subject {

@@ -12,6 +12,7 @@ mod render;
 mod replay;
 mod serve;
 mod sweep;
+mod track;
 mod train;
 
 use std::ffi::OsString;
@@ -64,6 +65,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Print a new token, for `ferry serve --token-file`
     Token,
+    /// Let the bead follow a moving point, and measure how well
+    Track(track::Arguments),
     /// Train a Rainbow-IQN policy: progress bar, checkpoints, learning curve
     Train(train::Arguments),
 }
@@ -97,6 +100,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
             println!("{}", crate::http::Token::generate()?);
             Ok(ExitCode::SUCCESS)
         }
+        Command::Track(arguments) => track::run(&arguments),
         Command::Train(arguments) => train::run(&arguments),
     }
 }

@@ -84,6 +84,9 @@ pub enum Refusal {
     /// No path to the goal exists, even if all unobserved places are free.
     #[error("the goal is walled off: there is no path, even through places not yet observed")]
     WalledOff,
+    /// The same, but walls move: they may open again.
+    #[error("a segment on the way to the goal is closed: waiting for it to open")]
+    Closed,
     /// The step leaves the camera's view, for example because the camera is mounted far to the side.
     #[error("the step to ({x_m:.3}, {y_m:.3}) m leaves the camera's view")]
     OutOfView { x_m: f64, y_m: f64 },

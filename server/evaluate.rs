@@ -17,6 +17,7 @@ mod report;
 mod shard;
 mod statistics;
 mod summary;
+pub mod tracking;
 mod variation;
 
 pub use comparison::{Comparison, PairedMean};

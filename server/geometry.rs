@@ -26,6 +26,15 @@ impl Polygon {
     }
 }
 
+/// The closed band between two rings with as many points: what a wall covers beyond its drawn place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// The drawn place, `[x_m, y_m]` for each point, with the free side on the left.
+    pub foot_m: Vec<[f64; 2]>,
+    /// Where the wall is now.
+    pub edge_m: Vec<[f64; 2]>,
+}
+
 /// An axis-aligned rectangle, in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rect {

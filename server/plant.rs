@@ -3,9 +3,13 @@
 //! `step` receives all state as an argument; [`Plant`] itself has no changing state.
 
 mod bead;
-pub(crate) mod contact;
+mod contact;
+mod fit;
+mod lumen;
 mod motion;
+mod peristalsis;
 mod positioner;
+mod walls;
 
 use serde::{Deserialize, Serialize};
 
@@ -13,12 +17,14 @@ use crate::geometry::{Isometry3, Point2, Point3, Translation3, Vector2};
 use crate::magnetics::cuboid::Cuboid;
 use crate::magnetics::posed::PosedBlock;
 use crate::magnetics::{dipole, force};
-use crate::map::Map;
 use crate::robot::ur5;
 
 pub use bead::{Bead, BeadMotion};
 pub use force::Orientation as BlockOrientation;
+pub use lumen::{Lumen, MOST_CLOSING_M, WallVertex};
+pub use peristalsis::{Contraction, LEAST_PERIOD_S, LEAST_WAVELENGTH_M, Peristalsis, WallMotion};
 pub use positioner::{Positioner, PositionerKind, ToolOrientation, manipulability_map};
+pub use walls::{LazyLumen, Surroundings, Walls};
 
 /// Length of gripper and block, from the flange to the tool point.
 pub const TOOL_LENGTH_M: f64 = 0.180;
@@ -36,8 +42,12 @@ pub struct PlantParameters {
     pub friction: f64,
     /// Resistance to rolling, in units of the normal load; used by [`BeadMotion::Rolling`] alone.
     pub rolling_resistance: f64,
-    /// Viscous drag on the bead.
+    /// Viscous drag on the bead, relative to the fluid.
     pub drag_n_s_m: f64,
+    /// Speed of the fluid along the lumen.
+    pub flow_m_s: f64,
+    /// Contractions of the walls.
+    pub peristalsis: Peristalsis,
 }
 
 impl PlantParameters {
@@ -81,12 +91,15 @@ pub struct PlantState {
     pub hand: Option<Hand>,
     /// A disturbance that pushes the bead with a force for some time.
     pub drift_n: Vector2<f64>,
+    /// Contractions of the walls; `None` at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub walls: Option<WallMotion>,
 }
 
 impl PlantState {
     /// A bead at rest at `bead_m`, without disturbances.
     pub fn at_rest(positioner: Positioner, bead_m: Point2<f64>) -> Self {
-        Self { positioner, bead: Bead::at(bead_m), hand: None, drift_n: Vector2::zeros() }
+        Self { positioner, bead: Bead::at(bead_m), hand: None, drift_n: Vector2::zeros(), walls: None }
     }
 }
 
@@ -133,19 +146,30 @@ impl Plant {
         Load { lateral_n: force_n.xy(), vertical_n: force_n.z }
     }
 
-    /// Advances one servo period: the positioner follows `reference` → `next_reference`, the bead
-    /// follows the magnet, the hand and the walls.
-    pub fn step(&self, state: &mut PlantState, map: &Map, reference: &Positioner, next_reference: &Positioner) {
+    /// Advances one servo period from `tick`: the positioner follows `reference` → `next_reference`, the walls contract,
+    /// and the bead follows the magnet, the hand and the walls.
+    pub fn step(
+        &self,
+        state: &mut PlantState,
+        around: &Surroundings<'_>,
+        tick: u64,
+        reference: &Positioner,
+        next_reference: &Positioner,
+    ) {
         let before = state.positioner.base_from_tool();
         state.positioner = state.positioner.step(reference, next_reference);
         let mut base_from_tool = state.positioner.base_from_tool();
         let travel_m = base_from_tool.translation.vector - before.translation.vector;
+        let rested = state.walls;
+        state.walls = WallMotion::next(rested, &self.parameters.peristalsis, around.seed);
+        let mut walls = around.walls_between(rested.as_ref(), state.walls.as_ref(), tick, state.bead.position_m);
         let dt_s = ur5::SERVO_PERIOD_S / SUBSTEPS as f64;
         for substep in 1..=SUBSTEPS {
             // The tool moves at constant speed; its tilt hardly changes in a servo period.
             let part = substep as f64 / SUBSTEPS as f64;
             base_from_tool.translation.vector = before.translation.vector + travel_m * part;
-            self.step_bead(state, map, &base_from_tool, dt_s);
+            walls.advance_to(part);
+            self.step_bead(state, &walls, &base_from_tool, dt_s);
         }
     }
 }

@@ -14,6 +14,7 @@ mod error;
 mod evaluations;
 mod jobs;
 mod layers;
+mod lumen;
 mod magnetics;
 mod maps;
 mod numbers;
@@ -48,6 +49,7 @@ pub use layers::{
     BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, OverlayMessage, PixelBlock, PlanLayer,
     SeenMessage, SensedObstacle, ValueCell, ValueMap, ValueQuery,
 };
+pub use lumen::{Lumen, WallRing};
 pub use magnetics::{Plane, PlaneQuery, PullCurve, PullQuery, ReachCurve, ReachQuery};
 pub use maps::{MapCheck, MapFacts, MapReport, NarrowPlace};
 pub use numbers::{Numbers3, Numbers6, Rows3};

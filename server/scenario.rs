@@ -16,6 +16,7 @@ pub use disturbance::{
     Disturbance, DisturbanceError, MOST_DRIFT_N, MOST_IMPULSE_N_S, MOST_SECONDS, MOST_STEPS, SCRIPT_LIMIT, Scripted,
     When,
 };
+pub(crate) use parameters::Hashed;
 pub use parameters::{
     AddedPolicy, AttractorLaw, Bound, Group, Kind, Number, Parameter, ParameterError, Parameters, Preset, PresetKind,
     RlPolicy, SetError, SwitchingLaw, Unit,

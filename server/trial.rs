@@ -26,12 +26,14 @@ mod tally;
 
 use std::sync::Arc;
 
+use rand::Rng;
+
 use crate::camera::{CameraError, ImageSource, Subject};
 use crate::control::{approach, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::map::MapError;
-use crate::plant::{Plant, PlantState, PositionerKind};
+use crate::plant::{Plant, PlantState, PositionerKind, Surroundings, Walls};
 use crate::policy::PolicyError;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ParameterError, RandomTrialError, Scenario, Stream, start_point};
@@ -117,6 +119,8 @@ pub struct Trial {
     scenario: Scenario,
     arena: Arc<Arena>,
     plant: Plant,
+    /// Of the walls' contractions.
+    wall_seed: u64,
     state: TrialState,
     /// Inputs since the last tick, for the log.
     inputs: Vec<Input>,
@@ -138,7 +142,8 @@ impl Trial {
         let (tool_m, positioner) = above(start).map_err(|refusal| InputError::Reach { field: "start_m", refusal })?;
         let plant = Plant::new(scenario.parameters.plant());
         let state = TrialState::at_start(&scenario, arena.map.workspace(), tool_m, positioner);
-        let mut trial = Self { arena, plant, state, inputs: Vec::new(), events: Vec::new(), scenario };
+        let wall_seed = Stream::Walls.rng(scenario.seed).next_u64();
+        let mut trial = Self { arena, plant, wall_seed, state, inputs: Vec::new(), events: Vec::new(), scenario };
         if let Some(goal) = trial.scenario.goal_m {
             trial.apply(Input::SetGoal { x_m: goal.x, y_m: goal.y })?;
             // Part of the scenario, not of the log.
@@ -184,11 +189,21 @@ impl Trial {
 
     /// The scene that a camera without latency would render now.
     pub fn subject(&self) -> Subject {
-        let PlantState { positioner, bead, .. } = self.state.world.plant;
-        self.subject_at(Past { positioner, bead }, 0)
+        let PlantState { positioner, bead, walls, .. } = self.state.world.plant;
+        self.subject_at(Past { positioner, bead, walls }, 0)
     }
 
-    fn subject_at(&self, Past { positioner, bead }: Past, age_ticks: u64) -> Subject {
+    /// The walls now.
+    fn walls(&self) -> Walls<'_> {
+        let world = &self.state.world;
+        self.surroundings().walls(world.plant.walls.as_ref(), world.tick)
+    }
+
+    fn surroundings(&self) -> Surroundings<'_> {
+        self.arena.surroundings(self.wall_seed)
+    }
+
+    fn subject_at(&self, Past { positioner, bead, walls }: Past, age_ticks: u64) -> Subject {
         let world = &self.state.world;
         let tool = positioner.tool_m();
         Subject {
@@ -199,6 +214,10 @@ impl Trial {
             link_frames: positioner.link_frames(),
             block_size_m: self.plant.block_size_m(),
             mount: world.parameters.camera_mount(),
+            moved_walls: self
+                .surroundings()
+                .bands(walls.as_ref(), world.tick - age_ticks, bead.position_m)
+                .map(Arc::from),
         }
     }
 
@@ -248,7 +267,8 @@ impl Trial {
             decision = Some(decided);
         }
         self.apply_scripted(None);
-        let before = Past { positioner: self.state.world.plant.positioner, bead: self.state.world.plant.bead };
+        let PlantState { positioner, bead, walls, .. } = self.state.world.plant;
+        let before = Past { positioner, bead, walls };
         self.advance_reference();
         #[cfg(test)]
         if crate::faults::strikes("not a number") {
@@ -287,7 +307,8 @@ impl Trial {
             world.reference_m = next_m;
             world.reference = next;
         }
-        self.plant.step(&mut world.plant, &self.arena.map, &reference, &world.reference);
+        let around = self.arena.surroundings(self.wall_seed);
+        self.plant.step(&mut world.plant, &around, world.tick, &reference, &world.reference);
     }
 
     fn check_finite(&self, tick: u64) -> Result<(), TrialError> {

@@ -35,7 +35,21 @@ fn scenario(seed: u64) -> Scenario {
         Scripted { at: When::Tick(150), disturbance: Disturbance::Drift { x_n: 1e-3, y_n: -1e-3, for_s: 0.6 } },
         Scripted { at: When::Tick(220), disturbance: Disturbance::Dropout { for_s: 0.5 } },
     ];
-    Scenario { positioner, script, ..random }
+    // A third of them between walls that move from the start.
+    let parameters = if seed.is_multiple_of(3) { moving(0.01) } else { Parameters::default() };
+    Scenario { positioner, script, parameters, ..random }
+}
+
+/// Walls that move, in a fluid that flows.
+fn moving(peristalsis_amplitude_m: f64) -> Parameters {
+    Parameters {
+        peristalsis_amplitude_m,
+        peristalsis_period_s: 2.0,
+        peristalsis_irregularity: 0.5,
+        flow_m_s: 0.02,
+        obstacle_memory_s: 1.0,
+        ..Parameters::default()
+    }
 }
 
 /// Inputs of an operator, with their ticks.
@@ -69,11 +83,13 @@ fn input() -> impl Strategy<Value = Input> {
         (0..3u64).prop_map(|seed| Input::Reseed { seed }),
         place().prop_map(|(x_m, y_m)| Input::Go { x_m, y_m }),
         Just(Input::Hold { reason: "it thinks".to_owned() }),
-        (any::<bool>(), any::<bool>()).prop_map(|(rolls, tilted)| Input::Configure(Box::new(Parameters {
-            bead_motion: if rolls { BeadMotion::Rolling } else { BeadMotion::Sliding },
-            tool_orientation: if tilted { ToolOrientation::Paper } else { ToolOrientation::Vertical },
-            ..Parameters::default()
-        }))),
+        (any::<bool>(), any::<bool>(), 0..3u8).prop_map(|(rolls, tilted, moves)| Input::Configure(Box::new(
+            Parameters {
+                bead_motion: if rolls { BeadMotion::Rolling } else { BeadMotion::Sliding },
+                tool_orientation: if tilted { ToolOrientation::Paper } else { ToolOrientation::Vertical },
+                ..moving(0.008 * f64::from(moves))
+            }
+        ))),
     ]
 }
 

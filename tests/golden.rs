@@ -9,7 +9,7 @@ use std::sync::Arc;
 use ferry::camera::{AdapterChoice, Camera, Gpu, Quality, Subject};
 use ferry::geometry::{Point2, Point3};
 use ferry::image::{CameraMount, Picture};
-use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation};
+use ferry::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, ToolOrientation, WallMotion};
 use ferry::scenario::Parameters;
 use ferry::trial::Arena;
 
@@ -27,16 +27,29 @@ fn beside(subject: &Subject) -> Subject {
         sees_magnet: true,
         ..CameraMount::default()
     };
-    Subject { mount, ..*subject }
+    Subject { mount, ..subject.clone() }
 }
 
-const VIEWS: [(&str, Quality, Draw); 6] = [
+/// Walls that move: waves of 10 mm along the colon.
+fn moving(subject: &Subject) -> Subject {
+    let arena = Arena::open("colon").unwrap();
+    let parameters = Parameters { peristalsis_amplitude_m: 0.01, ..Parameters::default() };
+    let motion = WallMotion::in_full(&parameters.plant().peristalsis, 0);
+    let [x_m, y_m, _] = subject.bead_m;
+    let bands = arena.surroundings(0).bands(motion.as_ref(), 300, Point2::new(x_m, y_m));
+    Subject { moved_walls: bands.map(Arc::from), ..subject.clone() }
+}
+
+const VIEWS: [(&str, Quality, Draw); 9] = [
     ("camera", Quality::Economy, |camera, subject| camera.capture(subject).unwrap().picture),
     ("camera-tilted", Quality::Economy, |camera, subject| camera.capture(&beside(subject)).unwrap().picture),
     ("scene-economy", Quality::Economy, |camera, subject| camera.scene(subject, 640, 360).unwrap()),
     ("scene-fine", Quality::Fine, |camera, subject| camera.scene(subject, 640, 360).unwrap()),
     ("plan-economy", Quality::Economy, |camera, subject| camera.plan(subject, 640, 360).unwrap()),
     ("plan-fine", Quality::Fine, |camera, subject| camera.plan(subject, 640, 360).unwrap()),
+    ("camera-moving", Quality::Economy, |camera, subject| camera.capture(&moving(subject)).unwrap().picture),
+    ("scene-moving", Quality::Fine, |camera, subject| camera.scene(&moving(subject), 640, 360).unwrap()),
+    ("plan-moving", Quality::Economy, |camera, subject| camera.plan(&moving(subject), 640, 360).unwrap()),
 ];
 
 fn golden(name: &str) -> PathBuf {
@@ -55,6 +68,7 @@ fn subject() -> Subject {
         link_frames: arm.link_frames(),
         block_size_m: Plant::new(Parameters::default().plant()).block_size_m(),
         mount: CameraMount::default(),
+        moved_walls: None,
     }
 }
 

@@ -29,6 +29,7 @@ fn subject(tool: Point2<f64>, bead: Point2<f64>, mount: CameraMount) -> Subject 
         link_frames: None,
         block_size_m: [0.05, 0.025, 0.01],
         mount,
+        moved_walls: None,
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::mesh::{Color, Mesh};
 use super::static_scene::{SHADOW_LIFT_M, border, flat, floor};
 use super::{BEAD_RADIUS_M, StaticScene};
-use crate::geometry::{Point3, Polygon, Rect, Vector3};
+use crate::geometry::{Band, Point3, Polygon, Rect, Vector3};
 
 /// Colours before lighting.
 mod colors {
@@ -78,14 +78,23 @@ pub(super) const TABLE_THICKNESS_M: f64 = 0.020;
 /// The table's top is this much lower than the floor; at the same height the two would flicker.
 const TABLE_GAP_M: f64 = 0.001;
 
-/// Floor and walls in a tray, on a table that also carries the robot.
-pub(super) fn mesh(static_scene: &StaticScene) -> Mesh {
+pub(super) const TISSUE_TOP: Color = colors::TISSUE.top;
+
+/// The edges of walls that move, wherever they are now.
+pub(super) fn moved_edge(mesh: &mut Mesh, workspace: &Rect, band: &Band, height_m: f64) {
+    // Walls are on the left of the rings that are drawn, free space on the left of a band.
+    let ring: Vec<[f64; 2]> = band.edge_m.iter().rev().copied().collect();
+    for edge in smooth_edges(&ring).into_iter().filter(|[start, end]| !on_edge(workspace, start.at_m, end.at_m)) {
+        strips(mesh, edge, [profile(&colors::TISSUE, height_m, LIP_M); 2]);
+    }
+}
+
+/// The edges of walls at rest.
+pub(super) fn edges_mesh(static_scene: &StaticScene) -> Mesh {
     let mut mesh = Mesh::default();
-    floor(&mut mesh, static_scene.workspace, colors::FLOOR);
     let height_m = static_scene.wall_height_m;
     let ground_plan = GroundPlan::of(static_scene);
     for wall in static_scene.walls {
-        flat(&mut mesh, wall, Vector3::z() * height_m, colors::TISSUE.top);
         // The tray covers walls that touch it.
         let free = |[start, end]: &[Corner; 2]| !on_edge(static_scene.workspace, start.at_m, end.at_m);
         for edge in wall.rings().flat_map(smooth_edges).filter(free) {
@@ -94,6 +103,17 @@ pub(super) fn mesh(static_scene: &StaticScene) -> Mesh {
             let bands_m = [start_m.min(1.5 * end_m), end_m.min(1.5 * start_m)];
             strips(&mut mesh, edge, bands_m.map(|band_m| profile(&colors::TISSUE, height_m, band_m)));
         }
+    }
+    mesh
+}
+
+/// Floor and walls without their edges in a tray, on a table that also carries the robot.
+pub(super) fn mesh(static_scene: &StaticScene) -> Mesh {
+    let mut mesh = Mesh::default();
+    floor(&mut mesh, static_scene.workspace, colors::FLOOR);
+    let height_m = static_scene.wall_height_m;
+    for wall in static_scene.walls {
+        flat(&mut mesh, wall, Vector3::z() * height_m, colors::TISSUE.top);
     }
     let tray = border(static_scene.workspace, BORDER_M);
     flat(&mut mesh, &tray, Vector3::z() * height_m, colors::TRAY_INSIDE.top);

@@ -14,6 +14,8 @@ use super::mesh::{Color, Mesh};
 pub(super) enum Solid {
     /// All static parts.
     StaticScene,
+    /// The edges of walls at rest; the controllers' view has them in the static scene.
+    WallEdges,
     Sphere,
     Disc,
     Cube,
@@ -33,9 +35,9 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// The static scene, which is already in `base`.
-    pub const fn static_scene(base_from_solid: Matrix4<f64>) -> Self {
-        Self { solid: Solid::StaticScene, base_from_solid, color: [255; 4] }
+    /// A solid that is already in `base`.
+    pub fn in_base(solid: Solid) -> Self {
+        Self { solid, base_from_solid: Matrix4::identity(), color: [255; 4] }
     }
 }
 
@@ -81,6 +83,42 @@ pub(super) struct GeometryBuffers {
     /// The range of `indices` of each mesh.
     meshes: Vec<Range<u32>>,
     instances: wgpu::Buffer,
+    /// A mesh of the current frame, in `base`.
+    frame: FrameMesh,
+}
+
+/// A mesh that changes from frame to frame, in buffers that grow with it.
+#[derive(Debug, Default)]
+struct FrameMesh {
+    buffers: Option<[wgpu::Buffer; 2]>,
+    index_count: u32,
+}
+
+impl FrameMesh {
+    fn load(&mut self, gpu: &Gpu, mesh: &Mesh) {
+        self.index_count = mesh.indices.len() as u32;
+        if self.index_count == 0 {
+            return;
+        }
+        let contents: [&[u8]; 2] = [bytemuck::cast_slice(&mesh.vertices), bytemuck::cast_slice(&mesh.indices)];
+        let fits = |buffers: &[wgpu::Buffer; 2]| {
+            buffers.iter().zip(contents).all(|(buffer, bytes)| buffer.size() >= bytes.len() as u64)
+        };
+        if !self.buffers.as_ref().is_some_and(fits) {
+            let kinds = [wgpu::BufferUsages::VERTEX, wgpu::BufferUsages::INDEX];
+            self.buffers = Some(std::array::from_fn(|kind| {
+                gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("mesh of the frame"),
+                    size: (contents[kind].len() as u64).next_power_of_two(),
+                    usage: kinds[kind] | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                })
+            }));
+        }
+        for (buffer, bytes) in self.buffers.iter().flatten().zip(contents) {
+            gpu.queue.write_buffer(buffer, 0, bytes);
+        }
+    }
 }
 
 impl GeometryBuffers {
@@ -109,7 +147,27 @@ impl GeometryBuffers {
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
+            frame: FrameMesh::default(),
         }
+    }
+
+    /// Sets the mesh that [`Self::draw_frame_mesh`] draws in the next submitted frame.
+    pub fn load_frame_mesh(&mut self, gpu: &Gpu, mesh: Option<&Mesh>) {
+        match mesh {
+            Some(mesh) => self.frame.load(gpu, mesh),
+            None => self.frame.index_count = 0,
+        }
+    }
+
+    /// Draws the mesh of the frame, placed like the first part: the static scene.
+    pub fn draw_frame_mesh(&self, pass: &mut wgpu::RenderPass) {
+        let Some([vertices, indices]) = self.frame.buffers.as_ref().filter(|_| self.frame.index_count > 0) else {
+            return;
+        };
+        pass.set_vertex_buffer(0, vertices.slice(..));
+        pass.set_vertex_buffer(1, self.instances.slice(..));
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..self.frame.index_count, 0, 0..1);
     }
 
     /// Places `parts` for the next submitted frame. Consecutive equal solids are drawn together.

@@ -19,7 +19,7 @@ fn refuses_bad_requests_and_names_the_field() {
         let error = camera.scene(&state, width_px, height_px).unwrap_err();
         assert!(matches!(error, CameraError::Size { .. }), "{error}");
     }
-    let lost = Subject { bead_m: [f64::NAN; 3], ..state };
+    let lost = Subject { bead_m: [f64::NAN; 3], ..state.clone() };
     let error = camera.capture(&lost).unwrap_err();
     assert!(matches!(error, CameraError::Subject { what: "bead_m" }), "{error}");
     let good = state.mount;
@@ -34,18 +34,18 @@ fn refuses_bad_requests_and_names_the_field() {
     ]
     .concat();
     for (field, mount) in mounts {
-        let error = camera.capture(&Subject { mount, ..state }).map(|_| ()).unwrap_err();
+        let error = camera.capture(&Subject { mount, ..state.clone() }).map(|_| ()).unwrap_err();
         assert!(matches!(error, CameraError::Parameter { name, .. } if name == field), "{field}: {error}");
     }
     let low = CameraMount { height_m: 0.004, ..good };
-    let error = camera.capture(&Subject { mount: low, ..state }).map(|_| ()).unwrap_err();
+    let error = camera.capture(&Subject { mount: low, ..state.clone() }).map(|_| ()).unwrap_err();
     assert!(matches!(error, CameraError::BelowWalls { .. }), "{error}");
     for mount in [
         CameraMount { tilt_rad: [1.3, 0.0], ..good },
         CameraMount { field_of_view_rad: 3.1, ..good },
         CameraMount { tilt_rad: [-0.7, 0.7], field_of_view_rad: 1.2, ..good },
     ] {
-        let error = camera.capture(&Subject { mount, ..state }).map(|_| ()).unwrap_err();
+        let error = camera.capture(&Subject { mount, ..state.clone() }).map(|_| ()).unwrap_err();
         assert!(matches!(error, CameraError::Horizon { .. }), "{mount:?}: {error}");
     }
     assert!(camera.capture(&state).is_ok(), "the camera is unusable after a refusal");

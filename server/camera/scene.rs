@@ -10,7 +10,7 @@ use super::gpu::Gpu;
 use super::mesh::{self, Color};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::target::{DEPTH_FORMAT, Target};
-use super::{BEAD_RADIUS_M, CameraError, Quality, StaticScene, Subject, Viewpoint, arm, diorama, optics};
+use super::{BEAD_RADIUS_M, CameraError, Quality, StaticScene, Subject, Viewpoint, arm, diorama, moved_walls, optics};
 use crate::geometry::{Point3, Rect, Vector3};
 use crate::image::Picture;
 
@@ -85,6 +85,7 @@ pub(super) struct SceneRenderer {
     /// Points that must be inside the image.
     bounds: Vec<Point3<f64>>,
     workspace: Rect,
+    wall_height_m: f64,
     light_from_base: Matrix4<f64>,
     picture: wgpu::RenderPipeline,
     picture_bindings: wgpu::BindGroup,
@@ -157,6 +158,7 @@ impl SceneRenderer {
         // One mesh per solid, in the order of `Solid`. The disc mesh is thick here: it is the lid of a joint.
         let meshes = [
             diorama::mesh(static_scene),
+            diorama::edges_mesh(static_scene),
             mesh::unit_sphere(24),
             mesh::unit_lid(40),
             mesh::unit_cube(),
@@ -168,6 +170,7 @@ impl SceneRenderer {
             light_from_base: optics::parallel_around(&bounds, toward_light()),
             bounds,
             workspace: *static_scene.workspace,
+            wall_height_m: static_scene.wall_height_m,
             picture_bindings: bind(gpu, &picture, &picture_resources),
             shadow_bindings: bind(gpu, &shadow, &picture_resources[..1]),
             picture,
@@ -227,14 +230,19 @@ impl SceneRenderer {
         let encoder = gpu.checked("the scene", || {
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&scene));
             let batches = self.geometry.place(gpu, &parts(subject, viewpoint));
+            let moved = subject.moved_walls.as_deref();
+            let moved = moved.map(|bands| moved_walls::people_mesh(bands, self.wall_height_m, &self.workspace));
+            self.geometry.load_frame_mesh(gpu, moved.as_ref());
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            // The first batch is the static scene, which casts no shadows; the last is the backdrop.
+            // The static scene and the walls' edges cast no shadows; the last batch is the backdrop.
             let backdrop = batches.len() - 1;
-            self.cast_shadows(&mut encoder, &batches[1..backdrop]);
+            let first_caster = if moved.is_some() { 1 } else { 2 };
+            self.cast_shadows(&mut encoder, &batches[first_caster..backdrop]);
             let mut pass = target.begin(&mut encoder, [0.0; 4]);
             pass.set_pipeline(&self.picture);
             pass.set_bind_group(0, &self.picture_bindings, &[]);
             self.geometry.draw(&mut pass, &batches[..backdrop]);
+            self.geometry.draw_frame_mesh(&mut pass);
             // Drawn last, so that covered pixels cost nothing.
             pass.set_pipeline(&self.backdrop);
             self.geometry.draw(&mut pass, &batches[backdrop..]);
@@ -265,15 +273,18 @@ fn shadow_map(gpu: &Gpu, side_px: u32) -> wgpu::TextureView {
     map.create_view(&Default::default())
 }
 
-/// All parts of the image, with equal solids next to each other. The static scene is first and the backdrop last;
-/// neither casts shadows.
+/// All parts of the image, with equal solids next to each other. The static scene is first, then the edges of walls at
+/// rest, and the backdrop last; they cast no shadows.
 fn parts(subject: &Subject, viewpoint: Viewpoint) -> Vec<Part> {
     let [bead_x_m, bead_y_m, _] = subject.bead_m;
     let mut parts = match viewpoint {
         Viewpoint::User => arm::parts(subject),
         Viewpoint::Above => vec![arm::block(subject)],
     };
-    parts.push(Part::static_scene(Matrix4::identity()));
+    parts.push(Part::in_base(Solid::StaticScene));
+    if subject.moved_walls.is_none() {
+        parts.push(Part::in_base(Solid::WallEdges));
+    }
     parts.push(Part {
         solid: Solid::Sphere,
         base_from_solid: Matrix4::new_translation(&subject.bead_m.into()) * Matrix4::new_scaling(BEAD_RADIUS_M),

@@ -70,19 +70,17 @@ pub(super) fn controllers_mesh(static_scene: &StaticScene) -> Mesh {
     for wall in walls() {
         shadow(&mut mesh, wall, static_scene.wall_height_m);
     }
-    let [away_x, away_y] = SHADOW_PER_HEIGHT;
-    let side = |normal: Vector3<f64>| {
-        if normal.x * away_x + normal.y * away_y < 0.0 {
-            controllers::WALL_SIDE_LIT
-        } else {
-            controllers::WALL_SIDE_DARK
-        }
-    };
     for wall in walls() {
         let height_m = static_scene.wall_height_m;
-        prism(&mut mesh, wall, height_m, controllers::WALL_TOP, side);
+        prism(&mut mesh, wall, height_m, controllers::WALL_TOP, side_color);
     }
     mesh
+}
+
+/// Colour of a wall's side in the controllers' view, for its outward normal.
+pub(super) fn side_color(normal: Vector3<f64>) -> Color {
+    let [away_x, away_y] = SHADOW_PER_HEIGHT;
+    if normal.x * away_x + normal.y * away_y < 0.0 { controllers::WALL_SIDE_LIT } else { controllers::WALL_SIDE_DARK }
 }
 
 /// A frame of width `width_m` around a rectangle.

@@ -60,6 +60,7 @@ pub fn subject(tool_m: [f64; 3], bead_m: [f64; 3]) -> Subject {
         link_frames: Some(forward(tool_down(flange_m))),
         block_size_m: [0.05, 0.025, 0.010],
         mount: CameraMount::default(),
+        moved_walls: None,
     }
 }
 

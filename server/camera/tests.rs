@@ -111,7 +111,7 @@ fn controllers_do_not_see_goal_magnet_or_arm() {
     let walls = posts();
     let mut camera = Camera::new(gpu(), &static_scene(&walls), VIEW_PX).unwrap();
     let seen = subject([0.17, -0.30, 0.1], [0.15, -0.32, 0.0025]);
-    let mut other = seen;
+    let mut other = seen.clone();
     other.goal_m = None;
     other.block_size_m = [0.01; 3];
     other.link_frames = None;
@@ -162,8 +162,8 @@ fn the_scene_shows_arm_goal_and_bead() {
     let mut differences = Vec::new();
     let whole = camera.scene(&seen, 640, 360).unwrap();
     let hidden = [
-        Subject { goal_m: None, ..seen },
-        Subject { bead_m: [-0.2, -0.5, 0.0025], ..seen },
+        Subject { goal_m: None, ..seen.clone() },
+        Subject { bead_m: [-0.2, -0.5, 0.0025], ..seen.clone() },
         Subject { link_frames: None, ..seen },
     ];
     for other in hidden {

@@ -9,14 +9,16 @@ use super::mesh::{self, Color, Mesh};
 use super::pipeline::{self, Pass, bind, pipeline};
 use super::static_scene::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
 use super::target::Target;
-use super::{BEAD_RADIUS_M, CameraError, StaticScene, Subject, arm, optics};
-use crate::geometry::Point2;
-use crate::image::{CameraFrame, Picture};
+use super::{BEAD_RADIUS_M, CameraError, StaticScene, Subject, arm, moved_walls, optics};
+use crate::geometry::{Point2, Rect};
+use crate::image::{CameraFrame, Picture, Pinhole};
 
 pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
 
 /// One sample per pixel, so that no pixel is a mixture of wall and floor.
 const SAMPLES: u32 = 1;
+/// Moved walls are drawn this far beyond the image's border.
+const BESIDE_M: f64 = 0.02;
 /// Static scene, bead, bead shadow, and magnet and gripper if they are visible.
 const MAX_PARTS: u64 = 3 + 16;
 
@@ -36,6 +38,7 @@ pub(super) struct ViewRenderer {
     uniforms: wgpu::Buffer,
     bindings: wgpu::BindGroup,
     geometry: GeometryBuffers,
+    wall_height_m: f64,
     target: Target,
 }
 
@@ -59,6 +62,7 @@ impl ViewRenderer {
             let bindings = bind(gpu, &pipeline, &[uniforms.as_entire_binding()]);
             let meshes = [
                 static_scene::controllers_mesh(static_scene),
+                Mesh::default(),
                 shaded_bead(),
                 mesh::unit_disc(24),
                 mesh::unit_cube(),
@@ -71,6 +75,7 @@ impl ViewRenderer {
                 uniforms,
                 bindings,
                 geometry: GeometryBuffers::new(gpu, &meshes, MAX_PARTS),
+                wall_height_m: static_scene.wall_height_m,
                 target,
             }
         })
@@ -85,11 +90,15 @@ impl ViewRenderer {
             let view = View { clip_from_base: clip_from_base.cast::<f32>().into() };
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&view));
             let batches = self.geometry.place(gpu, &parts(subject));
+            let moved = subject.moved_walls.as_deref();
+            let moved = moved.map(|bands| moved_walls::controllers_mesh(bands, self.wall_height_m, &in_view(&pinhole)));
+            self.geometry.load_frame_mesh(gpu, moved.as_ref());
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut pass = self.target.begin(&mut encoder, background());
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &self.bindings, &[]);
             self.geometry.draw(&mut pass, &batches);
+            self.geometry.draw_frame_mesh(&mut pass);
             drop(pass);
             encoder
         })?;
@@ -97,6 +106,20 @@ impl ViewRenderer {
         let picture = Picture { width_px: self.size_px, height_px: self.size_px, rgba };
         Ok(CameraFrame { picture, tick: subject.tick, pinhole })
     }
+}
+
+/// The table that a camera may see, and a piece of wall more.
+fn in_view(pinhole: &Pinhole) -> Rect {
+    let corners = pinhole.table_corners_m().unwrap_or_default();
+    let mut area =
+        Rect { x_min_m: f64::INFINITY, x_max_m: f64::NEG_INFINITY, y_min_m: f64::INFINITY, y_max_m: f64::NEG_INFINITY };
+    for corner in corners {
+        area.x_min_m = area.x_min_m.min(corner.x - BESIDE_M);
+        area.x_max_m = area.x_max_m.max(corner.x + BESIDE_M);
+        area.y_min_m = area.y_min_m.min(corner.y - BESIDE_M);
+        area.y_max_m = area.y_max_m.max(corner.y + BESIDE_M);
+    }
+    area
 }
 
 /// The colour of walls: everything outside the drawn geometry counts as wall.
@@ -119,7 +142,7 @@ fn parts(subject: &Subject) -> Vec<Part> {
         color,
     };
     let mut parts = vec![
-        Part::static_scene(Matrix4::identity()),
+        Part::in_base(Solid::StaticScene),
         round(Solid::Disc, shadow_m, controllers::SHADOW),
         round(Solid::Sphere, bead_m, [255; 4]),
     ];

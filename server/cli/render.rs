@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use anyhow::Context;
 
@@ -11,7 +12,7 @@ use crate::evaluate::Trace;
 use crate::files::read_at_most;
 use crate::geometry::{Point2, Point3};
 use crate::image::Picture;
-use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, contact::nearest_fit};
+use crate::plant::{BEAD_RADIUS_M, Plant, Positioner, PositionerKind, WallMotion};
 use crate::scenario::{ControllerName, Parameters};
 use crate::trial::{Arena, Case, Tally};
 
@@ -115,15 +116,19 @@ fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let limits = arena.limits(&parameters);
     let positioner = limits.position(tool_m, &home).context("--at")?;
     // The tool may be over a wall; the bead is then placed beside it.
-    let bead = nearest_fit(&arena.map, at).context("--at: no space for the bead within 5 cm")?;
+    let (around, plant) = (arena.surroundings(0), parameters.plant());
+    let walls = WallMotion::in_full(&plant.peristalsis, 0);
+    let fit = around.walls(walls.as_ref(), 0).nearest_fit(at);
+    let bead = fit.context("--at: no space for the bead within 5 cm")?;
     let subject = Subject {
         tick: 0,
         tool_m: tool_m.coords.into(),
         bead_m: [bead.x, bead.y, BEAD_RADIUS_M],
         goal_m: None,
         link_frames: positioner.link_frames(),
-        block_size_m: Plant::new(parameters.plant()).block_size_m(),
+        block_size_m: Plant::new(plant).block_size_m(),
         mount: parameters.camera_mount(),
+        moved_walls: around.bands(walls.as_ref(), 0, bead).map(Arc::from),
     };
     let mut camera = arena.camera(&super::open_gpu()?)?;
     let picture = match arguments.view {

@@ -47,6 +47,8 @@ pub enum Trouble {
     Searching,
     /// No path to the goal exists.
     WalledOff,
+    /// Moving walls have closed all paths.
+    Closed,
 }
 
 impl std::fmt::Display for Trouble {
@@ -58,6 +60,7 @@ impl std::fmt::Display for Trouble {
             Self::Refused => "blocked: each step is refused",
             Self::Searching => "no path found yet",
             Self::WalledOff => "walled off",
+            Self::Closed => "waiting for a closed segment to open",
         })
     }
 }

@@ -7,6 +7,7 @@ pub mod description;
 mod evaluations;
 mod flow;
 mod health;
+mod lumen;
 pub mod maps;
 mod moments;
 mod policies;
@@ -63,6 +64,7 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(sessions::camera))
         .routes(routes!(sessions::observation))
         .routes(routes!(flow::flow))
+        .routes(routes!(lumen::lumen))
         .routes(routes!(values::values))
         .routes(routes!(moments::moment))
         .routes(routes!(moments::camera))

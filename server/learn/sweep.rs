@@ -249,6 +249,7 @@ fn take_view(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<Vi
         link_frames: None,
         block_size_m: [0.05, 0.025, 0.01],
         mount: CameraMount::default(),
+        moved_walls: None,
     };
     let percept = Percept::of(&camera.capture(&subject)?, tool);
     let observation = Observation::new(&percept.gray, None, tool, arena.map.workspace());

@@ -1,6 +1,6 @@
 //! Free space on a grid: connected components, path lengths and uniform sampling.
 
-use pathfinding::prelude::astar;
+use pathfinding::prelude::{astar, dijkstra_all};
 use rand::{Rng, RngExt};
 
 use super::Map;
@@ -76,7 +76,8 @@ impl FreeSpace {
         (0..self.component.len()).map(|cell| self.component[cell].map(|_| self.center(cell)))
     }
 
-    pub(super) fn center(&self, cell: usize) -> Point2<f64> {
+    /// The centre of a cell, free or not.
+    pub fn center(&self, cell: usize) -> Point2<f64> {
         let (column, row) = (cell % self.columns, cell / self.columns);
         Point2::new(self.origin_m[0] + (column as f64 + 0.5) * CELL_M, self.origin_m[1] + (row as f64 + 0.5) * CELL_M)
     }
@@ -100,6 +101,38 @@ impl FreeSpace {
             let length_um = if dx != 0 && dy != 0 { 7071 } else { 5000 };
             inside.then_some(((r * columns + c) as usize, length_um))
         })
+    }
+
+    /// Length of the shortest path on the grid from a free cell to each cell; infinite where no path leads.
+    pub fn lengths_m(&self, from: usize) -> Vec<f64> {
+        let mut lengths_m = vec![f64::INFINITY; self.component.len()];
+        let next =
+            |&cell: &usize| self.neighbours(cell).filter(|&(n, _)| self.component[n].is_some()).collect::<Vec<_>>();
+        for (cell, (_, length_um)) in dijkstra_all(&from, next) {
+            lengths_m[cell] = f64::from(length_um) * 1e-6;
+        }
+        lengths_m[from] = 0.0;
+        lengths_m
+    }
+
+    /// Columns and rows.
+    pub fn shape(&self) -> (usize, usize) {
+        (self.columns, self.component.len() / self.columns)
+    }
+
+    /// The component of each cell, row by row from the smallest y; `None` where it is not free.
+    pub fn component_of_cells(&self) -> &[Option<u32>] {
+        &self.component
+    }
+
+    /// The cells within `reach` columns and rows of a point's cell.
+    pub fn cells_around(&self, point: Point2<f64>, reach: i64) -> impl Iterator<Item = usize> + use<> {
+        let (columns, rows) = (self.columns as i64, (self.component.len() / self.columns) as i64);
+        let at = |along_m: f64, least_m: f64| ((along_m - least_m) / CELL_M).floor() as i64;
+        let (column, row) = (at(point.x, self.origin_m[0]), at(point.y, self.origin_m[1]));
+        let inside = |from: i64, count: i64| (from - reach).max(0)..(from + reach + 1).min(count);
+        let across = inside(column, columns);
+        inside(row, rows).flat_map(move |r| across.clone().map(move |c| (r * columns + c) as usize))
     }
 
     /// Number of connected components.

@@ -12,11 +12,15 @@
 //! spread image. This misses no wall of the given height or higher. It can add up to a cell and a pixel, and gaps
 //! narrower than the spread. Lower walls lose the difference on their far side.
 //!
+//! **Walls that move** leave the map with obstacles where there are none any more. What is in view is corrected with
+//! each image; what came to a free place and is out of view for a while is forgotten ([`ObstacleMap::forget`]).
+//!
 //! **No flicker.** Cells that are not completely in view, including their spread, stay unchanged. An obstacle cell
 //! becomes free only if no such pixel is within two pixels of it: a wall edge that extends into a cell by less than a
 //! pixel is visible from some places only, and must not appear and disappear.
 
 mod bits;
+mod memory;
 mod queries;
 #[cfg(test)]
 mod tests;
@@ -31,6 +35,7 @@ use super::dark::DarkPixels;
 use super::rectangles::{CellMask, CellRect, Partition};
 use crate::geometry::{Rect, Vector2};
 use bits::BitGrid;
+use memory::Memory;
 use view::View;
 
 pub use queries::{Area, CellState, Unknown};
@@ -50,6 +55,9 @@ pub struct ObstacleMap {
     version: u64,
     #[serde(serialize_with = "serialize_shared")]
     cells: Arc<Cells>,
+    /// While walls move.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_memory")]
+    memory: Option<Arc<Memory>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,24 +73,32 @@ struct Stored {
     workspace: Rect,
     version: u64,
     cells: Cells,
+    #[serde(default)]
+    memory: Option<Memory>,
 }
 
 impl TryFrom<Stored> for ObstacleMap {
     type Error = &'static str;
 
     fn try_from(stored: Stored) -> Result<Self, Self::Error> {
-        let Stored { workspace, version, cells } = stored;
-        let shape = Some(shape(&workspace));
+        let Stored { workspace, version, cells, memory } = stored;
+        let cell_count = shape(&workspace);
+        let shape = Some(cell_count);
         let is_whole = |grid: &BitGrid| Some((grid.columns, grid.rows)) == shape && grid.is_whole();
-        if !is_whole(&cells.obstacle) || !is_whole(&cells.seen) {
+        let remembers = memory.as_ref().is_none_or(|memory| memory.is_whole(cell_count));
+        if !is_whole(&cells.obstacle) || !is_whole(&cells.seen) || !remembers {
             return Err("the cells of the obstacle map do not fit its workspace");
         }
-        Ok(Self { workspace, version, cells: Arc::new(cells) })
+        Ok(Self { workspace, version, cells: Arc::new(cells), memory: memory.map(Arc::new) })
     }
 }
 
 fn serialize_shared<S: Serializer>(cells: &Arc<Cells>, serializer: S) -> Result<S::Ok, S::Error> {
     cells.as_ref().serialize(serializer)
+}
+
+fn serialize_memory<S: Serializer>(memory: &Option<Arc<Memory>>, serializer: S) -> Result<S::Ok, S::Error> {
+    memory.as_deref().serialize(serializer)
 }
 
 /// Result of an update, in `base`.
@@ -110,7 +126,7 @@ impl ObstacleMap {
     pub fn new(workspace: Rect) -> Self {
         let (columns, rows) = shape(&workspace);
         let grid = BitGrid::zero(columns, rows);
-        Self { workspace, version: 0, cells: Arc::new(Cells { obstacle: grid.clone(), seen: grid }) }
+        Self { workspace, version: 0, cells: Arc::new(Cells { obstacle: grid.clone(), seen: grid }), memory: None }
     }
 
     pub fn workspace(&self) -> &Rect {
@@ -163,7 +179,11 @@ impl ObstacleMap {
                 continue;
             }
             let was_obstacle = self.cells.obstacle.get(column, row);
-            match (was_obstacle, view.is_dark(column, row)) {
+            let is_dark = view.is_dark(column, row);
+            if let Some(memory) = &mut self.memory {
+                Arc::make_mut(memory).note(column, row, !is_dark);
+            }
+            match (was_obstacle, is_dark) {
                 (false, true) => appeared.push((column, row)),
                 (true, false) if !view.is_near_dark(column, row) => cleared.push((column, row)),
                 _ => (),

@@ -2,10 +2,10 @@
 //! viscous drag, lift-off, and the hand.
 
 use super::bead::{SPHERE_INERTIA, shrunk};
+use super::walls::Walls;
 use super::{Bead, BeadMotion, Plant, PlantState, contact};
 use crate::geometry::{Isometry3, Point2, Vector2};
 use crate::magnetics::dipole;
-use crate::map::Map;
 
 /// Stiffness of the hand's spring: 1 mN per millimetre, so that a fifth of the bead's weight is one millimetre.
 pub const HAND_STIFFNESS_N_M: f64 = 1.0;
@@ -19,18 +19,25 @@ impl Plant {
         state.hand.map_or(0.0, |hand| HAND_STIFFNESS_N_M * stretch(hand))
     }
 
-    pub(super) fn step_bead(&self, state: &mut PlantState, map: &Map, base_from_tool: &Isometry3<f64>, dt_s: f64) {
+    /// Moves the bead for a step. Returns the work of the walls on it, J.
+    pub(super) fn step_bead(
+        &self,
+        state: &mut PlantState,
+        walls: &Walls,
+        base_from_tool: &Isometry3<f64>,
+        dt_s: f64,
+    ) -> f64 {
         let hand = state.hand;
         let bead = &mut state.bead;
         let tool_m = Point2::from(base_from_tool.translation.vector.xy());
         if bead.lifted_off {
             bead.jump_to(tool_m);
-            return;
+            return 0.0;
         }
         let load = self.load(base_from_tool, bead.position_m);
         if load.vertical_n >= dipole::weight_n() && hand.is_none() {
             bead.jump_to(tool_m);
-            return;
+            return 0.0;
         }
         let mass_kg = dipole::mass_kg();
         let mut force_n = load.lateral_n + state.drift_n;
@@ -47,9 +54,14 @@ impl Plant {
         // any step length. Drag is implicit, and last, so that it does not help the bead to stick.
         bead.velocity_m_s += force_n * (dt_s / mass_kg);
         let is_lifted = hand.is_some_and(|hand| hand.lift);
-        let wall_friction_m_s = if is_lifted { 0.0 } else { contact::lean(bead, map) };
+        let lean = if is_lifted { contact::Lean::default() } else { contact::lean(bead, walls) };
         self.rub(bead, normal_n * dt_s / mass_kg);
-        bead.velocity_m_s = shrunk(bead.velocity_m_s, wall_friction_m_s);
+        bead.velocity_m_s = shrunk(bead.velocity_m_s, lean.friction_m_s);
+        if self.parameters.flow_m_s != 0.0 {
+            // The drag is relative to the fluid.
+            let flow_m_s = walls.flow(bead.position_m) * self.parameters.flow_m_s;
+            bead.velocity_m_s += flow_m_s * (self.parameters.drag_n_s_m * dt_s / mass_kg);
+        }
         bead.velocity_m_s /= 1.0 + damping_n_s_m * dt_s / mass_kg;
         let speed_m_s = bead.velocity_m_s.norm();
         if hand.is_some() && speed_m_s > HAND_SPEED_LIMIT_M_S {
@@ -58,12 +70,13 @@ impl Plant {
         if is_lifted {
             // Over walls, but not over the table's edge.
             let next_m = bead.position_m + bead.velocity_m_s * dt_s;
-            bead.position_m = map.workspace().nearest(next_m);
+            bead.position_m = walls.workspace().nearest(next_m);
             if bead.position_m != next_m {
                 bead.velocity_m_s = Vector2::zeros();
             }
+            0.0
         } else {
-            contact::advance(bead, map, dt_s);
+            mass_kg * (lean.work_m2_s2 + contact::advance(bead, walls, dt_s))
         }
     }
 

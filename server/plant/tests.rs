@@ -1,11 +1,13 @@
 //! The bead's physics, compared with independently computed numbers and with invariants.
 
+mod moving_walls;
 mod violence;
 
 use proptest::prelude::*;
 
 use super::*;
 use crate::geometry::{UnitQuaternion, Vector2, Vector3};
+use crate::map::Map;
 
 const PARAMETERS: PlantParameters = PlantParameters {
     block_orientation: BlockOrientation::A,
@@ -13,6 +15,16 @@ const PARAMETERS: PlantParameters = PlantParameters {
     friction: 0.2,
     rolling_resistance: 0.01,
     drag_n_s_m: 0.01,
+    flow_m_s: 0.0,
+    peristalsis: REST,
+};
+const REST: Peristalsis = Peristalsis {
+    contraction: Contraction::Travelling,
+    amplitude_m: 0.0,
+    wavelength_m: 0.12,
+    period_s: 6.0,
+    pause_s: 0.0,
+    irregularity: 0.0,
 };
 const FAR_AWAY: Point3<f64> = Point3::new(0.0, -0.3, 5.0);
 
@@ -24,9 +36,31 @@ fn at_rest(position_m: Point2<f64>) -> PlantState {
     PlantState::at_rest(Positioner::PlanarStage(FAR_AWAY), position_m)
 }
 
-/// One bead step of 1 ms below an upright tool.
+/// A map with its lumen.
+struct Room {
+    map: Map,
+    lumen: LazyLumen,
+}
+
+impl Room {
+    fn of(map: Map) -> Self {
+        Self { map, lumen: LazyLumen::default() }
+    }
+
+    fn around(&self) -> Surroundings<'_> {
+        Surroundings::of(&self.map, &self.lumen)
+    }
+
+    fn rigid(&self) -> Walls<'_> {
+        self.around().walls(None, 0)
+    }
+}
+
+/// One bead step of 1 ms below an upright tool, between rigid walls.
 fn step(plant: &Plant, state: &mut PlantState, map: &Map, tool_m: Point3<f64>) {
-    plant.step_bead(state, map, &Positioner::PlanarStage(tool_m).base_from_tool(), 1e-3);
+    let lumen = LazyLumen::default();
+    let walls = Surroundings::of(map, &lumen).walls(None, 0);
+    plant.step_bead(state, &walls, &Positioner::PlanarStage(tool_m).base_from_tool(), 1e-3);
 }
 
 /// Moves the tool in a straight line over a bead and returns the bead's lag at the end.
@@ -176,11 +210,11 @@ fn a_bead_bounces_out_of_an_acute_corner() {
     // Two walls that meet at 60°, opening to the left.
     let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-200 200 400 200">
         <path d="M0 300 L-150 213.4 L-150 200 L200 200 L200 400 L-150 400 L-150 386.6 Z"/></svg>"#;
-    let map = Map::from_svg("corner", svg).unwrap();
+    let room = Room::of(Map::from_svg("corner", svg).unwrap());
     let mut bead = Bead { velocity_m_s: Vector2::new(0.5, 0.003), ..Bead::at(Point2::new(-0.02, -0.3)) };
     for _ in 0..100 {
-        contact::advance(&mut bead, &map, 1e-3);
-        assert!(map.clearance_m(bead.position_m) >= BEAD_RADIUS_M - 1e-6);
+        contact::advance(&mut bead, &room.rigid(), 1e-3);
+        assert!(room.map.clearance_m(bead.position_m) >= BEAD_RADIUS_M - 1e-6);
     }
     assert!(bead.velocity_m_s.x < -0.01, "{bead:?}");
 }
@@ -234,7 +268,7 @@ fn a_tilted_block_pulls_toward_its_tilt() {
 
 #[test]
 fn a_straight_tool_path_stays_in_its_plane() {
-    let (plant, map) = (Plant::new(PARAMETERS), open());
+    let (plant, room) = (Plant::new(PARAMETERS), Room::of(open()));
     let mut tool = Point3::new(-0.25, -0.5, 0.1);
     let at = |tool, seed: &Positioner| Positioner::at(tool, ToolOrientation::Vertical, seed).unwrap();
     let mut reference = at(tool, &Positioner::home(PositionerKind::Arm, tool));
@@ -243,7 +277,7 @@ fn a_straight_tool_path_stays_in_its_plane() {
         // The fastest motion, across the whole workspace.
         tool += Vector3::new(0.25, 0.1, 0.0).normalize() * 0.25 * ur5::SERVO_PERIOD_S;
         let next = at(tool, &reference);
-        plant.step(&mut state, &map, &reference, &next);
+        plant.step(&mut state, &room.around(), 0, &reference, &next);
         reference = next;
         let height_m = state.positioner.tool_m().z;
         assert!((height_m - 0.1).abs() < 1e-4, "{height_m}");
@@ -259,14 +293,14 @@ proptest! {
     fn walls_add_no_energy(
         x in -0.27..0.25f64, y in -0.53..-0.22f64, speed in 0.0..40.0f64, angle in 0.0..std::f64::consts::TAU,
     ) {
-        let map = Map::shipped("colon-folds").unwrap();
-        let position_m = contact::nearest_fit(&map, Point2::new(x, y)).unwrap();
+        let room = Room::of(Map::shipped("colon-folds").unwrap());
+        let position_m = room.rigid().nearest_fit(Point2::new(x, y)).unwrap();
         let mut bead = Bead { velocity_m_s: Vector2::new(angle.cos(), angle.sin()) * speed, ..Bead::at(position_m) };
         let mut last_j = bead.kinetic_energy_j();
         for _ in 0..2000 {
-            contact::advance(&mut bead, &map, 1e-3);
+            contact::advance(&mut bead, &room.rigid(), 1e-3);
             prop_assert!(bead.kinetic_energy_j() <= last_j * (1.0 + 1e-12));
-            prop_assert!(map.clearance_m(bead.position_m) >= BEAD_RADIUS_M - 1e-6);
+            prop_assert!(room.map.clearance_m(bead.position_m) >= BEAD_RADIUS_M - 1e-6);
             last_j = bead.kinetic_energy_j();
         }
     }
@@ -280,7 +314,7 @@ proptest! {
         let bead_motion = if rolls { BeadMotion::Rolling } else { BeadMotion::Sliding };
         let parameters = PlantParameters { bead_motion, ..PARAMETERS };
         let (plant, map) = (Plant::new(parameters.clone()), Map::shipped("posts").unwrap());
-        let bead_m = contact::nearest_fit(&map, Point2::new(x, y)).unwrap();
+        let bead_m = Room::of(map.clone()).rigid().nearest_fit(Point2::new(x, y)).unwrap();
         let tool_m = Point3::new(bead_m.x + dx, bead_m.y + dy, height);
         let load = plant.load(&Positioner::PlanarStage(tool_m).base_from_tool(), bead_m);
         let holds_n = parameters.breakaway() * (dipole::weight_n() - load.vertical_n);

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 use utoipa::ToSchema;
 
+use super::lumen::wave_m;
 use super::numbers::{Numbers2, Numbers3, Numbers6};
 use super::{AttemptStanding, ComparisonMessage, ErrorMessage, OverlayMessage, ProgramStanding, SeenMessage};
 use crate::geometry::{Point2, Polygon, Rect};
@@ -259,6 +260,10 @@ pub struct StateMessage {
     pub pull_n: f64,
     /// Vertical pull in units of the bead's weight; the bead lifts off at 1.
     pub lift_ratio: f64,
+    /// How far walls close in along the lumen, one number per knot of `Lumen`; omitted while they are at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub wave_m: Option<Vec<f64>>,
     /// Control steps of the current transport leg.
     pub leg_steps: u32,
     /// Control steps of the trial.
@@ -378,6 +383,7 @@ impl From<&View> for StateMessage {
             goal_distance_m: m.goal_m.map(|goal| (m.tool_m.xy() - goal).norm()),
             pull_n: m.load.lateral_n.norm(),
             lift_ratio: m.load.lift_ratio(),
+            wave_m: wave_m(&view.scenery.arena, m),
             leg_steps: m.counters.leg_steps,
             steps: m.counters.steps,
             switches: m.counters.switches,

@@ -124,7 +124,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 16] {
+fn modules() -> [(&'static str, Vec<Declaration>); 17] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -222,6 +222,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 16] {
                 AttemptStanding,
             ],
         ),
+        ("lumen", declared![WallRing, Lumen]),
         ("programs", declared![ProgramStanding, Programs]),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]

@@ -4,6 +4,7 @@
 //! The plan view is in the map's units, millimetres with y down, because Rerun draws 2-D views that way.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use re_sdk::log::ChunkBatcherConfig;
@@ -26,7 +27,7 @@ use crate::map::WALL_HEIGHT_M;
 use crate::perception::ObstacleMap;
 use crate::policy::Judgement;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::trial::{Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
+use crate::trial::{Arena, Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
 
 const JPEG_QUALITY: u8 = 85;
 /// Rerun's flush interval; a crash loses at most this much.
@@ -75,6 +76,9 @@ pub(super) struct Writer {
     mode: Option<Mode>,
     phase: Option<Phase>,
     plans: Option<u32>,
+    /// Of the current trial.
+    arena: Option<Arc<Arena>>,
+    walls_are_moved: bool,
 }
 
 impl Writer {
@@ -101,7 +105,18 @@ impl Writer {
         stream.log_static("joints_rad", &names(&joints))?;
         Samples::introduce(&stream)?;
         let samples = Samples::default();
-        Ok(Self { stream, samples, image_every, imaged: None, goal_m: None, mode: None, phase: None, plans: None })
+        Ok(Self {
+            stream,
+            samples,
+            image_every,
+            imaged: None,
+            goal_m: None,
+            mode: None,
+            phase: None,
+            plans: None,
+            arena: None,
+            walls_are_moved: false,
+        })
     }
 
     /// Passes collected samples to Rerun.
@@ -131,6 +146,7 @@ impl Writer {
         timeline.begin(opening.tick, is_new);
         self.at(opening.tick, opening.tick as f64 * SERVO_PERIOD_S, timeline);
         (self.mode, self.phase, self.plans) = (None, None, None);
+        self.arena = Some(opening.arena.clone());
         if is_new && timeline.trials > 1 {
             EMPTY_AT_FIRST.iter().try_for_each(|entity| self.log(entity, &Clear::flat()))?;
             self.log("workspace/planner", &Clear::recursive())?;
@@ -170,6 +186,7 @@ impl Writer {
         self.samples.add(timeline.last, moment);
         self.changes(moment)?;
         if let Some(sight) = &sample.sight {
+            self.moved_walls(moment)?;
             self.images(sight)?;
             self.evaluation(sight)?;
         }
@@ -216,6 +233,26 @@ impl Writer {
             self.log("phase", &StateChange::new().with_state([moment.phase.to_string()]))?;
         }
         Ok(())
+    }
+
+    /// Logs walls that are not at their drawn place.
+    fn moved_walls(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+        let around = self.arena.as_ref().map(|arena| arena.surroundings(0));
+        let bands = around.and_then(|around| around.bands(moment.walls.as_ref(), moment.tick, moment.bead_m.xy()));
+        let Some(bands) = bands else {
+            if std::mem::take(&mut self.walls_are_moved) {
+                self.log("world/walls/moved", &Clear::flat())?;
+                self.log("workspace/walls/moved", &Clear::flat())?;
+            }
+            return Ok(());
+        };
+        self.walls_are_moved = true;
+        let edges = || bands.iter().map(|band| band.edge_m.iter().chain(band.edge_m.first()));
+        let height_m = WALL_HEIGHT_M as f32;
+        let solid = edges().map(|edge| edge.map(|&[x, y]| [x as f32, y as f32, height_m]).collect::<Vec<_>>());
+        self.log("world/walls/moved", &LineStrips3D::new(solid).with_colors([color(WALL)]))?;
+        let plan = edges().map(|edge| edge.map(|&place| plan_mm(place.into())).collect::<Vec<_>>());
+        self.log("workspace/walls/moved", &LineStrips2D::new(plan).with_colors([color(WALL)]))
     }
 
     fn images(&mut self, sight: &Sight) -> Result<(), RecordingError> {

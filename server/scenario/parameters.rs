@@ -9,12 +9,13 @@ mod table;
 use serde::{Deserialize, Serialize};
 
 use crate::image::CameraMount;
-use crate::plant::PlantParameters;
+use crate::plant::{Peristalsis, PlantParameters};
 
 pub use descriptor::{Bound, Group, Kind, Number, Parameter, Unit};
 pub use policy::{AddedPolicy, RlPolicy};
 pub use presets::{Preset, PresetKind};
 pub use set::SetError;
+pub(crate) use table::Hashed;
 pub use table::Parameters;
 
 /// Which switching law runs.
@@ -93,6 +94,15 @@ impl Parameters {
             friction: self.friction,
             rolling_resistance: self.rolling_resistance,
             drag_n_s_m: self.drag_n_s_m,
+            flow_m_s: self.flow_m_s,
+            peristalsis: Peristalsis {
+                contraction: self.peristalsis_contraction,
+                amplitude_m: self.peristalsis_amplitude_m,
+                wavelength_m: self.peristalsis_wavelength_m,
+                period_s: self.peristalsis_period_s,
+                pause_s: self.peristalsis_pause_s,
+                irregularity: self.peristalsis_irregularity,
+            },
         }
     }
 }

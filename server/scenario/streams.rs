@@ -21,6 +21,8 @@ pub enum Stream {
     DisturbancePlace(u32),
     /// Where the tool starts, if not above the bead.
     ToolStart,
+    /// Strength of the walls' contractions.
+    Walls,
 }
 
 impl Stream {
@@ -34,6 +36,7 @@ impl Stream {
             Self::DisturbanceStep(number) => (4, number),
             Self::DisturbancePlace(number) => (5, number),
             Self::ToolStart => (6, 0),
+            Self::Walls => (7, 0),
         };
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(consumer << 32 | u64::from(number));
@@ -49,8 +52,9 @@ mod tests {
 
     #[test]
     fn no_two_consumers_draw_the_same_numbers() {
-        use Stream::{Camera, DisturbancePlace, DisturbanceStep, Planner, Start, ToolStart, Tracker};
-        let all = [Start, Tracker, Planner, Camera(0), Camera(1), DisturbanceStep(0), DisturbancePlace(0), ToolStart];
+        use Stream::{Camera, DisturbancePlace, DisturbanceStep, Planner, Start, ToolStart, Tracker, Walls};
+        let all =
+            [Start, Tracker, Planner, Camera(0), Camera(1), DisturbanceStep(0), DisturbancePlace(0), ToolStart, Walls];
         let first: std::collections::BTreeSet<u64> = all.iter().map(|stream| stream.rng(7).next_u64()).collect();
         assert_eq!(first.len(), all.len());
         assert_eq!(Tracker.rng(7).next_u64(), Tracker.rng(7).next_u64());

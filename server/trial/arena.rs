@@ -7,7 +7,7 @@ use crate::control::Refusal;
 use crate::control::limits::Limits;
 use crate::geometry::{Point2, Point3};
 use crate::map::{FreeSpace, Map, MapError, WALL_HEIGHT_M};
-use crate::plant::{Positioner, PositionerKind, TOOL_LENGTH_M};
+use crate::plant::{LazyLumen, Lumen, Positioner, PositionerKind, Surroundings, TOOL_LENGTH_M};
 use crate::policy::{Library, Policy, PolicyError};
 use crate::robot;
 use crate::scenario::{CLEARANCE_M, ControllerName, Ground, Parameters, RandomTrialError, RlPolicy, Scenario};
@@ -18,6 +18,7 @@ pub struct Arena {
     pub map: Map,
     /// Free space with a clearance of [`CLEARANCE_M`] from walls.
     pub space: FreeSpace,
+    lumen: LazyLumen,
     /// A policy that replaces all others.
     pub policy: Option<Arc<Policy>>,
     /// The policies that can be selected.
@@ -38,7 +39,7 @@ impl Arena {
     /// A map with the policies of a library.
     pub fn with_policies(map: Map, policies: Arc<Library>) -> Arc<Self> {
         let space = FreeSpace::new(&map, CLEARANCE_M);
-        Arc::new(Self { map, space, policy: None, policies })
+        Arc::new(Self { map, space, lumen: LazyLumen::default(), policy: None, policies })
     }
 
     /// The same arena with a policy that replaces all others.
@@ -100,6 +101,16 @@ impl Arena {
         let cells: Vec<_> = self.space.cells().flatten().collect();
         let reached = cells.iter().filter(|cell| (min_m..=max_m).contains(&cell.coords.norm())).count();
         if cells.is_empty() { 1.0 } else { reached as f64 / cells.len() as f64 }
+    }
+
+    /// The lumen between the map's walls.
+    pub fn lumen(&self) -> &Lumen {
+        self.lumen.of(&self.map)
+    }
+
+    /// What is around the bead. `seed` is that of the contractions' strengths.
+    pub fn surroundings(&self, seed: u64) -> Surroundings<'_> {
+        Surroundings { map: &self.map, lumen: &self.lumen, seed }
     }
 
     /// The final limiter for every step on this map.

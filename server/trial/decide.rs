@@ -9,15 +9,18 @@ use super::{ControllerState, Decision, Event, EventKind, Motion, Trial, TrialSta
 use crate::control::search::{Look, Search, SearchInput};
 use crate::control::switching::{self, Mode};
 use crate::control::transport::{Carrier, TransportInput};
-use crate::control::{Refusal, TargetStep};
+use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Point3, Rect};
 use crate::image::CameraFrame;
 use crate::map::WALL_HEIGHT_M;
 use crate::perception::{
     BeadView, CellRect, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, wall_spread,
 };
+use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::Parameters;
 
+/// A planner that finds no path between moving walls waits this many times the obstacle map's memory for one.
+const MEMORIES_WAITED: f64 = 2.0;
 /// A step by hand that is shorter is a rest.
 const REST_M: f64 = 1e-3;
 
@@ -47,7 +50,12 @@ pub struct Question {
     pub goal_m: Point2<f64>,
 }
 
-fn update_known(known: &mut ObstacleMap, percept: &Percept, parameters: &Parameters) {
+fn update_known(known: &mut ObstacleMap, tick: u64, percept: &Percept, parameters: &Parameters) {
+    if parameters.peristalsis_amplitude_m > 0.0 {
+        known.forget(tick, (parameters.obstacle_memory_s / SERVO_PERIOD_S) as u64);
+    } else {
+        known.keep_all();
+    }
     let (dark, hidden) = (percept.dark(parameters.obstacle_level), percept.hidden());
     let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
     known.update_around(&dark, hidden.as_ref(), &percept.calibration, spread);
@@ -62,7 +70,7 @@ impl Trial {
         let tool = self.tool_m();
         let TrialState { world, controller_state, .. } = &mut self.state;
         controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
-        update_known(&mut controller_state.known, percept, &world.parameters);
+        update_known(&mut controller_state.known, world.tick, percept, &world.parameters);
         let (switching, stage) = self.stage(percept);
         if let Stage::TrackerLost { is_stopped } = stage {
             return self.look_for_bead(frame, percept, is_stopped);
@@ -100,11 +108,20 @@ impl Trial {
     fn propose(&mut self, percept: &Percept, goal_m: Point2<f64>) -> Result<TargetStep, Refusal> {
         let tool_m = self.tool_m().xy();
         let parameters = &self.state.world.parameters;
-        let ControllerState { carrier, known, .. } = &mut self.state.controller_state;
+        let ControllerState { carrier, known, closed_steps, .. } = &mut self.state.controller_state;
         let policy = carrier.rl().map(|_| self.arena.policy(&parameters.rl_policy));
         let policy = policy.transpose().map_err(|error| Refusal::Policy(error.to_string()))?;
         let policy = policy.as_deref();
-        carrier.transport().next_step(&TransportInput { percept, known, tool_m, goal_m, parameters, policy })
+        let input = TransportInput { percept, known, tool_m, goal_m, parameters, policy };
+        let answer = carrier.transport().next_step(&input);
+        let most_steps = MEMORIES_WAITED * parameters.obstacle_memory_s / CONTROL_PERIOD_S;
+        let may_open = parameters.peristalsis_amplitude_m > 0.0 && f64::from(*closed_steps) < most_steps;
+        if may_open && answer == Err(Refusal::WalledOff) {
+            *closed_steps += 1;
+            return Err(Refusal::Closed);
+        }
+        *closed_steps = 0;
+        answer
     }
 
     /// What the next control step is about, and what the switching law says.
@@ -169,7 +186,7 @@ impl Trial {
         // Only a corrected image shows what was observed before.
         let mut known = Cow::Borrowed(&controller_state.known);
         if is_corrected {
-            update_known(known.to_mut(), &seen.percept, &world.parameters);
+            update_known(known.to_mut(), world.tick, &seen.percept, &world.parameters);
         }
         let gray = seen.percept.for_network(is_corrected, seen.tool_m, &known);
         Observation::new(&gray, world.goal_m, seen.tool_m, known.workspace())

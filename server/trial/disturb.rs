@@ -6,7 +6,7 @@ use super::script::Draw;
 use super::{Event, EventKind, InputError, Trial, TrialError, input::check_on_table};
 use crate::geometry::{Point2, Vector2};
 use crate::map::{FreeSpace, Map};
-use crate::plant::{Bead, contact};
+use crate::plant::Bead;
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{Disturbance, SCRIPT_LIMIT, Scripted, When};
 
@@ -72,14 +72,18 @@ impl Trial {
     /// displacement takes the bead off the magnet or out of the hand.
     pub(super) fn apply_disturbance(&mut self, disturbance: &Disturbance) {
         let ticks = |for_s: f64| (for_s / SERVO_PERIOD_S).ceil() as u64;
+        let fit = match *disturbance {
+            Disturbance::Displace { x_m, y_m } => self.walls().nearest_fit(Point2::new(x_m, y_m)),
+            _ => None,
+        };
         let world = &mut self.state.world;
         let tick = world.tick;
         let bead = &mut world.plant.bead;
         let text = match *disturbance {
             Disturbance::Impulse { .. } | Disturbance::Drift { .. } if bead.lifted_off => return,
-            Disturbance::Displace { x_m, y_m } => {
+            Disturbance::Displace { .. } => {
                 // An arena always has room for the bead.
-                let Some(to) = contact::nearest_fit(&self.arena.map, Point2::new(x_m, y_m)) else { return };
+                let Some(to) = fit else { return };
                 let from = std::mem::replace(bead, Bead::at(to)).position_m;
                 world.plant.hand = None;
                 // The bead did not pass through the places between.

@@ -9,7 +9,7 @@ use crate::control::transport::program::Answer;
 use crate::control::transport::you::Steering;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
-use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant, contact};
+use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant};
 use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters, Stream};
 
 /// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
@@ -291,8 +291,7 @@ impl Trial {
         check_finite("drag", pointer)?;
         let wanted = self.arena.map.workspace().nearest(pointer);
         let (x_m, y_m) = (wanted.x, wanted.y);
-        let fit =
-            contact::nearest_fit(&self.arena.map, wanted).ok_or(InputError::InWall { field: "drag", x_m, y_m })?;
+        let fit = self.walls().nearest_fit(wanted).ok_or(InputError::InWall { field: "drag", x_m, y_m })?;
         let world = &mut self.state.world;
         let from = world.plant.bead.position_m;
         world.plant.bead = Bead::at(fit);
@@ -314,13 +313,12 @@ impl Trial {
 
     /// Puts the bead where it fits, nearest to where it is: it may have hung over a wall.
     fn set_down(&mut self) {
-        let map = &self.arena.map;
-        let bead = &mut self.state.world.plant.bead;
-        let here = bead.position_m;
-        if map.clearance_m(here) < BEAD_RADIUS_M
-            && let Some(fit) = contact::nearest_fit(map, here)
+        let walls = self.walls();
+        let here = self.state.world.plant.bead.position_m;
+        if walls.clearance_m(here) < BEAD_RADIUS_M
+            && let Some(fit) = walls.nearest_fit(here)
         {
-            *bead = Bead::at(fit);
+            self.state.world.plant.bead = Bead::at(fit);
         }
     }
 

@@ -8,11 +8,11 @@ use crate::camera::{CameraError, ImageSource};
 use crate::control::transport::rl::Rl;
 use crate::control::transport::you::{Steering, You};
 use crate::control::transport::{Carrier, Trouble};
-use crate::control::{step_is_due, switching};
+use crate::control::{Refusal, step_is_due, switching};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::perception::{Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters};
-use crate::plant::{Hand, Load, Plant, Positioner};
+use crate::plant::{Hand, Load, Plant, Positioner, WallMotion};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::ControllerName;
 
@@ -106,6 +106,8 @@ pub struct Moment {
     pub trouble: Option<Trouble>,
     /// Magnetic load on the bead.
     pub load: Load,
+    /// Contractions of the walls; `None` at rest.
+    pub walls: Option<WallMotion>,
     pub counters: Counters,
 }
 
@@ -173,8 +175,12 @@ impl Trial {
             motion: world.motion,
             phase: world.phase,
             refusal: world.refusal.as_ref().map(ToString::to_string),
-            trouble: self.state.controller_state.carrier.trouble(),
+            trouble: match world.refusal {
+                Some(Refusal::Closed) => Some(Trouble::Closed),
+                _ => self.state.controller_state.carrier.trouble(),
+            },
             load: self.load(),
+            walls: world.plant.walls,
             counters: world.counters,
         }
     }

@@ -47,6 +47,14 @@ impl Trial {
         // The generic form exposes all numbers without code for each type.
         let form = Value::serialized(&state).expect("plain data serialises");
         check(&form, "", "")?;
+        let moments = std::iter::once(&state.world.plant.walls).chain(state.world.past.iter().map(|past| &past.walls));
+        if let Some(motion) = moments.flatten().find(|motion| !motion.is_sound()) {
+            let allowed =
+                "a motion with wavelength and period above 0, and no more than the largest amplitude".to_owned();
+            return Err(
+                StateError { field: "world.plant.walls".to_owned(), value: format!("{motion:?}"), allowed }.into()
+            );
+        }
         self.restore(state);
         Ok(())
     }

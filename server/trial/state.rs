@@ -15,8 +15,8 @@ use crate::control::{Refusal, TargetStep};
 use crate::geometry::Rect;
 use crate::geometry::{Point2, Point3};
 use crate::perception::ObstacleMap;
-use crate::plant::{Bead, PlantState, Positioner};
-use crate::scenario::{ControllerName, Parameters, Scenario, Stream};
+use crate::plant::{Bead, PlantState, Positioner, WallMotion};
+use crate::scenario::{ControllerName, Hashed, Parameters, Scenario, Stream};
 use crate::tracking::Tracker;
 
 /// What the tool's reference does until the next control step.
@@ -103,6 +103,14 @@ pub struct ControllerState {
     pub known: ObstacleMap,
     /// The search for the bead while the tracker is lost.
     pub search: Search,
+    /// Control steps during which moving walls have closed all paths.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub closed_steps: u32,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(steps: &u32) -> bool {
+    *steps == 0
 }
 
 /// What a camera with latency shows.
@@ -110,6 +118,8 @@ pub struct ControllerState {
 pub struct Past {
     pub positioner: Positioner,
     pub bead: Bead,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub walls: Option<WallMotion>,
 }
 
 /// A whole trial at one tick.
@@ -131,7 +141,7 @@ impl World {
         "positioner",
         "bead",
         "hand",
-        "drift",
+        "drift and walls",
         "tracker",
         "past",
         "reference place",
@@ -151,7 +161,7 @@ impl World {
             tick,
             parameters,
             goal_m,
-            plant: PlantState { positioner, bead, hand, drift_n },
+            plant: PlantState { positioner, bead, hand, drift_n, walls },
             tracker,
             past,
             reference_m,
@@ -166,12 +176,13 @@ impl World {
         } = self;
         let fields = [
             hash(tick),
-            hash(parameters),
+            hash(&Hashed(parameters)),
             hash(goal_m),
             hash(positioner),
             hash(bead),
             hash(hand),
-            hash(drift_n),
+            // Walls came later; at rest, the hash is as before.
+            walls.map_or_else(|| hash(drift_n), |walls| hash(&(drift_n, walls))),
             hash(tracker),
             hash(past),
             hash(reference_m),
@@ -234,6 +245,7 @@ impl TrialState {
                 seen: 0,
                 known: ObstacleMap::new(*workspace),
                 search: Search::default(),
+                closed_steps: 0,
             },
         }
     }

@@ -1,12 +1,14 @@
 //! Pictures, with readback, on whatever adapter is found.
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use criterion::Criterion;
 use ferry::camera::{AdapterChoice, Gpu, Quality, Subject};
-use ferry::geometry::Point3;
+use ferry::geometry::{Point2, Point3};
 use ferry::image::CameraMount;
-use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation};
+use ferry::plant::{BEAD_RADIUS_M, Positioner, PositionerKind, ToolOrientation, WallMotion};
+use ferry::scenario::Parameters;
 use ferry::trial::Arena;
 
 pub fn benches(c: &mut Criterion) {
@@ -28,10 +30,24 @@ pub fn benches(c: &mut Criterion) {
             link_frames: arm.link_frames(),
             block_size_m: [0.05, 0.025, 0.01],
             mount: CameraMount::default(),
+            moved_walls: None,
         }
     };
     let mut camera = arena.camera(&gpu).unwrap();
     group.bench_function("controllers' view, 480×480", |b| b.iter(|| black_box(camera.capture(&next()).unwrap())));
+    // The same with walls that move, their shape at each frame included.
+    let parameters = Parameters { peristalsis_amplitude_m: 0.01, ..Parameters::default() };
+    let motion = WallMotion::in_full(&parameters.plant().peristalsis, 0);
+    let mut tick = 0;
+    group.bench_function("controllers' view, 480×480, moving walls", |b| {
+        b.iter(|| {
+            let subject = next();
+            tick += 31;
+            let bead_m = Point2::new(subject.bead_m[0], subject.bead_m[1]);
+            let bands = arena.surroundings(0).bands(motion.as_ref(), tick, bead_m);
+            black_box(camera.capture(&Subject { moved_walls: bands.map(Arc::from), ..subject }).unwrap())
+        });
+    });
     for (name, quality) in [("economy", Quality::Economy), ("fine", Quality::Fine)] {
         let mut camera = arena.camera(&gpu).unwrap().with_quality(quality);
         group.bench_function(format!("scene, 640×360, {name}"), |b| {

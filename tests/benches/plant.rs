@@ -6,7 +6,7 @@ use criterion::{Criterion, Throughput};
 use ferry::control::switching::{self, Mode};
 use ferry::geometry::{Point2, Point3, Vector2};
 use ferry::map::Map;
-use ferry::plant::{Plant, PlantState, Positioner, PositionerKind, ToolOrientation};
+use ferry::plant::{LazyLumen, Plant, PlantState, Positioner, PositionerKind, Surroundings, ToolOrientation};
 use ferry::scenario::{Parameters, Scenario};
 use ferry::trial::{Arena, Decision, Motion, Source, Trial};
 
@@ -34,6 +34,8 @@ fn tool_path() -> Vec<Point3<f64>> {
 
 pub fn benches(c: &mut Criterion) {
     let map = Map::shipped("colon").unwrap();
+    let lumen = LazyLumen::default();
+    let around = Surroundings::of(&map, &lumen);
     let plant = Plant::new(Parameters::default().plant());
     let path = tool_path();
     let start = path[0].xy();
@@ -47,7 +49,7 @@ pub fn benches(c: &mut Criterion) {
         b.iter(|| {
             let [here, next] = [path[at], path[(at + 1) % path.len()]].map(Positioner::PlanarStage);
             at = (at + 1) % path.len();
-            plant.step(&mut state, &map, &here, &next);
+            plant.step(&mut state, &around, 0, &here, &next);
             black_box(&state);
         });
     });
@@ -61,7 +63,7 @@ pub fn benches(c: &mut Criterion) {
             at = (at + 1) % path.len();
             let side = if at / 400 % 2 == 0 { 4e-3 } else { -4e-3 };
             state.drift_n = Vector2::new(side, side);
-            plant.step(&mut state, &map, &here, &next);
+            plant.step(&mut state, &around, 0, &here, &next);
             ticks += 1;
             touched += usize::from(map.nearest_wall_point_within(state.bead.position_m, 0.0026).is_some());
             black_box(&state);
@@ -85,7 +87,7 @@ pub fn benches(c: &mut Criterion) {
         b.iter(|| {
             at = (at + 1) % path.len();
             let next = Positioner::at(path[at], ToolOrientation::Vertical, &reference).unwrap();
-            plant.step(&mut state, &map, &reference, &next);
+            plant.step(&mut state, &around, 0, &reference, &next);
             reference = next;
             black_box(&state);
         });

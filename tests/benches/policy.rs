@@ -37,6 +37,7 @@ fn frames(arena: &Arena, gpu: &std::sync::Arc<Gpu>) -> Vec<(Point2<f64>, CameraF
             link_frames: None,
             block_size_m: [0.05, 0.025, 0.01],
             mount: CameraMount::default(),
+            moved_walls: None,
         };
         (tool, camera.capture(&subject).unwrap())
     };

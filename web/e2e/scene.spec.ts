@@ -33,9 +33,7 @@ test('places a goal in the 3-D view', async ({ lab }) => {
   await lab.speed('8');
   await lab.run();
   // At 8×, a short transport can be over before the next look.
-  await until('a carried bead', () =>
-    ['transporting', 'delivered'].includes(lab.state.phase),
-  );
+  await until('a carried bead', () => ['transporting', 'delivered'].includes(lab.state.phase));
 });
 
 test('drags the bead by mouse in the 3-D view', async ({ lab }) => {

@@ -29,6 +29,8 @@ const SENSED_M: f64 = 0.02;
 const CONTOUR_GAMMA: f64 = 2.0;
 /// Contour following starts if the modulation leaves less than this share of the speed.
 const CONTOUR_SHARE: f64 = 0.5;
+/// Fastest wall that is believed.
+const MOST_WALL_M_S: f64 = 0.03;
 /// Γ at which a contour is followed.
 const CONTOUR_TRACK_GAMMA: f64 = 1.15;
 
@@ -63,6 +65,9 @@ pub struct Attractor {
     sensed: Vec<Superellipse>,
     progress: Progress,
     trouble: Option<Trouble>,
+    /// Velocity of the nearest wall, where walls move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    wall_m_s: Option<Vector2<f64>>,
 }
 
 impl Attractor {
@@ -87,7 +92,15 @@ impl Attractor {
         }
     }
 
+    /// Around moving obstacles, the law holds in the frame of the nearest one (Huber et al. 2019, on moving obstacles).
     fn improved(&mut self, point: Point2<f64>, nominal: Vector2<f64>, rho: f64) -> Vector2<f64> {
+        let Some(wall_m_s) = self.wall_m_s else { return self.around_rest(point, nominal, rho) };
+        let limit_m_s = nominal.norm();
+        (self.around_rest(point, nominal - wall_m_s, rho) + wall_m_s).cap_magnitude(limit_m_s)
+    }
+
+    /// The improved law around obstacles at rest.
+    fn around_rest(&mut self, point: Point2<f64>, nominal: Vector2<f64>, rho: f64) -> Vector2<f64> {
         let speed = nominal.norm();
         let closest = self.sensed.iter().min_by(|a, b| a.gamma(point).total_cmp(&b.gamma(point))).copied();
         let Some(closest) = closest else { return nominal };
@@ -160,6 +173,21 @@ impl Attractor {
     }
 }
 
+/// Velocity of the nearest wall toward the tool: how much its distance has changed since the last control step. `None` if
+/// it does not approach: the flow does not follow a wall that retreats.
+fn approach_m_s(before: &[Superellipse], now: &[Superellipse], tool_m: Point2<f64>) -> Option<Vector2<f64>> {
+    let nearest = |all: &[Superellipse]| {
+        let ends = all.iter().map(|obstacle| obstacle.nearest_m(tool_m));
+        ends.min_by(|a, b| (a - tool_m).norm().total_cmp(&(b - tool_m).norm()))
+    };
+    let (last_m, place_m) = (nearest(before)?, nearest(now)?);
+    let away = tool_m - place_m;
+    let normal = away.try_normalize(1e-6)?;
+    let speed_m_s = ((tool_m - last_m).norm() - away.norm()) / CONTROL_PERIOD_S;
+    let is_same_wall = (last_m - place_m).norm() < SENSED_M;
+    (is_same_wall && speed_m_s > 0.0).then(|| normal * speed_m_s.min(MOST_WALL_M_S))
+}
+
 /// Extra distance between a patch's superellipse and the tool.
 fn clearance_m(parameters: &Parameters) -> f64 {
     match parameters.attractor_law {
@@ -179,6 +207,7 @@ impl Transport for Attractor {
         self.contour = None;
         self.progress = Progress::default();
         self.trouble = None;
+        self.wall_m_s = None;
     }
 
     fn trouble(&self) -> Option<Trouble> {
@@ -188,7 +217,10 @@ impl Transport for Attractor {
     fn next_step(&mut self, input: &TransportInput<'_>) -> Result<TargetStep, Refusal> {
         let parameters = input.parameters;
         let mask = ObstacleMask::of(input.percept);
+        let before = std::mem::take(&mut self.sensed);
         let patches = self.sense(&mask, input.tool_m, parameters);
+        let may_move = parameters.peristalsis_amplitude_m > 0.0 && parameters.attractor_law == AttractorLaw::Improved;
+        self.wall_m_s = if may_move { approach_m_s(&before, &self.sensed, input.tool_m) } else { None };
         self.progress.note(input.tool_m);
         let is_inside = deepest(&self.sensed, input.tool_m).is_some();
         self.trouble = self.progress.standstill().map(|standstill| match standstill {

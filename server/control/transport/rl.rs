@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::planning::LEAST_CLEARANCE_M;
 use super::progress::{Progress, Standstill};
 use super::{Transport, TransportInput, Trouble};
 use crate::control::{CONTROL_PERIOD_S, Refusal, TargetStep};
@@ -71,7 +72,12 @@ impl Rl {
     /// What a policy with a memory sees over a cell.
     fn survey_over(&self, policy: &Policy, input: &TransportInput<'_>, lattice: &Lattice, here: Cell) -> Survey {
         let ends_m = [lattice.center_m(here), input.goal_m];
-        let mut survey = Survey::over(input.known, lattice.step_m, policy.manifest().clearance_m, ends_m);
+        let clearance_m = policy.manifest().clearance_m;
+        let mut survey = Survey::over(input.known, lattice.step_m, clearance_m, ends_m);
+        // Walls that have closed in leave less room than the policy was trained with.
+        if survey.is_walled_off() && input.parameters.peristalsis_amplitude_m > 0.0 {
+            survey = Survey::over(input.known, lattice.step_m, clearance_m.min(LEAST_CLEARANCE_M), ends_m);
+        }
         for (&place, &visits) in &self.visits {
             if let Some(cell) = survey.cell_at(place) {
                 survey.set_visits(cell, visits);

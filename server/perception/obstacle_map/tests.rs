@@ -159,16 +159,26 @@ fn cells_finer_than_pixels_are_updated_too() {
 fn a_map_survives_serialisation_and_a_forged_one_is_rejected() {
     let mut map = ObstacleMap::new(WORKSPACE);
     tour().take(3).for_each(|center| drop(look(&mut map, center, simple)));
-    let bytes = postcard::to_stdvec(&map).unwrap();
+    let bytes = stored(&map);
     assert!(bytes.len() < 14_000, "{}", bytes.len());
-    let back: ObstacleMap = postcard::from_bytes(&bytes).unwrap();
-    assert_eq!(back, map);
+    assert_eq!(read(&bytes).unwrap(), map);
     let mut forged = map.clone();
     forged.workspace.x_max_m = 0.5;
-    assert!(postcard::from_bytes::<ObstacleMap>(&postcard::to_stdvec(&forged).unwrap()).is_err());
+    assert!(read(&stored(&forged)).is_err());
     let mut forged = map.clone();
     Arc::make_mut(&mut forged.cells).seen = BitGrid::zero(290, 164);
-    assert!(postcard::from_bytes::<ObstacleMap>(&postcard::to_stdvec(&forged).unwrap()).is_err());
+    assert!(read(&stored(&forged)).is_err());
+}
+
+/// As in a stored state.
+fn stored(map: &ObstacleMap) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    ciborium::into_writer(map, &mut bytes).unwrap();
+    bytes
+}
+
+fn read(bytes: &[u8]) -> Result<ObstacleMap, ciborium::de::Error<std::io::Error>> {
+    ciborium::from_reader(bytes)
 }
 
 /// A map of about 60 × 40 cells with random content.
@@ -287,4 +297,35 @@ proptest! {
         prop_assert_eq!(states.next(), None);
         prop_assert_eq!(map.partition().formula(), rectangles.len());
     }
+}
+
+#[test]
+fn what_came_to_a_free_place_and_left_the_view_is_forgotten() {
+    // A wall on the left, and a door that opens and closes.
+    let world = |is_closed: bool| move |p: Point2<f64>| p.x < -0.05 || is_closed && (p.x - 0.03).abs() < 0.006;
+    let (here, away) = (Point2::new(0.0, -0.37), Point2::new(0.2, -0.37));
+    let (wall, door) = (Point2::new(-0.06, -0.37), Point2::new(0.03, -0.37));
+    let mut map = ObstacleMap::new(WORKSPACE);
+    let step = |map: &mut ObstacleMap, tick: u64, center, is_closed: bool| {
+        let forgotten = map.forget(tick, 100);
+        look(map, center, world(is_closed));
+        forgotten
+    };
+    step(&mut map, 0, here, false);
+    step(&mut map, 31, here, true);
+    assert_eq!([map.state(wall), map.state(door)], [CellState::Obstacle; 2]);
+    let mut forgotten_at = None;
+    for tick in (62..500).step_by(31) {
+        if !step(&mut map, tick, away, true).cleared.is_empty() {
+            forgotten_at = forgotten_at.or(Some(tick));
+        }
+    }
+    assert!(forgotten_at.is_some_and(|tick| (131..=231).contains(&tick)), "{forgotten_at:?}");
+    assert_eq!(map.state(wall), CellState::Obstacle, "what has always been a wall stays");
+    assert_eq!(map.state(door), CellState::Unknown);
+    assert_eq!(read(&stored(&map)).unwrap(), map);
+    // Rigid walls again: nothing more is noted or forgotten.
+    map.keep_all();
+    look(&mut map, here, world(true));
+    assert_eq!(map.state(door), CellState::Obstacle);
 }

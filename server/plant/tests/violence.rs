@@ -33,7 +33,7 @@ fn a_violent_run_is_the_same_each_time() {
 }
 
 /// Thin walls at random angles that cross each other and form notches and wedges.
-fn clutter() -> Map {
+pub(super) fn clutter() -> Map {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
     let mut body = String::new();
     for _ in 0..60 {
@@ -54,7 +54,9 @@ fn violent_run(map: &Map, seed: u64, ticks: usize) -> (usize, u64) {
     };
     let bead_motion = if seed.is_multiple_of(2) { BeadMotion::Sliding } else { BeadMotion::Rolling };
     let plant = Plant::new(PlantParameters { bead_motion, ..PARAMETERS });
-    let start = contact::nearest_fit(map, anywhere(&mut rng)).unwrap();
+    let room = Room::of(map.clone());
+    let walls = room.rigid();
+    let start = walls.nearest_fit(anywhere(&mut rng)).unwrap();
     let mut state = at_rest(start);
     let (mut crossings, mut hash) = (0, xxhash_rust::xxh3::Xxh3::new());
     for tick in 0..ticks {
@@ -73,7 +75,7 @@ fn violent_run(map: &Map, seed: u64, ticks: usize) -> (usize, u64) {
         let base_from_tool = state.positioner.base_from_tool();
         for _ in 0..SUBSTEPS {
             let before = state.bead.position_m;
-            plant.step_bead(&mut state, map, &base_from_tool, 1e-3);
+            plant.step_bead(&mut state, &walls, &base_from_tool, 1e-3);
             if state.bead.lifted_off {
                 // It hangs on the magnet, perhaps over a wall; a hand takes it back to its last position.
                 state.bead = Bead::at(before);

@@ -36,6 +36,7 @@ fn field(parameter: &Parameter) -> String {
             ]);
             properties.extend(number.bound.map(|bound| match bound {
                 Bound::AtMost(other) => format!("bound: {{ kind: 'atMost', other: '{other}' }}"),
+                Bound::Quarter(other) => format!("bound: {{ kind: 'quarter', other: '{other}' }}"),
                 Bound::Remainder(other) => format!("bound: {{ kind: 'remainder', other: '{other}' }}"),
             }));
             "number"

@@ -51,6 +51,8 @@ pub struct Number {
 pub enum Bound {
     /// At most the value of the other one.
     AtMost(&'static str),
+    /// At most a quarter of the value of the other one.
+    Quarter(&'static str),
     /// Both together at most 1.
     Remainder(&'static str),
 }
@@ -59,7 +61,7 @@ impl Bound {
     /// Name of the other parameter.
     pub fn other(self) -> &'static str {
         match self {
-            Self::AtMost(other) | Self::Remainder(other) => other,
+            Self::AtMost(other) | Self::Quarter(other) | Self::Remainder(other) => other,
         }
     }
 
@@ -67,6 +69,7 @@ impl Bound {
     pub fn most(self, other: f64) -> f64 {
         match self {
             Self::AtMost(_) => other,
+            Self::Quarter(_) => 0.25 * other,
             Self::Remainder(_) => 1.0 - other,
         }
     }
@@ -76,6 +79,7 @@ impl std::fmt::Display for Bound {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::AtMost(other) => write!(f, "at most {other}"),
+            Self::Quarter(other) => write!(f, "at most a quarter of {other}"),
             Self::Remainder(other) => write!(f, "at most 1 together with {other}"),
         }
     }
@@ -187,12 +191,13 @@ pub enum Group {
     Speeds,
     Camera,
     MagnetAndBead,
+    Walls,
     Tracker,
 }
 
 impl Group {
     /// All groups, in the order of the form.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Rl,
         Self::Errt,
         Self::Attractor,
@@ -200,6 +205,7 @@ impl Group {
         Self::Speeds,
         Self::Camera,
         Self::MagnetAndBead,
+        Self::Walls,
         Self::Tracker,
     ];
 
@@ -213,6 +219,7 @@ impl Group {
             Self::Speeds => "Speeds and steps",
             Self::Camera => "Camera",
             Self::MagnetAndBead => "Magnet and bead",
+            Self::Walls => "Walls and fluid",
             Self::Tracker => "Tracker",
         }
     }

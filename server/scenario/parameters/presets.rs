@@ -1,4 +1,5 @@
-//! Named sets of parameters: how good the sensors are, how the camera sits on the tool, and how the bead moves.
+//! Named sets of parameters: how good the sensors are, how the camera sits on the tool, how the bead moves, and how the
+//! walls move.
 
 use serde_json::Value;
 
@@ -10,10 +11,11 @@ pub enum PresetKind {
     Sensors,
     CameraMount,
     Robot,
+    Walls,
 }
 
 impl PresetKind {
-    pub const ALL: [Self; 3] = [Self::Sensors, Self::CameraMount, Self::Robot];
+    pub const ALL: [Self; 4] = [Self::Sensors, Self::CameraMount, Self::Robot, Self::Walls];
 
     /// The name on the page.
     pub fn label(self) -> &'static str {
@@ -21,6 +23,7 @@ impl PresetKind {
             Self::Sensors => "Sensors",
             Self::CameraMount => "Camera mount",
             Self::Robot => "Robot",
+            Self::Walls => "Walls",
         }
     }
 }
@@ -100,6 +103,43 @@ impl Preset {
                    tracking errors along x come near the paper's .02 and .08 m.",
             settings: &["friction=0.41"],
         },
+        Self {
+            name: "rigid",
+            kind: PresetKind::Walls,
+            label: "Rigid",
+            help: "The walls do not move: the default.",
+            settings: &[],
+        },
+        Self {
+            name: "peristalsis",
+            kind: PresetKind::Walls,
+            label: "Peristalsis",
+            help: "Waves of 6 mm travel along the lumen at 2 cm/s.",
+            settings: &["peristalsis_amplitude_m=0.006"],
+        },
+        Self {
+            name: "strong",
+            kind: PresetKind::Walls,
+            label: "Strong peristalsis",
+            help: "Waves of up to 14 mm, some stronger than others, with pauses, and a fluid that flows with them.",
+            settings: &[
+                "peristalsis_amplitude_m=0.014",
+                "peristalsis_pause_s=3",
+                "peristalsis_irregularity=0.5",
+                "flow_m_s=0.01",
+            ],
+        },
+        Self {
+            name: "segments",
+            kind: PresetKind::Walls,
+            label: "Segments",
+            help: "Segments of 8 cm contract in place by 12 mm, every second one in turn.",
+            settings: &[
+                "peristalsis_amplitude_m=0.012",
+                "peristalsis_wavelength_m=0.08",
+                "peristalsis_contraction=segmental",
+            ],
+        },
     ];
 
     /// The changes that it makes, each as `NAME=VALUE`; those of other presets of its kind are set to their defaults.
@@ -169,6 +209,10 @@ mod tests {
     #[test]
     fn an_unknown_preset_is_named() {
         let error = set(&["preset=rich"]).unwrap_err().to_string();
-        assert_eq!(error, "there is no preset \"rich\"; there are laboratory, poor, ideal, realistic, smooth, paper");
+        assert_eq!(
+            error,
+            "there is no preset \"rich\"; there are laboratory, poor, ideal, realistic, smooth, paper, \
+                        rigid, peristalsis, strong, segments"
+        );
     }
 }

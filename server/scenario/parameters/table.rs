@@ -4,7 +4,8 @@
 //! A new parameter is one entry: `name: type = default, kind, "label on the page", "help";`. A field that is renamed
 //! keeps its old name with `#[serde(alias = "…")]` before its entry. The order is that of stored states and of links.
 
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::descriptor::{
     Bound, CM, DEGREES, Group, Kind, LEVELS, MM, MM_S, MN_S_M, PERCENT, PLAIN, PX, Parameter, S, TICKS, bounded,
@@ -12,7 +13,9 @@ use super::descriptor::{
 };
 use super::{AttractorLaw, RlPolicy, SwitchingLaw};
 use crate::image::CameraMount;
-use crate::plant::{BeadMotion, BlockOrientation, ToolOrientation};
+use crate::plant::{
+    BeadMotion, BlockOrientation, Contraction, LEAST_PERIOD_S, LEAST_WAVELENGTH_M, MOST_CLOSING_M, ToolOrientation,
+};
 
 /// A parameter's value as a number, if it is one.
 trait Numeric {
@@ -43,9 +46,14 @@ impl Numeric for bool {}
 impl Numeric for BlockOrientation {}
 impl Numeric for ToolOrientation {}
 impl Numeric for BeadMotion {}
+impl Numeric for Contraction {}
 impl Numeric for SwitchingLaw {}
 impl Numeric for RlPolicy {}
 impl Numeric for AttractorLaw {}
+
+/// Parameters as they are hashed. The walls' group came later: at its defaults it is left out, so that what was recorded
+/// before keeps its hashes.
+pub(crate) struct Hashed<'a>(pub &'a Parameters);
 
 macro_rules! parameters {
     ($($group:ident {$(
@@ -61,6 +69,17 @@ macro_rules! parameters {
         impl Default for Parameters {
             fn default() -> Self {
                 Self { $($($name: $default,)*)* }
+            }
+        }
+
+        impl Serialize for Hashed<'_> {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let (values, defaults) = (self.0, Parameters::default());
+                let mut fields = serializer.serialize_struct("Parameters", Parameters::ALL.len())?;
+                $(if Group::$group != Group::Walls || $(values.$name != defaults.$name)||* {
+                    $(fields.serialize_field(stringify!($name), &values.$name)?;)*
+                })*
+                fields.end()
             }
         }
 
@@ -226,5 +245,27 @@ parameters! {
             "Reactivity ρ", "How early the motion bends around an obstacle.";
         attractor_clearance_m: f64 = 0.012, number(MM, [0.0, 0.03], 1.0),
             "Clearance", "Distance that the improved law keeps from walls.";
+    }
+    Walls {
+        peristalsis_amplitude_m: f64 = 0.0,
+            bounded(MM, [0.0, MOST_CLOSING_M], 0.5, Bound::Quarter("peristalsis_wavelength_m")),
+            "Amplitude", "How far the walls close in; 0: they are rigid. Narrow places keep room for the bead. \
+                          At most a quarter of the wavelength.";
+        peristalsis_wavelength_m: f64 = 0.12, number(CM, [LEAST_WAVELENGTH_M, 1.0], 1.0),
+            "Wavelength", "From one wave to the next along the lumen, or length of a segment.";
+        peristalsis_period_s: f64 = 6.0, number(S, [LEAST_PERIOD_S, 60.0], 0.5),
+            "Period", "Duration of a contraction at one place. Another period, wavelength, pause, kind or irregularity \
+                       begins when the walls are at rest.";
+        peristalsis_pause_s: f64 = 0.0, number(S, [0.0, 60.0], 0.5),
+            "Pause", "Rest between two contractions.";
+        peristalsis_contraction: Contraction = Contraction::Travelling,
+            Kind::Choice(&[("travelling", "Waves"), ("segmental", "Segments")]),
+            "Kind", "Waves travel along the lumen. Segments contract in place, every second one in turn.";
+        peristalsis_irregularity: f64 = 0.0, number(PERCENT, [0.0, 1.0], 5.0),
+            "Irregularity", "0 %: all contractions are equally strong. 100 %: any strength from none to full.";
+        flow_m_s: f64 = 0.0, number(MM_S, [-0.1, 0.1], 1.0),
+            "Flow", "Speed of the fluid along the lumen. The bead feels drag relative to it.";
+        obstacle_memory_s: f64 = 12.0, number(S, [1.0, 600.0], 1.0),
+            "Obstacle memory", "While the walls move: how long the obstacle map keeps what changes and is out of view.";
     }
 }

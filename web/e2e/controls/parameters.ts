@@ -108,6 +108,19 @@ const GROUPS: readonly Group[] = [
     },
   },
   {
+    name: 'Walls and fluid',
+    fields: {
+      Amplitude: number('peristalsis_amplitude_m'),
+      Wavelength: number('peristalsis_wavelength_m'),
+      Period: number('peristalsis_period_s'),
+      Pause: number('peristalsis_pause_s'),
+      Kind: choice('peristalsis_contraction'),
+      Irregularity: number('peristalsis_irregularity'),
+      Flow: number('flow_m_s'),
+      'Obstacle memory': number('obstacle_memory_s'),
+    },
+  },
+  {
     name: 'Tracker',
     fields: {
       'Noise σ': number('tracker_noise_m'),

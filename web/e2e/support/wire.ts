@@ -8,6 +8,7 @@ export type {
   Evaluations,
   EventMessage,
   Hello,
+  Lumen,
   OverlayMessage,
   Parameters,
   Policies,

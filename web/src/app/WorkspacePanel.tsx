@@ -49,7 +49,9 @@ export function WorkspacePanel(props: {
     const at = interaction.at();
     if (!at || !scene) return undefined;
     // In fog the page tells no walls.
-    const wall = lab.sight() === 'all' && scene.walls.some((one) => insidePolygon(one, at));
+    if (lab.sight() !== 'all') return { at, wall: false };
+    const moved = lab.movedWalls();
+    const wall = moved ? moved.covers(at) : scene.walls.some((one) => insidePolygon(one, at));
     return { at, wall };
   });
   const spoken = createMemo(() => {

@@ -22,6 +22,7 @@ import { EMPTY, type Input, type Model, reduce } from './model';
 import type { Sight } from './sight';
 import type { Lab } from './slices';
 import { createSteering } from './steering';
+import { createWalls } from './walls';
 import { tabStorage } from '../ui/storage';
 
 export function createLab(page: Location, knownLayers: readonly KnownLayer[]): Lab {
@@ -121,6 +122,9 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   createEffect(() => {
     if (state()?.controller !== 'you') setSight('all');
   });
+  const notify: Lab['notify'] = (place, text) => {
+    take({ type: 'notice', place, text });
+  };
   const edits = createEdits({ scene, refusals, canOperate, send });
   return {
     session: name,
@@ -143,9 +147,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     inspected,
     inspect: setInspected,
     notices: part('notices'),
-    notify: (place, text) => {
-      take({ type: 'notice', place, text });
-    },
+    notify,
     dismiss: (place, id) => {
       take({ type: 'dismiss', place, id });
     },
@@ -153,6 +155,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
     observation,
     overlay: part('overlay'),
     obstacleMap: part('obstacleMap'),
+    movedWalls: createWalls({ session: name, connection, scene, state, notify }),
     steering,
     contest: createContest({ session: name, scene, state, send }),
     sight,

@@ -54,7 +54,10 @@ export interface NumberField {
   /** Whether it counts something. */
   readonly whole: boolean;
   /** How another parameter limits it from above: at most the other one, or both together at most 1. */
-  readonly bound?: { readonly kind: 'atMost' | 'remainder'; readonly other: NumberName };
+  readonly bound?: {
+    readonly kind: 'atMost' | 'quarter' | 'remainder';
+    readonly other: NumberName;
+  };
 }
 
 export interface ChoiceField {
@@ -139,7 +142,7 @@ export function storedRange(name: NumberName): readonly [number, number] {
 function boundOf({ bound }: NumberField, parameters: Parameters): number {
   if (!bound) return Infinity;
   const other = parameters[bound.other];
-  return bound.kind === 'atMost' ? other : 1 - other;
+  return { atMost: other, quarter: other / 4, remainder: 1 - other }[bound.kind];
 }
 
 /** Digits after the point that `step` needs. */

@@ -10,6 +10,7 @@ import type { Vec2 } from './geometry';
 import type { History } from './history';
 import type { Layers } from './layers';
 import type { Model } from './model';
+import type { MovedWalls } from './movedWalls';
 import type { Place } from './places';
 import type { Sight } from './sight';
 import type { Steering } from './steering';
@@ -73,6 +74,11 @@ export interface ByHand {
   setSight(sight: Sight): void;
 }
 
+export interface Walls {
+  /** The walls where they are now; undefined while they are at rest. It is the same object that has moved. */
+  readonly movedWalls: Accessor<MovedWalls | undefined>;
+}
+
 export interface Contested {
   readonly contest: Contest;
 }
@@ -88,4 +94,15 @@ export interface OpenTab {
 }
 
 export interface Lab
-  extends Session, Trial, Events, Notices, Pictures, ByHand, Contested, Compared, Layers, OpenTab {}
+  extends
+    Session,
+    Trial,
+    Events,
+    Notices,
+    Pictures,
+    ByHand,
+    Walls,
+    Contested,
+    Compared,
+    Layers,
+    OpenTab {}

@@ -3,6 +3,7 @@
 import type {
   Branch,
   ComparisonMessage,
+  Lumen,
   MomentMessage,
   SceneMessage,
   StateMessage,
@@ -109,6 +110,14 @@ export function sceneOf(map: string, trial = 0): SceneMessage {
     attractor_safety_factor: 1.2,
     attractor_reactivity: 1,
     attractor_clearance_m: 0.012,
+    peristalsis_amplitude_m: 0,
+    peristalsis_wavelength_m: 0.12,
+    peristalsis_period_s: 6,
+    peristalsis_pause_s: 0,
+    peristalsis_contraction: 'travelling',
+    peristalsis_irregularity: 0,
+    flow_m_s: 0,
+    obstacle_memory_s: 12,
   };
   return {
     map,
@@ -257,5 +266,22 @@ export function trainingOf(change: Partial<TrainingSummary> = {}): TrainingSumma
     value_range: null,
     policy: null,
     ...change,
+  };
+}
+
+/** Walls with these outlines. The lumen runs along x. */
+export function lumenOf(
+  rings: readonly (readonly (readonly [number, number])[])[],
+  { knot_m = 0.1, limit_m = 0.04 } = {},
+): Lumen {
+  return {
+    map: 'colon',
+    knot_m,
+    rings: rings.map((ring) => ({
+      place_m: ring.map(([x_m, y_m]) => [x_m, y_m]),
+      inward: ring.map(() => [0, 0]),
+      along_m: ring.map(([x_m]) => x_m),
+      limit_m: ring.map(() => limit_m),
+    })),
   };
 }

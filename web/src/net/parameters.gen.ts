@@ -109,6 +109,22 @@ export type Parameters = {
   attractor_reactivity: number;
   /** Distance that the improved law keeps from walls. */
   attractor_clearance_m: number;
+  /** How far the walls close in; 0: they are rigid. Narrow places keep room for the bead. At most a quarter of the wavelength. */
+  peristalsis_amplitude_m: number;
+  /** From one wave to the next along the lumen, or length of a segment. */
+  peristalsis_wavelength_m: number;
+  /** Duration of a contraction at one place. Another period, wavelength, pause, kind or irregularity begins when the walls are at rest. */
+  peristalsis_period_s: number;
+  /** Rest between two contractions. */
+  peristalsis_pause_s: number;
+  /** Waves travel along the lumen. Segments contract in place, every second one in turn. */
+  peristalsis_contraction: "travelling" | "segmental";
+  /** 0 %: all contractions are equally strong. 100 %: any strength from none to full. */
+  peristalsis_irregularity: number;
+  /** Speed of the fluid along the lumen. The bead feels drag relative to it. */
+  flow_m_s: number;
+  /** While the walls move: how long the obstacle map keeps what changes and is out of view. */
+  obstacle_memory_s: number;
 };
 
 /** The form's fields. Ranges and steps are in the shown unit: shown value = stored value × scale. */
@@ -193,6 +209,19 @@ export const GROUPS = [
     ],
   },
   {
+    title: "Walls and fluid", open: false,
+    fields: [
+      { kind: 'number', name: "peristalsis_amplitude_m", label: "Amplitude", unit: "mm", scale: 1000, min: 0, max: 40, step: 0.5, whole: false, bound: { kind: 'quarter', other: 'peristalsis_wavelength_m' }, help: "How far the walls close in; 0: they are rigid. Narrow places keep room for the bead. At most a quarter of the wavelength." },
+      { kind: 'number', name: "peristalsis_wavelength_m", label: "Wavelength", unit: "cm", scale: 100, min: 5, max: 100, step: 1, whole: false, help: "From one wave to the next along the lumen, or length of a segment." },
+      { kind: 'number', name: "peristalsis_period_s", label: "Period", unit: "s", scale: 1, min: 1, max: 60, step: 0.5, whole: false, help: "Duration of a contraction at one place. Another period, wavelength, pause, kind or irregularity begins when the walls are at rest." },
+      { kind: 'number', name: "peristalsis_pause_s", label: "Pause", unit: "s", scale: 1, min: 0, max: 60, step: 0.5, whole: false, help: "Rest between two contractions." },
+      { kind: 'choice', name: "peristalsis_contraction", label: "Kind", options: [["travelling","Waves"],["segmental","Segments"]], help: "Waves travel along the lumen. Segments contract in place, every second one in turn." },
+      { kind: 'number', name: "peristalsis_irregularity", label: "Irregularity", unit: "%", scale: 100, min: 0, max: 100, step: 5, whole: false, help: "0 %: all contractions are equally strong. 100 %: any strength from none to full." },
+      { kind: 'number', name: "flow_m_s", label: "Flow", unit: "mm/s", scale: 1000, min: -100, max: 100, step: 1, whole: false, help: "Speed of the fluid along the lumen. The bead feels drag relative to it." },
+      { kind: 'number', name: "obstacle_memory_s", label: "Obstacle memory", unit: "s", scale: 1, min: 1, max: 600, step: 1, whole: false, help: "While the walls move: how long the obstacle map keeps what changes and is out of view." },
+    ],
+  },
+  {
     title: "Tracker", open: false,
     fields: [
       { kind: 'number', name: "tracker_noise_m", label: "Noise σ", unit: "mm", scale: 1000, min: 0, max: 10, step: 0.1, whole: false, help: "Standard deviation of the tracked position." },
@@ -215,4 +244,8 @@ export const PRESETS: readonly { readonly kind: string; readonly label: string; 
   { kind: "Camera mount", label: "Realistic", help: "Beside the tool and leaning toward it, with magnet and gripper in the picture. It sees the tool's next step, and not what is behind the magnet.", values: { camera_offset_x_m: 0.12, camera_tilt_x_rad: -0.38, camera_field_of_view_rad: 0.72, camera_sees_magnet: true } },
   { kind: "Robot", label: "Smooth", help: "The bead slides and trails the magnet by 14 mm: the default.", values: { friction: 0.2 } },
   { kind: "Robot", label: "The paper's robot", help: "A calibration, not a measurement: with this friction the bead sticks and slips, and the mean and largest tracking errors along x come near the paper's .02 and .08 m.", values: { friction: 0.41 } },
+  { kind: "Walls", label: "Rigid", help: "The walls do not move: the default.", values: { peristalsis_amplitude_m: 0.0, peristalsis_pause_s: 0.0, peristalsis_irregularity: 0.0, flow_m_s: 0.0, peristalsis_wavelength_m: 0.12, peristalsis_contraction: "travelling" } },
+  { kind: "Walls", label: "Peristalsis", help: "Waves of 6 mm travel along the lumen at 2 cm/s.", values: { peristalsis_amplitude_m: 0.006, peristalsis_pause_s: 0.0, peristalsis_irregularity: 0.0, flow_m_s: 0.0, peristalsis_wavelength_m: 0.12, peristalsis_contraction: "travelling" } },
+  { kind: "Walls", label: "Strong peristalsis", help: "Waves of up to 14 mm, some stronger than others, with pauses, and a fluid that flows with them.", values: { peristalsis_amplitude_m: 0.014, peristalsis_pause_s: 3.0, peristalsis_irregularity: 0.5, flow_m_s: 0.01, peristalsis_wavelength_m: 0.12, peristalsis_contraction: "travelling" } },
+  { kind: "Walls", label: "Segments", help: "Segments of 8 cm contract in place by 12 mm, every second one in turn.", values: { peristalsis_amplitude_m: 0.012, peristalsis_pause_s: 0.0, peristalsis_irregularity: 0.0, flow_m_s: 0.0, peristalsis_wavelength_m: 0.08, peristalsis_contraction: "segmental" } },
 ];

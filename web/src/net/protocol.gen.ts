@@ -15,6 +15,7 @@ export * from './protocol/recordings.gen';
 export * from './protocol/maps.gen';
 export * from './protocol/trainings.gen';
 export * from './protocol/challenges.gen';
+export * from './protocol/lumen.gen';
 export * from './protocol/programs.gen';
 export * from './protocol/policies.gen';
 

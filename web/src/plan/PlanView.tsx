@@ -23,13 +23,13 @@ import type { ViewPicture } from './viewPicture';
 import { type Frame, WHOLE, type Zoom, zoomedView } from './zoom';
 import { attachZoom } from './zooming';
 import './plan.css';
-import type { ByHand, Layers, Pictures, Trial } from '../lab/slices';
+import type { ByHand, Layers, Pictures, Trial, Walls } from '../lab/slices';
 
 /** Space for the numbers of the axes, in pixels. */
 const INSETS = { left: 46, right: 12, top: 12, bottom: 24 };
 
 export interface SurfaceProps {
-  readonly lab: Trial & Layers & Pictures & ByHand;
+  readonly lab: Trial & Layers & Pictures & ByHand & Walls;
   readonly interaction: Interaction;
   readonly layers: readonly LiveLayer[];
   readonly palette: Accessor<Palette>;
@@ -83,6 +83,7 @@ export function PlanView(props: SurfaceProps): JSX.Element {
     return (
       mapNow && {
         map: mapNow,
+        walls: lab.movedWalls(),
         moving: moving(),
         state: lab.state(),
         history: lab.history,

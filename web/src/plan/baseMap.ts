@@ -2,9 +2,11 @@
 
 import { createMemo, type Accessor } from 'solid-js';
 import type { Palette } from '../ui/palette';
-import { drawFloor, drawMap, wallPath } from './drawMap';
+import { drawFloor, drawGrid, drawOutlines, wallPath } from './drawMap';
+import { drawMovedWalls } from './drawMovedWalls';
 import type { BasePicture, Draw, LiveLayer } from './layer';
 import { pxFromWorld, type View } from './transform';
+import type { MovedWalls } from '../lab/movedWalls';
 import type { Trial } from '../lab/slices';
 
 export interface BaseMap extends BasePicture {
@@ -73,10 +75,13 @@ export function createBaseMap(
   });
 }
 
-export function paintBaseMap(ctx: Ctx, map: BaseMap): void {
+/** With the walls where they are now, if they move. */
+export function paintBaseMap(ctx: Ctx, map: BaseMap, moved?: MovedWalls): void {
   const { view, palette, scene } = map;
   drawFloor(ctx, scene.workspace, view, palette);
   for (const draw of map.belowWalls) draw(ctx, map);
-  drawMap(ctx, scene, map.walls, view, palette);
+  drawGrid(ctx, scene.workspace, view, palette);
+  if (moved) drawMovedWalls(ctx, scene.workspace, moved, view, palette);
+  else drawOutlines(ctx, scene.workspace, map.walls, view, palette);
   for (const draw of map.aboveWalls) draw(ctx, map);
 }

@@ -1,13 +1,16 @@
 // Draws the static parts of the workspace: floor, grid with numbers, walls.
 
 import { fixed } from '../ui/format';
-import type { Polygon, Rect, SceneMessage } from '../net/protocol.gen';
+import type { Polygon, Rect } from '../net/protocol.gen';
 import { pxFromWorld, type View } from './transform';
 import type { Palette } from '../ui/palette';
 
 export const FONT = '11px system-ui, sans-serif';
 const LABEL_GAP_PX = 5;
 const TICK_PX = 4;
+/** Line of a wall. */
+export const EDGE_PX = 1;
+const BORDER_PX = 2;
 const MIN_LABEL_SPACING_PX = 56;
 
 /** Spacing of the grid: the smallest of 5, 10, 20, 50 cm whose labels do not overlap. */
@@ -83,18 +86,6 @@ export function drawFloor(
   ctx.fillRect(left, top, right - left, bottom - top);
 }
 
-/** Grid and walls, on top of the floor layers. */
-export function drawMap(
-  ctx: CanvasRenderingContext2D,
-  scene: SceneMessage,
-  walls: Path2D,
-  view: View,
-  palette: Palette,
-): void {
-  drawGrid(ctx, scene.workspace, view, palette);
-  drawOutlines(ctx, scene.workspace, walls, view, palette);
-}
-
 /** The walls and the border. */
 export function drawOutlines(
   ctx: CanvasRenderingContext2D,
@@ -103,14 +94,24 @@ export function drawOutlines(
   view: View,
   palette: Palette,
 ): void {
-  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
-  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   ctx.fillStyle = palette.wall;
   ctx.fill(walls, 'evenodd');
   ctx.strokeStyle = palette['wall-edge'];
-  ctx.lineWidth = 1;
+  ctx.lineWidth = EDGE_PX;
   ctx.stroke(walls);
-  // The borders are walls too.
-  ctx.lineWidth = 2;
+  drawBorder(ctx, rect, view, palette);
+}
+
+/** The borders are walls too. */
+export function drawBorder(
+  ctx: CanvasRenderingContext2D,
+  rect: Rect,
+  view: View,
+  palette: Palette,
+): void {
+  const [left, top] = pxFromWorld(view, [rect.x_min_m, rect.y_max_m]);
+  const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
+  ctx.strokeStyle = palette['wall-edge'];
+  ctx.lineWidth = BORDER_PX;
   ctx.strokeRect(left, top, right - left, bottom - top);
 }

@@ -2,6 +2,7 @@
 
 import type { DragState } from './drag';
 import type { History } from '../lab/history';
+import type { MovedWalls } from '../lab/movedWalls';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import { type BaseMap, drawClipped, paintBaseMap } from './baseMap';
 import { drawCursor, drawSpring } from './drawHand';
@@ -12,6 +13,8 @@ import { clampToRect, type Vec2 } from '../lab/geometry';
 
 export interface Picture {
   readonly map: BaseMap;
+  /** The walls where they are now; undefined while they are at rest. */
+  readonly walls: MovedWalls | undefined;
   /** Parts of the layers that are drawn with every state. */
   readonly moving: readonly Draw<MovingPicture>[];
   readonly state: StateMessage | undefined;
@@ -93,7 +96,7 @@ export function paint(
   if (!ctx) return;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, size.width, size.height);
-  paintBaseMap(ctx, picture.map);
+  paintBaseMap(ctx, picture.map, picture.walls);
   if (picture.fog) drawFog(ctx, picture.map, picture.fog);
   if (picture.state) paintState(ctx, picture, picture.state, size.width);
   if (picture.cursor) drawCursor(ctx, picture.map.view, picture.map.palette, picture.cursor);

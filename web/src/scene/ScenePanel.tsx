@@ -178,6 +178,7 @@ export function ScenePanel(
     drawing()?.update({
       state,
       history: lab.history,
+      walls: lab.movedWalls(),
       layers: lab.layers(),
       pull: pull(),
       nearBead: reachPx() !== undefined,

@@ -1,15 +1,8 @@
 // The 3-D scene: takes its inputs and draws one frame when something has changed.
 
-import {
-  DirectionalLight,
-  Group,
-  HemisphereLight,
-  PCFShadowMap,
-  Scene,
-  Vector3,
-  WebGLRenderer,
-} from 'three';
+import { Group, PCFShadowMap, Scene, WebGLRenderer } from 'three';
 import type { History } from '../lab/history';
+import type { MovedWalls } from '../lab/movedWalls';
 import type { Palette } from '../ui/palette';
 import type { SceneMessage, StateMessage } from '../net/protocol.gen';
 import type { UnderTool } from '../plan/layer';
@@ -18,6 +11,7 @@ import { Arm, HIDING } from './arm';
 import { Bead, type Pull } from './bead';
 import { OrbitCamera } from './orbitCamera';
 import { Floor } from './floor';
+import { Light } from './light';
 import type { ViewpointName } from './viewpoints';
 import { Marks } from './marks';
 import type { LoadedLayer } from './sceneLayer';
@@ -29,17 +23,6 @@ import { ToolSheet } from './toolSheet';
 import type { TableView, Vec2 } from '../lab/geometry';
 
 const MAX_PIXEL_RATIO = 2;
-const SKY = '#ffffff';
-const SKY_STRENGTH = 1.75;
-/** Light reflected by the table from below. */
-const BELOW = '#8a8f98';
-const LIGHT_STRENGTH = 1.9;
-/** Direction from the middle of the table to the light: over the user's left shoulder. */
-const TOWARD_LIGHT = new Vector3(-0.3, -0.55, 1.1);
-const SHADOW_PX = 1024;
-const SHADOW_STRENGTH = 0.65;
-/** Half the width of the shadow area around the middle of the table: the arm, or a larger table. */
-const SHADOWED_M = 0.62;
 
 /** This browser cannot draw 3-D. */
 export class NoWebGl extends Error {}
@@ -47,6 +30,8 @@ export class NoWebGl extends Error {}
 export interface Now {
   readonly state: StateMessage;
   readonly history: History;
+  /** Undefined while they are at rest. */
+  readonly walls: MovedWalls | undefined;
   readonly layers: ReadonlySet<string>;
   readonly pull: Pull | undefined;
   readonly nearBead: boolean;
@@ -66,7 +51,7 @@ interface Setting {
 export class SceneView {
   private readonly renderer: WebGLRenderer;
   private readonly world = new Scene();
-  private readonly light = new DirectionalLight(SKY, LIGHT_STRENGTH);
+  private readonly light = new Light();
   private readonly paints: Paints;
   private readonly arm: Arm;
   private readonly orbit: OrbitCamera;
@@ -96,15 +81,7 @@ export class SceneView {
     this.paints = new Paints(palette, isBold);
     this.arm = new Arm(this.paints);
     this.arm.group.visible = false;
-    this.world.add(new HemisphereLight(SKY, BELOW, SKY_STRENGTH), this.light, this.light.target);
-    this.world.add(this.arm.group);
-    this.light.castShadow = true;
-    const { shadow } = this.light;
-    shadow.mapSize.set(SHADOW_PX, SHADOW_PX);
-    shadow.camera.near = 0.05;
-    shadow.camera.far = 4;
-    shadow.normalBias = 2e-3;
-    shadow.intensity = SHADOW_STRENGTH;
+    this.world.add(this.light.group, this.arm.group);
     this.orbit = new OrbitCamera(canvas, () => {
       this.updateView();
     });
@@ -145,16 +122,7 @@ export class SceneView {
     group.add(table.group, tool.group, marks.group, bead.group);
     this.world.add(group);
     this.setting = { scene, table, tool, marks, bead, group };
-    const { x_min_m, x_max_m, y_min_m, y_max_m } = scene.workspace;
-    this.light.target.position.set((x_min_m + x_max_m) / 2, (y_min_m + y_max_m) / 2, 0);
-    this.light.position.copy(this.light.target.position).add(TOWARD_LIGHT);
-    const half_m = Math.max(SHADOWED_M, 0.55 * Math.hypot(x_max_m - x_min_m, y_max_m - y_min_m));
-    Object.assign(this.light.shadow.camera, {
-      left: -half_m,
-      right: half_m,
-      top: half_m,
-      bottom: -half_m,
-    }).updateProjectionMatrix();
+    this.light.shineOn(scene.workspace);
     this.orbit.lookAt(scene.workspace);
     this.place();
   }
@@ -248,7 +216,8 @@ export class SceneView {
     const { now, setting } = this;
     if (!now || !setting) return;
     const { state, pull } = now;
-    const { tool, marks, bead } = setting;
+    const { table, tool, marks, bead } = setting;
+    table.move(now.walls);
     this.arm.group.visible = state.joints_rad !== null;
     if (state.joints_rad) this.arm.pose(state.joints_rad);
     tool.place(state.tool_m);

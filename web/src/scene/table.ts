@@ -9,14 +9,18 @@ import {
   LineBasicMaterial,
   LineSegments,
   Mesh,
+  MeshBasicMaterial,
   Path,
   Shape,
   Vector2,
+  type Material,
 } from 'three';
 import type { Palette } from '../ui/palette';
+import type { MovedWalls } from '../lab/movedWalls';
 import { WALL_HEIGHT_M, type Polygon, type Rect, type SceneMessage } from '../net/protocol.gen';
 import { floorMargins } from '../plan/floorPicture';
 import { Numbers } from './floor';
+import { MovedWallMesh } from './movedWallMesh';
 import type { Paints } from './paints';
 import { disposeGeometries } from './solids';
 
@@ -39,7 +43,10 @@ function wallGeometry(walls: readonly Polygon[]): ExtrudeGeometry {
   return new ExtrudeGeometry(shapes, { depth: WALL_HEIGHT_M, bevelEnabled: false });
 }
 
-/** The upper edges of walls and border, which make their shape visible from a distance. */
+/** Ends of the border's lines. */
+const BORDER_ENDS = 8;
+
+/** The upper edges of border and walls, which make their shape visible from a distance. */
 function edgeGeometry(walls: readonly Polygon[], border: Rect): BufferGeometry {
   const ends: number[] = [];
   const { x_min_m, x_max_m, y_min_m, y_max_m } = border;
@@ -92,13 +99,23 @@ export function tableOf(workspace: Rect, hasArm: boolean): Rect {
 }
 
 const RIM_M = 0.004;
+/** Material of the sides of walls that have moved. */
+const UNSEEN = new MeshBasicMaterial({ visible: false });
 
 export class Table {
   readonly group = new Group();
   private readonly edge = new LineBasicMaterial();
+  private readonly edges: BufferGeometry;
+  private readonly wall: Material;
+  private readonly walls: Mesh;
   private readonly numbers: Numbers;
+  private moved: MovedWallMesh | undefined;
 
-  constructor(paints: Paints, palette: Palette, scene: SceneMessage) {
+  constructor(
+    private readonly paints: Paints,
+    palette: Palette,
+    scene: SceneMessage,
+  ) {
     const table = tableOf(scene.workspace, scene.positioner === 'arm');
     const size = [table.x_max_m - table.x_min_m, table.y_max_m - table.y_min_m] as const;
     const slab = new Mesh(new BoxGeometry(...size, THICKNESS_M), paints.lit('table'));
@@ -109,17 +126,36 @@ export class Table {
     );
     slab.receiveShadow = true;
 
-    const walls = new Mesh(wallGeometry(scene.walls), paints.lit('wall'));
+    this.wall = paints.lit('wall');
+    this.walls = new Mesh(wallGeometry(scene.walls), this.wall);
     const rim = new Mesh(rimGeometry(scene.workspace, RIM_M), paints.lit('wall'));
-    for (const mesh of [walls, rim]) {
+    for (const mesh of [this.walls, rim]) {
       mesh.castShadow = true;
       mesh.receiveShadow = true;
     }
-    this.group.add(slab, walls, rim);
-    this.group.add(new LineSegments(edgeGeometry(scene.walls, scene.workspace), this.edge));
+    this.group.add(slab, this.walls, rim);
+    this.edges = edgeGeometry(scene.walls, scene.workspace);
+    this.group.add(new LineSegments(this.edges, this.edge));
     this.numbers = new Numbers(palette, scene.workspace);
     this.group.add(this.numbers.group);
     this.edge.color.set(palette['wall-edge']);
+  }
+
+  /** Moves the walls, or puts them where they are drawn. */
+  move(walls: MovedWalls | undefined): void {
+    if (this.moved?.of === walls) {
+      this.moved?.update();
+      return;
+    }
+    if (this.moved) {
+      this.group.remove(this.moved.group);
+      this.moved.dispose();
+    }
+    this.moved = walls && new MovedWallMesh(this.paints, this.edge, walls);
+    if (this.moved) this.group.add(this.moved.group);
+    // Sides and edges at rest would flicker through the tops of moved walls.
+    this.walls.material = this.moved ? [this.wall, UNSEEN] : this.wall;
+    this.edges.setDrawRange(0, this.moved ? BORDER_ENDS : Infinity);
   }
 
   recolor(palette: Palette): void {

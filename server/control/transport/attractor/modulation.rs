@@ -40,6 +40,12 @@ impl Superellipse {
         }
     }
 
+    /// The point of the fitted rectangle that is nearest to a point.
+    pub fn nearest_m(&self, point: Point2<f64>) -> Point2<f64> {
+        let offset = point - self.center_m;
+        self.center_m + offset.sup(&-self.half_size_m).inf(&self.half_size_m)
+    }
+
     /// Γ: 1 on the boundary, more outside.
     pub fn gamma(&self, point: Point2<f64>) -> f64 {
         let scaled = (point - self.center_m).component_div(&self.half_axes_m).abs();

@@ -97,6 +97,12 @@ export const PROGRAMME: readonly Part[] = [
     cues: disturbed('Attractor dynamics has no plan: the posts in view bend its motion.', 1, 24),
   },
   {
+    title: 'The gut moves: waves travel along its walls.',
+    link: `${COLON}&goal=-0.24,-0.27&controller=rl&peristalsis_amplitude_m=0.008${pull(0.19, -0.28, 60)}`,
+    speed: 2,
+    cues: disturbed('The network learned between rigid walls. It looks again at each step.', 2, 60),
+  },
+  {
     title: 'Your turn: touch the bead and drag it away.',
     link: `${COLON}&goal=-0.19,-0.48&controller=rl`,
     speed: 1,

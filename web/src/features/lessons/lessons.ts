@@ -3,6 +3,7 @@
 import { ATTRACTOR, ERRT, POLICY } from './carryingLessons';
 import type { Lesson } from './lesson';
 import { LIFT_OFF, MEET_THE_MAGNET } from './magnetLessons';
+import { THE_GUT_MOVES } from './movingLessons';
 import { LOSE_THE_BEAD, THRESHOLD, TWO_LAWS } from './switchingLessons';
 import { FAR_GOAL, FINE_TUNING, LEARNING_FAILS } from './trainingLessons';
 
@@ -14,6 +15,7 @@ export const LESSONS: readonly Lesson[] = [
   ATTRACTOR,
   ERRT,
   POLICY,
+  THE_GUT_MOVES,
   LEARNING_FAILS,
   FAR_GOAL,
   FINE_TUNING,

@@ -231,6 +231,10 @@ pull_n: number,
  */
 lift_ratio: number, 
 /**
+ * How far walls close in along the lumen, one number per knot of `Lumen`; omitted while they are at rest.
+ */
+wave_m?: Array<number>, 
+/**
  * Control steps of the current transport leg.
  */
 leg_steps: number, 

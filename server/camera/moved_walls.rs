@@ -1,0 +1,58 @@
+//! Walls that have moved: what they cover beyond their drawn place, as triangles that are made for each frame.
+
+use super::diorama;
+use super::mesh::Mesh;
+use super::static_scene::{SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers, side_color};
+use crate::geometry::{Band, Point3, Rect, Vector3};
+
+/// A wall that moved less than this is drawn at rest.
+const LEAST_M: f64 = 1e-5;
+
+fn at(point: [f64; 2]) -> Point3<f64> {
+    Point3::new(point[0], point[1], 0.0)
+}
+
+/// Pieces of bands that have moved and that touch an area: both ends of the foot, and both of the edge.
+fn pieces<'a>(bands: &'a [Band], area: &'a Rect) -> impl Iterator<Item = [Point3<f64>; 4]> + 'a {
+    let piece = |band: &'a Band, first: usize| {
+        let next = if first + 1 == band.foot_m.len() { 0 } else { first + 1 };
+        [band.foot_m[first], band.foot_m[next], band.edge_m[first], band.edge_m[next]].map(at)
+    };
+    let all = bands.iter().flat_map(move |band| (0..band.foot_m.len()).map(move |first| piece(band, first)));
+    all.filter(|[foot_a, foot_b, edge_a, edge_b]| {
+        let has_moved = (foot_a - edge_a).norm().max((foot_b - edge_b).norm()) > LEAST_M;
+        let is_near = |point: &Point3<f64>| area.contains(point.xy());
+        has_moved && (is_near(edge_a) || is_near(edge_b) || is_near(foot_a))
+    })
+}
+
+/// For the controllers' view: tops, sides and shadows inside `area`.
+pub(super) fn controllers_mesh(bands: &[Band], height_m: f64, area: &Rect) -> Mesh {
+    let mut mesh = Mesh::default();
+    let [away_x, away_y] = SHADOW_PER_HEIGHT;
+    let lift = Vector3::z() * SHADOW_LIFT_M;
+    let shadow = lift + Vector3::new(away_x, away_y, 0.0) * height_m;
+    let up = Vector3::z() * height_m;
+    for [foot_a, foot_b, edge_a, edge_b] in pieces(bands, area) {
+        mesh.quad([foot_a + up, foot_b + up, edge_b + up, edge_a + up], Vector3::z(), controllers::WALL_TOP);
+        let along = edge_b - edge_a;
+        // Free space is on the left.
+        let Some(normal) = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0) else { continue };
+        mesh.quad([edge_a, edge_b, edge_b + up, edge_a + up], normal, side_color(normal));
+        mesh.quad([edge_a + lift, edge_b + lift, edge_b + shadow, edge_a + shadow], Vector3::z(), controllers::SHADOW);
+    }
+    mesh
+}
+
+/// For people.
+pub(super) fn people_mesh(bands: &[Band], height_m: f64, workspace: &Rect) -> Mesh {
+    let mut mesh = Mesh::default();
+    for [foot_a, foot_b, edge_a, edge_b] in pieces(bands, workspace) {
+        let top = Vector3::z() * height_m;
+        mesh.quad([foot_a + top, foot_b + top, edge_b + top, edge_a + top], Vector3::z(), diorama::TISSUE_TOP);
+    }
+    for band in bands {
+        diorama::moved_edge(&mut mesh, workspace, band, height_m);
+    }
+    mesh
+}

@@ -1,0 +1,222 @@
+// Walls that move: the plan view, the 3-D view and saved pictures show them where they are.
+
+import { type Lab, expect, test } from './fixtures';
+import { colour, decode, isNear, RATIO, saved } from './support/pictures';
+import { ensurePaused, openSceneView } from './support/preconditions';
+import { gpuObjects, px, settled } from './support/scene';
+import { distance, type Point } from './support/table';
+import { until } from './support/wait';
+import type { Lumen } from './support/wire';
+
+/** The wall is at least this far from its place at rest, and the pixels that are read half as far. */
+const MOVED_M = 0.006;
+/** Marks of the tool and the camera are nearer to the tool. */
+const APART_M = 0.2;
+const REST_MS = 60_000;
+
+interface Spot {
+  /** On the free side of a wall at rest. */
+  readonly at: Point;
+  /** How far that wall has closed in. */
+  readonly closing_m: (wave_m: readonly number[]) => number;
+}
+
+/** A place that the walls cover for a part of each period. */
+async function spotOf(lab: Lab): Promise<Spot> {
+  const lumen = await lab.page.evaluate(async (name) => {
+    const answer = await fetch(`/api/sessions/${name}/lumen`);
+    return (await answer.json()) as Lumen;
+  }, lab.hello.session);
+  const [toolX, toolY] = lab.state.tool_m;
+  for (const { place_m, along_m, limit_m } of lumen.rings) {
+    for (const [i, at] of place_m.entries()) {
+      const [before, after] = [place_m.at(i - 1) ?? at, place_m[i + 1] ?? at];
+      const [along, limit] = [along_m[i] ?? 0, limit_m[i] ?? 0];
+      const span_m = distance(before, after);
+      const isStraight = span_m > 0.99 * (distance(before, at) + distance(at, after)) && span_m > 0;
+      if (!isStraight || limit < 2 * MOVED_M || distance(at, [toolX, toolY]) < APART_M) continue;
+      const knot = Math.floor(along / lumen.knot_m);
+      // The free space is on the left.
+      const share = MOVED_M / 2 / span_m;
+      return {
+        at: [at[0] - share * (after[1] - before[1]), at[1] + share * (after[0] - before[0])],
+        closing_m: (wave_m) => Math.min(wave_m[knot] ?? 0, wave_m[knot + 1] ?? 0, limit),
+      };
+    }
+  }
+  throw new Error('no wall that moves far from the tool');
+}
+
+const closing = (lab: Lab, spot: Spot) => spot.closing_m(lab.state.wave_m ?? []);
+
+async function amplitude(lab: Lab, millimetres: string) {
+  await lab.tune('Amplitude', millimetres);
+  const wanted_m = Number(millimetres) / 1000;
+  await until('the amplitude', () => {
+    const now_m = lab.scene.parameters.peristalsis_amplitude_m;
+    return Math.abs(now_m - wanted_m) < 1e-9;
+  });
+}
+
+/** Runs until the wall covers the spot, and pauses. */
+async function cover(lab: Lab, spot: Spot) {
+  await lab.speed('2');
+  await lab.run();
+  await until('a covered spot', () => closing(lab, spot) > MOVED_M + 0.002);
+  await lab.pause();
+  expect(closing(lab, spot), 'the wall has moved on').toBeGreaterThan(MOVED_M);
+}
+
+/** Lets the walls come to rest, and pauses. */
+async function rest(lab: Lab) {
+  await amplitude(lab, '0');
+  await lab.speed('8');
+  await lab.run();
+  await until('walls at rest', () => lab.state.wave_m === undefined, REST_MS);
+  await lab.pause();
+}
+
+/** The pixel of the plan view at a place. */
+async function planPixel(lab: Lab, at: Point) {
+  const [x, y] = await lab.px(at);
+  const { x: left, y: top } = await lab.boxOf(lab.canvas);
+  return lab.canvas.evaluate(
+    (canvas: HTMLCanvasElement, [px, py]) => {
+      const ctx = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true });
+      const ratio = window.devicePixelRatio;
+      ctx?.drawImage(canvas, -Math.floor(px * ratio), -Math.floor(py * ratio));
+      return [...(ctx?.getImageData(0, 0, 1, 1).data ?? [])].slice(0, 3);
+    },
+    [x - left, y - top] as const,
+  );
+}
+
+/** A picture of the 3-D view around a place. */
+async function scenePicture(lab: Lab, at: Point) {
+  await settled(lab);
+  const [x, y] = await px(lab, at);
+  const clip = { x: Math.round(x) - 6, y: Math.round(y) - 6, width: 12, height: 12 };
+  return lab.page.screenshot({ clip });
+}
+
+const groupOf = (lab: Lab) => lab.page.locator('summary').filter({ hasText: /^Walls and fluid/ });
+
+async function prepare(lab: Lab) {
+  await lab.reset({ map: 'colon' });
+  await groupOf(lab).click();
+  // So slow that a pause is in time on a busy machine.
+  await lab.tune('Period', '20');
+  await until('the period', () => lab.scene.parameters.peristalsis_period_s === 20);
+  return spotOf(lab);
+}
+
+test('draws the moving walls in the plan view', async ({ lab }) => {
+  const spot = await prepare(lab);
+  const wall = await colour(lab, '--wall');
+  const isWall = async () => isNear(await planPixel(lab, spot.at), wall);
+  const hint = lab.page.locator('.wall-hint');
+  expect(await isWall(), 'a wall before it moves').toBe(false);
+  await amplitude(lab, '20');
+  await cover(lab, spot);
+  await until('the moved wall', isWall);
+  await lab.page.mouse.move(...(await lab.px(spot.at)));
+  await expect(hint).toBeVisible();
+
+  const { bytes } = await saved(lab, 'Picture (PNG)');
+  const [x, y] = await lab.px(spot.at);
+  const { x: left, y: top } = await lab.boxOf(lab.canvas);
+  const at = [RATIO * (x - left), RATIO * (y - top)] as const;
+  const { around } = await decode(lab.page, bytes, at, 1);
+  expect(around.every((pixel) => isNear(pixel, wall))).toBe(true);
+  await lab.page.keyboard.press('Escape');
+
+  await rest(lab);
+  await until('the free place', async () => !(await isWall()));
+  await lab.page.mouse.move(...(await lab.px(spot.at)));
+  await expect(lab.page.locator('.readout')).toContainText('m');
+  await expect(hint).toHaveCount(0);
+});
+
+test('draws the moving walls in the 3-D view, and frees them at rest', async ({ lab }) => {
+  test.setTimeout(240_000);
+  const spot = await prepare(lab);
+  await openSceneView(lab);
+  // Trails have objects, too.
+  await lab.run();
+  await lab.later(50);
+  await lab.pause();
+  const free = await scenePicture(lab, spot.at);
+  const objects = await gpuObjects(lab);
+  await amplitude(lab, '20');
+  await cover(lab, spot);
+  const covered = await scenePicture(lab, spot.at);
+  expect(covered.equals(free), 'the picture has not changed').toBe(false);
+  const more = await gpuObjects(lab);
+  expect(more[0]).toBeGreaterThan(objects[0] ?? 0);
+
+  // Another theme uses the same objects.
+  await lab.button('Use light colours').click();
+  await settled(lab);
+  await lab.button('Use dark colours').click();
+  expect(await gpuObjects(lab)).toEqual(more);
+  expect((await scenePicture(lab, spot.at)).equals(covered)).toBe(true);
+
+  await rest(lab);
+  await until('the free place', async () => (await scenePicture(lab, spot.at)).equals(free));
+  expect(await gpuObjects(lab)).toEqual(objects);
+});
+
+test('keeps the actions of the workspace while the walls move', async ({ lab }) => {
+  await lab.reset({ map: 'colon' });
+  await groupOf(lab).click();
+  await amplitude(lab, '6');
+  await lab.run();
+  await until('moving walls', () => Math.max(...(lab.state.wave_m ?? [0])) > 0.004);
+  const goal = await lab.setGoal(lab.freePoints(await lab.bead(), 0.05, 0.2)[0]);
+  await lab.canvas.focus();
+  await lab.page.keyboard.press(' ');
+  await until('paused', () => !lab.state.running);
+  await lab.startDrag(goal);
+  await lab.page.mouse.up();
+  await until('no hand', () => !lab.state.hand_m);
+});
+
+test('says once that the walls cannot be drawn, and asks again after a rest', async ({
+  lab,
+  watch,
+}) => {
+  watch.allow(/Failed to load resource/);
+  let requests = 0;
+  let isBroken = true;
+  await lab.page.route('**/lumen', async (route) => {
+    requests += 1;
+    await (isBroken ? route.fulfill({ status: 503, body: '' }) : route.continue());
+  });
+  await lab.reset({ map: 'colon', speed: '2' });
+  await groupOf(lab).click();
+  await amplitude(lab, '6');
+  await lab.run();
+  const notice = lab.notice('workspace').filter({ hasText: 'The moving walls cannot be drawn' });
+  await notice.waitFor();
+  await lab.later(250);
+  expect(requests).toBe(1);
+  await ensurePaused(lab);
+  await rest(lab);
+  isBroken = false;
+  await amplitude(lab, '6');
+  await lab.run();
+  await until('another request', () => requests === 2);
+});
+
+test('shows a viewer the moving walls', async ({ lab, openLab }) => {
+  const spot = await prepare(lab);
+  await amplitude(lab, '20');
+  await cover(lab, spot);
+  const viewer = await openLab();
+  await viewer.isRole('viewer');
+  const wall = await colour(viewer, '--wall');
+  await until('the moved wall', async () => isNear(await planPixel(viewer, spot.at), wall));
+  // The layout of a phone: the plan is smaller.
+  await viewer.page.setViewportSize({ width: 390, height: 844 });
+  await until('the moved wall', async () => isNear(await planPixel(viewer, spot.at), wall));
+});

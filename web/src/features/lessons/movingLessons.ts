@@ -1,0 +1,76 @@
+// A lesson about walls that move.
+
+import { DELIVERED, deliveryWords, type ExperimentLesson, RUNNING } from './lesson';
+import type { Track } from './track';
+
+const COLON = '#v=1&map=colon&controller=rl&seed=1&start=0.19,-0.28&goal=-0.24,-0.27';
+/** A delivery that takes this many times as long counts as slower. */
+const SLOWER = 1.25;
+
+const delivery_s = (track: Track | undefined): number | undefined => track?.deliveries[0]?.time_s;
+
+export const THE_GUT_MOVES: ExperimentLesson = {
+  id: 'gut-moves',
+  title: 'The gut moves',
+  aim: 'See a policy at work between walls that move, which it never saw in training.',
+  minutes: 5,
+  question:
+    'A living gut contracts: waves travel along its walls. The policy was trained between rigid walls, and decides from one camera picture at a time. Now waves of 6 mm come along every 6 seconds. What happens?',
+  choices: [
+    { id: 'same', text: 'It delivers the bead about as fast as before' },
+    { id: 'slower', text: 'It delivers the bead, but takes much longer' },
+    { id: 'never', text: 'It does not deliver the bead' },
+  ],
+  runs: [
+    {
+      title: 'Rigid walls',
+      link: COLON,
+      speed: 4,
+      layers: ['camera', 'trail'],
+      words: ['First the walls as they were in training.'],
+      tasks: [RUNNING, DELIVERED],
+      actions: [],
+    },
+    {
+      title: 'Peristalsis',
+      link: `${COLON}&peristalsis_amplitude_m=0.006`,
+      speed: 4,
+      layers: ['camera', 'trail'],
+      words: [
+        'The same start and goal. After Run, the walls begin to move: they close in and open again, one wave after the other.',
+        'The waves travel at 2 cm/s, half as fast as the tool.',
+      ],
+      tasks: [RUNNING, DELIVERED],
+      actions: [],
+    },
+    {
+      title: 'Strong contractions, and a planner',
+      link: '#v=1&map=colon-folds&controller=errt&seed=1&start=0.2,-0.3&goal=-0.2,-0.3&peristalsis_amplitude_m=0.012',
+      speed: 4,
+      layers: ['plan', 'obstacles'],
+      words: [
+        'Another map with narrower passages, stronger waves, and ERRT. It plans again whenever a wall comes into its path.',
+        'Where a segment is closed, it waits for it to open. The reason is shown above the plan view.',
+      ],
+      tasks: [RUNNING, DELIVERED],
+      actions: [],
+    },
+  ],
+  outcome: ([rigid, moving]) => {
+    const [before_s, now_s] = [delivery_s(rigid), delivery_s(moving)];
+    if (now_s === undefined) return 'never';
+    return now_s > SLOWER * (before_s ?? now_s) ? 'slower' : 'same';
+  },
+  facts: ([rigid, moving, strong]) => [
+    ['rigid walls: delivered', deliveryWords(rigid)],
+    ['waves of 6 mm: delivered', deliveryWords(moving)],
+    ['waves of 12 mm, ERRT: delivered', deliveryWords(strong)],
+  ],
+  why: [
+    'The policy looks again at each step and remembers nothing, so a wall that has moved is a new picture and no surprise. It keeps to the middle, where the waves leave room.',
+    'A planner has to forget: what the camera saw a while ago may have moved. While the walls move, Ferry’s obstacle map forgets walls that came to a free place, when they have been out of view for some time.',
+    'The bead feels the waves too: a wall that closes in pushes it ahead. The magnet is stronger, unless the bead is caught in a closed segment.',
+  ],
+  paper:
+    'Section VI expects that ERRT may be too slow for obstacles that move, and that RL is not. Here both deliver.',
+};
