@@ -103,14 +103,14 @@ for (const { title, choice, runs, action } of LESSONS) {
     }
     await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
     await lab.button('Finish').click();
-    await expect(lab.page.getByText('1 of 11 done')).toBeVisible();
+    await expect(lab.page.getByText('1 of 12 done')).toBeVisible();
     await until('the settings before the lesson', () => {
       const { parameters, defaults } = lab.scene;
       return JSON.stringify(parameters) === JSON.stringify(defaults);
     });
     await expect(lab.label('Speed')).toHaveValue('1');
     await lab.button('Start over').click();
-    await expect(lab.page.getByText('0 of 11 done')).toBeVisible();
+    await expect(lab.page.getByText('0 of 12 done')).toBeVisible();
   });
 }
 
@@ -150,7 +150,7 @@ for (const { title, choice, policies } of TRAINING_LESSONS) {
     }
     await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
     await lab.button('Finish').click();
-    await expect(lab.page.getByText('1 of 11 done')).toBeVisible();
+    await expect(lab.page.getByText('1 of 12 done')).toBeVisible();
     await lab.button('Start over').click();
     await clearTrainings(lab.page.request, server.url);
   });
@@ -182,12 +182,12 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
   await lab.button('Next').press('Enter');
   await expect(page.getByTestId('lesson-outcome')).toHaveText(second);
   await lab.button('Finish').press('Enter');
-  await expect(page.getByText('1 of 11 done')).toBeVisible();
+  await expect(page.getByText('1 of 12 done')).toBeVisible();
 
   await page.reload();
   await lab.live();
   await lab.tab('Lessons').click();
-  await expect(page.getByText('1 of 11 done')).toBeVisible();
+  await expect(page.getByText('1 of 12 done')).toBeVisible();
   await page.getByRole('button', { name: FIRST.title }).click();
   await expect(page.getByLabel(second)).toBeChecked();
 });
