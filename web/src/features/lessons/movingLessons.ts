@@ -45,12 +45,12 @@ export const THE_GUT_MOVES: ExperimentLesson = {
     },
     {
       title: 'Strong contractions, and a planner',
-      link: '#v=1&map=colon-folds&controller=errt&seed=1&start=0.2,-0.3&goal=-0.2,-0.3&peristalsis_amplitude_m=0.012',
+      link: '#v=1&map=colon-folds&controller=errt&seed=1&start=0.03,-0.318&goal=0.207,-0.361&peristalsis_amplitude_m=0.012',
       speed: 4,
       layers: ['plan', 'obstacles'],
       words: [
         'Another map with narrower passages, stronger waves, and ERRT. It plans again whenever a wall comes into its path.',
-        'Where a segment is closed, it waits for it to open. The reason is shown above the plan view.',
+        'Where it finds no path between closed walls, it waits. Then the panel Controller says why the arm holds.',
       ],
       tasks: [RUNNING, DELIVERED],
       actions: [],
