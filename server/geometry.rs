@@ -3,6 +3,9 @@
 //! Everything is in the UR5's `base` frame unless a name says otherwise: x right, +y away from the user,
 //! z up, origin on the table under joint 1. Metres and radians.
 
+mod band;
+
+pub use band::Band;
 pub use nalgebra::{
     Isometry3, Matrix3, Matrix6, Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3, Vector6,
 };
@@ -24,15 +27,6 @@ impl Polygon {
     pub fn rings(&self) -> impl Iterator<Item = &[[f64; 2]]> {
         std::iter::once(self.exterior.as_slice()).chain(self.holes.iter().map(Vec::as_slice))
     }
-}
-
-/// The closed band between two rings with as many points: what a wall covers beyond its drawn place.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Band {
-    /// The drawn place, `[x_m, y_m]` for each point, with the free side on the left.
-    pub foot_m: Vec<[f64; 2]>,
-    /// Where the wall is now.
-    pub edge_m: Vec<[f64; 2]>,
 }
 
 /// An axis-aligned rectangle, in metres.

@@ -81,11 +81,13 @@ const TABLE_GAP_M: f64 = 0.001;
 pub(super) const TISSUE_TOP: Color = colors::TISSUE.top;
 
 /// The edges of walls that move, wherever they are now.
-pub(super) fn moved_edge(mesh: &mut Mesh, workspace: &Rect, band: &Band, height_m: f64) {
-    // Walls are on the left of the rings that are drawn, free space on the left of a band.
-    let ring: Vec<[f64; 2]> = band.edge_m.iter().rev().copied().collect();
-    for edge in smooth_edges(&ring).into_iter().filter(|[start, end]| !on_edge(workspace, start.at_m, end.at_m)) {
-        strips(mesh, edge, [profile(&colors::TISSUE, height_m, LIP_M); 2]);
+pub(super) fn moved_edges(mesh: &mut Mesh, workspace: &Rect, bands: &[Band], height_m: f64) {
+    for mut ring in Band::outlines(bands) {
+        // Walls are on the left of the rings that are drawn.
+        ring.reverse();
+        for edge in smooth_edges(&ring).into_iter().filter(|[start, end]| !on_edge(workspace, start.at_m, end.at_m)) {
+            strips(mesh, edge, [profile(&colors::TISSUE, height_m, LIP_M); 2]);
+        }
     }
 }
 

@@ -51,8 +51,6 @@ pub(super) fn people_mesh(bands: &[Band], height_m: f64, workspace: &Rect) -> Me
         let top = Vector3::z() * height_m;
         mesh.quad([foot_a + top, foot_b + top, edge_b + top, edge_a + top], Vector3::z(), diorama::TISSUE_TOP);
     }
-    for band in bands {
-        diorama::moved_edge(&mut mesh, workspace, band, height_m);
-    }
+    diorama::moved_edges(&mut mesh, workspace, bands, height_m);
     mesh
 }

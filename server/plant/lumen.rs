@@ -8,6 +8,7 @@
 mod along;
 mod flow;
 mod index;
+mod outline;
 mod spine;
 
 use std::ops::{Range, RangeInclusive};
@@ -24,22 +25,11 @@ use index::Index;
 pub const MOST_CLOSING_M: f64 = 0.04;
 /// Longest piece of wall.
 const PIECE_M: f64 = 0.004;
-/// Turn of an outward corner at which the wall gets one more vertex, so that it stays round when it closes in.
-const FAN_RAD: f64 = 0.35;
-/// A vertex of an inward corner moves farther than its walls, but not more than this many times.
-const MOST_MITRE: f64 = 3.0;
-/// Closings at which walls are tried for being covered, the depth from which they count as covered, and how often a
-/// covered place is moved.
-const COVERED_AT_M: [f64; 3] = [0.004, 0.01, 0.02];
-const COVERED_M: f64 = 1e-4;
-const UNCOVERINGS: usize = 4;
+/// Vertices that are nearer than this are one.
+const SAME_PLACE_M: f64 = 1e-9;
 /// Walls farther along the lumen than this cannot reach the bead: the most that one closes in, the bead's size, the
 /// grid's steps, and what the fastest bead travels in a tick.
 const BESIDE_M: f64 = 0.12;
-/// A vertex that moves this many times as far as its walls is in a corner.
-const MITRED: f64 = 1.02;
-/// Vertices that are looked at for the direction of a wall.
-const MOST_BESIDE: usize = 12;
 /// Spacing of the samples of a wave along the lumen, and their largest number.
 const KNOT_M: f64 = 0.005;
 const MOST_KNOTS: f64 = 256.0;
@@ -49,14 +39,12 @@ const MOST_KNOTS: f64 = 256.0;
 pub struct WallVertex {
     /// Where it is while the wall is at rest.
     pub place_m: Point2<f64>,
-    /// Where it moves: toward the free side. Longer than 1 in inward corners.
-    pub inward: Vector2<f64>,
+    /// Toward the free side; in a corner, halfway between the normals of both sides.
+    inward: Vector2<f64>,
     /// Coordinate along the lumen.
     pub along_m: f64,
     /// The most that it closes in.
     pub limit_m: f64,
-    /// Whether it is in or near an inward corner, where other walls may cover it when it closes in.
-    pub is_in_corner: bool,
 }
 
 /// A piece of wall between two vertices, free on its left.
@@ -108,24 +96,7 @@ impl Lumen {
         let length_m = vertices.iter().map(|vertex| vertex.along_m).fold(0.0, f64::max);
         let knot_m = KNOT_M.max(length_m / (MOST_KNOTS - 2.0));
         let knots = (length_m / knot_m) as usize + 2;
-        let mut lumen = Self { vertices, rings, pieces, index, along, knot_m, knots, flow: OnceLock::new() };
-        lumen.find_covered();
-        lumen
-    }
-
-    /// Finds the vertices that others cover when all walls close in alike.
-    fn find_covered(&mut self) {
-        let waves_m = COVERED_AT_M.map(|closing_m| vec![closing_m; self.knots]);
-        let is_covered = |vertex: &WallVertex| {
-            waves_m.iter().any(|wave_m| {
-                let place = moved(vertex, self.closing_m(vertex, wave_m));
-                self.nearest_within(place, -COVERED_M, wave_m).is_some()
-            })
-        };
-        let covered: Vec<bool> = self.vertices.iter().map(is_covered).collect();
-        for (vertex, is_covered) in self.vertices.iter_mut().zip(covered) {
-            vertex.is_in_corner = is_covered || vertex.inward.norm() > MITRED;
-        }
+        Self { vertices, rings, pieces, index, along, knot_m, knots, flow: OnceLock::new() }
     }
 
     /// Changes how far vertices close in at most.
@@ -166,35 +137,8 @@ impl Lumen {
 
     /// The area that the walls cover beyond their drawn place, one closed band for each outline.
     pub fn bands(&self, wave_m: &[f64], bead_m: Point2<f64>) -> Vec<Band> {
-        let band = |ring: &[WallVertex]| {
-            let closings_m: Vec<f64> = ring.iter().map(|vertex| self.shown_m(vertex, wave_m, bead_m)).collect();
-            let edge = |at: usize| {
-                let [before, after] = beside(ring, at);
-                let span = ring[after].place_m - ring[before].place_m;
-                let Some(along) = span.try_normalize(1e-6) else { return moved(&ring[at], closings_m[at]) };
-                // The common tangent of discs whose radius changes.
-                let slope = ((closings_m[after] - closings_m[before]) / span.norm()).clamp(-0.9, 0.9);
-                let place = moved(&ring[at], closings_m[at] * (1.0 - slope * slope).sqrt());
-                let place = place - along * (closings_m[at] * slope);
-                if ring[at].is_in_corner { self.on_outline(place, wave_m) } else { place }
-            };
-            Band {
-                foot_m: ring.iter().map(|vertex| vertex.place_m.into()).collect(),
-                edge_m: (0..ring.len()).map(|at| edge(at).into()).collect(),
-            }
-        };
-        self.rings().map(band).collect()
-    }
-
-    /// A place near the moved walls' outline, moved onto it.
-    fn on_outline(&self, mut place: Point2<f64>, wave_m: &[f64]) -> Point2<f64> {
-        for _ in 0..UNCOVERINGS {
-            match self.nearest_within(place, BEAD_RADIUS_M, wave_m) {
-                Some(nearest) if nearest.distance_m.abs() > COVERED_M => place -= nearest.normal * nearest.distance_m,
-                _ => break,
-            }
-        }
-        place
+        let closings_m = |ring: &[WallVertex]| ring.iter().map(|vertex| self.shown_m(vertex, wave_m, bead_m)).collect();
+        self.rings().map(|ring| outline::band(ring, closings_m(ring))).collect()
     }
 
     /// How far a vertex has closed in, with a bead that it may have closed on.
@@ -253,50 +197,24 @@ impl Lumen {
     }
 }
 
-/// The vertices before and after one, far enough apart for a direction.
-fn beside(ring: &[WallVertex], at: usize) -> [usize; 2] {
-    let count = ring.len();
-    let is_far = |other: usize| (ring[other].place_m - ring[at].place_m).norm() >= 0.5 * PIECE_M;
-    let find = |step: usize| {
-        let others = (1..count).map(|number| (at + number * step) % count);
-        others.take(MOST_BESIDE).find(|&other| is_far(other)).unwrap_or((at + step) % count)
-    };
-    [find(count - 1), find(1)]
-}
-
-fn moved(vertex: &WallVertex, closing_m: f64) -> Point2<f64> {
-    vertex.place_m + vertex.inward * closing_m
-}
-
-/// The vertices of a ring with free space on its left. Long edges are divided; outward corners get several vertices.
+/// The vertices of a ring with free space on its left. Long edges are divided.
 fn ring_vertices(ring: &[[f64; 2]]) -> Vec<WallVertex> {
     let mut corners: Vec<Point2<f64>> = ring.iter().map(|&[x, y]| Point2::new(x, y)).collect();
-    corners.dedup_by(|a, b| (*a - *b).norm() < 1e-9);
+    corners.dedup_by(|a, b| (*a - *b).norm() < SAME_PLACE_M);
     let count = corners.len();
     let edge = |corner: usize| corners[(corner + 1) % count] - corners[corner];
     let left = |span: Vector2<f64>| Vector2::new(-span.y, span.x).normalize();
     let mut vertices = Vec::new();
-    let mut add = |place_m, inward| {
-        vertices.push(WallVertex { place_m, inward, along_m: 0.0, limit_m: 0.0, is_in_corner: false })
-    };
     for (corner, &here) in corners.iter().enumerate() {
         let (before, after) = (left(edge((corner + count - 1) % count)), left(edge(corner)));
-        let turn_rad = before.perp(&after).atan2(before.dot(&after));
-        if turn_rad < -FAN_RAD {
-            let steps = (-turn_rad / FAN_RAD).ceil() as usize;
-            for step in 0..=steps {
-                let (sin, cos) = (turn_rad * step as f64 / steps as f64).sin_cos();
-                add(here, Vector2::new(before.x * cos - before.y * sin, before.x * sin + before.y * cos));
-            }
-        } else {
-            let middle = (before + after).try_normalize(1e-9).unwrap_or(after);
-            add(here, middle * (1.0 / middle.dot(&after).max(1.0 / MOST_MITRE)).max(1.0));
-        }
-        let span = edge(corner);
-        let parts = (span.norm() / PIECE_M).ceil() as usize;
-        for part in 1..parts {
-            add(here + span * (part as f64 / parts as f64), after);
-        }
+        let middle = (before + after).try_normalize(1e-9).unwrap_or(after);
+        let parts = (edge(corner).norm() / PIECE_M).ceil() as usize;
+        vertices.extend((0..parts).map(|part| WallVertex {
+            place_m: here + edge(corner) * (part as f64 / parts as f64),
+            inward: if part == 0 { middle } else { after },
+            along_m: 0.0,
+            limit_m: 0.0,
+        }));
     }
     vertices
 }
@@ -306,8 +224,11 @@ fn ring_pieces<'a>(vertices: &'a [WallVertex], ring: &'a Range<usize>) -> impl I
         let next = if first + 1 == ring.end { ring.start } else { first + 1 };
         let span = vertices[next].place_m - vertices[first].place_m;
         let length_m = span.norm();
-        // The vertices of an outward corner share their place.
-        (length_m > 1e-9).then(|| Piece { vertices: [first as u32, next as u32], along: span / length_m, length_m })
+        (length_m > SAME_PLACE_M).then(|| Piece {
+            vertices: [first as u32, next as u32],
+            along: span / length_m,
+            length_m,
+        })
     })
 }
 

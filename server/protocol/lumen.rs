@@ -8,9 +8,9 @@ use super::numbers::Numbers2;
 use crate::plant;
 use crate::trial::{Arena, Moment};
 
-/// The lumen of a session's map. A vertex of a wall is at `place_m + inward · min(wave, limit_m, room)`. The wave is
-/// `StateMessage.wave_m`, interpolated between knots at `along_m / knot_m`; `room` is the distance from the bead's
-/// surface, at least 0: walls stop at the bead.
+/// The lumen of a session's map. What the walls cover beyond their drawn place is a disc around each point of it, of the
+/// radius `min(wave, limit_m, room)` at vertices and linear between them. The wave is `StateMessage.wave_m`, interpolated
+/// between knots at `along_m / knot_m`; `room` is the distance from the bead's surface, at least 0: walls stop at the bead.
 #[derive(Clone, Debug, PartialEq, Serialize, TS, ToSchema)]
 pub struct Lumen {
     /// Name of the map.
@@ -27,9 +27,6 @@ pub struct WallRing {
     /// Where the wall is at rest.
     #[schema(value_type = Vec<Numbers2>)]
     pub place_m: Vec<[f64; 2]>,
-    /// Where it moves when it closes in by one.
-    #[schema(value_type = Vec<Numbers2>)]
-    pub inward: Vec<[f64; 2]>,
     /// Coordinate along the lumen.
     pub along_m: Vec<f64>,
     /// The most that it closes in.
@@ -40,7 +37,6 @@ impl Lumen {
     pub fn of(map: &str, lumen: &plant::Lumen) -> Self {
         let rings = lumen.rings().map(|ring| WallRing {
             place_m: ring.iter().map(|vertex| <[f64; 2]>::from(vertex.place_m).map(short_m)).collect(),
-            inward: ring.iter().map(|vertex| <[f64; 2]>::from(vertex.inward).map(short_m)).collect(),
             along_m: ring.iter().map(|vertex| short_m(vertex.along_m)).collect(),
             limit_m: ring.iter().map(|vertex| short_m(vertex.limit_m)).collect(),
         });

@@ -22,7 +22,7 @@ use super::{Opening, RecordingError, Sample, trouble};
 use crate::control::switching::Mode;
 use crate::control::transport::Carrier;
 use crate::control::transport::errt::{Errt, Tree};
-use crate::geometry::{Point2, Polygon};
+use crate::geometry::{Band, Point2, Polygon};
 use crate::map::WALL_HEIGHT_M;
 use crate::perception::ObstacleMap;
 use crate::policy::Judgement;
@@ -247,7 +247,8 @@ impl Writer {
             return Ok(());
         };
         self.walls_are_moved = true;
-        let edges = || bands.iter().map(|band| band.edge_m.iter().chain(band.edge_m.first()));
+        let outlines = Band::outlines(&bands);
+        let edges = || outlines.iter().map(|ring| ring.iter().chain(ring.first()));
         let height_m = WALL_HEIGHT_M as f32;
         let solid = edges().map(|edge| edge.map(|&[x, y]| [x as f32, y as f32, height_m]).collect::<Vec<_>>());
         self.log("world/walls/moved", &LineStrips3D::new(solid).with_colors([color(WALL)]))?;

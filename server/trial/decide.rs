@@ -51,10 +51,8 @@ pub struct Question {
 }
 
 fn update_known(known: &mut ObstacleMap, tick: u64, percept: &Percept, parameters: &Parameters) {
-    if parameters.peristalsis_amplitude_m > 0.0 {
+    if parameters.peristalsis_amplitude_m > 0.0 || known.forgets() {
         known.forget(tick, (parameters.obstacle_memory_s / SERVO_PERIOD_S) as u64);
-    } else {
-        known.keep_all();
     }
     let (dark, hidden) = (percept.dark(parameters.obstacle_level), percept.hidden());
     let spread = wall_spread(parameters.camera_height_m, WALL_HEIGHT_M);
@@ -115,7 +113,7 @@ impl Trial {
         let input = TransportInput { percept, known, tool_m, goal_m, parameters, policy };
         let answer = carrier.transport().next_step(&input);
         let most_steps = MEMORIES_WAITED * parameters.obstacle_memory_s / CONTROL_PERIOD_S;
-        let may_open = parameters.peristalsis_amplitude_m > 0.0 && f64::from(*closed_steps) < most_steps;
+        let may_open = known.forgets() && f64::from(*closed_steps) < most_steps;
         if may_open && answer == Err(Refusal::WalledOff) {
             *closed_steps += 1;
             return Err(Refusal::Closed);

@@ -42,6 +42,7 @@ const LESSONS: readonly Lesson[] = [
     runs: 2,
     action: { button: 'Lower by 2 mm', after: 'The simulation runs', speed: '4' },
   },
+  { title: 'The gut moves', choice: 'It delivers the bead about as fast as before', runs: 3 },
 ];
 const FIRST = {
   title: /^Meet the magnet/i,

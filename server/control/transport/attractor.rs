@@ -219,7 +219,7 @@ impl Transport for Attractor {
         let mask = ObstacleMask::of(input.percept);
         let before = std::mem::take(&mut self.sensed);
         let patches = self.sense(&mask, input.tool_m, parameters);
-        let may_move = parameters.peristalsis_amplitude_m > 0.0 && parameters.attractor_law == AttractorLaw::Improved;
+        let may_move = input.known.forgets() && parameters.attractor_law == AttractorLaw::Improved;
         self.wall_m_s = if may_move { approach_m_s(&before, &self.sensed, input.tool_m) } else { None };
         self.progress.note(input.tool_m);
         let is_inside = deepest(&self.sensed, input.tool_m).is_some();

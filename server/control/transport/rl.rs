@@ -75,7 +75,7 @@ impl Rl {
         let clearance_m = policy.manifest().clearance_m;
         let mut survey = Survey::over(input.known, lattice.step_m, clearance_m, ends_m);
         // Walls that have closed in leave less room than the policy was trained with.
-        if survey.is_walled_off() && input.parameters.peristalsis_amplitude_m > 0.0 {
+        if survey.is_walled_off() && input.known.forgets() {
             survey = Survey::over(input.known, lattice.step_m, clearance_m.min(LEAST_CLEARANCE_M), ends_m);
         }
         for (&place, &visits) in &self.visits {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::ObstacleMap;
 use super::bits::BitGrid;
-use super::{Change, ObstacleMap};
 
 /// Since when cells have been out of view, in two half periods.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,7 +41,7 @@ impl Memory {
 impl ObstacleMap {
     /// Forgets obstacles that came to free places and have been out of view for `memory_ticks`, and up to half as long
     /// again. Called at each control step, before the image is added. They become unknown.
-    pub fn forget(&mut self, tick: u64, memory_ticks: u64) -> Change {
+    pub fn forget(&mut self, tick: u64, memory_ticks: u64) {
         let (columns, rows) = self.shape();
         let memory = self.memory.get_or_insert_with(|| {
             let zero = BitGrid::zero(columns, rows);
@@ -55,7 +55,7 @@ impl ObstacleMap {
             Arc::new(Memory { was_free, recent: [zero.clone(), zero], since_tick: tick })
         });
         if tick.saturating_sub(memory.since_tick) < memory_ticks / 2 {
-            return Change::default();
+            return;
         }
         let memory = Arc::make_mut(memory);
         memory.since_tick = tick;
@@ -69,7 +69,7 @@ impl ObstacleMap {
         let newest = std::mem::replace(&mut memory.recent[0], BitGrid::zero(columns, rows));
         memory.recent[1] = newest;
         if stale.is_empty() {
-            return Change::default();
+            return;
         }
         let cells = Arc::make_mut(&mut self.cells);
         for &(column, row) in &stale {
@@ -77,11 +77,10 @@ impl ObstacleMap {
             cells.seen.flip(column, row);
         }
         self.version += 1;
-        Change { cleared: self.rectangles_around(&stale), ..Change::default() }
     }
 
-    /// Keeps everything again, and no longer notes what changes.
-    pub fn keep_all(&mut self) {
-        self.memory = None;
+    /// Whether walls have moved since the map is being made: then what it shows may change.
+    pub fn forgets(&self) -> bool {
+        self.memory.is_some()
     }
 }

@@ -74,7 +74,7 @@ impl Along {
 
     /// The coordinate beside a wall: the shortest over the free cells in front of it.
     fn beside(&self, vertex: &WallVertex) -> f64 {
-        let ahead: Point2<f64> = vertex.place_m + vertex.inward.normalize() * BEAD_RADIUS_M;
+        let ahead: Point2<f64> = vertex.place_m + vertex.inward * BEAD_RADIUS_M;
         let lengths_m = self.space.cells_around(ahead, REACH).map(|cell| {
             let offset = self.space.center(cell) - vertex.place_m;
             let is_in_front = offset.dot(&vertex.inward) > 0.0;

@@ -188,6 +188,7 @@ const LESSON_TITLES = [
   'How far the goal is felt',
   'A head start',
   'Lift-off',
+  'The gut moves',
 ];
 const FIRST_CHOICES = /^(Right below the|A little behind|Far behind)/;
 

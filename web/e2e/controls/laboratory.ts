@@ -205,6 +205,10 @@ const EXPERIMENTS: Section = {
       see: (lab) => lab.scene.parameters.friction,
       after: (lab) => lab.restoreDefaults(),
     },
+    'combobox Walls': {
+      see: (lab) => lab.scene.parameters.peristalsis_amplitude_m,
+      after: (lab) => lab.restoreDefaults(),
+    },
     'combobox Preset': { see: trial },
   },
 };

@@ -279,7 +279,6 @@ export function lumenOf(
     knot_m,
     rings: rings.map((ring) => ({
       place_m: ring.map(([x_m, y_m]) => [x_m, y_m]),
-      inward: ring.map(() => [0, 0]),
       along_m: ring.map(([x_m]) => x_m),
       limit_m: ring.map(() => limit_m),
     })),

@@ -9,10 +9,6 @@ export type WallRing = {
  */
 place_m: Array<[number, number]>, 
 /**
- * Where it moves when it closes in by one.
- */
-inward: Array<[number, number]>, 
-/**
  * Coordinate along the lumen.
  */
 along_m: Array<number>, 
@@ -22,9 +18,9 @@ along_m: Array<number>,
 limit_m: Array<number>, };
 
 /**
- * The lumen of a session's map. A vertex of a wall is at `place_m + inward · min(wave, limit_m, room)`. The wave is
- * `StateMessage.wave_m`, interpolated between knots at `along_m / knot_m`; `room` is the distance from the bead's
- * surface, at least 0: walls stop at the bead.
+ * The lumen of a session's map. What the walls cover beyond their drawn place is a disc around each point of it, of the
+ * radius `min(wave, limit_m, room)` at vertices and linear between them. The wave is `StateMessage.wave_m`, interpolated
+ * between knots at `along_m / knot_m`; `room` is the distance from the bead's surface, at least 0: walls stop at the bead.
  */
 export type Lumen = { 
 /**
