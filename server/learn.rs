@@ -34,7 +34,7 @@ pub use point::{Point, Spread, WINDOW};
 pub use recipe::{Recipe, RecipeError, RecipeName};
 pub use run::{Run, Saving, drive};
 pub use survey::{MazeLattice, SurveyRecipe, SurveyRun, examine as examine_surveys, examine_teacher};
-pub use terrain::{Terrain, TerrainError};
+pub use terrain::{MOST_TERRAINS, Terrain, TerrainError, wall_waves_m};
 pub use training::State;
 pub use trainings::{
     Cells, Frame, Origin, QueryError, Settings, Status, SubmitTrainingError, Trail, Training, TrainingQuery,

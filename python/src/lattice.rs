@@ -30,7 +30,8 @@ impl Lattice {
             recipe.check().map_err(bad)?;
             let arena = Arena::open(map).map_err(bad)?;
             let gpu = open_gpu()?;
-            let sweep = Sweep::open(&arena, &gpu, &sweeps, STEP_M, &|| ControlFlow::Continue(())).map_err(failed)?;
+            let sweep =
+                Sweep::open(&arena, &gpu, &sweeps, STEP_M, &[], &|| ControlFlow::Continue(())).map_err(failed)?;
             let workspace = arena.map.workspace();
             let terrain = Terrain::new(arena.map.name(), workspace, &sweep, recipe.clearance_m).map_err(bad)?;
             Ok(Self { lanes: Lanes::new(terrain, recipe, lanes, seed).map_err(bad)? })

@@ -27,7 +27,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let bar = ProgressBar::new((columns * rows) as u64)
         .with_style(ProgressStyle::with_template("images {bar:30} {pos}/{len} {eta} left")?);
     let started = Instant::now();
-    let sweep = Sweep::open(&arena, &gpu, &arguments.out, STEP_M, &|| {
+    let sweep = Sweep::open(&arena, &gpu, &arguments.out, STEP_M, &[], &|| {
         bar.inc(1);
         ControlFlow::Continue(())
     })?;

@@ -12,8 +12,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::learn::sweep::{STEP_M, Sweep};
 use crate::learn::{
-    Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, Marks, Recipe, RecipeName, Saving, State, Terrain, drive,
-    revision,
+    Cells, Curve, EXAMINATION_SEED, Ending, Frame, GoalSet, MOST_TERRAINS, Marks, Recipe, RecipeName, Saving, State,
+    Terrain, drive, revision, wall_waves_m,
 };
 use crate::policy::{Architecture, Policy};
 use crate::trial::Arena;
@@ -138,9 +138,10 @@ fn round(
         curve.spent_s() / 60.0
     );
     for (name, group) in [("trained on", terrains), ("unseen    ", unseen)] {
-        for terrain in group {
-            let examine =
-                |goals| state.examine(std::slice::from_ref(terrain), goals, arguments.episodes, EXAMINATION_SEED);
+        // All moments of a map together.
+        for moments in group.chunk_by(|a, b| a.name() == b.name()) {
+            let terrain = &moments[0];
+            let examine = |goals| state.examine(moments, goals, arguments.episodes, EXAMINATION_SEED);
             println!("{name}  {}: {}", terrain.name(), describe(&examine(GoalSet::All)?));
             let held_out = recipe.held_out_goals;
             let goals = GoalSet::HeldOut { held_out };
@@ -228,12 +229,15 @@ fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<
         let arena = Arena::open(name)?;
         let bar = ProgressBar::no_length().with_style(ProgressStyle::with_template("{msg}: {pos} images taken")?);
         bar.set_message(arena.map.name().to_owned());
-        let sweep = Sweep::open(&arena, gpu, sweeps, STEP_M, &|| {
-            bar.inc(1);
-            ControlFlow::Continue(())
-        })?;
+        for wave_m in wall_waves_m(&arena, recipe.wall_amplitude_m) {
+            let sweep = Sweep::open(&arena, gpu, sweeps, STEP_M, &wave_m, &|| {
+                bar.inc(1);
+                ControlFlow::Continue(())
+            })?;
+            terrains.push(Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, recipe.clearance_m)?);
+        }
         bar.finish_and_clear();
-        terrains.push(Terrain::new(arena.map.name(), arena.map.workspace(), &sweep, recipe.clearance_m)?);
     }
+    ensure!(terrains.len() <= MOST_TERRAINS, "--map: {} maps and moments, at most {MOST_TERRAINS}", terrains.len());
     Ok(terrains)
 }

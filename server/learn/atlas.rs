@@ -60,7 +60,7 @@ impl Atlas {
     /// [`AtlasError`].
     pub fn of(arena: &Arena, policy: Arc<Policy>, gpu: &Arc<Gpu>, folder: &Path) -> Result<Self, AtlasError> {
         let spacing_m = spacing_m(arena);
-        let sweep = Sweep::open(arena, gpu, folder, spacing_m, &|| ControlFlow::Continue(()))?;
+        let sweep = Sweep::open(arena, gpu, folder, spacing_m, &[], &|| ControlFlow::Continue(()))?;
         let workspace = *arena.map.workspace();
         let clearance_m = policy.manifest().clearance_m;
         let free = sweep.free(clearance_m);

@@ -43,6 +43,10 @@ impl Lanes {
     /// [`LanesError::Count`], [`LanesError::Recipe`].
     pub fn new(terrain: Terrain, recipe: Recipe, lanes: usize, seed: u64) -> Result<Self, LanesError> {
         recipe.check()?;
+        if recipe.wall_amplitude_m > 0.0 {
+            let (value, allowed) = (recipe.wall_amplitude_m.to_string(), "0: the walls are at rest here".to_owned());
+            return Err(RecipeError { field: "wall_amplitude_m", value, allowed }.into());
+        }
         if !(1..=LANES_MOST).contains(&lanes) {
             return Err(LanesError::Count(lanes));
         }
@@ -149,6 +153,9 @@ mod tests {
     #[test]
     fn refusals_name_the_field_and_change_nothing() {
         assert_eq!(lanes(0, 1).unwrap_err().to_string(), "lanes is 0, it must be 1 to 4096");
+        let moving = Recipe { wall_amplitude_m: 0.01, ..Recipe::default() };
+        let refusal = Lanes::new(two_rooms(), moving, 1, 1).unwrap_err().to_string();
+        assert_eq!(refusal, "wall_amplitude_m is 0.01, it must be 0: the walls are at rest here");
         let mut lanes = lanes(2, 1).unwrap();
         let before = shown(&lanes, 1);
         for action in [-1, 4, i64::MIN] {

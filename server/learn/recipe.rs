@@ -32,6 +32,9 @@ pub struct Recipe {
     pub timeout_fails: bool,
     /// Wall distance in the image below which an episode ends; 0 as in the paper.
     pub clearance_m: f64,
+    /// How far walls close in, in metres. Above 0, each map is learned at rest and at moments of a contraction
+    /// ([`wall_waves_m`](super::terrain::wall_waves_m)).
+    pub wall_amplitude_m: f64,
     /// Images per update.
     pub images: usize,
     /// Goals for which each image is learned.
@@ -109,6 +112,7 @@ impl Default for Recipe {
             step_penalty: 0.0,
             timeout_fails: false,
             clearance_m: 0.008,
+            wall_amplitude_m: 0.0,
             images: 32,
             goals: 16,
             uniform_goals: 0.5,
@@ -216,6 +220,7 @@ impl Recipe {
             ("progress_reward", self.progress_reward, 0.0, 1.0),
             ("step_penalty", self.step_penalty, 0.0, 1.0),
             ("clearance_m", self.clearance_m, 0.0, 0.02),
+            ("wall_amplitude_m", self.wall_amplitude_m, 0.0, 0.03),
             ("images", self.images as f64, 1.0, 1024.0),
             ("goals", self.goals as f64, 1.0, max_goals),
             ("uniform_goals", self.uniform_goals, 0.0, 1.0),

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
 use crate::control::TargetStep;
-use crate::geometry::{Point2, Point3, Rect};
+use crate::geometry::{Band, Point2, Point3, Rect};
 use crate::image::CameraMount;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
 use crate::plant::{BEAD_RADIUS_M, Positioner, PositionerKind};
@@ -73,12 +73,20 @@ impl std::fmt::Debug for Sweep {
 }
 
 impl Sweep {
-    /// Takes all images on all CPU cores, one every `spacing_m`.
+    /// Takes all images on all CPU cores, one every `spacing_m`. `wave_m` says how far the walls have closed in at the
+    /// lumen's knots; it is empty for walls at rest.
     ///
     /// # Errors
     /// [`SweepError`].
-    pub fn take(arena: &Arena, gpu: &Arc<Gpu>, spacing_m: f64, progress: Progress<'_>) -> Result<Self, SweepError> {
+    pub fn take(
+        arena: &Arena,
+        gpu: &Arc<Gpu>,
+        spacing_m: f64,
+        wave_m: &[f64],
+        progress: Progress<'_>,
+    ) -> Result<Self, SweepError> {
         let (columns, rows) = cells(arena, spacing_m);
+        let moved_walls = moved_walls(arena, wave_m);
         let views = (0..rows)
             .into_par_iter()
             .map_init(
@@ -90,7 +98,8 @@ impl Sweep {
                     };
                     (0..columns)
                         .map(|column| {
-                            let view = take_view(arena, camera, center(arena.map.workspace(), spacing_m, column, row))?;
+                            let tool = center(arena.map.workspace(), spacing_m, column, row);
+                            let view = take_view(arena, camera, tool, moved_walls.clone())?;
                             if progress().is_break() {
                                 return Err(SweepError::Stopped);
                             }
@@ -130,13 +139,14 @@ impl Sweep {
         gpu: &Arc<Gpu>,
         folder: &Path,
         spacing_m: f64,
+        wave_m: &[f64],
         progress: Progress<'_>,
     ) -> Result<Self, SweepError> {
-        let path = folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m)));
+        let path = folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m, wave_m)));
         if let Some(kept) = read(&path, cells(arena, spacing_m)) {
             return Ok(kept);
         }
-        let sweep = Self::take(arena, gpu, spacing_m, progress)?;
+        let sweep = Self::take(arena, gpu, spacing_m, wave_m, progress)?;
         prune(folder);
         // The sweep is usable even if it cannot be kept.
         if let Err(error) = sweep.write(folder, &path) {
@@ -198,8 +208,8 @@ fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
     (fits && (sweep.columns, sweep.rows) == (columns, rows)).then_some(sweep)
 }
 
-/// Hash of the map's drawing, the camera, the places and this module's version. Equal hashes mean equal images.
-fn content_hash(arena: &Arena, spacing_m: f64) -> u64 {
+/// Hash of the map's drawing, its walls, the camera, the places and this module's version. Equal hashes mean equal images.
+fn content_hash(arena: &Arena, spacing_m: f64, wave_m: &[f64]) -> u64 {
     let CameraMount {
         height_m,
         offset_m: [x_m, y_m],
@@ -209,6 +219,7 @@ fn content_hash(arena: &Arena, spacing_m: f64) -> u64 {
     } = CameraMount::default();
     let mount = [height_m, x_m, y_m, tilt_x_rad, tilt_y_rad, field_of_view_rad, f64::from(u8::from(sees_magnet))];
     let numbers = mount.into_iter().chain([f64::from(VIEW_PX), spacing_m, f64::from(VERSION)]);
+    let numbers = numbers.chain(wave_m.iter().copied());
     let mut hash = xxhash_rust::xxh3::Xxh3::new();
     for number in numbers {
         hash.update(&number.to_bits().to_le_bytes());
@@ -238,7 +249,18 @@ struct View {
     image: Vec<u8>,
 }
 
-fn take_view(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<View, CameraError> {
+/// What the walls cover beyond their drawn place; `None` at rest.
+fn moved_walls(arena: &Arena, wave_m: &[f64]) -> Option<Arc<[Band]>> {
+    let nowhere = Point2::new(OUT_OF_SIGHT_M, OUT_OF_SIGHT_M);
+    (!wave_m.is_empty()).then(|| arena.lumen().bands(wave_m, nowhere).into())
+}
+
+fn take_view(
+    arena: &Arena,
+    camera: &mut Camera,
+    tool: Point2<f64>,
+    moved_walls: Option<Arc<[Band]>>,
+) -> Result<View, CameraError> {
     let parameters = Parameters::default();
     let tool_m = Point3::new(tool.x, tool.y, parameters.tool_height_m);
     let subject = Subject {
@@ -249,7 +271,7 @@ fn take_view(arena: &Arena, camera: &mut Camera, tool: Point2<f64>) -> Result<Vi
         link_frames: None,
         block_size_m: [0.05, 0.025, 0.01],
         mount: CameraMount::default(),
-        moved_walls: None,
+        moved_walls,
     };
     let percept = Percept::of(&camera.capture(&subject)?, tool);
     let observation = Observation::new(&percept.gray, None, tool, arena.map.workspace());
@@ -289,13 +311,13 @@ mod tests {
             taken.fetch_add(1, Ordering::Relaxed);
             ControlFlow::Continue(())
         };
-        let open = || Sweep::open(&arena, &gpu, folder.path(), STEP_M, &progress).unwrap();
+        let open = || Sweep::open(&arena, &gpu, folder.path(), STEP_M, &[], &progress).unwrap();
         let sweep = open();
         assert_eq!((sweep.columns, sweep.rows, taken.load(Ordering::Relaxed)), (12, 10, 120));
         let mut camera = arena.camera(&gpu).unwrap();
         for (column, row) in [(0, 0), (5, 5), (11, 9)] {
             let tool = center(arena.map.workspace(), STEP_M, column, row);
-            let view = take_view(&arena, &mut camera, tool).unwrap();
+            let view = take_view(&arena, &mut camera, tool, None).unwrap();
             let cell = row * 12 + column;
             assert_eq!((sweep.obstacle[cell], sweep.image(cell)), (view.obstacle, view.image.as_slice()));
             assert_eq!((sweep.steps[cell], sweep.wall_distance[cell]), (view.steps, view.wall_distance));
@@ -319,11 +341,24 @@ mod tests {
         assert_eq!(taken.load(Ordering::Relaxed), 240, "taken again");
 
         // A coarser sweep has different images.
-        let coarse = Sweep::open(&arena, &gpu, folder.path(), 0.025, &progress).unwrap();
+        let coarse = Sweep::open(&arena, &gpu, folder.path(), 0.025, &[], &progress).unwrap();
         assert_eq!((coarse.columns, coarse.rows, taken.load(Ordering::Relaxed)), (4, 4, 256));
         let corner = arena.map.workspace();
         let last = center(corner, 0.025, 3, 3) - Point2::new(corner.x_min_m, corner.y_min_m);
         assert!((last.x - 0.0875).abs() < 1e-12 && (last.y - 0.0875).abs() < 1e-12, "{last}");
         assert_eq!(open(), sweep);
+    }
+
+    #[test]
+    fn walls_that_have_closed_in_leave_fewer_cells() {
+        let (arena, gpu) = (arena(), Gpu::open(AdapterChoice::Auto).unwrap());
+        let progress = || ControlFlow::Continue(());
+        let free = |wave_m: &[f64]| Sweep::take(&arena, &gpu, STEP_M, wave_m, &progress).unwrap().free(0.0);
+        let wave_m = vec![0.012; arena.lumen().knots_m().count()];
+        let (rest, closed) = (free(&[]), free(&wave_m));
+        assert!(closed.iter().all(|cell| rest.contains(cell)));
+        // 5 and 15 mm left of the wall.
+        let [near, far] = [5 * 12 + 3, 5 * 12 + 2];
+        assert!(rest.contains(&near) && !closed.contains(&near) && closed.contains(&far), "{rest:?} {closed:?}");
     }
 }

@@ -4,11 +4,18 @@ use std::collections::VecDeque;
 
 use crate::geometry::{Point2, Rect};
 use crate::perception::Observation;
+use crate::plant::{Peristalsis, WallMotion};
 use crate::policy::Action;
-use crate::trial::GOAL_RADIUS_M;
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::scenario::Parameters;
+use crate::trial::{Arena, GOAL_RADIUS_M};
 
 use super::sweep::{IMAGE_BYTES, STEP_M, Sweep, center};
 
+/// The most terrains of a training.
+pub const MOST_TERRAINS: usize = 256;
+/// Moments of a contraction.
+const WALL_MOMENTS: usize = 8;
 /// Distance without a path.
 pub const UNREACHABLE: u16 = u16::MAX;
 
@@ -131,6 +138,18 @@ impl std::fmt::Debug for Terrain {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Terrain of {} with {} cells", self.name, self.cells())
     }
+}
+
+/// How far the walls of a map close in at the moments that are learned: at rest (empty), and if `amplitude_m` is above 0,
+/// at eight moments of a wave of the default length.
+pub fn wall_waves_m(arena: &Arena, amplitude_m: f64) -> Vec<Vec<f64>> {
+    let peristalsis = Peristalsis { amplitude_m, ..Parameters::default().plant().peristalsis };
+    let motion = WallMotion::in_full(&peristalsis, 0);
+    let moment = |number: usize| {
+        let tick = number as f64 / WALL_MOMENTS as f64 * peristalsis.period_s / SERVO_PERIOD_S;
+        motion.map(|motion| arena.surroundings(0).wave_m(&motion, tick as u64))
+    };
+    std::iter::once(Vec::new()).chain((0..WALL_MOMENTS).filter_map(moment)).collect()
 }
 
 /// The images above cells, each given by its terrain's index and its number.

@@ -26,14 +26,14 @@ const EXAMINED_EVERY: u64 = 1000;
 /// Episodes of a small examination.
 const EXAMINED_EPISODES: u32 = 200;
 /// Version of the checkpoint's layout.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// The complete state of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub recipe: Recipe,
     pub seed: u64,
-    /// Names of the maps and their numbers of cells.
+    /// Names of the maps and their numbers of cells; with walls that move, one for each moment.
     pub maps: Vec<(String, u32)>,
     pub memory: Memory,
     pub replay: Replay,
@@ -158,9 +158,11 @@ impl State {
     /// # Errors
     /// [`TrainingError::Policy`].
     pub fn policy(&self, revision: &str) -> Result<Vec<u8>, TrainingError> {
+        let mut maps: Vec<String> = self.maps.iter().map(|(name, _)| name.clone()).collect();
+        maps.dedup();
         let manifest = Manifest {
             version: Manifest::VERSION,
-            maps: self.maps.iter().map(|(name, _)| name.clone()).collect(),
+            maps,
             step_m: STEP_M,
             observation: Manifest::observation(&self.recipe.architecture),
             architecture: self.recipe.architecture,

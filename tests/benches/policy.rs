@@ -91,7 +91,7 @@ pub fn benches(c: &mut Criterion) {
         acting(c, &arena, &frames, name);
     }
     let recipe = Recipe { updates: UPDATES, ..Recipe::default() };
-    let sweep = Sweep::take(&arena, &gpu, STEP_M, &|| std::ops::ControlFlow::Continue(())).unwrap();
+    let sweep = Sweep::take(&arena, &gpu, STEP_M, &[], &|| std::ops::ControlFlow::Continue(())).unwrap();
     let terrains = [Terrain::new("colon", arena.map.workspace(), &sweep, recipe.clearance_m).unwrap()];
     let pool = rayon::ThreadPoolBuilder::new().build().unwrap();
     let train = || {

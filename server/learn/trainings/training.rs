@@ -217,7 +217,7 @@ impl Training {
         let recipe = self.query.recipe(manifest.as_ref().map(Policy::manifest))?;
         let arena = Arena::of(self.map.clone());
         let goes_on = || if self.goes_on() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
-        let sweep = match Sweep::open(&arena, &workshop.gpu, &self.sweeps, STEP_M, &goes_on) {
+        let sweep = match Sweep::open(&arena, &workshop.gpu, &self.sweeps, STEP_M, &[], &goes_on) {
             Err(SweepError::Stopped) => return Ok(self.interrupted()),
             sweep => sweep.map_err(TrainingError::from)?,
         };
