@@ -53,6 +53,8 @@ export const CHALLENGE: Section = {
       see: valueOf,
       ready: list,
       act: (input, locator) => input.type(locator, `by-${input.name}`),
+      // The Enter key begins the challenge.
+      after: (lab) => until('the challenge', () => Boolean(lab.scene.challenge)),
     },
     'button Play this': {
       see: challenge,

@@ -1,7 +1,8 @@
 // Rows of the control table: trainings and policies.
 
+import { test } from '@playwright/test';
 import type { Lab } from '../support/lab';
-import { clearTrainings, reachStage, startTraining } from '../support/trainings';
+import { TRAIN_MS, clearTrainings, reachStage, startTraining } from '../support/trainings';
 import { type Row, type Section, downloads, isChecked, valueOf, view } from './row';
 
 const originOf = (lab: Lab) => new URL(lab.page.url()).origin;
@@ -31,6 +32,7 @@ export const TRAIN: Section = {
   name: 'trainings',
   ready: async (lab) => {
     const { request } = lab.page;
+    test.setTimeout(test.info().timeout + NAMES.length * TRAIN_MS);
     await clearTrainings(request, originOf(lab));
     for (const name of NAMES) {
       const id = await startTraining(request, originOf(lab), name);
