@@ -39,7 +39,10 @@ test('shows deliveries over two parameters as a grid', async ({ lab }) => {
   const grids = lab.page.locator('.robustness-grid');
   await expect(grids).toHaveCount(2);
   await expect(grids.first().locator('caption')).toHaveText('ERRT: delivered, %');
-  await expect(grids.first().locator('tbody td')).toHaveText(Array(4).fill(/^(0|50|100)$/));
+  // Cells fill one after the other.
+  await expect(grids.first().locator('tbody td')).toHaveText(Array(4).fill(/^(0|50|100)$/), {
+    timeout: RUN_MS,
+  });
 });
 
 test('names a range that is refused', async ({ lab, watch }) => {
