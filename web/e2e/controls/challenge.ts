@@ -53,8 +53,9 @@ export const CHALLENGE: Section = {
       see: valueOf,
       ready: list,
       act: (input, locator) => input.type(locator, `by-${input.name}`),
-      // The Enter key begins the challenge.
-      after: (lab) => until('the challenge', () => Boolean(lab.scene.challenge)),
+      // With Enter, which the mouse does not press, the challenge begins.
+      after: (lab, input) =>
+        until('the challenge', () => input.name === 'mouse' || Boolean(lab.scene.challenge)),
     },
     'button Play this': {
       see: challenge,
