@@ -65,7 +65,7 @@ fn a_value_outside_its_range_is_refused_before_anything_runs() {
     for (vary, words) in [
         ("friction=0.5:1.5:3", "friction is 1.5, it must be 0 to 1"),
         ("friction", "must be NAME=FROM:TO:COUNT"),
-        ("rl_shield=0:1:2", "rl_shield is no number"),
+        ("rl_shield=0:1:2", "rl_shield is not a number"),
     ] {
         let output = support::ferry(&[&QUERY[..], &["--vary", vary]].concat()).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();

@@ -223,14 +223,17 @@ fn describe_values(state: &State, terrain: &Terrain, terrains: &[Terrain]) -> an
 }
 
 fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<Terrain>> {
+    let arenas = names.iter().map(|name| Arena::open(name)).collect::<Result<Vec<_>, _>>()?;
+    let waves_m: Vec<_> = arenas.iter().map(|arena| wall_waves_m(arena, recipe.wall_amplitude_m)).collect();
+    let count = waves_m.iter().map(Vec::len).sum::<usize>();
+    ensure!(count <= MOST_TERRAINS, "--map: {count} maps and moments, at most {MOST_TERRAINS}");
     let gpu = if names.is_empty() { None } else { Some(super::open_gpu()?) };
     let mut terrains = Vec::new();
-    for (name, gpu) in names.iter().zip(gpu.iter().cycle()) {
-        let arena = Arena::open(name)?;
+    for ((arena, waves_m), gpu) in arenas.iter().zip(waves_m).zip(gpu.iter().cycle()) {
         let bar = ProgressBar::no_length().with_style(ProgressStyle::with_template("{msg}: {pos} images taken")?);
         bar.set_message(arena.map.name().to_owned());
-        for wave_m in wall_waves_m(&arena, recipe.wall_amplitude_m) {
-            let sweep = Sweep::open(&arena, gpu, sweeps, STEP_M, &wave_m, &|| {
+        for wave_m in waves_m {
+            let sweep = Sweep::open(arena, gpu, sweeps, STEP_M, &wave_m, &|| {
                 bar.inc(1);
                 ControlFlow::Continue(())
             })?;
@@ -238,6 +241,5 @@ fn open(names: &[String], recipe: &Recipe, sweeps: &Path) -> anyhow::Result<Vec<
         }
         bar.finish_and_clear();
     }
-    ensure!(terrains.len() <= MOST_TERRAINS, "--map: {} maps and moments, at most {MOST_TERRAINS}", terrains.len());
     Ok(terrains)
 }

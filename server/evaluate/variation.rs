@@ -44,8 +44,8 @@ impl std::fmt::Display for Setting {
 pub enum VariationError {
     #[error("{0:?} must be NAME=FROM:TO:COUNT, for example friction=0.1:0.4:4")]
     Form(String),
-    #[error("{name} is no number, so it has no values in between")]
-    NoNumber { name: String },
+    #[error("{name} is not a number, so it has no values in between")]
+    NotANumber { name: String },
     #[error("{name}: the number of values is {count}, it must be {} to {}", COUNTS.start(), COUNTS.end())]
     Count { name: String, count: u32 },
     #[error("{name}: {value} comes twice; use fewer values or a wider range")]
@@ -86,7 +86,7 @@ impl Variation {
         let Self { name, from, to, count } = self;
         let parameter = Parameter::named(name)?;
         let Kind::Number(number) = parameter.kind else {
-            return Err(VariationError::NoNumber { name: name.clone() });
+            return Err(VariationError::NotANumber { name: name.clone() });
         };
         if !COUNTS.contains(count) {
             return Err(VariationError::Count { name: name.clone(), count: *count });
@@ -172,7 +172,7 @@ mod tests {
             (&["friction=0.1:0.2"], &["NAME=FROM:TO:COUNT"]),
             (&["friction=0.1:0.2:3:4"], &["NAME=FROM:TO:COUNT"]),
             (&["frictoin=0.1:0.2:3"], &["did you mean friction?"]),
-            (&["rl_shield=0:1:2"], &["rl_shield is no number"]),
+            (&["rl_shield=0:1:2"], &["rl_shield is not a number"]),
             (&["friction=0.1:0.2:1"], &["friction", "1", "2 to 20"]),
             (&["friction=0.1:0.2:21"], &["21", "2 to 20"]),
             (&["errt_ways=1:2:4"], &["errt_ways: 1 comes twice"]),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::goals::GoalSet;
 use crate::policy::{Architecture, Fusion};
+use crate::scenario::Parameters;
 
 /// Steps of an episode (paper, §IV-A).
 pub const EPISODE_STEPS: u32 = 150;
@@ -212,6 +213,7 @@ impl Recipe {
     pub fn check(&self) -> Result<(), RecipeError> {
         // Early fusion computes features for one goal.
         let max_goals = if self.architecture.fusion == Fusion::Early { 1.0 } else { 256.0 };
+        let most_amplitude_m = 0.25 * Parameters::default().peristalsis_wavelength_m;
         let ranges = [
             ("priority_exponent", self.priority_exponent, 0.0, 1.0),
             ("importance_start", self.importance_start, 0.0, 1.0),
@@ -220,7 +222,7 @@ impl Recipe {
             ("progress_reward", self.progress_reward, 0.0, 1.0),
             ("step_penalty", self.step_penalty, 0.0, 1.0),
             ("clearance_m", self.clearance_m, 0.0, 0.02),
-            ("wall_amplitude_m", self.wall_amplitude_m, 0.0, 0.03),
+            ("wall_amplitude_m", self.wall_amplitude_m, 0.0, most_amplitude_m),
             ("images", self.images as f64, 1.0, 1024.0),
             ("goals", self.goals as f64, 1.0, max_goals),
             ("uniform_goals", self.uniform_goals, 0.0, 1.0),

@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::violence::clutter;
+use super::violence::{anywhere, clutter, disturb};
 use super::*;
 use crate::geometry::Band;
 
@@ -66,8 +66,8 @@ fn is_caught(walls: &Walls, bead: &Bead) -> bool {
 }
 
 /// Ten million ticks with the strongest contractions, violent drags, fast magnets and strong kicks, on every map and in
-/// clutter: no wall is crossed, none overlaps the bead beyond the tolerance unless it has closed on it and holds it, and the bead's energy grows by no more than
-/// the work of walls, magnet and hand.
+/// clutter: no wall is crossed; none overlaps the bead beyond the tolerance, unless it has closed on the bead and holds
+/// it; and the bead's energy grows by no more than the work of walls, magnet and hand.
 #[test]
 fn ten_million_violent_ticks_between_moving_walls() {
     const TICKS: usize = 10_000_000;
@@ -83,26 +83,15 @@ fn ten_million_violent_ticks_between_moving_walls() {
 
 fn violent_run(room: &Room, seed: u64, ticks: usize) -> Damage {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let w = *room.map.workspace();
-    let anywhere = |rng: &mut ChaCha8Rng| {
-        Point2::new(rng.random_range(w.x_min_m..w.x_max_m), rng.random_range(w.y_min_m..w.y_max_m))
-    };
     let bead_motion = if seed.is_multiple_of(2) { BeadMotion::Sliding } else { BeadMotion::Rolling };
     let peristalsis = violent_motion(&mut rng);
     let plant = Plant::new(PlantParameters { bead_motion, peristalsis, ..PARAMETERS });
     let around = Surroundings { seed, ..room.around() };
-    let mut state = at_rest(room.rigid().nearest_fit(anywhere(&mut rng)).unwrap());
+    let mut state = at_rest(room.rigid().nearest_fit(anywhere(&room.map, &mut rng)).unwrap());
     let mut damage = Damage::default();
     for tick in 0..ticks {
         if tick % 12 == 0 {
-            let target_m = anywhere(&mut rng);
-            state.hand = rng.random_bool(0.5).then_some(Hand { target_m, lift: false });
-            if rng.random_bool(0.2) {
-                state.bead.velocity_m_s =
-                    Vector2::new(rng.random_range(-4.0..4.0), rng.random_range(-4.0..4.0)).cap_magnitude(4.0);
-            }
-            let over = anywhere(&mut rng);
-            state.positioner = Positioner::PlanarStage(Point3::new(over.x, over.y, rng.random_range(0.096..0.2)));
+            disturb(&mut state, &room.map, &mut rng);
         }
         let base_from_tool = state.positioner.base_from_tool();
         let rested = state.walls;

@@ -45,32 +45,36 @@ pub(super) fn clutter() -> Map {
     Map::from_svg("clutter", &svg).unwrap()
 }
 
+pub(super) fn anywhere(map: &Map, rng: &mut ChaCha8Rng) -> Point2<f64> {
+    let w = map.workspace();
+    Point2::new(rng.random_range(w.x_min_m..w.x_max_m), rng.random_range(w.y_min_m..w.y_max_m))
+}
+
+/// Another pull, often a kick, and the magnet somewhere else.
+pub(super) fn disturb(state: &mut PlantState, map: &Map, rng: &mut ChaCha8Rng) {
+    let target_m = anywhere(map, rng);
+    state.hand = rng.random_bool(0.7).then_some(Hand { target_m, lift: false });
+    if rng.random_bool(0.2) {
+        // As fast as after the strongest kick that a script may contain.
+        state.bead.velocity_m_s =
+            Vector2::new(rng.random_range(-4.0..4.0), rng.random_range(-4.0..4.0)).cap_magnitude(4.0);
+    }
+    let over = anywhere(map, rng);
+    state.positioner = Positioner::PlanarStage(Point3::new(over.x, over.y, rng.random_range(0.096..0.2)));
+}
+
 /// Counts the steps after which the bead overlaps a wall or has passed through one, and hashes every tick.
 fn violent_run(map: &Map, seed: u64, ticks: usize) -> (usize, u64) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let w = *map.workspace();
-    let anywhere = |rng: &mut ChaCha8Rng| {
-        Point2::new(rng.random_range(w.x_min_m..w.x_max_m), rng.random_range(w.y_min_m..w.y_max_m))
-    };
     let bead_motion = if seed.is_multiple_of(2) { BeadMotion::Sliding } else { BeadMotion::Rolling };
     let plant = Plant::new(PlantParameters { bead_motion, ..PARAMETERS });
     let room = Room::of(map.clone());
     let walls = room.rigid();
-    let start = walls.nearest_fit(anywhere(&mut rng)).unwrap();
-    let mut state = at_rest(start);
+    let mut state = at_rest(walls.nearest_fit(anywhere(map, &mut rng)).unwrap());
     let (mut crossings, mut hash) = (0, xxhash_rust::xxh3::Xxh3::new());
     for tick in 0..ticks {
         if tick % 12 == 0 {
-            let target_m = anywhere(&mut rng);
-            state.hand = rng.random_bool(0.7).then_some(Hand { target_m, lift: false });
-            if rng.random_bool(0.2) {
-                // As fast as after the strongest kick that a script may contain.
-                state.bead.velocity_m_s =
-                    Vector2::new(rng.random_range(-4.0..4.0), rng.random_range(-4.0..4.0)).cap_magnitude(4.0);
-            }
-            let over = anywhere(&mut rng);
-            let tool_m = Point3::new(over.x, over.y, rng.random_range(0.096..0.2));
-            state.positioner = Positioner::PlanarStage(tool_m);
+            disturb(&mut state, map, &mut rng);
         }
         let base_from_tool = state.positioner.base_from_tool();
         for _ in 0..SUBSTEPS {
