@@ -72,6 +72,20 @@ pub fn benches(c: &mut Criterion) {
     // None when only another benchmark is run.
     assert!(10 * touched >= ticks, "the bead must lean on walls: {touched} of {ticks} ticks");
 
+    // The first again, between walls that contract by 6 mm.
+    let moving = Plant::new(Parameters { peristalsis_amplitude_m: 6e-3, ..Parameters::default() }.plant());
+    let mut state = PlantState::at_rest(Positioner::PlanarStage(path[0]), start);
+    let (mut at, mut tick) = (0, 0);
+    group.bench_function("eight 1 kHz steps, colon, between moving walls", |b| {
+        b.iter(|| {
+            let [here, next] = [path[at], path[(at + 1) % path.len()]].map(Positioner::PlanarStage);
+            at = (at + 1) % path.len();
+            moving.step(&mut state, &around, tick, &here, &next);
+            tick += 1;
+            black_box(&state);
+        });
+    });
+
     // The same with the arm: inverse kinematics, servo and forward kinematics at 125 Hz besides.
     let mut arm = Positioner::home(PositionerKind::Arm, path[0]);
     let arms: Vec<Positioner> = path
