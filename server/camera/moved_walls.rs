@@ -3,7 +3,9 @@
 use super::diorama;
 use super::mesh::Mesh;
 use super::static_scene::{SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers, side_color};
+use super::view::in_view;
 use crate::geometry::{Band, Point3, Rect, Vector3};
+use crate::image::Pinhole;
 
 /// A wall that moved less than this is drawn at rest.
 const LEAST_M: f64 = 1e-5;
@@ -26,20 +28,30 @@ fn pieces<'a>(bands: &'a [Band], area: &'a Rect) -> impl Iterator<Item = [Point3
     })
 }
 
-/// For the controllers' view: tops, sides and shadows inside `area`.
-pub(super) fn controllers_mesh(bands: &[Band], height_m: f64, area: &Rect) -> Mesh {
+/// For the controllers' view: tops, visible sides and shadows that it may see. What is nearest comes first, so that little
+/// is drawn twice.
+pub(super) fn controllers_mesh(bands: &[Band], height_m: f64, pinhole: &Pinhole) -> Mesh {
     let mut mesh = Mesh::default();
     let [away_x, away_y] = SHADOW_PER_HEIGHT;
     let lift = Vector3::z() * SHADOW_LIFT_M;
-    let shadow = lift + Vector3::new(away_x, away_y, 0.0) * height_m;
+    let away = Vector3::new(away_x, away_y, 0.0) * height_m;
     let up = Vector3::z() * height_m;
-    for [foot_a, foot_b, edge_a, edge_b] in pieces(bands, area) {
+    let mut edges = Vec::new();
+    for [foot_a, foot_b, edge_a, edge_b] in pieces(bands, &in_view(pinhole)) {
         mesh.quad([foot_a + up, foot_b + up, edge_b + up, edge_a + up], Vector3::z(), controllers::WALL_TOP);
         let along = edge_b - edge_a;
         // Free space is on the left.
-        let Some(normal) = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0) else { continue };
-        mesh.quad([edge_a, edge_b, edge_b + up, edge_a + up], normal, side_color(normal));
-        mesh.quad([edge_a + lift, edge_b + lift, edge_b + shadow, edge_a + shadow], Vector3::z(), controllers::SHADOW);
+        let normal = Vector3::new(-along.y, along.x, 0.0).try_normalize(0.0);
+        edges.extend(normal.map(|normal| (edge_a, edge_b, normal)));
+    }
+    // A side that faces away from the eye is below its top.
+    let eye = Point3::from(pinhole.position_m);
+    for &(a, b, normal) in edges.iter().filter(|(a, _, normal)| normal.dot(&(eye - a)) > 0.0) {
+        mesh.quad([a, b, b + up, a + up], normal, side_color(normal));
+    }
+    // The shadow of an edge that faces the light is below the wall, or part of another edge's.
+    for &(a, b, _) in edges.iter().filter(|(.., normal)| normal.dot(&away) > 0.0) {
+        mesh.quad([a + lift, b + lift, b + lift + away, a + lift + away], Vector3::z(), controllers::SHADOW);
     }
     mesh
 }

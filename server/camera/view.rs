@@ -91,14 +91,15 @@ impl ViewRenderer {
             gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&view));
             let batches = self.geometry.place(gpu, &parts(subject));
             let moved = subject.moved_walls.as_deref();
-            let moved = moved.map(|bands| moved_walls::controllers_mesh(bands, self.wall_height_m, &in_view(&pinhole)));
+            let moved = moved.map(|bands| moved_walls::controllers_mesh(bands, self.wall_height_m, &pinhole));
             self.geometry.load_frame_mesh(gpu, moved.as_ref());
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut pass = self.target.begin(&mut encoder, background());
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &self.bindings, &[]);
-            self.geometry.draw(&mut pass, &batches);
+            // Walls that have moved hide what lies behind them, so they come first.
             self.geometry.draw_frame_mesh(&mut pass);
+            self.geometry.draw(&mut pass, &batches);
             drop(pass);
             encoder
         })?;
@@ -109,7 +110,7 @@ impl ViewRenderer {
 }
 
 /// The table that a camera may see, and a piece of wall more.
-fn in_view(pinhole: &Pinhole) -> Rect {
+pub(super) fn in_view(pinhole: &Pinhole) -> Rect {
     let corners = pinhole.table_corners_m().unwrap_or_default();
     let mut area =
         Rect { x_min_m: f64::INFINITY, x_max_m: f64::NEG_INFINITY, y_min_m: f64::INFINITY, y_max_m: f64::NEG_INFINITY };

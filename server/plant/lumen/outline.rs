@@ -9,8 +9,8 @@ use crate::geometry::{Band, Vector2};
 const ARC_RAD: f64 = 0.25;
 /// Steepest change of a radius along a wall. Of discs that differ more, one lies inside the other.
 const STEEPEST: f64 = 0.97;
-/// A wall that has closed in less has no arcs.
-const LEAST_M: f64 = 1e-5;
+/// A corner that one point represents as well as this has no more points.
+const EXACT_M: f64 = 2e-5;
 
 /// A straight piece of a ring.
 struct Side {
@@ -19,6 +19,12 @@ struct Side {
     normal_rad: f64,
     /// The common tangent of both discs is turned by this angle.
     tilt_rad: f64,
+}
+
+impl Side {
+    fn tangent_rad(&self) -> f64 {
+        self.normal_rad + self.tilt_rad
+    }
 }
 
 /// What a ring covers if its vertices have closed in by `closings_m`.
@@ -36,15 +42,18 @@ pub(super) fn band(ring: &[WallVertex], mut closings_m: Vec<f64>) -> Band {
         let before = &sides[(number + sides.len() - 1) % sides.len()];
         let corner_rad = (side.normal_rad - before.normal_rad + PI).rem_euclid(TAU) - PI;
         let turn_rad = corner_rad + side.tilt_rad - before.tilt_rad;
-        let tangent_rad = side.normal_rad + side.tilt_rad;
-        let [from, to] = side.vertices;
-        // A corner that stands out into the free space is round.
-        if turn_rad < -ARC_RAD && closings_m[from] > LEAST_M {
-            let steps = (-turn_rad / ARC_RAD).ceil();
-            (1..steps as usize).for_each(|step| add(from, tangent_rad - turn_rad * (1.0 - step as f64 / steps)));
+        let from = side.vertices[0];
+        if closings_m[from] * (1.0 - (0.5 * turn_rad).cos()) < EXACT_M {
+            add(from, side.tangent_rad() - 0.5 * turn_rad);
+            continue;
         }
-        add(from, tangent_rad);
-        add(to, tangent_rad);
+        add(before.vertices[1], before.tangent_rad());
+        // A corner that stands out into the free space is round.
+        if turn_rad < -ARC_RAD {
+            let steps = (-turn_rad / ARC_RAD).ceil();
+            (1..steps as usize).for_each(|step| add(from, side.tangent_rad() - turn_rad * (1.0 - step as f64 / steps)));
+        }
+        add(from, side.tangent_rad());
     }
     band
 }
