@@ -17,6 +17,10 @@ SCHEMATHESIS_VERSION := 4.32.5
 MINARI_VERSION := 0.5.4
 PYARROW_VERSION := 26.0.1
 PILLOW_VERSION := 13.0.0
+# yourdfpy and MuJoCo read the exported models of the arm; ur_rtde reads the arm as that of a real robot.
+MUJOCO_VERSION := 4.0.0
+YOURDFPY_VERSION := 0.0.60
+UR_RTDE_VERSION := 1.6.5
 MATURIN_VERSION := 1.16.0
 RUFF_VERSION := 0.17.6
 MYPY_VERSION := 2.4.1
@@ -32,7 +36,7 @@ ONNXSCRIPT_VERSION := 0.7.2
 ONNXRUNTIME_VERSION := 1.32.0
 RAY_VERSION := 2.60.0
 VENV := target/venv
-TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)-minari-$(MINARI_VERSION)
+TOOLS := $(VENV)/rerun-$(RERUN_VERSION)-schemathesis-$(SCHEMATHESIS_VERSION)-minari-$(MINARI_VERSION)-mujoco-$(MUJOCO_VERSION)-rtde-$(UR_RTDE_VERSION)
 MATURIN := $(VENV)/maturin-$(MATURIN_VERSION)
 # The package is tested where only it is installed, with what it asks for.
 WHEEL_VENV := target/wheel-venv
@@ -124,7 +128,7 @@ soak: system-test
 # seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with the same compiler.
 # The stack has the size of a server thread's.
 FUZZ_SECONDS := 300
-FUZZ_TARGETS := message map case log entries policy
+FUZZ_TARGETS := message map case log entries policy rtde
 fuzz: system-run
 	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
 	ulimit -s 2048; \
@@ -190,5 +194,6 @@ $(TOOLS):
 	python3 -m venv $(VENV)
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check rerun-sdk==$(RERUN_VERSION) \
 		schemathesis==$(SCHEMATHESIS_VERSION) minari==$(MINARI_VERSION) pyarrow==$(PYARROW_VERSION) \
-		pillow==$(PILLOW_VERSION)
+		pillow==$(PILLOW_VERSION) mujoco==$(MUJOCO_VERSION) yourdfpy==$(YOURDFPY_VERSION) \
+		ur-rtde==$(UR_RTDE_VERSION)
 	touch $@

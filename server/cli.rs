@@ -3,6 +3,7 @@
 mod attempts;
 mod check;
 mod evaluate;
+mod export;
 mod formats;
 mod map;
 mod maps;
@@ -48,6 +49,8 @@ enum Command {
     Check(check::Arguments),
     /// Repeat the paper's experiment: random trials, counted
     Evaluate(evaluate::Arguments),
+    /// Write the arm with gripper and magnet as a model for other programs
+    Export(export::Arguments),
     /// Try disturbances from one moment, and map where the bead is still delivered
     Recovery(recovery::Arguments),
     /// Render one image to a PNG file, headless
@@ -89,6 +92,7 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
         Command::Attempts(command) => attempts::run(&command),
         Command::Check(arguments) => check::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Recovery(arguments) => recovery::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),

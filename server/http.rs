@@ -38,6 +38,7 @@ use crate::recording::{Archive, Retention};
 use crate::recovery::Recoveries;
 use crate::scenario::Scenario;
 use crate::trial::{Catalog, TrialError};
+use crate::ur::Reports;
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 use metrics::Counters;
@@ -182,6 +183,11 @@ impl Server {
             sockets: TaskTracker::new(),
             stopping,
         }))
+    }
+
+    /// The arm of the session `main`, tick by tick.
+    pub fn arm(&self) -> &Arc<Reports> {
+        self.sessions.arm()
     }
 
     /// Runs a long or blocking computation. Returns 503 if it cannot start in time.

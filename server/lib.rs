@@ -7,14 +7,16 @@
 //! - floor 2: [`robot`], [`magnetics`], [`map`]: one subject each.
 //! - floor 3: [`plant`]: arm, bead, contact, disturbance.
 //! - floor 4: [`scenario`], [`camera`], [`tracking`], [`perception`]: set-up of a trial; image; position; percept.
-//! - floor 5: [`policy`], [`jobs`]: network, weights, manifest; the queue of background jobs.
+//! - floor 5: [`policy`], [`jobs`], [`export`]: network, weights, manifest; the queue of background jobs; models of the
+//!   arm for other programs.
 //! - floor 6: [`control`]: switching law, sub-controllers 1 and 2, limits.
 //! - floor 7: [`trial`]: one episode as a pure, deterministic loop.
-//! - floor 8: [`challenge`]: a trial for a person's hand: its score, ghosts and board.
+//! - floor 8: [`challenge`], [`program`], [`ur`]: a trial for a person's hand: its score, ghosts and board; questions to a
+//!   program; what the robot's controller says.
 //! - floor 9: [`learn`], [`evaluate`], [`session`]: training; trials in bulk; a trial on a real clock.
 //! - floor 10: [`recovery`]: disturbances from one moment, in bulk.
 //! - floor 11: [`recording`], [`protocol`]: Rerun; every wire type.
-//! - floor 12: [`http`]: axum routes and the WebSocket.
+//! - floor 12: [`http`], [`robot_server`]: axum routes and the WebSocket; the ports of a robot's controller.
 //! - floor 13: [`cli`]: assembling.
 
 /// Panics here when a test has requested it (see `faults`). Other builds contain nothing.
@@ -32,6 +34,7 @@ pub mod challenge;
 pub mod cli;
 pub mod control;
 pub mod evaluate;
+pub mod export;
 mod faults;
 pub mod files;
 pub mod geometry;
@@ -49,7 +52,9 @@ pub mod protocol;
 pub mod recording;
 pub mod recovery;
 pub mod robot;
+pub mod robot_server;
 pub mod scenario;
 pub mod session;
 pub mod tracking;
 pub mod trial;
+pub mod ur;

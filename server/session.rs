@@ -40,6 +40,7 @@ use crate::scenario::{Parameters, Scenario};
 use crate::trial::{
     Arena, Case, Catalog, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
 };
+use crate::ur::Reports;
 
 pub use branch_point::{BranchPoint, Progress};
 pub use error::CommandError;
@@ -213,6 +214,7 @@ enum Request {
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
     Played { answer: oneshot::Sender<Result<Played, CommandError>> },
     Save { answer: oneshot::Sender<Saved> },
+    Report(Arc<Reports>),
 }
 
 /// What a session begins with, besides its scenario.
@@ -304,6 +306,14 @@ impl Session {
     /// Whether something that was saved could not be restored.
     pub fn has_left_out(&self) -> bool {
         self.has_left_out
+    }
+
+    /// Reports its arm from now on.
+    ///
+    /// # Errors
+    /// [`CommandError::Busy`] and [`CommandError::Ended`].
+    pub fn report_arm(&self, reports: Arc<Reports>) -> Result<(), CommandError> {
+        self.enqueue(Request::Report(reports))
     }
 
     fn enqueue(&self, request: Request) -> Result<(), CommandError> {

@@ -8,14 +8,14 @@ const FLOORS: [&[&str]; 13] = [
     &["robot", "magnetics", "map"],
     &["plant"],
     &["scenario", "camera", "tracking", "perception"],
-    &["policy", "jobs"],
+    &["policy", "jobs", "export"],
     &["control"],
     &["trial"],
-    &["challenge", "program"],
+    &["challenge", "program", "ur"],
     &["learn", "evaluate", "session"],
     &["recovery"],
     &["recording", "protocol"],
-    &["http"],
+    &["http", "robot_server"],
     &["cli", "main", "lib"],
 ];
 
@@ -23,7 +23,7 @@ const FLOORS: [&[&str]; 13] = [
 const CONFINED: [(&str, &[&str]); 7] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
-    ("tokio", &["program", "session", "http", "cli", "main"]),
+    ("tokio", &["program", "ur", "session", "http", "robot_server", "cli", "main"]),
     ("re_sdk", &["recording"]),
     ("re_sdk_types", &["recording"]),
     ("utoipa", &["protocol", "http"]),

@@ -8,17 +8,16 @@ use nalgebra::{Matrix4, Vector4};
 use super::Subject;
 use super::geometry_buffers::{Part, Solid};
 use super::mesh::Color;
-use super::robot::{Material, solids};
+use super::robot::{BLOCK_COLOR, Material, solids};
 use crate::geometry::{Isometry3, Point3, Vector3};
 
-const METAL: Color = [203, 208, 214, 255];
-const LID: Color = [64, 140, 208, 255];
-const SEAM: Color = [44, 47, 54, 255];
-const FOOT: Color = [92, 97, 106, 255];
+const METAL: Color = opaque(Material::Metal.color());
+const LID: Color = opaque(Material::Lid.color());
+const SEAM: Color = opaque(Material::Seam.color());
 const GRIPPER: Color = [56, 60, 68, 255];
 const FINGER: Color = [120, 126, 136, 255];
 const PAD: Color = [34, 36, 42, 255];
-const MAGNET: Color = [228, 225, 214, 255];
+const MAGNET: Color = opaque(BLOCK_COLOR);
 
 /// Longest gripper that is drawn, for a stage whose tool is not on the arm.
 const MAX_GRIPPER_M: f64 = 0.30;
@@ -28,6 +27,10 @@ const COLUMN_M: f64 = 0.3;
 
 /// Upper limit of the number of [`parts`].
 pub(super) const MAX_PARTS: u64 = 96;
+
+const fn opaque([red, green, blue]: [u8; 3]) -> Color {
+    [red, green, blue, 255]
+}
 
 /// The solids of robot, gripper and block, in any order.
 pub(super) fn parts(subject: &Subject) -> Vec<Part> {
@@ -49,12 +52,7 @@ fn robot(parts: &mut Vec<Part>, base_from_link: &[Isometry3<f64>; 6]) {
         let frame = if solid.frame == 0 { Isometry3::identity() } else { base_from_link[solid.frame - 1] };
         let line =
             Line { origin: frame * Point3::from(solid.origin_m), along: frame.rotation * Vector3::from(solid.along) };
-        let color = match solid.material {
-            Material::Metal => METAL,
-            Material::Lid => LID,
-            Material::Seam => SEAM,
-            Material::Foot => FOOT,
-        };
+        let color = opaque(solid.material.color());
         let place = if solid.is_lid { lid } else { tube };
         place(parts, line, solid.places_m, solid.radius_m, color);
     }

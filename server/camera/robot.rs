@@ -12,6 +12,9 @@ const WRIST_RADIUS_M: f64 = 0.0405;
 /// Width of the dark ring between two housings.
 const SEAM_M: f64 = 0.006;
 
+/// Red, green and blue of the magnet.
+pub const BLOCK_COLOR: [u8; 3] = [228, 225, 214];
+
 /// What a solid looks like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
@@ -20,6 +23,18 @@ pub enum Material {
     Lid,
     Seam,
     Foot,
+}
+
+impl Material {
+    /// Red, green and blue.
+    pub const fn color(self) -> [u8; 3] {
+        match self {
+            Self::Metal => [203, 208, 214],
+            Self::Lid => [64, 140, 208],
+            Self::Seam => [44, 47, 54],
+            Self::Foot => [92, 97, 106],
+        }
+    }
 }
 
 /// A round solid between two places on a line.

@@ -1,6 +1,6 @@
 //! `ferry serve`.
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -10,6 +10,7 @@ use tokio::sync::watch;
 
 use crate::http;
 use crate::recording::Retention;
+use crate::robot_server::{self, Ports};
 use crate::scenario::Scenario;
 use crate::trial::Case;
 
@@ -48,6 +49,13 @@ pub struct Arguments {
     /// Largest total size of kept recordings, in megabytes
     #[arg(long, value_name = "MB", default_value_t = Retention::default().max_bytes >> 20)]
     keep_mb: u64,
+    /// Answer as the controller of a UR5 would, on this address; the arm is that of the session `main`. Ports 29999
+    /// (dashboard) and 30004 (RTDE) report it
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1")]
+    robot_server: Option<IpAddr>,
+    /// Let --robot-server listen on another address than loopback. It has no password, as a real one has none
+    #[arg(long, requires = "robot_server")]
+    robot_server_insecure: bool,
     /// Open the page in the default browser
     #[arg(long)]
     open: bool,
@@ -100,12 +108,26 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Opens the ports of the robot's controller, if they are wanted.
+async fn robot_ports(arguments: &Arguments) -> anyhow::Result<Option<Ports>> {
+    let Some(address) = arguments.robot_server else { return Ok(None) };
+    anyhow::ensure!(
+        address.is_loopback() || arguments.robot_server_insecure,
+        "--robot-server {address}: anyone who reaches this address could use it; add --robot-server-insecure if that is meant"
+    );
+    if !address.is_loopback() {
+        tracing::warn!(%address, "the robot server has no password");
+    }
+    Ok(Some(Ports::open(address).await?))
+}
+
 async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
     let token = token(arguments)?;
     let opening = opening(arguments.scenario.as_deref().unwrap_or("opening"))?;
     let listener = http::listen(arguments.bind).await?;
     let address = listener.local_addr()?;
     let access = http::Access::new(address, token, &arguments.origin)?;
+    let ports = robot_ports(arguments).await?;
     // Only after the checks above, so that a refused start leaves no folder behind.
     check_folder(&arguments.data)?;
     let gpu = super::open_gpu()?;
@@ -120,7 +142,10 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
         opening,
         start_over: arguments.scenario.is_some(),
     };
-    let server = http::Server::new(gpu, settings, access, stopping)?;
+    let server = http::Server::new(gpu, settings, access, stopping.clone())?;
+    if let Some(ports) = ports {
+        tokio::spawn(robot_server::serve(ports, server.arm().clone(), stopping));
+    }
     println!("listening on http://{address}");
     if arguments.open
         && let Err(error) = opener::open(format!("http://{address}"))

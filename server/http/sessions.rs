@@ -19,6 +19,7 @@ use crate::recording::{Archive, Options, Recorder};
 use crate::scenario::Scenario;
 use crate::session::{Command, CommandError, Opening, Session};
 use crate::trial::{Catalog, Nowhere, Sink, TrialError};
+use crate::ur::Reports;
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";
@@ -53,6 +54,8 @@ pub struct Sessions {
     maps: watch::Receiver<u64>,
     settings: SessionSettings,
     saved: SavedSessions,
+    /// The arm of [`MAIN`].
+    arm: Arc<Reports>,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// Held while a session opens, so that two requests for one name get the same session.
     opening: tokio::sync::Mutex<()>,
@@ -82,6 +85,7 @@ impl Sessions {
             maps,
             settings,
             saved,
+            arm: Arc::default(),
             hubs: RwLock::default(),
             opening: tokio::sync::Mutex::default(),
             made: AtomicU64::new(0),
@@ -89,6 +93,11 @@ impl Sessions {
         let main = sessions.start(MAIN, sessions.settings.opening.clone(), false)?;
         sessions.insert(&main);
         Ok(sessions)
+    }
+
+    /// The arm of the session `main`, tick by tick.
+    pub fn arm(&self) -> &Arc<Reports> {
+        &self.arm
     }
 
     pub fn park_after(&self) -> Duration {
@@ -200,6 +209,11 @@ impl Sessions {
         let session = Session::start(id, scenario, opening, self.catalog.clone(), self.gpu.clone(), sink)?;
         if is_saved {
             self.saved.opened(id, &session);
+        }
+        if id == MAIN
+            && let Err(error) = session.report_arm(self.arm.clone())
+        {
+            tracing::warn!(%error, "the arm is not reported");
         }
         tracing::info!(session = id, "session opened");
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))

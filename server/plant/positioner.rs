@@ -84,11 +84,6 @@ pub fn manipulability_map(
     Ok(ManipulabilityMap { origin_m: [area.x_min_m, area.y_min_m], ..map })
 }
 
-/// The tool's frame in the flange frame; see [`Positioner::base_from_tool`].
-fn flange_from_tool() -> Isometry3<f64> {
-    Isometry3::from_parts(Translation3::new(0.0, 0.0, TOOL_LENGTH_M), robot::tool_down().inverse())
-}
-
 /// An actual position or a reference of the positioner.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Positioner {
@@ -143,11 +138,16 @@ impl Positioner {
         self.joints_rad().map(|joints| forward::link_frames(&joints))
     }
 
+    /// The tool's frame in the flange frame; see [`Self::base_from_tool`].
+    pub fn flange_from_tool() -> Isometry3<f64> {
+        Isometry3::from_parts(Translation3::new(0.0, 0.0, TOOL_LENGTH_M), robot::tool_down().inverse())
+    }
+
     /// The pose of the tool's frame: its origin is the tool point, its axes are those of `base` while the
     /// flange points straight down.
     pub fn base_from_tool(&self) -> Isometry3<f64> {
         match self {
-            Self::Arm(joints) => forward::flange(joints) * flange_from_tool(),
+            Self::Arm(joints) => forward::flange(joints) * Self::flange_from_tool(),
             Self::PlanarStage(tool_m) => Isometry3::from_parts((*tool_m).into(), UnitQuaternion::identity()),
         }
     }

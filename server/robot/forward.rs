@@ -27,7 +27,7 @@ pub fn link_frames(joints: &Joints) -> [Isometry3<f64>; 6] {
 }
 
 /// Rz(θ)·Tz(d)·Tx(a)·Rx(α): the next frame relative to this one.
-fn link(row: &DhRow, theta_rad: f64) -> Isometry3<f64> {
+pub fn link(row: &DhRow, theta_rad: f64) -> Isometry3<f64> {
     let (sin, cos) = theta_rad.sin_cos();
     let (half_sin, half_cos) = (0.5 * theta_rad).sin_cos();
     let (twist_sin, twist_cos) = row.half_twist;

@@ -21,6 +21,7 @@ use crate::faults;
 use crate::program::Program;
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
+use crate::ur::Reports;
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -67,6 +68,8 @@ pub(super) struct Worker<E> {
     /// The question that it has not answered yet.
     pub(super) asking: Option<Asking>,
     pub(super) journal: Arc<Vec<Event>>,
+    /// Where the arm is reported.
+    pub(super) reports: Option<Arc<Reports>>,
     /// Ticks that are left of a `Step`. They run in slices, between which requests are answered.
     pub(super) stepping: u32,
     /// Who waits for the end of the `Step`.
@@ -117,6 +120,7 @@ impl<E: ImageSource> Worker<E> {
             program: None,
             asking: None,
             journal: Arc::default(),
+            reports: None,
             stepping: 0,
             stepped: None,
             deferred: VecDeque::new(),
@@ -126,6 +130,7 @@ impl<E: ImageSource> Worker<E> {
     }
 
     pub(super) fn view(&self) -> View {
+        self.report_arm();
         View {
             moment: self.trial.moment(),
             world_hash: self.trial.state().world_hash(),
@@ -243,6 +248,7 @@ impl<E: ImageSource> Worker<E> {
             Request::Save { answer } => {
                 let _ = answer.send(self.saved());
             }
+            Request::Report(reports) => self.reports = Some(reports),
         }
         Ok(())
     }
@@ -364,6 +370,7 @@ impl<E: ImageSource> Worker<E> {
             self.sight = Arc::new((record.tick, sight));
         }
         self.apply_case();
+        self.report_arm();
         Ok(true)
     }
 

@@ -72,6 +72,11 @@ fn logs() {
 }
 
 #[test]
+fn conversations_with_the_robot_server() {
+    survives(Target::Rtde, 20_000);
+}
+
+#[test]
 fn policies() {
     survives(Target::Policy, 200);
 }

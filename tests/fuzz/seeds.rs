@@ -18,7 +18,7 @@ const SMALL_MAP: &str = r#"<svg viewBox="-60 300 120 100"><rect x="-10" y="340" 
 
 impl Target {
     pub fn seeds(self) -> &'static [Vec<u8>] {
-        static SEEDS: LazyLock<[Vec<Vec<u8>>; 6]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
+        static SEEDS: LazyLock<[Vec<Vec<u8>>; 7]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
         &SEEDS[self as usize]
     }
 
@@ -30,6 +30,7 @@ impl Target {
             Self::Log => ControllerName::ALL.map(|name| log(&trial(name))).into(),
             Self::Entries => ControllerName::ALL.map(|name| payload(&trial(name))).into(),
             Self::Policy => headers(),
+            Self::Rtde => conversations(),
         }
     }
 }
@@ -174,6 +175,29 @@ fn payload(entries: &[Entry]) -> Vec<u8> {
     let mut bytes = Vec::new();
     entries.iter().for_each(|entry| ciborium::into_writer(entry, &mut bytes).unwrap());
     bytes
+}
+
+/// Versions, a recipe, start; with and without a recipe that is found.
+fn conversations() -> Vec<Vec<u8>> {
+    let frame = |kind: u8, payload: &[u8]| {
+        let size = (3 + payload.len()) as u16;
+        [&size.to_be_bytes()[..], &[kind], payload].concat()
+    };
+    let names = ["timestamp,actual_q,actual_TCP_pose,robot_mode", "output_int_register_3,joint_mode,", "wings"];
+    let conversation = |names: &str| {
+        let outputs = [&125f64.to_be_bytes()[..], names.as_bytes()].concat();
+        let frames = [
+            frame(b'V', &[0, 2]),
+            frame(b'v', &[]),
+            frame(b'O', &outputs),
+            frame(b'I', b"input_int_register_0"),
+            frame(b'S', &[]),
+            frame(b'U', &[1, 0, 0, 0, 3]),
+            frame(b'P', &[]),
+        ];
+        frames.concat()
+    };
+    names.map(conversation).into()
 }
 
 /// Headers of the shipped policies, with four bytes in place of the weights.

@@ -10,6 +10,8 @@ use ferry::policy::Policy;
 use ferry::protocol::ClientMessage;
 use ferry::scenario::{ControllerName, Scenario};
 use ferry::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
+use ferry::ur::{Arm, rtde};
+use tokio_util::codec::{Decoder, Encoder};
 
 /// Ticks that what was read is run on for: the first has a control step.
 const TICKS: usize = 34;
@@ -29,10 +31,13 @@ pub enum Target {
     Entries,
     /// Policies.
     Policy,
+    /// What a client sends to the robot server's RTDE port.
+    Rtde,
 }
 
 impl Target {
-    pub const ALL: [Self; 6] = [Self::Message, Self::Map, Self::Case, Self::Log, Self::Entries, Self::Policy];
+    pub const ALL: [Self; 7] =
+        [Self::Message, Self::Map, Self::Case, Self::Log, Self::Entries, Self::Policy, Self::Rtde];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -42,6 +47,7 @@ impl Target {
             Self::Log => "log",
             Self::Entries => "entries",
             Self::Policy => "policy",
+            Self::Rtde => "rtde",
         }
     }
 
@@ -54,6 +60,7 @@ impl Target {
             Self::Log => InputLog::read(bytes).is_ok_and(|log| run(&log)),
             Self::Entries => InputLog::read(&framed(bytes)).is_ok_and(|log| run(&log)),
             Self::Policy => policy(bytes),
+            Self::Rtde => rtde(bytes).is_some(),
         }
     }
 }
@@ -178,6 +185,27 @@ fn weights(bytes: &[u8]) -> Vec<u8> {
     let end = file.len() + (ends.max().unwrap_or(0) as usize).min(LONGEST);
     file.extend(last.iter().cycle().take(end - file.len()));
     file
+}
+
+/// `None` where the connection would be closed.
+fn rtde(mut stream: &[u8]) -> Option<()> {
+    let (mut client, mut framing) = (rtde::Client::default(), rtde::framing());
+    let mut received = bytes::BytesMut::new();
+    let mut sent = bytes::BytesMut::new();
+    while !stream.is_empty() {
+        // In pieces, as from a socket.
+        let (piece, rest) = stream.split_at(stream.len().min(7));
+        (stream, received) = (rest, [&received[..], piece].concat()[..].into());
+        while let Some(frame) = framing.decode(&mut received).ok()? {
+            if let Some(answer) = client.answer(&frame).ok()? {
+                framing.encode(bytes::Bytes::from(answer), &mut sent).expect("an answer fits into a frame");
+            }
+            if let Some(data) = client.data(&Arm::default()) {
+                framing.encode(bytes::Bytes::from(data), &mut sent).expect("data fit into a frame");
+            }
+        }
+    }
+    Some(())
 }
 
 fn shipped(name: &str) -> Option<Arc<Arena>> {

@@ -1,0 +1,229 @@
+//! The Real-Time Data Exchange: frames, and the recipes by which a client chooses what it gets. Big-endian; protocol
+//! version 2.
+
+mod outputs;
+
+pub use outputs::Output;
+
+use bytes::Buf;
+use tokio_util::codec::LengthDelimitedCodec;
+
+use super::Arm;
+use super::dashboard::VERSION;
+
+/// The protocol version that is spoken.
+const PROTOCOL: u16 = 2;
+/// The rate of a CB3 controller.
+pub const RATE_MOST_HZ: f64 = 125.0;
+/// Names in a recipe.
+const NAMES_MOST: usize = 256;
+
+/// Types of frames.
+mod kind {
+    pub(super) const PROTOCOL_VERSION: u8 = b'V';
+    pub(super) const CONTROLLER_VERSION: u8 = b'v';
+    pub(super) const TEXT_MESSAGE: u8 = b'M';
+    pub(super) const DATA: u8 = b'U';
+    pub(super) const OUTPUTS: u8 = b'O';
+    pub(super) const INPUTS: u8 = b'I';
+    pub(super) const START: u8 = b'S';
+    pub(super) const PAUSE: u8 = b'P';
+}
+
+/// Why a connection is closed: what follows cannot be understood.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FrameError {
+    #[error("a frame has no type")]
+    NoType,
+    #[error("a frame of type {kind} is too short: {bytes} bytes of payload")]
+    Short { kind: u8, bytes: usize },
+}
+
+/// How frames lie in a stream: the size comes first, and counts itself.
+pub fn framing() -> LengthDelimitedCodec {
+    LengthDelimitedCodec::builder()
+        .length_field_type::<u16>()
+        .length_adjustment(-2)
+        .max_frame_length(usize::from(u16::MAX))
+        .new_codec()
+}
+
+/// The state of one client's connection.
+#[derive(Debug, Default)]
+pub struct Client {
+    outputs: Option<Recipe>,
+    is_started: bool,
+}
+
+/// What a client gets, and how often.
+#[derive(Clone, Debug, PartialEq)]
+struct Recipe {
+    outputs: Vec<Output>,
+    rate_hz: f64,
+}
+
+/// A frame without its size.
+fn frame(kind: u8, payload: &[u8]) -> Vec<u8> {
+    [&[kind], payload].concat()
+}
+
+impl Client {
+    /// The answer to a frame, if there is one. Both are without their sizes, see [`framing`].
+    ///
+    /// # Errors
+    /// [`FrameError`].
+    pub fn answer(&mut self, frame_in: &[u8]) -> Result<Option<Vec<u8>>, FrameError> {
+        let (&kind, mut payload) = frame_in.split_first().ok_or(FrameError::NoType)?;
+        let short = FrameError::Short { kind, bytes: payload.len() };
+        Ok(Some(match kind {
+            kind::PROTOCOL_VERSION => {
+                let wanted = payload.try_get_u16().map_err(|_| short)?;
+                frame(kind, &[u8::from(wanted == PROTOCOL)])
+            }
+            kind::CONTROLLER_VERSION => frame(kind, &VERSION.map(u32::to_be_bytes).concat()),
+            kind::OUTPUTS => {
+                let rate_hz = payload.try_get_f64().map_err(|_| short)?;
+                self.choose(rate_hz, &names(payload))
+            }
+            // Nothing can be written yet, so no name is found.
+            kind::INPUTS => {
+                let types: Vec<_> = names(payload).iter().map(|_| "NOT_FOUND").collect();
+                frame(kind, &recipe_answer(0, &types))
+            }
+            kind::START => {
+                self.is_started = self.outputs.is_some();
+                frame(kind, &[u8::from(self.is_started)])
+            }
+            kind::PAUSE => {
+                self.is_started = false;
+                frame(kind, &[1])
+            }
+            kind::DATA | kind::TEXT_MESSAGE => return Ok(None),
+            _ => frame(kind::TEXT_MESSAGE, &text(&format!("Ferry does not know the type {kind}"))),
+        }))
+    }
+
+    fn choose(&mut self, rate_hz: f64, names: &[String]) -> Vec<u8> {
+        let found: Vec<Option<Output>> = names.iter().map(|name| Output::named(name)).collect();
+        let types: Vec<_> = found.iter().map(|output| output.map_or("NOT_FOUND", Output::type_name)).collect();
+        let outputs: Option<Vec<Output>> = found.into_iter().collect();
+        let is_usable = rate_hz > 0.0 && !names.is_empty() && names.len() <= NAMES_MOST;
+        self.is_started = false;
+        self.outputs =
+            outputs.filter(|_| is_usable).map(|outputs| Recipe { outputs, rate_hz: rate_hz.min(RATE_MOST_HZ) });
+        frame(kind::OUTPUTS, &recipe_answer(u8::from(self.outputs.is_some()), &types))
+    }
+
+    /// Ticks between two data frames, while they are sent.
+    pub fn every_ticks(&self) -> Option<u64> {
+        let recipe = self.outputs.as_ref().filter(|_| self.is_started)?;
+        Some((RATE_MOST_HZ / recipe.rate_hz).round().max(1.0) as u64)
+    }
+
+    /// A frame with the values that the client has chosen; `None` without a recipe.
+    pub fn data(&self, arm: &Arm) -> Option<Vec<u8>> {
+        let recipe = self.outputs.as_ref()?;
+        let mut payload = vec![1];
+        recipe.outputs.iter().for_each(|output| output.write(arm, &mut payload));
+        Some(frame(kind::DATA, &payload))
+    }
+}
+
+/// Names in a list with commas, which may end with one.
+fn names(list: &[u8]) -> Vec<String> {
+    let list = String::from_utf8_lossy(list);
+    let parts = list.split(',').map(str::trim).filter(|name| !name.is_empty());
+    parts.take(NAMES_MOST + 1).map(str::to_owned).collect()
+}
+
+fn recipe_answer(id: u8, types: &[&str]) -> Vec<u8> {
+    [&[id][..], types.join(",").as_bytes()].concat()
+}
+
+/// A text message's payload: message and source, each after its length; then the level "warning".
+fn text(message: &str) -> Vec<u8> {
+    let source = "Ferry";
+    [&[message.len() as u8][..], message.as_bytes(), &[source.len() as u8], source.as_bytes(), &[2]].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytes::{Bytes, BytesMut};
+    use proptest::prelude::*;
+    use tokio_util::codec::{Decoder, Encoder};
+
+    fn outputs(rate_hz: f64, names: &str) -> Vec<u8> {
+        [&rate_hz.to_be_bytes()[..], names.as_bytes()].concat()
+    }
+
+    fn answered(client: &mut Client, kind: u8, payload: &[u8]) -> Vec<u8> {
+        let answer = client.answer(&frame(kind, payload)).unwrap().unwrap();
+        assert_eq!(answer[0], kind);
+        answer[1..].to_vec()
+    }
+
+    #[test]
+    fn a_client_gets_what_it_has_chosen() {
+        let mut client = Client::default();
+        assert_eq!(answered(&mut client, b'V', &[0, 2]), [1]);
+        assert_eq!(answered(&mut client, b'V', &[0, 1]), [0]);
+        assert_eq!(answered(&mut client, b'v', &[]), [0, 0, 0, 3, 0, 0, 0, 15, 0, 0, 0, 8, 0, 0, 0, 0]);
+        assert_eq!(answered(&mut client, b'S', &[]), [0], "nothing is chosen");
+        assert_eq!(client.data(&Arm::default()), None);
+        let chosen = answered(&mut client, b'O', &outputs(62.5, "timestamp,actual_q,robot_mode,"));
+        assert_eq!(chosen, [&[1], "DOUBLE,VECTOR6D,INT32".as_bytes()].concat());
+        assert_eq!(client.every_ticks(), None, "not started");
+        assert_eq!(answered(&mut client, b'S', &[]), [1]);
+        assert_eq!(client.every_ticks(), Some(2));
+        let arm = Arm { time_s: 1.5, has_joints: true, actual_q_rad: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], ..Arm::default() };
+        let data = client.data(&arm).unwrap();
+        let mut payload = &data[..];
+        assert_eq!((payload.get_u8(), payload.get_u8(), payload.get_f64()), (b'U', 1, 1.5));
+        assert_eq!(std::array::from_fn::<_, 6, _>(|_| payload.get_f64()), arm.actual_q_rad);
+        assert_eq!((payload.get_i32(), payload.len()), (7, 0));
+        assert_eq!(answered(&mut client, b'P', &[]), [1]);
+        assert_eq!(client.every_ticks(), None);
+    }
+
+    #[test]
+    fn unknown_names_and_rates_leave_nothing_chosen() {
+        let mut client = Client::default();
+        let chosen = answered(&mut client, b'O', &outputs(125.0, "actual_q,wings"));
+        assert_eq!(chosen, [&[0], "VECTOR6D,NOT_FOUND".as_bytes()].concat());
+        for rate_hz in [0.0, -1.0, f64::NAN] {
+            assert_eq!(answered(&mut client, b'O', &outputs(rate_hz, "actual_q"))[0], 0, "{rate_hz}");
+        }
+        assert_eq!(answered(&mut client, b'S', &[]), [0]);
+        assert_eq!(answered(&mut client, b'I', b"input_int_register_0"), [&[0], "NOT_FOUND".as_bytes()].concat());
+        let many = vec!["actual_q"; NAMES_MOST + 1].join(",");
+        assert_eq!(answered(&mut client, b'O', &outputs(125.0, &many))[0], 0);
+        assert_eq!(client.answer(&[b'O', 0, 0]), Err(FrameError::Short { kind: b'O', bytes: 2 }));
+        assert_eq!(client.answer(&[]), Err(FrameError::NoType));
+        assert_eq!(client.answer(b"X").unwrap().unwrap()[0], b'M');
+    }
+
+    #[test]
+    fn the_size_of_a_frame_counts_itself_and_the_type() {
+        let mut stream = BytesMut::new();
+        framing().encode(Bytes::from(frame(b'V', &[0, 2])), &mut stream).unwrap();
+        assert_eq!(stream[..], [0, 5, b'V', 0, 2]);
+        stream.extend_from_slice(&[0, 4]);
+        assert_eq!(framing().decode(&mut stream).unwrap().unwrap()[..], [b'V', 0, 2]);
+        assert_eq!(framing().decode(&mut stream).unwrap(), None, "the rest has not arrived");
+        assert!(framing().decode(&mut BytesMut::from(&[0, 1, b'V'][..])).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn any_frame_is_answered_or_refused(frames in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 0..8)) {
+            let mut client = Client::default();
+            for received in frames {
+                if let Ok(Some(answer)) = client.answer(&received) {
+                    prop_assert!(!answer.is_empty() && answer.len() < 10_000);
+                }
+                prop_assert_eq!(client.data(&Arm::default()).is_some(), client.outputs.is_some());
+            }
+        }
+    }
+}
