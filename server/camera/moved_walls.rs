@@ -3,12 +3,13 @@
 use super::diorama;
 use super::mesh::Mesh;
 use super::static_scene::{SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers, side_color};
-use super::view::in_view;
 use crate::geometry::{Band, Point3, Rect, Vector3};
 use crate::image::Pinhole;
 
 /// A wall that moved less than this is drawn at rest.
 const LEAST_M: f64 = 1e-5;
+/// Moved walls are drawn this far beyond the image's border.
+const BESIDE_M: f64 = 0.02;
 
 fn at(point: [f64; 2]) -> Point3<f64> {
     Point3::new(point[0], point[1], 0.0)
@@ -54,6 +55,20 @@ pub(super) fn controllers_mesh(bands: &[Band], height_m: f64, pinhole: &Pinhole)
         mesh.quad([a + lift, b + lift, b + lift + away, a + lift + away], Vector3::z(), controllers::SHADOW);
     }
     mesh
+}
+
+/// The table that a camera may see, and a piece of wall more.
+fn in_view(pinhole: &Pinhole) -> Rect {
+    let corners = pinhole.table_corners_m().unwrap_or_default();
+    let mut area =
+        Rect { x_min_m: f64::INFINITY, x_max_m: f64::NEG_INFINITY, y_min_m: f64::INFINITY, y_max_m: f64::NEG_INFINITY };
+    for corner in corners {
+        area.x_min_m = area.x_min_m.min(corner.x - BESIDE_M);
+        area.x_max_m = area.x_max_m.max(corner.x + BESIDE_M);
+        area.y_min_m = area.y_min_m.min(corner.y - BESIDE_M);
+        area.y_max_m = area.y_max_m.max(corner.y + BESIDE_M);
+    }
+    area
 }
 
 /// For people.

@@ -10,15 +10,13 @@ use super::pipeline::{self, Pass, bind, pipeline};
 use super::static_scene::{self, SHADOW_LIFT_M, SHADOW_PER_HEIGHT, controllers};
 use super::target::Target;
 use super::{BEAD_RADIUS_M, CameraError, StaticScene, Subject, arm, moved_walls, optics};
-use crate::geometry::{Point2, Rect};
-use crate::image::{CameraFrame, Picture, Pinhole};
+use crate::geometry::Point2;
+use crate::image::{CameraFrame, Picture};
 
 pub(super) const SHADER: &str = include_str!("../../shaders/view.wgsl");
 
 /// One sample per pixel, so that no pixel is a mixture of wall and floor.
 const SAMPLES: u32 = 1;
-/// Moved walls are drawn this far beyond the image's border.
-const BESIDE_M: f64 = 0.02;
 /// Static scene, bead, bead shadow, and magnet and gripper if they are visible.
 const MAX_PARTS: u64 = 3 + 16;
 
@@ -107,20 +105,6 @@ impl ViewRenderer {
         let picture = Picture { width_px: self.size_px, height_px: self.size_px, rgba };
         Ok(CameraFrame { picture, tick: subject.tick, pinhole })
     }
-}
-
-/// The table that a camera may see, and a piece of wall more.
-pub(super) fn in_view(pinhole: &Pinhole) -> Rect {
-    let corners = pinhole.table_corners_m().unwrap_or_default();
-    let mut area =
-        Rect { x_min_m: f64::INFINITY, x_max_m: f64::NEG_INFINITY, y_min_m: f64::INFINITY, y_max_m: f64::NEG_INFINITY };
-    for corner in corners {
-        area.x_min_m = area.x_min_m.min(corner.x - BESIDE_M);
-        area.x_max_m = area.x_max_m.max(corner.x + BESIDE_M);
-        area.y_min_m = area.y_min_m.min(corner.y - BESIDE_M);
-        area.y_max_m = area.y_max_m.max(corner.y + BESIDE_M);
-    }
-    area
 }
 
 /// The colour of walls: everything outside the drawn geometry counts as wall.
