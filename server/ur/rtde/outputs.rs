@@ -9,7 +9,7 @@ const REGISTERS: usize = 48;
 /// One output of a recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Output {
-    /// Its place in [`NAMED`].
+    /// One with a name of its own, by its place in the table.
     Named(usize),
     IntRegister,
     DoubleRegister,
