@@ -95,7 +95,7 @@ pub async fn serve(ports: Ports, reports: Arc<Reports>, mut stopping: watch::Rec
 async fn talk(socket: TcpStream, reports: &Reports) -> io::Result<()> {
     let arm = reports.watch();
     let mut lines = Framed::new(socket, LinesCodec::new_with_max_length(dashboard::LINE_BYTES_MOST));
-    lines.send(dashboard::GREETING).await.map_err(io::Error::other)?;
+    in_time(lines.send(dashboard::GREETING)).await?;
     while let Some(line) = lines.next().await {
         let line = line.map_err(io::Error::other)?;
         let answer = dashboard::answer(&line, &arm.borrow());

@@ -130,7 +130,6 @@ impl<E: ImageSource> Worker<E> {
     }
 
     pub(super) fn view(&self) -> View {
-        self.report_arm();
         View {
             moment: self.trial.moment(),
             world_hash: self.trial.state().world_hash(),
@@ -250,6 +249,8 @@ impl<E: ImageSource> Worker<E> {
             }
             Request::Report(reports) => self.reports = Some(reports),
         }
+        // A reset moves the arm without a tick.
+        self.report_arm();
         Ok(())
     }
 
