@@ -76,14 +76,14 @@ fn schemathesis(ferry: &Ferry, recording: &str, folder: &Path, report: &Path) ->
         .unwrap()
 }
 
-/// Cancels evaluations that wait, so that jobs of other kinds find room in the queue.
+/// Cancels evaluations that wait, so that jobs of other kinds find room in the queue. The newest stays: the next request may
+/// be the one that cancels it.
 fn keep_room_in_the_queue(ferry: &Ferry, is_over: &AtomicBool) {
     while !is_over.load(Ordering::Relaxed) {
         let listed = ask(ferry, "GET", "/api/evaluations", "");
-        for evaluation in listed["evaluations"].as_array().into_iter().flatten() {
-            if evaluation["stage"] == "waiting" {
-                ask(ferry, "DELETE", &format!("/api/evaluations/{}", evaluation["id"].as_str().unwrap()), "");
-            }
+        let waiting = listed["evaluations"].as_array().into_iter().flatten().filter(|one| one["stage"] == "waiting");
+        for evaluation in waiting.rev().skip(1) {
+            ask(ferry, "DELETE", &format!("/api/evaluations/{}", evaluation["id"].as_str().unwrap()), "");
         }
         std::thread::sleep(std::time::Duration::from_millis(50));
     }

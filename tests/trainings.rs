@@ -4,10 +4,9 @@
 use std::time::{Duration, Instant};
 
 use ferry::policy::{Manifest, Policy};
-use futures_util::StreamExt;
 use serde_json::{Value, json};
 
-use crate::support::{Laboratory, ferry};
+use crate::support::{Browser, Laboratory, ferry};
 
 /// A training of a few seconds, which learns little.
 fn query(change: Value) -> Value {
@@ -16,7 +15,7 @@ fn query(change: Value) -> Value {
     query
 }
 
-/// Fails after two minutes without a change.
+/// Fails after 15 minutes without a change: jobs have a low priority, and other tests run beside.
 async fn ended(lab: &Laboratory, id: &str) -> Value {
     let (mut last, mut since) = (Value::Null, Instant::now());
     loop {
@@ -28,8 +27,20 @@ async fn ended(lab: &Laboratory, id: &str) -> Value {
         if report != last {
             (last, since) = (report, Instant::now());
         }
-        assert!(since.elapsed() < Duration::from_secs(120), "no progress: {last}");
+        assert!(since.elapsed() < Duration::from_secs(900), "no progress: {last}");
         tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+}
+
+/// The updates of all points until the end.
+async fn points(mut live: Browser) -> Vec<u64> {
+    let mut points = Vec::new();
+    loop {
+        let message = live.whenever("the end", |_| true).await;
+        points.extend(message["points"].as_array().unwrap().iter().map(|point| point["update"].as_u64().unwrap()));
+        if message["summary"]["stage"] == "done" {
+            return points;
+        }
     }
 }
 
@@ -40,25 +51,20 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
     let (status, made) = lab.ask("POST", "/api/trainings", &query(json!({})).to_string()).await;
     assert_eq!((status, &made["id"], &made["updates_total"]), (201, &json!("training-1"), &json!(200)), "{made}");
     let live = format!("ws://{}/api/trainings/training-1/live", lab.address);
-    let (mut live, _) = tokio_tungstenite::connect_async(live).await.unwrap();
+    let (live, _) = tokio_tungstenite::connect_async(live).await.unwrap();
+    // Both are read meanwhile: whoever does not read is disconnected.
+    let points = tokio::spawn(points(Browser::of(live)));
+    let told = tokio::spawn(async move {
+        let knows = |m: &Value| m["type"] == "scene" && m["policies"] != json!([]);
+        let scene = browser.whenever("the policy", knows).await;
+        (browser, scene)
+    });
     let done = ended(&lab, "training-1").await;
     assert_eq!((&done["stage"], &done["updates"], &done["frames"]), (&json!("done"), &json!(200), &json!(2)), "{done}");
     assert_eq!(done["curve"].as_array().unwrap().len(), 2);
     assert_eq!(done["examined"]["episodes"], 1000);
 
-    // All points came in order, each once, and then the end.
-    let mut points = Vec::new();
-    loop {
-        let message: Value = match live.next().await.unwrap().unwrap() {
-            tokio_tungstenite::tungstenite::Message::Text(text) => serde_json::from_str(&text).unwrap(),
-            _ => continue,
-        };
-        points.extend(message["points"].as_array().unwrap().iter().map(|point| point["update"].as_u64().unwrap()));
-        if message["summary"]["stage"] == "done" {
-            break;
-        }
-    }
-    assert_eq!(points, [100, 200]);
+    assert_eq!(points.await.unwrap(), [100, 200], "each once, in order, and then the end");
 
     let (_, cells) = lab.ask("GET", "/api/trainings/training-1/cells", "").await;
     let count = cells["centers_m"].as_array().unwrap().len();
@@ -71,7 +77,8 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
 
     // The page learns of the policy, and a session takes it.
     let reference = done["policy"].as_str().unwrap().to_owned();
-    let scene = browser.until("the policy", |m| m["type"] == "scene" && m["policies"] == json!([reference])).await;
+    let (mut browser, scene) = told.await.unwrap();
+    assert_eq!(scene["policies"], json!([reference]));
     let mut parameters = scene["parameters"].clone();
     parameters["rl_policy"] = json!("mine");
     browser.send(json!({"type": "configure", "parameters": parameters})).await;

@@ -35,18 +35,21 @@ impl Browser {
 
     /// Waits up to 30 s for a text message that fits.
     pub async fn until(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
-        let found = async {
-            while let Some(message) = self.socket.next().await {
-                if let Message::Text(text) = message.unwrap() {
-                    let value: Value = serde_json::from_str(&text).unwrap();
-                    if fits(&value) {
-                        return value;
-                    }
+        let found = self.whenever(what, fits);
+        tokio::time::timeout(Duration::from_secs(30), found).await.unwrap_or_else(|_| panic!("waited in vain: {what}"))
+    }
+
+    /// Waits for a text message that fits, as long as it takes.
+    pub async fn whenever(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+        while let Some(message) = self.socket.next().await {
+            if let Message::Text(text) = message.unwrap_or_else(|error| panic!("{error} before: {what}")) {
+                let value: Value = serde_json::from_str(&text).unwrap();
+                if fits(&value) {
+                    return value;
                 }
             }
-            panic!("the server closed before: {what}");
-        };
-        tokio::time::timeout(Duration::from_secs(30), found).await.unwrap_or_else(|_| panic!("waited in vain: {what}"))
+        }
+        panic!("the server closed before: {what}");
     }
 
     pub async fn state(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
