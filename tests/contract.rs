@@ -25,14 +25,17 @@ const NEVER_ACCEPTED: [&str; 10] = [
     "POST /login",
 ];
 
+/// The same in `schemathesis.toml`.
+const LONG_EVALUATION: &str = "evaluation-2";
+
 fn ask(ferry: &Ferry, method: &str, path: &str, body: &str) -> Value {
     let request = ureq::http::Request::builder().method(method).uri(format!("http://{}{path}", ferry.address));
     let mut response = ureq::run(request.body(body.to_owned()).unwrap()).unwrap();
     serde_json::from_str(&response.body_mut().read_to_string().unwrap()).unwrap()
 }
 
-/// Prepares data for the requests: a session with a goal, a finished training with its policy, another policy, a finished evaluation, a finished recovery map, and an evaluation that runs until it is cancelled.
-/// Returns the id of a recording.
+/// Prepares data for the requests: a session with a goal, a finished training with its policy, another policy, a finished
+/// evaluation, a finished recovery map, and an evaluation that runs until it is cancelled. Returns the id of a recording.
 async fn fill(ferry: &Ferry) -> String {
     let training = json!({"map": "u-turn", "name": "kept", "seed": 1, "settings": {"updates": 1}});
     ask(ferry, "POST", "/api/trainings", &training.to_string());
@@ -43,8 +46,10 @@ async fn fill(ferry: &Ferry) -> String {
     ask(ferry, "POST", "/api/evaluations", &query.to_string());
     let mapped = json!({"map": "posts", "controllers": ["errt"], "grid": 4, "repeats": 1});
     ask(ferry, "POST", "/api/recoveries", &mapped.to_string());
-    let long = json!({"controllers": ["errt"], "maps": ["posts"], "disturbances": [0], "episodes": 1000, "seed": 1});
-    ask(ferry, "POST", "/api/evaluations", &long.to_string());
+    let long = json!({"controllers": ["errt", "rl"], "maps": ["colon", "colon-folds"], "disturbances": [2], "episodes": 1000,
+        "seed": 1});
+    let long = ask(ferry, "POST", "/api/evaluations", &long.to_string());
+    assert_eq!(long["id"], LONG_EVALUATION);
     let mut browser = Browser::at(ferry.address).await;
     let scenario = json!({"type": "load_scenario", "map": "posts", "controller": "errt", "start_m": [-0.25, -0.38],
         "goal_m": [0.12, -0.33]});
@@ -76,14 +81,15 @@ fn schemathesis(ferry: &Ferry, recording: &str, folder: &Path, report: &Path) ->
         .unwrap()
 }
 
-/// Cancels evaluations that wait, so that jobs of other kinds find room in the queue. The newest stays: the next request may
-/// be the one that cancels it.
+/// Cancels evaluations that wait, so that jobs of other kinds find room in the queue. The long one stays until a request
+/// cancels it.
 fn keep_room_in_the_queue(ferry: &Ferry, is_over: &AtomicBool) {
     while !is_over.load(Ordering::Relaxed) {
         let listed = ask(ferry, "GET", "/api/evaluations", "");
-        let waiting = listed["evaluations"].as_array().into_iter().flatten().filter(|one| one["stage"] == "waiting");
-        for evaluation in waiting.rev().skip(1) {
-            ask(ferry, "DELETE", &format!("/api/evaluations/{}", evaluation["id"].as_str().unwrap()), "");
+        for evaluation in listed["evaluations"].as_array().into_iter().flatten() {
+            if evaluation["stage"] == "waiting" && evaluation["id"] != LONG_EVALUATION {
+                ask(ferry, "DELETE", &format!("/api/evaluations/{}", evaluation["id"].as_str().unwrap()), "");
+            }
         }
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
