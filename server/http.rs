@@ -38,7 +38,7 @@ use crate::recording::{Archive, Retention};
 use crate::recovery::Recoveries;
 use crate::scenario::Scenario;
 use crate::trial::{Catalog, TrialError};
-use crate::ur::Reports;
+use crate::ur::Robot;
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 use metrics::Counters;
@@ -52,6 +52,8 @@ use sessions::{SessionSettings, Sessions};
 
 /// Number of long computations that run at the same time; others wait.
 const WORKERS: usize = 4;
+/// Maximum number of camera streams, of all sessions together.
+const CAMERA_STREAMS: usize = 16;
 /// Maximum time that a computation waits for its start.
 const WORK_WAITS: Duration = Duration::from_secs(10);
 /// Interval at which sessions are parked and inactive clients forgotten.
@@ -135,9 +137,11 @@ pub struct Server {
     painter: Arc<Semaphore>,
     /// Permit for running challenges.
     judge: Arc<Semaphore>,
+    /// Permits for camera streams.
+    camera_streams: Arc<Semaphore>,
     /// Open WebSockets.
     sockets: TaskTracker,
-    /// Becomes true when the server stops; every WebSocket watches it.
+    /// Becomes true when the server stops; every WebSocket and camera stream watches it.
     stopping: watch::Receiver<bool>,
 }
 
@@ -180,14 +184,15 @@ impl Server {
             workers: Arc::new(Semaphore::new(WORKERS)),
             painter: Arc::new(Semaphore::new(1)),
             judge: Arc::new(Semaphore::new(1)),
+            camera_streams: Arc::new(Semaphore::new(CAMERA_STREAMS)),
             sockets: TaskTracker::new(),
             stopping,
         }))
     }
 
-    /// The arm of the session `main`, tick by tick.
-    pub fn arm(&self) -> &Arc<Reports> {
-        self.sessions.arm()
+    /// The robot of the session `main`.
+    pub fn robot(&self) -> &Arc<Robot> {
+        self.sessions.robot()
     }
 
     /// Runs a long or blocking computation. Returns 503 if it cannot start in time.

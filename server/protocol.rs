@@ -12,6 +12,7 @@ mod conversation;
 mod described;
 mod error;
 mod evaluations;
+mod event;
 mod jobs;
 mod layers;
 mod lumen;
@@ -24,8 +25,10 @@ mod policies;
 mod programs;
 mod recordings;
 mod recoveries;
+mod robot;
 mod seed;
 mod server;
+mod tracker;
 mod trainings;
 #[cfg(test)]
 mod typescript;
@@ -44,6 +47,7 @@ pub use evaluations::{
     Cell, EvaluationCell, EvaluationFailure, EvaluationQuery, EvaluationReport, EvaluationSummary, Evaluations,
     PaperRow,
 };
+pub use event::EventMessage;
 pub use jobs::JobStage;
 pub use layers::{
     BlocksLayer, FLOW_SPACING_M, FlowField, FlowQuery, JudgementLayer, OverlayMessage, PixelBlock, PlanLayer,
@@ -57,7 +61,9 @@ pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
 pub use recoveries::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrial, RecoveryTrials};
-pub use server::{CaseSummary, EventMessage, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
+pub use robot::{RobotClient, RobotRefusal, RobotStanding};
+pub use server::{CaseSummary, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
+pub use tracker::{GoalPlace, TrackerEstimate};
 pub use trainings::{
     EpisodeEnding, Examination, FusionName, RecipeName, TrainingCells, TrainingEpisode, TrainingFrame, TrainingMessage,
     TrainingPoint, TrainingQuery, TrainingReport, TrainingSettings, TrainingStage, TrainingSummary, Trainings,

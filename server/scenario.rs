@@ -41,10 +41,13 @@ pub enum ControllerName {
     You,
     /// A program outside of Ferry, which is asked before each control step.
     Program,
+    /// A program for a UR5, which commands the joints; nothing else moves the arm.
+    Robot,
 }
 
 impl ControllerName {
-    pub const ALL: [Self; 6] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner, Self::You, Self::Program];
+    pub const ALL: [Self; 7] =
+        [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner, Self::You, Self::Program, Self::Robot];
     /// Those that need no person and no program.
     pub const AUTOMATIC: [Self; 4] = [Self::Rl, Self::Errt, Self::Attractor, Self::Replanner];
     /// Those of the paper.
@@ -61,6 +64,7 @@ impl ControllerName {
             Self::Replanner => "replanner",
             Self::You => "you",
             Self::Program => "program",
+            Self::Robot => "robot",
         }
     }
 
@@ -73,6 +77,7 @@ impl ControllerName {
             Self::Replanner => "Replanner",
             Self::You => "You",
             Self::Program => "Program",
+            Self::Robot => "Robot client",
         }
     }
 }

@@ -18,6 +18,7 @@ mod pacing;
 mod playing;
 mod question;
 mod recall;
+mod robot;
 mod saved;
 mod stepping;
 mod timeline;
@@ -40,7 +41,7 @@ use crate::scenario::{Parameters, Scenario};
 use crate::trial::{
     Arena, Case, Catalog, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
 };
-use crate::ur::Reports;
+use crate::ur::{Robot, Standing as RobotStanding};
 
 pub use branch_point::{BranchPoint, Progress};
 pub use error::CommandError;
@@ -179,6 +180,8 @@ pub struct View {
     pub attempt: Option<Standing>,
     /// The program that was selected last.
     pub program: Option<Arc<Program>>,
+    /// The clients of the robot server, if this session moves its arm.
+    pub robot: Option<RobotStanding>,
     /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
@@ -214,7 +217,7 @@ enum Request {
     Case { answer: oneshot::Sender<Result<Case, CommandError>> },
     Played { answer: oneshot::Sender<Result<Played, CommandError>> },
     Save { answer: oneshot::Sender<Saved> },
-    Report(Arc<Reports>),
+    Robot(Arc<Robot>),
 }
 
 /// What a session begins with, besides its scenario.
@@ -308,12 +311,12 @@ impl Session {
         self.has_left_out
     }
 
-    /// Reports its arm from now on.
+    /// Its arm is a robot's from now on.
     ///
     /// # Errors
     /// [`CommandError::Busy`] and [`CommandError::Ended`].
-    pub fn report_arm(&self, reports: Arc<Reports>) -> Result<(), CommandError> {
-        self.enqueue(Request::Report(reports))
+    pub fn connect_robot(&self, robot: Arc<Robot>) -> Result<(), CommandError> {
+        self.enqueue(Request::Robot(robot))
     }
 
     fn enqueue(&self, request: Request) -> Result<(), CommandError> {

@@ -12,6 +12,7 @@ mod disturb;
 mod entry;
 mod event;
 mod input;
+mod input_error;
 mod log;
 mod origin;
 mod outcome;
@@ -33,10 +34,10 @@ use crate::control::{approach, step_is_due};
 use crate::geometry::{Point2, Point3, Vector2};
 use crate::image::CameraFrame;
 use crate::map::MapError;
-use crate::plant::{Plant, PlantState, PositionerKind, Surroundings, Walls};
+use crate::plant::{Plant, PlantState, Positioner, PositionerKind, Surroundings, Walls};
 use crate::policy::PolicyError;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ParameterError, RandomTrialError, Scenario, Stream, start_point};
+use crate::scenario::{ControllerName, ParameterError, RandomTrialError, Scenario, Stream, start_point};
 use crate::tracking::{self, TrackerParameters};
 
 pub use arena::Arena;
@@ -46,7 +47,8 @@ pub use decide::Question;
 pub(crate) use disturb::far_point;
 pub use entry::{Entry, LoggedBeginning, LoggedMap, LoggedTick};
 pub use event::{Event, EventKind};
-pub use input::{Input, InputError, REASON_BYTES_MOST};
+pub use input::Input;
+pub use input_error::{InputError, REASON_BYTES_MOST};
 pub use log::{InputLog, LogError, LogWriter};
 pub use origin::Origin;
 pub use outcome::GOAL_RADIUS_M;
@@ -287,7 +289,15 @@ impl Trial {
         let world = &mut self.state.world;
         let limits = self.arena.limits(&world.parameters);
         let here = world.reference_m.xy();
+        let reference = world.reference;
         let wanted: Point2<f64> = match world.motion {
+            Motion::Joints(joints_rad) => {
+                world.reference = Positioner::Arm(joints_rad);
+                world.reference_m = world.reference.tool_m();
+                return self.follow(&reference);
+            }
+            // Also at another height than the parameters'.
+            Motion::Hold if self.state.controller == ControllerName::Robot => return self.follow(&reference),
             Motion::Hold => here,
             Motion::Segment(step) => {
                 let way: Vector2<f64> = step.target_m - here;
@@ -300,15 +310,20 @@ impl Trial {
                 limits.keep_in(here + velocity * SERVO_PERIOD_S)
             }
         };
-        let reference = world.reference;
         let wanted_m = Point3::new(wanted.x, wanted.y, world.parameters.tool_height_m);
         // A motion beyond the reach stops at its edge.
         if let Ok((next_m, next)) = limits.advance(world.reference_m, wanted_m, &reference) {
             world.reference_m = next_m;
             world.reference = next;
         }
+        self.follow(&reference);
+    }
+
+    /// Arm and bead follow the reference, which was at `before`.
+    fn follow(&mut self, before: &Positioner) {
         let around = self.arena.surroundings(self.wall_seed);
-        self.plant.step(&mut world.plant, &around, world.tick, &reference, &world.reference);
+        let world = &mut self.state.world;
+        self.plant.step(&mut world.plant, &around, world.tick, before, &world.reference);
     }
 
     fn check_finite(&self, tick: u64) -> Result<(), TrialError> {

@@ -1,13 +1,26 @@
 //! What a CB3 controller of a UR5 says and understands, without sockets.
 //!
 //! - [`arm`]: the arm at a moment, as the controller reports it.
+//! - [`command`], [`mover`]: motions, and the joints that they lead to, tick by tick.
+//! - [`script`], [`control_script`]: programs that are sent to the robot.
+//! - [`controller`], [`robot`]: who is connected, what runs, the protective stop; shared by the session and the sockets.
 //! - [`rtde`]: frames of the Real-Time Data Exchange; recipes.
 //! - [`dashboard`]: lines and their answers.
 //!
 //! Source: Universal Robots, "Real-Time Data Exchange (RTDE) Guide" and "Dashboard Server CB-Series".
 
 pub mod arm;
+pub mod command;
+pub mod control_script;
+pub mod controller;
 pub mod dashboard;
+pub mod inputs;
+pub mod mover;
+pub mod registers;
+pub mod robot;
 pub mod rtde;
+pub mod script;
 
-pub use arm::{Arm, Reports};
+pub use arm::Arm;
+pub use controller::Standing;
+pub use robot::Robot;

@@ -16,6 +16,7 @@ mod disturbances;
 mod evaluations;
 mod examples;
 mod exports;
+mod feeds;
 mod fuzz;
 mod gates;
 mod golden;

@@ -52,7 +52,7 @@ async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
     assert_eq!((status, &made["id"], &made["updates_total"]), (201, &json!("training-1"), &json!(200)), "{made}");
     let live = format!("ws://{}/api/trainings/training-1/live", lab.address);
     let (live, _) = tokio_tungstenite::connect_async(live).await.unwrap();
-    // Both are read meanwhile: whoever does not read is disconnected.
+    // Both are read meanwhile: a client that does not read is disconnected.
     let points = tokio::spawn(points(Browser::of(live)));
     let told = tokio::spawn(async move {
         let knows = |m: &Value| m["type"] == "scene" && m["policies"] != json!([]);

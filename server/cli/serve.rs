@@ -144,7 +144,7 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let server = http::Server::new(gpu, settings, access, stopping.clone())?;
     if let Some(ports) = ports {
-        tokio::spawn(robot_server::serve(ports, server.arm().clone(), stopping));
+        tokio::spawn(robot_server::serve(ports, server.robot().clone(), stopping));
     }
     println!("listening on http://{address}");
     if arguments.open

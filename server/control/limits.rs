@@ -1,17 +1,26 @@
 //! The final check of every requested tool position, from controllers and from the operator.
 
+mod joints;
+
+pub use joints::{JointRefusal, TILT_MOST_RAD, TOOL_HEIGHT_M};
+
 use super::{CONTROL_PERIOD_S, Refusal, TargetStep};
 use crate::geometry::{Point2, Point3, Rect};
 use crate::perception::Percept;
 use crate::plant::{Positioner, TOOL_LENGTH_M, ToolOrientation};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::robot::{self, jacobian};
+use crate::robot::{self, forward, jacobian};
 
 /// Poses with less manipulability are refused.
 pub const MIN_MANIPULABILITY_M3: f64 = 2e-3;
 
 /// Largest vertical speed of the tool.
 pub const LIFT_SPEED_M_S: f64 = 0.05;
+
+/// Largest speed at which the tool turns back after a program for a UR5 has tilted it.
+const TURN_SPEED_RAD_S: f64 = 0.2;
+/// A tool that is tilted by less is not tilted.
+const LEAST_TILT_RAD: f64 = 1e-6;
 
 /// The limits of one trial.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,7 +83,21 @@ impl Limits {
         let max_rise_m = LIFT_SPEED_M_S * SERVO_PERIOD_S;
         let rise_m = (wanted_m.z - from_m.z).clamp(-max_rise_m, max_rise_m);
         let next_m = Point3::new(place_m.x, place_m.y, from_m.z + rise_m);
-        Ok((next_m, self.position(next_m, seed)?))
+        let next = self.position(next_m, seed)?;
+        Ok(self.turn_back(seed, &next).unwrap_or((next_m, next)))
+    }
+
+    /// A part of the way from a tilted tool, if it is tilted.
+    fn turn_back(&self, from: &Positioner, to: &Positioner) -> Option<(Point3<f64>, Positioner)> {
+        let (from_rad, to_rad) = (from.joints_rad()?, to.joints_rad()?);
+        let upright = self.tool_orientation.base_from_flange();
+        let tilt_rad = forward::flange(&from_rad).rotation.angle_to(&upright);
+        if tilt_rad < LEAST_TILT_RAD {
+            return None;
+        }
+        let share = (TURN_SPEED_RAD_S * SERVO_PERIOD_S / tilt_rad).min(1.0);
+        let between = Positioner::Arm(std::array::from_fn(|i| from_rad[i] + share * (to_rad[i] - from_rad[i])));
+        Some((between.tool_m(), between))
     }
 
     /// Checks a transport step: the position, the speed, and the camera's view of the whole step.
@@ -157,6 +180,26 @@ mod tests {
         let out = limits().advance(edge, Point3::new(1.0, -0.3, 0.1), &seed);
         assert!(matches!(out, Err(Refusal::OutsideWorkspace { .. })));
         assert!(limits().advance(from, Point3::new(f64::NAN, -0.3, 0.1), &seed).is_err());
+    }
+
+    #[test]
+    fn a_tilted_tool_turns_back_slowly() {
+        let mut from_m = Point3::new(0.0, -0.3, 0.1);
+        let paper = Limits { tool_orientation: ToolOrientation::Paper, ..limits() };
+        let mut reference = paper.position(from_m, &HOME).unwrap();
+        let goal_m = Point3::new(0.05, -0.3, 0.1);
+        let mut ticks = 0;
+        while reference != limits().position(goal_m, &reference).unwrap() {
+            let before = reference.joints_rad().unwrap();
+            (from_m, reference) = limits().advance(from_m, goal_m, &reference).unwrap();
+            let turned =
+                before.iter().zip(reference.joints_rad().unwrap()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(turned / SERVO_PERIOD_S < 1.5, "{turned}");
+            assert!((reference.tool_m() - from_m).norm() < 1e-9);
+            ticks += 1;
+            assert!(ticks < 200, "{from_m}");
+        }
+        assert!(ticks > 30, "3.2 degrees in .28 s");
     }
 
     #[test]

@@ -7,6 +7,7 @@ pub mod program;
 mod progress;
 pub mod replanner;
 pub mod rl;
+pub mod robot;
 pub mod you;
 
 use serde::{Deserialize, Serialize};
@@ -86,6 +87,7 @@ pub enum Carrier {
     Replanner(replanner::Replanner),
     You(you::You),
     Program(program::Program),
+    Robot(robot::Robot),
 }
 
 impl Carrier {
@@ -98,6 +100,7 @@ impl Carrier {
             ControllerName::Replanner => Self::Replanner(replanner::Replanner::default()),
             ControllerName::You => Self::You(you::You::default()),
             ControllerName::Program => Self::Program(program::Program::default()),
+            ControllerName::Robot => Self::Robot(robot::Robot),
         }
     }
 
@@ -133,6 +136,7 @@ impl Carrier {
             Self::Replanner(replanner) => replanner.trouble(),
             Self::You(you) => you.trouble(),
             Self::Program(program) => program.trouble(),
+            Self::Robot(robot) => robot.trouble(),
         }
     }
 
@@ -144,6 +148,7 @@ impl Carrier {
             Self::Replanner(replanner) => replanner,
             Self::You(you) => you,
             Self::Program(program) => program,
+            Self::Robot(robot) => robot,
         }
     }
 }

@@ -85,8 +85,8 @@ pub enum QueryError {
         /// Why the map was refused.
         error: MapError,
     },
-    #[error("controllers[{index}] is \"you\": an evaluation asks no person")]
-    Person { index: usize },
+    #[error("controllers[{index}] is {:?}: an evaluation asks no person and no robot client", .name.as_str())]
+    Person { index: usize, name: ControllerName },
     /// It must be given with the controller `program`, and only then, and be connected.
     #[error("program is {}, {why}", .name.as_ref().map_or("missing".to_owned(), |name| format!("{name:?}")))]
     Program { name: Option<String>, why: &'static str },
@@ -110,7 +110,7 @@ impl QueryError {
             Self::Empty { field } => (*field).to_owned(),
             Self::Twice { field, index, .. } => format!("{field}[{index}]"),
             Self::Map { index, .. } => format!("maps[{index}]"),
-            Self::Person { index } => format!("controllers[{index}]"),
+            Self::Person { index, .. } => format!("controllers[{index}]"),
             Self::Program { .. } => "program".to_owned(),
             Self::Policy(_) => "rl_policy".to_owned(),
             Self::Range { field, .. } => field.clone(),
@@ -125,8 +125,9 @@ impl EvaluationQuery {
     /// The cells of the query, with the controllers of a map next to each other.
     pub fn cells(&self) -> Result<Vec<Cell>, QueryError> {
         distinct("controllers", &self.controllers, |controller| controller.as_str().to_owned())?;
-        if let Some(index) = self.controllers.iter().position(|&name| name == ControllerName::You) {
-            return Err(QueryError::Person { index });
+        let person = |(_, name): &(usize, &ControllerName)| matches!(name, ControllerName::You | ControllerName::Robot);
+        if let Some((index, &name)) = self.controllers.iter().enumerate().find(person) {
+            return Err(QueryError::Person { index, name });
         }
         let refused = |why| QueryError::Program { name: self.program.clone(), why };
         match (self.controllers.contains(&ControllerName::Program), &self.program) {

@@ -23,8 +23,8 @@ use tokio::sync::{oneshot, watch};
 use tokio::time::Instant;
 
 use self::hand::Hand;
-pub use self::hub::Hub;
-use self::hub::{Encoded, json};
+use self::hub::json;
+pub use self::hub::{CameraWatch, Encoded, Hub};
 use self::seats::Seats;
 use super::Server;
 use super::path::{Path, SessionPath};

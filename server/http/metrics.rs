@@ -11,8 +11,8 @@ use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::registry::Registry;
 
-use super::Server;
 use super::problem::Problem;
+use super::{CAMERA_STREAMS, Server};
 
 type Labels = Vec<(&'static str, String)>;
 type Floats = Gauge<f64, std::sync::atomic::AtomicU64>;
@@ -84,6 +84,9 @@ fn registry(server: &Server) -> Registry {
     let of_sessions = Gauge::<i64>::default();
     of_sessions.set(hubs.len() as i64);
     registry.register("sessions", "Sessions", of_sessions);
+    let of_streams = Gauge::<i64>::default();
+    of_streams.set(CAMERA_STREAMS.saturating_sub(server.camera_streams.available_permits()) as i64);
+    registry.register("camera_streams", "Open camera streams", of_streams);
     let floats = [
         ("session_tick", "Ticks since the start of the trial"),
         ("session_speed", "Achieved simulated seconds per second"),

@@ -51,9 +51,9 @@ impl Programs {
     pub fn connect(&self, name: &str) -> Result<Link, Problem> {
         let is_taken = ControllerName::ALL.iter().any(|own| own.as_str() == name);
         if !is_name(name) || is_taken {
+            let own = ControllerName::ALL.map(ControllerName::as_str).join(", ");
             let detail = format!(
-                "{name:?} cannot be the name of a program: use 1 to 32 of a to z, 0 to 9 and -; rl, errt, attractor, replanner, \
-                 you and program are Ferry's own"
+                "{name:?} cannot be the name of a program: use 1 to 32 of a to z, 0 to 9 and -; {own} are Ferry's own"
             );
             return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "bad_name", detail).field("name"));
         }

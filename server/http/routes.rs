@@ -1,6 +1,7 @@
 //! All routes, one file per resource.
 
 mod calculator;
+mod camera_stream;
 pub mod challenges;
 mod controllers;
 pub mod description;
@@ -14,6 +15,7 @@ mod policies;
 mod recordings;
 mod recoveries;
 mod sessions;
+mod tracker;
 mod trainings;
 pub mod values;
 mod viewer;
@@ -62,7 +64,9 @@ pub fn described() -> OpenApiRouter<Arc<Server>> {
         .routes(routes!(sessions::session, sessions::delete_session))
         .routes(routes!(sessions::state))
         .routes(routes!(sessions::camera))
+        .routes(routes!(camera_stream::camera_stream))
         .routes(routes!(sessions::observation))
+        .routes(routes!(tracker::tracker))
         .routes(routes!(flow::flow))
         .routes(routes!(lumen::lumen))
         .routes(routes!(values::values))

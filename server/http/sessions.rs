@@ -19,7 +19,7 @@ use crate::recording::{Archive, Options, Recorder};
 use crate::scenario::Scenario;
 use crate::session::{Command, CommandError, Opening, Session};
 use crate::trial::{Catalog, Nowhere, Sink, TrialError};
-use crate::ur::Reports;
+use crate::ur::Robot;
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";
@@ -54,8 +54,8 @@ pub struct Sessions {
     maps: watch::Receiver<u64>,
     settings: SessionSettings,
     saved: SavedSessions,
-    /// The arm of [`MAIN`].
-    arm: Arc<Reports>,
+    /// The robot whose arm is that of [`MAIN`].
+    robot: Arc<Robot>,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// Held while a session opens, so that two requests for one name get the same session.
     opening: tokio::sync::Mutex<()>,
@@ -85,7 +85,7 @@ impl Sessions {
             maps,
             settings,
             saved,
-            arm: Arc::default(),
+            robot: Arc::default(),
             hubs: RwLock::default(),
             opening: tokio::sync::Mutex::default(),
             made: AtomicU64::new(0),
@@ -95,9 +95,9 @@ impl Sessions {
         Ok(sessions)
     }
 
-    /// The arm of the session `main`, tick by tick.
-    pub fn arm(&self) -> &Arc<Reports> {
-        &self.arm
+    /// The robot of the session `main`.
+    pub fn robot(&self) -> &Arc<Robot> {
+        &self.robot
     }
 
     pub fn park_after(&self) -> Duration {
@@ -211,9 +211,9 @@ impl Sessions {
             self.saved.opened(id, &session);
         }
         if id == MAIN
-            && let Err(error) = session.report_arm(self.arm.clone())
+            && let Err(error) = session.connect_robot(self.robot.clone())
         {
-            tracing::warn!(%error, "the arm is not reported");
+            tracing::warn!(%error, "the session has no robot");
         }
         tracing::info!(session = id, "session opened");
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))

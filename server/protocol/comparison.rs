@@ -81,7 +81,7 @@ impl MomentMessage {
             goal_m: before.goal_m.map(|goal| goal.coords.into()),
             target_m: match decision.motion {
                 Motion::Segment(step) => Some(step.target_m.coords.into()),
-                Motion::Hold | Motion::Track => None,
+                Motion::Hold | Motion::Track | Motion::Joints(_) => None,
             },
             refusal: decision.refusal.as_ref().map(ToString::to_string),
             trouble: record.moment.trouble.map(|trouble| trouble.to_string()),

@@ -239,7 +239,7 @@ impl OverlayMessage {
             obstacle: sight.percept.obstacle(),
             target_m: match motion {
                 Motion::Segment(step) => Some(step.target_m.coords.into()),
-                Motion::Hold | Motion::Track => None,
+                Motion::Hold | Motion::Track | Motion::Joints(_) => None,
             },
             picture_from_table: sight.frame.pinhole.picture_from_table(sight.frame.picture.width_px),
             blocks: BlocksLayer::from(sight),

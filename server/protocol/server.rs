@@ -6,13 +6,15 @@ use utoipa::ToSchema;
 
 use super::lumen::wave_m;
 use super::numbers::{Numbers2, Numbers3, Numbers6};
-use super::{AttemptStanding, ComparisonMessage, ErrorMessage, OverlayMessage, ProgramStanding, SeenMessage};
+use super::{
+    AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, RobotStanding,
+    SeenMessage,
+};
 use crate::geometry::{Point2, Polygon, Rect};
 use crate::plant::{BEAD_RADIUS_M, PositionerKind};
 use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::scenario::{ControllerName, Parameters, Scenario};
 use crate::session::{KeptRunSummary, OpenedCase, Scenery, View};
-use crate::trial::{Event, EventKind};
 
 /// Directions in which the scene gives the capture distances.
 const CAPTURE_DIRECTIONS: u32 = 72;
@@ -279,39 +281,14 @@ pub struct StateMessage {
     pub attempt: Option<AttemptStanding>,
     /// The program that was selected last.
     pub program: Option<ProgramStanding>,
+    /// The clients of the robot server; `null` if this session has none.
+    pub robot: Option<RobotStanding>,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
     /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
     pub ended: Option<String>,
-}
-
-/// See `ServerMessage::Event`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
-pub struct EventMessage {
-    #[ts(type = "number")]
-    pub tick: u64,
-    pub sim_time_s: f64,
-    pub kind: EventKind,
-    /// One sentence.
-    pub text: String,
-    /// Part of the past of a run that the session has returned to; omitted otherwise.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    #[ts(optional, as = "Option<bool>")]
-    pub again: bool,
-}
-
-impl From<&Event> for EventMessage {
-    fn from(event: &Event) -> Self {
-        Self {
-            tick: event.tick,
-            sim_time_s: event.tick as f64 * SERVO_PERIOD_S,
-            kind: event.kind,
-            text: event.text.clone(),
-            again: false,
-        }
-    }
 }
 
 impl From<&Scenery> for SceneMessage {
@@ -391,6 +368,7 @@ impl From<&View> for StateMessage {
             disturbances: m.counters.disturbances,
             attempt: view.attempt.as_ref().map(AttemptStanding::from),
             program: view.program.as_deref().map(ProgramStanding::from),
+            robot: view.robot.as_ref().map(RobotStanding::from),
             world_hash: format!("{:016x}", view.world_hash),
             recording: view.recording.clone(),
             ended: view.ended.clone(),

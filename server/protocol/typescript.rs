@@ -124,7 +124,7 @@ macro_rules! declared {
 }
 
 /// The types of each generated file.
-fn modules() -> [(&'static str, Vec<Declaration>); 17] {
+fn modules() -> [(&'static str, Vec<Declaration>); 18] {
     [
         ("experiment", declared![Polygon, Rect, ControllerName, PositionerKind, Disturbance, When, Scripted, Scenario]),
         ("messages", declared![ClientMessage, Role, ServerMessage, Hello, EventKind, EventMessage, ErrorMessage,]),
@@ -224,6 +224,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 17] {
         ),
         ("lumen", declared![WallRing, Lumen]),
         ("programs", declared![ProgramStanding, Programs]),
+        ("robot", declared![RobotClient, RobotRefusal, RobotStanding]),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]
 }

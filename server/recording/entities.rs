@@ -278,7 +278,9 @@ impl Writer {
                 self.plans = Some(errt.plans());
                 self.plan(errt, &sight.known)
             }
-            Carrier::Errt(_) | Carrier::Replanner(_) | Carrier::You(_) | Carrier::Program(_) => Ok(()),
+            Carrier::Errt(_) | Carrier::Replanner(_) | Carrier::You(_) | Carrier::Program(_) | Carrier::Robot(_) => {
+                Ok(())
+            }
             Carrier::Attractor(_) => {
                 if self.plans.take().is_some() {
                     self.log("workspace/planner", &Clear::recursive())?;

@@ -78,8 +78,8 @@ pub enum RecoveryError {
     NoController,
     #[error("controllers[{index}] is {:?}, which is in the list already", .name.as_str())]
     Twice { index: usize, name: ControllerName },
-    #[error("controllers[{index}] is \"you\": a recovery map asks no person")]
-    Person { index: usize },
+    #[error("controllers[{index}] is {:?}: a recovery map asks no person and no robot client", .name.as_str())]
+    Person { index: usize, name: ControllerName },
     #[error("controllers[{index}] is \"program\", but no program is selected in the session and connected")]
     Program { index: usize },
     #[error("{field} is {value}, it must be {min} to {max}")]
@@ -99,7 +99,7 @@ impl RecoveryError {
     pub fn field(&self) -> String {
         match self {
             Self::NoController => "controllers".to_owned(),
-            Self::Twice { index, .. } | Self::Person { index } | Self::Program { index } => {
+            Self::Twice { index, .. } | Self::Person { index, .. } | Self::Program { index } => {
                 format!("controllers[{index}]")
             }
             Self::Range { field, .. } => (*field).to_owned(),
@@ -119,7 +119,7 @@ impl RecoveryQuery {
         for (index, &name) in self.controllers.iter().enumerate() {
             match name {
                 _ if self.controllers[..index].contains(&name) => return Err(RecoveryError::Twice { index, name }),
-                ControllerName::You => return Err(RecoveryError::Person { index }),
+                ControllerName::You | ControllerName::Robot => return Err(RecoveryError::Person { index, name }),
                 ControllerName::Program if !has_program => return Err(RecoveryError::Program { index }),
                 _ => {}
             }

@@ -96,3 +96,31 @@ async fn a_port_in_use_is_named() {
     let error = Ports::open(address).await.err().unwrap();
     assert!(error.to_string().starts_with("robot server: port 29999 of 127.0.28.4: "), "{error}");
 }
+
+#[tokio::test]
+async fn programs_at_the_script_ports_are_refused_without_an_arm_and_noted() {
+    let address = IpAddr::from(Ipv4Addr::new(127, 0, 28, 5));
+    let (stop, stopping) = watch::channel(false);
+    let robot = Arc::new(Robot::default());
+    let served = tokio::spawn(serve(Ports::open(address).await.unwrap(), robot.clone(), stopping));
+    let soon = async |is_so: &dyn Fn() -> bool| {
+        let waiting = async {
+            while !is_so() {
+                tokio::time::sleep(Duration::from_millis(5)).await;
+            }
+        };
+        tokio::time::timeout(Duration::from_secs(10), waiting).await.unwrap();
+    };
+    for (count, port) in [30_001, 30_002, 30_003].into_iter().enumerate() {
+        let mut socket = connect(address, port).await;
+        socket.write_all(b"def a():\n  stopl(1)\nend\n").await.unwrap();
+        soon(&|| robot.standing().refused.len() > count).await;
+        let standing = robot.standing();
+        assert!(standing.refused[count].why.contains("planar stage"), "{standing:?}");
+        assert_eq!((standing.clients[0].port, standing.program), ("URScript", None));
+        drop(socket);
+        soon(&|| robot.standing().clients.is_empty()).await;
+    }
+    stop.send(true).unwrap();
+    served.await.unwrap();
+}

@@ -31,11 +31,4 @@ impl<E: ImageSource> Worker<E> {
         }
         let _ = self.events.send(event);
     }
-
-    /// Reports where the arm is, if it is reported.
-    pub(super) fn report_arm(&self) {
-        if let Some(reports) = &self.reports {
-            reports.note(&self.trial);
-        }
-    }
 }

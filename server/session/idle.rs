@@ -1,4 +1,4 @@
-//! What a paused session does: it looks at its recording, which may be interrupted meanwhile.
+//! What a paused session does: it looks at its recording, which may be interrupted meanwhile, and at the robot's clients.
 
 use std::sync::Arc;
 
@@ -9,9 +9,11 @@ use super::worker::Worker;
 use crate::camera::ImageSource;
 
 impl<E: ImageSource> Worker<E> {
-    /// Publishes a change of the recording's status, unless ticks publish it anyway.
-    pub(super) fn look_at_recording(&self, publish: &watch::Sender<Arc<View>>) {
-        if !self.running && self.sink.status() != publish.borrow().recording {
+    /// Publishes a change, unless ticks publish it anyway.
+    pub(super) fn look_around(&self, publish: &watch::Sender<Arc<View>>) {
+        let robot = self.robot.as_ref().map(|robot| robot.standing());
+        let has_changed = self.sink.status() != publish.borrow().recording || robot != publish.borrow().robot;
+        if !self.running && has_changed {
             publish.send_replace(Arc::new(self.view()));
         }
     }

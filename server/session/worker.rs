@@ -21,7 +21,7 @@ use crate::faults;
 use crate::program::Program;
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
-use crate::ur::Reports;
+use crate::ur::Robot;
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -68,8 +68,8 @@ pub(super) struct Worker<E> {
     /// The question that it has not answered yet.
     pub(super) asking: Option<Asking>,
     pub(super) journal: Arc<Vec<Event>>,
-    /// Where the arm is reported.
-    pub(super) reports: Option<Arc<Reports>>,
+    /// Where the arm is reported, and whose clients may command it.
+    pub(super) robot: Option<Arc<Robot>>,
     /// Ticks that are left of a `Step`. They run in slices, between which requests are answered.
     pub(super) stepping: u32,
     /// Who waits for the end of the `Step`.
@@ -120,7 +120,7 @@ impl<E: ImageSource> Worker<E> {
             program: None,
             asking: None,
             journal: Arc::default(),
-            reports: None,
+            robot: None,
             stepping: 0,
             stepped: None,
             deferred: VecDeque::new(),
@@ -144,6 +144,7 @@ impl<E: ImageSource> Worker<E> {
             journal: self.journal.clone(),
             attempt: self.playing.as_ref().map(|playing| playing.standing(self.trial.state().world.tick)),
             program: self.program.clone(),
+            robot: self.robot.as_ref().map(|robot| robot.standing()),
             recording: self.sink.status(),
             ended: None,
         }
@@ -171,6 +172,7 @@ impl<E: ImageSource> Worker<E> {
     fn serve(&mut self, inbox: &Receiver<Request>, publish: &watch::Sender<Arc<View>>) -> Result<(), TrialError> {
         let mut publish_at = Instant::now();
         loop {
+            self.give_arm(publish);
             let now = Instant::now();
             let steps = self.stepping > 0 || self.stepped.is_some() || !self.deferred.is_empty();
             let wait = match (steps, self.running) {
@@ -182,7 +184,7 @@ impl<E: ImageSource> Worker<E> {
             if wait > Duration::ZERO {
                 match inbox.recv_timeout(wait) {
                     Ok(request) => self.answer(request, publish)?,
-                    Err(RecvTimeoutError::Timeout) if wait == LOOK_EVERY => self.look_at_recording(publish),
+                    Err(RecvTimeoutError::Timeout) if wait == LOOK_EVERY => self.look_around(publish),
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => return Ok(()),
                 }
@@ -247,7 +249,7 @@ impl<E: ImageSource> Worker<E> {
             Request::Save { answer } => {
                 let _ = answer.send(self.saved());
             }
-            Request::Report(reports) => self.reports = Some(reports),
+            Request::Robot(robot) => self.robot = Some(robot),
         }
         // A reset moves the arm without a tick.
         self.report_arm();
@@ -352,6 +354,7 @@ impl<E: ImageSource> Worker<E> {
             self.forget_after(tick);
             self.timeline.keep(self.trial.snapshot());
         }
+        self.ask_robot();
         let source = match self.see()? {
             Sees::Waits => return Ok(false),
             Sees::Now(seen) => Source::Seen(seen),

@@ -17,7 +17,7 @@ use crate::perception::{
     BeadView, CellRect, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, wall_spread,
 };
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::Parameters;
+use crate::scenario::{ControllerName, Parameters};
 
 /// A planner that finds no path between moving walls waits this many times the obstacle map's memory for one.
 const MEMORIES_WAITED: f64 = 2.0;
@@ -69,6 +69,9 @@ impl Trial {
         let TrialState { world, controller_state, .. } = &mut self.state;
         controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
         update_known(&mut controller_state.known, world.tick, percept, &world.parameters);
+        if self.state.controller == ControllerName::Robot {
+            return self.leave_to_robot();
+        }
         let (switching, stage) = self.stage(percept);
         if let Stage::TrackerLost { is_stopped } = stage {
             return self.look_for_bead(frame, percept, is_stopped);
@@ -100,6 +103,17 @@ impl Trial {
             Ok(step) => Decision { motion: Motion::Segment(step), ..hold },
             Err(refusal) => Decision { refusal: Some(refusal), ..hold },
         }
+    }
+
+    /// A program for a UR5 commands the joints: no sub-controller does anything.
+    fn leave_to_robot(&self) -> Decision {
+        let world = &self.state.world;
+        let motion = match world.motion {
+            Motion::Joints(joints_rad) => Motion::Joints(joints_rad),
+            _ => Motion::Hold,
+        };
+        let switching = switching::Decision { mode: Mode::Transport, switched: false, ..world.switching };
+        Decision { switching, motion, refusal: None }
     }
 
     /// The step that sub-controller 2 proposes.
@@ -271,6 +285,10 @@ impl Trial {
 
     /// Counts the control step, or stops the trial if no step is left. A step without the tracker has its own count.
     fn count(&mut self) {
+        // What a program for a UR5 does has no steps.
+        if self.state.controller == ControllerName::Robot {
+            return;
+        }
         // A person may rest: only steps that move the tool count.
         let tool = self.tool_m().xy();
         let rests = self.state.controller_state.carrier.you().is_some()

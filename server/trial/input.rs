@@ -2,18 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Event, EventKind, Phase, Trial, TrialState};
-use crate::control::Refusal;
+use super::input_error::{InputError, REASON_BYTES_MOST, WAITING_MOST};
+use super::{Event, EventKind, Motion, Phase, Trial, TrialState};
+use crate::control::limits::JointRefusal;
 use crate::control::transport::Carrier;
 use crate::control::transport::program::Answer;
 use crate::control::transport::you::Steering;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
 use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant};
-use crate::scenario::{ControllerName, Disturbance, DisturbanceError, ParameterError, Parameters, Stream};
-
-/// Maximum number of inputs before one tick: a quarter of an hour of dragging while paused. All are logged.
-const WAITING_MOST: usize = 50_000;
+use crate::robot::Joints;
+use crate::scenario::{ControllerName, Disturbance, Parameters, Stream};
 
 /// An input of a trial; it is logged with the tick that follows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,74 +60,8 @@ pub enum Input {
         /// At most 200 bytes.
         reason: String,
     },
-}
-
-/// Largest length of a program's reason.
-pub const REASON_BYTES_MOST: usize = 200;
-
-/// Why an input was refused. The trial did not change.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum InputError {
-    /// Not a number.
-    #[error("{field} is {value}, it must be finite")]
-    NotFinite { field: &'static str, value: f64 },
-    /// Not on the table.
-    #[error("{field} ({x_m:.3}, {y_m:.3}) m is outside the workspace")]
-    OutsideWorkspace { field: &'static str, x_m: f64, y_m: f64 },
-    /// In a wall, or nearer to one than the bead's radius.
-    #[error("{field} ({x_m:.3}, {y_m:.3}) m is in a wall or nearer to one than the bead's radius of 2.5 mm")]
-    InWall { field: &'static str, x_m: f64, y_m: f64 },
-    /// The arm cannot go there.
-    #[error("{field}: {refusal}")]
-    Reach { field: &'static str, refusal: Refusal },
-    /// A parameter out of range.
-    #[error("parameters: {0}")]
-    Parameter(#[from] ParameterError),
-    /// A disturbance is invalid.
-    #[error("disturbance: {0}")]
-    Disturbance(#[from] DisturbanceError),
-    /// Only a person is steered.
-    #[error("steer: the controller is {}, only You can be steered", .0.label())]
-    NotYou(ControllerName),
-    /// Only a program gives answers.
-    #[error("answer: the controller is {}, only a program is asked", .0.label())]
-    NotProgram(ControllerName),
-    #[error("reason has {bytes} bytes, it must have {REASON_BYTES_MOST} at most")]
-    LongReason { bytes: usize },
-    /// Too many inputs are waiting for the next tick of a paused session.
-    #[error("the session is paused and {WAITING_MOST} inputs wait for its next tick; run it first")]
-    TooManyWait,
-}
-
-impl InputError {
-    /// For programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::NotFinite { .. } => "not_finite",
-            Self::OutsideWorkspace { .. } => "outside_workspace",
-            Self::InWall { .. } => "in_wall",
-            Self::Reach { .. } => "out_of_reach",
-            Self::Parameter(_) => "parameter_out_of_range",
-            Self::Disturbance(_) => "disturbance_out_of_range",
-            Self::NotYou(_) => "not_you",
-            Self::NotProgram(_) => "not_program",
-            Self::LongReason { .. } => "long_reason",
-            Self::TooManyWait => "too_many_wait",
-        }
-    }
-
-    pub fn field(&self) -> &'static str {
-        match self {
-            Self::NotFinite { field, .. }
-            | Self::OutsideWorkspace { field, .. }
-            | Self::InWall { field, .. }
-            | Self::Reach { field, .. } => field,
-            Self::Parameter(error) => error.field,
-            Self::Disturbance(error) => error.field,
-            Self::LongReason { .. } => "reason",
-            Self::NotYou(_) | Self::NotProgram(_) | Self::TooManyWait => "type",
-        }
-    }
+    /// Joint angles at the next tick, from a program for a UR5.
+    Servo { joints_rad: Joints },
 }
 
 /// Finite and on the table.
@@ -206,6 +139,7 @@ impl Trial {
                 return Err(InputError::LongReason { bytes: reason.len() });
             }
             Input::Hold { reason } => self.answer(Answer::Hold { reason: reason.clone() })?,
+            Input::Servo { joints_rad } => self.servo(joints_rad)?,
         }
         self.inputs.push(input);
         Ok(())
@@ -227,6 +161,17 @@ impl Trial {
             return Err(InputError::NotProgram(*controller));
         };
         program.answer(answer);
+        Ok(())
+    }
+
+    fn servo(&mut self, joints_rad: &Joints) -> Result<(), InputError> {
+        if self.state.controller != ControllerName::Robot {
+            return Err(InputError::NotRobot(self.state.controller));
+        }
+        let world = &mut self.state.world;
+        let here_rad = world.reference.joints_rad().ok_or(JointRefusal::NoJoints)?;
+        self.arena.limits(&world.parameters).joints(&here_rad, joints_rad)?;
+        world.motion = Motion::Joints(*joints_rad);
         Ok(())
     }
 

@@ -16,6 +16,7 @@ use crate::geometry::Rect;
 use crate::geometry::{Point2, Point3};
 use crate::perception::ObstacleMap;
 use crate::plant::{Bead, PlantState, Positioner, WallMotion};
+use crate::robot::Joints;
 use crate::scenario::{ControllerName, Hashed, Parameters, Scenario, Stream};
 use crate::tracking::Tracker;
 
@@ -27,6 +28,8 @@ pub enum Motion {
     Segment(TargetStep),
     /// Follows the tracked bead, tick by tick (sub-controller 1).
     Track,
+    /// Joint angles in rad, at the next tick, and then rest (a program for a UR5).
+    Joints(Joints),
 }
 
 /// Result of a control step; part of the log.

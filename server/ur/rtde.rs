@@ -9,7 +9,9 @@ use bytes::Buf;
 use tokio_util::codec::LengthDelimitedCodec;
 
 use super::Arm;
+use super::controller::{ClientId, Controller};
 use super::dashboard::VERSION;
+use super::inputs::Input;
 
 /// The protocol version that is spoken.
 const PROTOCOL: u16 = 2;
@@ -17,6 +19,8 @@ const PROTOCOL: u16 = 2;
 pub const RATE_MOST_HZ: f64 = 125.0;
 /// Names in a recipe.
 const NAMES_MOST: usize = 256;
+/// Input recipes of a client.
+const RECIPES_MOST: usize = 64;
 
 /// Types of frames.
 mod kind {
@@ -37,6 +41,10 @@ pub enum FrameError {
     NoType,
     #[error("a frame of type {kind} is too short: {bytes} bytes of payload")]
     Short { kind: u8, bytes: usize },
+    #[error("data for recipe {recipe} has {bytes} bytes, it must have {expected}")]
+    Data { recipe: u8, bytes: usize, expected: usize },
+    #[error("data for recipe {recipe}, which was not set up")]
+    NoRecipe { recipe: u8 },
 }
 
 /// How frames lie in a stream: the size comes first, and counts itself.
@@ -51,7 +59,10 @@ pub fn framing() -> LengthDelimitedCodec {
 /// The state of one client's connection.
 #[derive(Debug, Default)]
 pub struct Client {
+    id: ClientId,
     outputs: Option<Recipe>,
+    /// What it writes, by the recipe's number, from 1; empty ones were refused.
+    inputs: Vec<Vec<Input>>,
     is_started: bool,
 }
 
@@ -68,11 +79,15 @@ fn frame(kind: u8, payload: &[u8]) -> Vec<u8> {
 }
 
 impl Client {
+    pub fn new(id: ClientId) -> Self {
+        Self { id, ..Self::default() }
+    }
+
     /// The answer to a frame, if there is one. Both are without their sizes, see [`framing`].
     ///
     /// # Errors
-    /// [`FrameError`].
-    pub fn answer(&mut self, frame_in: &[u8]) -> Result<Option<Vec<u8>>, FrameError> {
+    /// [`FrameError`]; then nothing was written.
+    pub fn answer(&mut self, frame_in: &[u8], robot: &mut Controller) -> Result<Option<Vec<u8>>, FrameError> {
         let (&kind, mut payload) = frame_in.split_first().ok_or(FrameError::NoType)?;
         let short = FrameError::Short { kind, bytes: payload.len() };
         Ok(Some(match kind {
@@ -85,11 +100,7 @@ impl Client {
                 let rate_hz = payload.try_get_f64().map_err(|_| short)?;
                 self.choose(rate_hz, &names(payload))
             }
-            // Nothing can be written yet, so no name is found.
-            kind::INPUTS => {
-                let types: Vec<_> = names(payload).iter().map(|_| "NOT_FOUND").collect();
-                frame(kind, &recipe_answer(0, &types))
-            }
+            kind::INPUTS => self.claim(&names(payload), robot),
             kind::START => {
                 self.is_started = self.outputs.is_some();
                 frame(kind, &[u8::from(self.is_started)])
@@ -98,7 +109,12 @@ impl Client {
                 self.is_started = false;
                 frame(kind, &[1])
             }
-            kind::DATA | kind::TEXT_MESSAGE => return Ok(None),
+            kind::DATA => {
+                let recipe = payload.try_get_u8().map_err(|_| short)?;
+                self.write(recipe, payload, robot)?;
+                return Ok(None);
+            }
+            kind::TEXT_MESSAGE => return Ok(None),
             _ => frame(kind::TEXT_MESSAGE, &text(&format!("Ferry does not know the type {kind}"))),
         }))
     }
@@ -114,6 +130,41 @@ impl Client {
         frame(kind::OUTPUTS, &recipe_answer(u8::from(self.outputs.is_some()), &types))
     }
 
+    /// Sets up an input recipe. Its number is taken also if it is refused, so that those that follow keep theirs.
+    fn claim(&mut self, names: &[String], robot: &mut Controller) -> Vec<u8> {
+        let found: Vec<Option<Input>> = names.iter().map(|name| Input::named(name)).collect();
+        let is_usable = !names.is_empty() && names.len() <= NAMES_MOST && self.inputs.len() < RECIPES_MOST;
+        let mut types = Vec::new();
+        let mut inputs = Vec::new();
+        for input in found {
+            types.push(match input {
+                None => "NOT_FOUND",
+                Some(input) if is_usable && robot.claim(input, self.id) => {
+                    inputs.push(input);
+                    input.type_name()
+                }
+                Some(_) => "IN_USE",
+            });
+        }
+        let is_complete = is_usable && inputs.len() == names.len();
+        if self.inputs.len() < RECIPES_MOST {
+            self.inputs.push(if is_complete { inputs } else { Vec::new() });
+        }
+        let number = if is_complete { self.inputs.len() as u8 } else { 0 };
+        frame(kind::INPUTS, &recipe_answer(number, &types))
+    }
+
+    fn write(&self, recipe: u8, mut payload: &[u8], robot: &mut Controller) -> Result<(), FrameError> {
+        let inputs = usize::from(recipe).checked_sub(1).and_then(|place| self.inputs.get(place));
+        let inputs = inputs.filter(|inputs| !inputs.is_empty()).ok_or(FrameError::NoRecipe { recipe })?;
+        let expected = inputs.iter().map(|input| input.bytes()).sum();
+        if payload.len() != expected {
+            return Err(FrameError::Data { recipe, bytes: payload.len(), expected });
+        }
+        robot.write(inputs, &mut payload);
+        Ok(())
+    }
+
     /// Ticks between two data frames, while they are sent.
     pub fn every_ticks(&self) -> Option<u64> {
         let recipe = self.outputs.as_ref().filter(|_| self.is_started)?;
@@ -121,10 +172,10 @@ impl Client {
     }
 
     /// A frame with the values that the client has chosen; `None` without a recipe.
-    pub fn data(&self, arm: &Arm) -> Option<Vec<u8>> {
+    pub fn data(&self, arm: &Arm, robot: &Controller) -> Option<Vec<u8>> {
         let recipe = self.outputs.as_ref()?;
         let mut payload = vec![1];
-        recipe.outputs.iter().for_each(|output| output.write(arm, &mut payload));
+        recipe.outputs.iter().for_each(|output| output.write(arm, robot, &mut payload));
         Some(frame(kind::DATA, &payload))
     }
 }
@@ -158,7 +209,7 @@ mod tests {
     }
 
     fn answered(client: &mut Client, kind: u8, payload: &[u8]) -> Vec<u8> {
-        let answer = client.answer(&frame(kind, payload)).unwrap().unwrap();
+        let answer = client.answer(&frame(kind, payload), &mut Controller::default()).unwrap().unwrap();
         assert_eq!(answer[0], kind);
         answer[1..].to_vec()
     }
@@ -170,14 +221,14 @@ mod tests {
         assert_eq!(answered(&mut client, b'V', &[0, 1]), [0]);
         assert_eq!(answered(&mut client, b'v', &[]), [0, 0, 0, 3, 0, 0, 0, 15, 0, 0, 0, 8, 0, 0, 0, 0]);
         assert_eq!(answered(&mut client, b'S', &[]), [0], "nothing is chosen");
-        assert_eq!(client.data(&Arm::default()), None);
+        assert_eq!(client.data(&Arm::default(), &Controller::default()), None);
         let chosen = answered(&mut client, b'O', &outputs(62.5, "timestamp,actual_q,robot_mode,"));
         assert_eq!(chosen, [&[1], "DOUBLE,VECTOR6D,INT32".as_bytes()].concat());
         assert_eq!(client.every_ticks(), None, "not started");
         assert_eq!(answered(&mut client, b'S', &[]), [1]);
         assert_eq!(client.every_ticks(), Some(2));
         let arm = Arm { time_s: 1.5, has_joints: true, actual_q_rad: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], ..Arm::default() };
-        let data = client.data(&arm).unwrap();
+        let data = client.data(&arm, &Controller::default()).unwrap();
         let mut payload = &data[..];
         assert_eq!((payload.get_u8(), payload.get_u8(), payload.get_f64()), (b'U', 1, 1.5));
         assert_eq!(std::array::from_fn::<_, 6, _>(|_| payload.get_f64()), arm.actual_q_rad);
@@ -195,12 +246,47 @@ mod tests {
             assert_eq!(answered(&mut client, b'O', &outputs(rate_hz, "actual_q"))[0], 0, "{rate_hz}");
         }
         assert_eq!(answered(&mut client, b'S', &[]), [0]);
-        assert_eq!(answered(&mut client, b'I', b"input_int_register_0"), [&[0], "NOT_FOUND".as_bytes()].concat());
         let many = vec!["actual_q"; NAMES_MOST + 1].join(",");
         assert_eq!(answered(&mut client, b'O', &outputs(125.0, &many))[0], 0);
-        assert_eq!(client.answer(&[b'O', 0, 0]), Err(FrameError::Short { kind: b'O', bytes: 2 }));
-        assert_eq!(client.answer(&[]), Err(FrameError::NoType));
-        assert_eq!(client.answer(b"X").unwrap().unwrap()[0], b'M');
+        assert_eq!(
+            client.answer(&[b'O', 0, 0], &mut Controller::default()),
+            Err(FrameError::Short { kind: b'O', bytes: 2 })
+        );
+        assert_eq!(client.answer(&[], &mut Controller::default()), Err(FrameError::NoType));
+        assert_eq!(client.answer(b"X", &mut Controller::default()).unwrap().unwrap()[0], b'M');
+    }
+
+    #[test]
+    fn registers_are_claimed_and_written() {
+        let (mut first, mut second, mut robot) = (Client::new(1), Client::new(2), Controller::default());
+        let setup = |client: &mut Client, names: &str, robot: &mut Controller| {
+            client.answer(&frame(b'I', names.as_bytes()), robot).unwrap().unwrap()[1..].to_vec()
+        };
+        assert_eq!(
+            setup(&mut first, "input_int_register_0,wings", &mut robot),
+            [&[0], "INT32,NOT_FOUND".as_bytes()].concat()
+        );
+        let types = "INT32,DOUBLE,VECTOR6D".as_bytes();
+        let names = "input_int_register_0,input_double_register_1,external_force_torque,";
+        assert_eq!(
+            setup(&mut first, names, &mut robot),
+            [&[2], types].concat(),
+            "the number of the refused one is taken"
+        );
+        assert_eq!(setup(&mut second, "input_int_register_0", &mut robot), [&[0], "IN_USE".as_bytes()].concat());
+        assert_eq!(setup(&mut second, "input_int_register_1", &mut robot), [&[2], "INT32".as_bytes()].concat());
+        let data = [&[b'U', 2][..], &7_i32.to_be_bytes(), &0.5_f64.to_be_bytes(), &[0; 48]].concat();
+        assert_eq!(first.answer(&data, &mut robot), Ok(None));
+        assert_eq!((robot.inputs().int[0], robot.inputs().double[1]), (7, 0.5));
+        let before = robot.inputs().clone();
+        let short = first.answer(&data[..20], &mut robot);
+        assert_eq!(short, Err(FrameError::Data { recipe: 2, bytes: 18, expected: 60 }));
+        assert_eq!(first.answer(&[b'U', 1, 0], &mut robot), Err(FrameError::NoRecipe { recipe: 1 }));
+        assert_eq!(second.answer(&[b'U', 9], &mut robot), Err(FrameError::NoRecipe { recipe: 9 }));
+        assert_eq!(robot.inputs(), &before);
+        // A client that leaves frees its registers.
+        robot.disconnect(1);
+        assert_eq!(setup(&mut second, "input_int_register_0", &mut robot), [&[3], "INT32".as_bytes()].concat());
     }
 
     #[test]
@@ -217,12 +303,12 @@ mod tests {
     proptest! {
         #[test]
         fn any_frame_is_answered_or_refused(frames in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 0..8)) {
-            let mut client = Client::default();
+            let (mut client, mut robot) = (Client::default(), Controller::default());
             for received in frames {
-                if let Ok(Some(answer)) = client.answer(&received) {
+                if let Ok(Some(answer)) = client.answer(&received, &mut robot) {
                     prop_assert!(!answer.is_empty() && answer.len() < 10_000);
                 }
-                prop_assert_eq!(client.data(&Arm::default()).is_some(), client.outputs.is_some());
+                prop_assert_eq!(client.data(&Arm::default(), &Controller::default()).is_some(), client.outputs.is_some());
             }
         }
     }

@@ -77,6 +77,16 @@ fn conversations_with_the_robot_server() {
 }
 
 #[test]
+fn programs_for_the_robot_are_refused_or_carried_out_within_the_limits() {
+    survives(Target::Script, 20_000);
+}
+
+#[test]
+fn lines_for_the_dashboard_are_answered() {
+    survives(Target::Dashboard, 20_000);
+}
+
+#[test]
 fn policies() {
     survives(Target::Policy, 200);
 }

@@ -18,7 +18,7 @@ const SMALL_MAP: &str = r#"<svg viewBox="-60 300 120 100"><rect x="-10" y="340" 
 
 impl Target {
     pub fn seeds(self) -> &'static [Vec<u8>] {
-        static SEEDS: LazyLock<[Vec<Vec<u8>>; 7]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
+        static SEEDS: LazyLock<[Vec<Vec<u8>>; 9]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
         &SEEDS[self as usize]
     }
 
@@ -31,6 +31,11 @@ impl Target {
             Self::Entries => ControllerName::ALL.map(|name| payload(&trial(name))).into(),
             Self::Policy => headers(),
             Self::Rtde => conversations(),
+            Self::Script => programs(),
+            Self::Dashboard => vec![
+                b"PolyscopeVersion\nrobotmode\nprogramState\nstop\nunlock protective stop\nquit\n".to_vec(),
+                b"safetymode\nrunning\nplay\npopup hello\nclose popup\nget robot model\n".to_vec(),
+            ],
         }
     }
 }
@@ -183,21 +188,40 @@ fn conversations() -> Vec<Vec<u8>> {
         let size = (3 + payload.len()) as u16;
         [&size.to_be_bytes()[..], &[kind], payload].concat()
     };
+    let register = |number: i32, values: [f64; 8]| {
+        let values = values.map(f64::to_be_bytes).concat();
+        frame(b'U', &[&[1][..], &number.to_be_bytes(), &values].concat())
+    };
     let names = ["timestamp,actual_q,actual_TCP_pose,robot_mode", "output_int_register_3,joint_mode,", "wings"];
+    let doubles: Vec<_> = (0..8).map(|number| format!("input_double_register_{number}")).collect();
+    let inputs = format!("input_int_register_0,{}", doubles.join(","));
     let conversation = |names: &str| {
         let outputs = [&125f64.to_be_bytes()[..], names.as_bytes()].concat();
         let frames = [
             frame(b'V', &[0, 2]),
             frame(b'v', &[]),
             frame(b'O', &outputs),
-            frame(b'I', b"input_int_register_0"),
+            frame(b'I', inputs.as_bytes()),
             frame(b'S', &[]),
-            frame(b'U', &[1, 0, 0, 0, 3]),
+            register(3, [0.02, -0.36, 0.1, 2.2214, -2.2214, 0.0, 0.1, 0.5]),
+            register(0, [0.0; 8]),
+            register(10, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.1]),
+            register(15, [2.0; 8]),
             frame(b'P', &[]),
         ];
         frames.concat()
     };
     names.map(conversation).into()
+}
+
+fn programs() -> Vec<Vec<u8>> {
+    let texts = [
+        "movel(p[0.02,-0.36,0.1,2.2214,-2.2214,0], a=1.2, v=0.25)\nstopl(2)\n",
+        "def mine():\n  movej([-1.6,-1.6,-1.6,-1.6,1.6,0])\n  sleep(0.1)\n  speedl([0.02,0,0,0,0,0], 0.5, 0.1)\nend\n",
+        "servoj([-1.6,-1.6,-1.6,-1.6,1.6,0], t=0.008, lookahead_time=0.1, gain=300)\nspeedj([0.1,0,0,0,0,0])\nstopj(1)\n",
+        "def a():\n  write_output_integer_register(0 +24, 1)\n  textmsg(\"hello\")\n  sync()\nend\nset_digital_out(1, True)\n",
+    ];
+    texts.map(|text| text.as_bytes().to_vec()).into()
 }
 
 /// Headers of the shipped policies, with four bytes in place of the weights.

@@ -4,13 +4,18 @@ use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex};
 
 use ferry::camera::{CameraError, ImageSource, Subject};
+use ferry::control::limits::Limits;
+use ferry::geometry::{Point3, Rect};
 use ferry::image::{CameraFrame, Picture};
 use ferry::map::{FreeSpace, Map};
+use ferry::plant::{Positioner, PositionerKind, ToolOrientation};
 use ferry::policy::Policy;
 use ferry::protocol::ClientMessage;
+use ferry::robot::Joints;
 use ferry::scenario::{ControllerName, Scenario};
 use ferry::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
-use ferry::ur::{Arm, rtde};
+use ferry::ur::controller::{Controller, LoadError};
+use ferry::ur::{Arm, dashboard, rtde, script};
 use tokio_util::codec::{Decoder, Encoder};
 
 /// Ticks that what was read is run on for: the first has a control step.
@@ -33,11 +38,24 @@ pub enum Target {
     Policy,
     /// What a client sends to the robot server's RTDE port.
     Rtde,
+    /// Programs for the robot.
+    Script,
+    /// Lines for the robot's dashboard.
+    Dashboard,
 }
 
 impl Target {
-    pub const ALL: [Self; 7] =
-        [Self::Message, Self::Map, Self::Case, Self::Log, Self::Entries, Self::Policy, Self::Rtde];
+    pub const ALL: [Self; 9] = [
+        Self::Message,
+        Self::Map,
+        Self::Case,
+        Self::Log,
+        Self::Entries,
+        Self::Policy,
+        Self::Rtde,
+        Self::Script,
+        Self::Dashboard,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -48,6 +66,8 @@ impl Target {
             Self::Entries => "entries",
             Self::Policy => "policy",
             Self::Rtde => "rtde",
+            Self::Script => "script",
+            Self::Dashboard => "dashboard",
         }
     }
 
@@ -61,6 +81,8 @@ impl Target {
             Self::Entries => InputLog::read(&framed(bytes)).is_ok_and(|log| run(&log)),
             Self::Policy => policy(bytes),
             Self::Rtde => rtde(bytes).is_some(),
+            Self::Script => std::str::from_utf8(bytes).is_ok_and(script),
+            Self::Dashboard => std::str::from_utf8(bytes).is_ok_and(lines),
         }
     }
 }
@@ -189,6 +211,8 @@ fn weights(bytes: &[u8]) -> Vec<u8> {
 
 /// `None` where the connection would be closed.
 fn rtde(mut stream: &[u8]) -> Option<()> {
+    let mut robot = Simulated::default();
+    robot.load(CONTROL_SCRIPT).expect("it is recognised");
     let (mut client, mut framing) = (rtde::Client::default(), rtde::framing());
     let mut received = bytes::BytesMut::new();
     let mut sent = bytes::BytesMut::new();
@@ -197,15 +221,96 @@ fn rtde(mut stream: &[u8]) -> Option<()> {
         let (piece, rest) = stream.split_at(stream.len().min(7));
         (stream, received) = (rest, [&received[..], piece].concat()[..].into());
         while let Some(frame) = framing.decode(&mut received).ok()? {
-            if let Some(answer) = client.answer(&frame).ok()? {
+            if let Some(answer) = client.answer(&frame, &mut robot.controller).ok()? {
                 framing.encode(bytes::Bytes::from(answer), &mut sent).expect("an answer fits into a frame");
             }
-            if let Some(data) = client.data(&Arm::default()) {
+            if let Some(data) = client.data(&Arm::default(), &robot.controller) {
                 framing.encode(bytes::Bytes::from(data), &mut sent).expect("data fit into a frame");
             }
+            robot.runs(3);
         }
     }
     Some(())
+}
+
+fn script(text: &str) -> bool {
+    let mut robot = Simulated::default();
+    let mut reader = script::Reader::default();
+    let mut all = true;
+    for line in text.lines() {
+        let Ok(program) = reader.take(line) else { return false };
+        let Some(program) = program else { continue };
+        robot.controller.unlock();
+        let before = robot.joints_rad;
+        let is_loaded = robot.load(&program).is_ok();
+        robot.runs(TICKS);
+        let may_move = is_loaded || robot.begun;
+        assert!(may_move || before == robot.joints_rad, "no motion from what was refused");
+        robot.begun |= is_loaded;
+        all &= is_loaded;
+    }
+    all
+}
+
+fn lines(text: &str) -> bool {
+    let mut robot = Simulated::default();
+    robot.load("speedl([0.03,0,0,0,0,0], 0.5, 0.1)").expect("it is understood");
+    for line in text.lines() {
+        let answer = dashboard::answer(line, &Arm::default(), &mut robot.controller);
+        assert!(!answer.is_empty() && answer.len() < line.len() + 100);
+        robot.runs(3);
+        if dashboard::ends(line) {
+            break;
+        }
+    }
+    true
+}
+
+/// What `ur_rtde`'s program has that it is recognised by.
+const CONTROL_SCRIPT: &str = "def rtde_control():\n  global reg_offset_int = # int register offset\n0\n  textmsg(\"RTDE Control Script\")\nend\n";
+
+/// A robot whose joints follow its controller within the limits.
+#[derive(Default)]
+struct Simulated {
+    controller: Controller,
+    joints_rad: Joints,
+    tick: u64,
+    begun: bool,
+}
+
+impl Simulated {
+    fn load(&mut self, text: &str) -> Result<(), LoadError> {
+        if self.tick == 0 {
+            let place_m = Point3::new(0.0, -0.35, 0.1);
+            let home = Positioner::home(PositionerKind::Arm, place_m);
+            let there = Positioner::at(place_m, ToolOrientation::Vertical, &home).unwrap();
+            self.joints_rad = there.joints_rad().unwrap();
+        }
+        self.controller.load(text, true)
+    }
+
+    fn runs(&mut self, ticks: usize) {
+        let workspace = Rect { x_min_m: -0.3, x_max_m: 0.3, y_min_m: -0.7, y_max_m: -0.15 };
+        let limits =
+            Limits { workspace, speed_m_s: 0.04, flight_speed_m_s: 0.25, tool_orientation: ToolOrientation::Vertical };
+        for _ in 0..ticks {
+            self.tick += 1;
+            let here_rad = self.joints_rad;
+            let Some(next_rad) = self.controller.next(self.tick, true, Some(&here_rad), &limits) else { continue };
+            if let Err(error) = limits.joints(&here_rad, &next_rad) {
+                self.controller.violate(&error.to_string());
+                assert!(self.controller.is_stopped());
+                let after = self.controller.next(self.tick, true, Some(&here_rad), &limits);
+                assert_eq!(after, None, "the arm stands still");
+                continue;
+            }
+            let place_m = Positioner::Arm(next_rad).tool_m();
+            assert!(workspace.contains(place_m.xy()) && place_m.z >= 0.09, "{place_m}");
+            self.joints_rad = next_rad;
+        }
+        assert!(self.controller.standing().refused.len() <= 20);
+        self.controller.take_news();
+    }
 }
 
 fn shipped(name: &str) -> Option<Arc<Arena>> {

@@ -78,7 +78,7 @@ impl Episode {
 /// Whether a decision follows the hand, or refuses to. If not, the arm flies to the bead, looks for it, or has stopped.
 fn is_by_hand(decision: &Decision) -> bool {
     match (decision.motion, &decision.refusal) {
-        (_, Some(Refusal::TrackerLost { .. })) | (Motion::Track, _) | (Motion::Hold, None) => false,
+        (_, Some(Refusal::TrackerLost { .. })) | (Motion::Track | Motion::Joints(_), _) | (Motion::Hold, None) => false,
         (Motion::Segment(_), _) | (Motion::Hold, Some(_)) => true,
     }
 }

@@ -1,7 +1,7 @@
 //! One session and its browsers. Each message is encoded once, and one browser is the operator.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
 use axum::body::Bytes;
@@ -25,6 +25,8 @@ use crate::session::{CommandError, Recalled, Session, View};
 /// Camera frames are sent at most thirty times a second.
 const CAMERA_EVERY: Duration = Duration::from_millis(33);
 const JPEG_QUALITY: u8 = 85;
+/// Bytes before the picture of a binary message.
+const BINARY_HEAD: usize = 8;
 
 /// The newest messages, ready to send. Parts that did not change are shared with the last one.
 #[derive(Clone)]
@@ -40,9 +42,17 @@ pub struct Encoded {
     /// Incremented when `seen` changes.
     pub seen_version: u64,
     pub camera: Bytes,
+    camera_tick: u64,
     pub observation: Bytes,
     /// Incremented when overlay, camera or observation change.
     pub sight_version: u64,
+}
+
+impl Encoded {
+    /// The camera's image as a JPEG file, and the tick at which it was taken; `None` if none could be encoded.
+    pub fn camera_jpeg(&self) -> Option<(u64, Bytes)> {
+        (!self.camera.is_empty()).then(|| (self.camera_tick, self.camera.slice(BINARY_HEAD..)))
+    }
 }
 
 /// A session with its browsers.
@@ -53,6 +63,8 @@ pub struct Hub {
     gpu: Arc<Gpu>,
     encoded: watch::Receiver<Encoded>,
     seats: watch::Sender<Seats>,
+    /// Number of open camera streams.
+    camera_streams: AtomicUsize,
     encoder: Mutex<Option<tokio::task::JoinHandle<()>>>,
     /// Becomes true when the session is deleted; its connections watch it.
     closing: watch::Sender<bool>,
@@ -75,9 +87,10 @@ impl Hub {
         let now = Instant::now();
         let views = session.watch();
         let version = *maps.borrow_and_update();
-        let first = Encoder::default().encode(&views.borrow(), version, true);
+        let mut encoder = Encoder::default();
+        let first = encoder.encode(&views.borrow(), version, true);
         let (publish, encoded) = watch::channel(first);
-        let encoder = tokio::spawn(encode_all(views, maps, publish));
+        let encoder = tokio::spawn(encode_all(encoder, views, maps, publish));
         Arc::new(Self {
             id: id.to_owned(),
             session,
@@ -88,6 +101,7 @@ impl Hub {
             comparing: Arc::new(Semaphore::new(1)),
             encoded,
             seats: watch::Sender::new(Seats::new(now)),
+            camera_streams: AtomicUsize::new(0),
             encoder: Mutex::new(Some(encoder)),
             closing: watch::Sender::new(false),
             watched: Mutex::new(now),
@@ -105,9 +119,17 @@ impl Hub {
         self.parked.store(false, Ordering::Relaxed);
     }
 
-    /// Time without connections.
+    /// Time without connections and camera streams.
     pub fn unwatched_for(&self) -> Duration {
-        if self.seats.borrow().viewers > 0 { Duration::ZERO } else { self.watched().elapsed() }
+        let is_watched = self.viewers() > 0 || self.camera_streams.load(Ordering::Relaxed) > 0;
+        if is_watched { Duration::ZERO } else { self.watched().elapsed() }
+    }
+
+    /// The session is not parked before the value is dropped.
+    pub fn watch_camera(self: &Arc<Self>) -> CameraWatch {
+        self.camera_streams.fetch_add(1, Ordering::Relaxed);
+        self.touch();
+        CameraWatch(Arc::downgrade(self))
     }
 
     /// Whether a fault has ended the session.
@@ -222,13 +244,25 @@ impl Drop for Hub {
     }
 }
 
+/// An open camera stream. It does not keep its session in memory.
+pub struct CameraWatch(Weak<Hub>);
+
+impl Drop for CameraWatch {
+    fn drop(&mut self) {
+        if let Some(hub) = self.0.upgrade() {
+            hub.touch();
+            hub.camera_streams.fetch_sub(1, Ordering::Relaxed);
+        }
+    }
+}
+
 /// The value of `maps` changes with the list of maps.
 async fn encode_all(
+    mut encoder: Encoder,
     mut views: watch::Receiver<Arc<View>>,
     mut maps: watch::Receiver<u64>,
     publish: watch::Sender<Encoded>,
 ) {
-    let mut encoder = Encoder { last: Some(publish.borrow().clone()), ..Encoder::default() };
     let mut camera_sent = Instant::now();
     loop {
         // A frame that came too soon after the last one is sent later, unless a newer one replaces it.
@@ -270,6 +304,7 @@ impl Encoder {
             seen: Utf8Bytes::default(),
             seen_version: 0,
             camera: Bytes::new(),
+            camera_tick: 0,
             observation: Bytes::new(),
             sight_version: 0,
         });
@@ -292,7 +327,10 @@ impl Encoder {
             }
             next.overlay = json(&ServerMessage::Overlay(Box::new(OverlayMessage::from(view))));
             match sight.frame.picture.to_jpeg(JPEG_QUALITY) {
-                Ok(jpeg) => next.camera = binary(BINARY_CAMERA_JPEG, *tick, &jpeg),
+                Ok(jpeg) => {
+                    next.camera = binary(BINARY_CAMERA_JPEG, *tick, &jpeg);
+                    next.camera_tick = *tick;
+                }
                 Err(error) => tracing::warn!(%error, "camera frame not encoded"),
             }
             next.observation = binary(BINARY_OBSERVATION, *tick, &sight.observation().bytes);

@@ -111,4 +111,6 @@ pub enum Input {
         /// At most 200 bytes.
         reason: String,
     },
+    /// Joint angles at the next tick, from a program for a UR5.
+    Servo { joints_rad: [f64; 6] },
 }

@@ -77,6 +77,8 @@ pub enum ControllerName {
     You,
     /// A program outside of Ferry, which is asked before each control step.
     Program,
+    /// A program for a UR5, which commands the joints; nothing else moves the arm.
+    Robot,
 }
 
 #[derive(Serialize, Deserialize, TS, ToSchema)]

@@ -24,6 +24,8 @@ export interface ServerOptions {
   readonly scenario?: string | null;
   /** The data folder of a server that was stopped; a new one if not set. */
   readonly data?: string;
+  /** The address of its robot server; without one if not set. Each test has its own. */
+  readonly robot?: string;
 }
 
 /** A server process with its own data folder. */
@@ -51,6 +53,7 @@ export class Server {
         ...['--data', data],
         ...['--sessions', String(SESSIONS)],
         ...(scenario === null ? [] : ['--scenario', scenario]),
+        ...(given.robot === undefined ? [] : ['--robot-server', given.robot]),
       ],
       {
         stdio: ['ignore', 'pipe', 'pipe'],

@@ -3,6 +3,7 @@
 import { Match, Show, Switch, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ProgramFacts } from '../features/program/ProgramFacts';
+import { RobotFacts } from '../features/robot/RobotFacts';
 import { ValueFans } from '../features/values/ValueFans';
 import type { ByHand, OpenTab, Pictures, Trial } from '../lab/slices';
 import { YouFacts } from '../features/steer/YouFacts';
@@ -16,6 +17,7 @@ const NONE_YET: Record<ControllerName, string | undefined> = {
   attractor: undefined,
   you: undefined,
   program: undefined,
+  robot: undefined,
 };
 
 export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTab }): JSX.Element {
@@ -29,6 +31,9 @@ export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTa
           </Show>
           <Show when={state().controller === 'program'}>
             <ProgramFacts program={state().program} />
+          </Show>
+          <Show when={state().controller === 'robot' && state().robot}>
+            {(robot) => <RobotFacts robot={robot()} />}
           </Show>
           <Show when={NONE_YET[state().controller]}>
             {(none) => (

@@ -97,6 +97,8 @@ function transport(moment: MomentMessage): string {
       return overlay.target_m
         ? `The program sent the tool to ${place(overlay.target_m)}.`
         : 'The program did not move the tool.';
+    case 'robot':
+      return 'A robot client commanded the joints.';
     case 'rl': {
       const judged = overlay.judgement;
       const action = judged && ACTIONS[judged.taken];

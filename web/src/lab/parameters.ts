@@ -29,6 +29,8 @@ export const CONTROLLER_HELP: Readonly<Record<ControllerName, string>> = {
   you: 'You: your hand points the tool to a place, and it goes there as fast as the controllers may.',
   program:
     'A program outside of Ferry. It gets the image at each step, and answers where the tool goes.',
+  robot:
+    'Robot client: a program for a UR5 commands the joints. Neither sub-controller moves the arm.',
 };
 
 export type NumberName = {

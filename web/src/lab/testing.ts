@@ -49,6 +49,7 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
     disturbances: 0,
     attempt: null,
     program: null,
+    robot: null,
     world_hash: '',
     recording: '',
     ended: null,

@@ -17,6 +17,7 @@ export * from './protocol/trainings.gen';
 export * from './protocol/challenges.gen';
 export * from './protocol/lumen.gen';
 export * from './protocol/programs.gen';
+export * from './protocol/robot.gen';
 export * from './protocol/policies.gen';
 
 /** Version of the messages. */
@@ -90,6 +91,7 @@ export const CONTROLLER_LABELS = {
   replanner: 'Replanner',
   you: 'You',
   program: 'Program',
+  robot: 'Robot client',
 } as const;
 
 /** Controllers that the page offers. */

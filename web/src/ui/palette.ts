@@ -37,6 +37,7 @@ const NAMES = [
   'replanner',
   'you',
   'program',
+  'robot',
   'table',
   'arm',
   'arm-lid',

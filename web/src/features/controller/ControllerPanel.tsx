@@ -108,6 +108,8 @@ function ControllerChoice(props: {
   return (
     <fieldset class="choice" role="radiogroup" aria-label="Controller">
       <For each={props.names}>{(controller) => radio({ controller })}</For>
+      {/* It takes the arm by itself; a choice only takes it back. */}
+      <Show when={lab.state()?.controller === 'robot'}>{radio({ controller: 'robot' })}</Show>
       <For each={names()}>{(program) => radio({ controller: 'program', program })}</For>
     </fieldset>
   );

@@ -174,6 +174,7 @@ export const CARRIERS: Readonly<Record<ControllerName, string>> = {
   replanner: 'The shortest path',
   you: 'A visitor',
   program: 'A program',
+  robot: 'A robot client',
 };
 
 /** What a screen shows that only watches: another one runs the programme. */

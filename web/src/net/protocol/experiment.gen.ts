@@ -41,7 +41,7 @@ y_max_m: number, };
 /**
  * Sub-controller 2, by name.
  */
-export type ControllerName = "rl" | "errt" | "attractor" | "replanner" | "you" | "program";
+export type ControllerName = "rl" | "errt" | "attractor" | "replanner" | "you" | "program" | "robot";
 
 export type PositionerKind = "arm" | "planar_stage";
 

@@ -4,6 +4,7 @@ import type { Parameters } from '../parameters.gen';
 import type { AttemptStanding } from './challenges.gen';
 import type { ControllerName, Polygon, PositionerKind, Rect, Scenario } from './experiment.gen';
 import type { ProgramStanding } from './programs.gen';
+import type { RobotStanding } from './robot.gen';
 
 /**
  * See `ServerMessage::Scene`.
@@ -262,6 +263,10 @@ attempt: AttemptStanding | null,
  * The program that was selected last.
  */
 program: ProgramStanding | null, 
+/**
+ * The clients of the robot server; `null` if this session has none.
+ */
+robot: RobotStanding | null, 
 /**
  * Hash of the plant's state, in hex.
  */

@@ -1,0 +1,35 @@
+//! Events of a session.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use crate::robot::ur5::SERVO_PERIOD_S;
+use crate::trial::{Event, EventKind};
+
+/// See `ServerMessage::Event`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct EventMessage {
+    #[ts(type = "number")]
+    pub tick: u64,
+    pub sim_time_s: f64,
+    pub kind: EventKind,
+    /// One sentence.
+    pub text: String,
+    /// Part of the past of a run that the session has returned to; omitted otherwise.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(optional, as = "Option<bool>")]
+    pub again: bool,
+}
+
+impl From<&Event> for EventMessage {
+    fn from(event: &Event) -> Self {
+        Self {
+            tick: event.tick,
+            sim_time_s: event.tick as f64 * SERVO_PERIOD_S,
+            kind: event.kind,
+            text: event.text.clone(),
+            again: false,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! The clients of the robot server, for the page.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+use utoipa::ToSchema;
+
+use crate::ur::Standing;
+
+/// Who is connected to the robot server, what moves the arm, and what was refused.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct RobotStanding {
+    pub clients: Vec<RobotClient>,
+    /// The program that runs.
+    pub program: Option<String>,
+    /// URScript's name of the motion, while there is one.
+    pub command: Option<String>,
+    /// Why the arm is in a protective stop.
+    pub stop: Option<String>,
+    /// Newest last, at most 20.
+    pub refused: Vec<RobotRefusal>,
+}
+
+/// A connection.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+pub struct RobotClient {
+    /// Address and port.
+    pub from: String,
+    /// `dashboard`, `URScript` or `RTDE`.
+    pub speech: String,
+}
+
+/// What was refused, and why.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS, ToSchema)]
+pub struct RobotRefusal {
+    #[ts(type = "number")]
+    pub tick: u64,
+    pub what: String,
+    pub why: String,
+}
+
+impl From<&Standing> for RobotStanding {
+    fn from(standing: &Standing) -> Self {
+        let client = |one: &crate::ur::controller::Connected| RobotClient {
+            from: one.from.clone(),
+            speech: one.port.to_owned(),
+        };
+        let refused = |one: &crate::ur::controller::Refused| RobotRefusal {
+            tick: one.tick,
+            what: one.what.clone(),
+            why: one.why.clone(),
+        };
+        Self {
+            clients: standing.clients.iter().map(client).collect(),
+            program: standing.program.clone(),
+            command: standing.command.map(str::to_owned),
+            stop: standing.stop.clone(),
+            refused: standing.refused.iter().map(refused).collect(),
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! The controller's memory: who is connected, registers, the program that runs, and the protective stop.
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::VecDeque;
+
+use super::command::Command;
+use super::control_script::{ControlScript, Next};
+use super::inputs::Input;
+use super::mover::Mover;
+use super::registers::Registers;
+use super::script::{self, Line, ScriptError};
+use crate::control::limits::Limits;
+use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
+
+/// Refusals that the page shows.
+const REFUSALS_MOST: usize = 20;
+/// What is kept for a session that does not ask.
+const NEWS_MOST: usize = 100;
+/// Values of `safety_mode`.
+const NORMAL: i32 = 1;
+const PROTECTIVE_STOP: i32 = 3;
+
+/// Tells the clients of a controller apart.
+pub type ClientId = u64;
+
+/// A connected client.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Connected {
+    pub id: ClientId,
+    /// Address and port.
+    pub from: String,
+    /// What it speaks.
+    pub port: &'static str,
+}
+
+/// What was refused, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    pub tick: u64,
+    pub what: String,
+    pub why: String,
+}
+
+/// What the page shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Standing {
+    pub clients: Vec<Connected>,
+    /// Name of the program that runs.
+    pub program: Option<String>,
+    /// URScript's name of the motion that was begun last.
+    pub command: Option<&'static str>,
+    /// Why the arm is in a protective stop.
+    pub stop: Option<String>,
+    /// Newest last.
+    pub refused: Vec<Refused>,
+}
+
+/// Why a program does not begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    #[error("the session has a planar stage and no arm")]
+    NoArm,
+    #[error("the arm is in a protective stop: {0}")]
+    Stopped(String),
+}
+
+#[derive(Clone, Debug)]
+enum Program {
+    Control(ControlScript),
+    Lines { lines: VecDeque<Line>, wait_ticks: u64 },
+}
+
+#[derive(Clone, Debug)]
+struct Running {
+    name: String,
+    program: Program,
+    /// The session has given it the arm.
+    has_arm: bool,
+    /// The session has been asked.
+    has_asked: bool,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Controller {
+    clients: Vec<Connected>,
+    clients_made: ClientId,
+    inputs: Registers,
+    outputs: Registers,
+    /// Who may write an input.
+    claims: Vec<(Input, ClientId)>,
+    running: Option<Running>,
+    mover: Mover,
+    command: Option<&'static str>,
+    stop: Option<String>,
+    refused: VecDeque<Refused>,
+    /// What has happened since the session asked: whether it was a refusal, and what.
+    news: Vec<(bool, String)>,
+    /// The last tick that was asked for, and how long no client has written.
+    tick: u64,
+    silent_ticks: u64,
+}
+
+impl Controller {
+    pub fn connect(&mut self, from: String, port: &'static str) -> ClientId {
+        self.clients_made += 1;
+        self.clients.push(Connected { id: self.clients_made, from, port });
+        self.clients_made
+    }
+
+    /// A client that leaves takes its inputs along: a program that it commands ends.
+    pub fn disconnect(&mut self, id: ClientId) {
+        self.clients.retain(|client| client.id != id);
+        let had = self.claims.len();
+        self.claims.retain(|(_, owner)| *owner != id);
+        let commands = |running: &Running| matches!(running.program, Program::Control(_));
+        if self.claims.len() < had && self.running.as_ref().is_some_and(commands) {
+            self.end("its client has disconnected");
+        }
+    }
+
+    pub fn standing(&self) -> Standing {
+        Standing {
+            clients: self.clients.clone(),
+            program: self.running.as_ref().map(|running| running.name.clone()),
+            command: self.command.filter(|_| self.mover.is_busy()),
+            stop: self.stop.clone(),
+            refused: self.refused.iter().cloned().collect(),
+        }
+    }
+
+    pub fn inputs(&self) -> &Registers {
+        &self.inputs
+    }
+
+    pub fn outputs(&self) -> &Registers {
+        &self.outputs
+    }
+
+    pub fn speed_fraction(&self) -> f64 {
+        self.inputs.fraction()
+    }
+
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    pub fn program_name(&self) -> Option<&str> {
+        self.running.as_ref().map(|running| running.name.as_str())
+    }
+
+    /// Whether the arm is in a protective stop.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.is_some()
+    }
+
+    pub fn safety_mode(&self) -> i32 {
+        if self.is_stopped() { PROTECTIVE_STOP } else { NORMAL }
+    }
+
+    /// Claims an input for a client; false if another one has it.
+    pub fn claim(&mut self, input: Input, id: ClientId) -> bool {
+        match self.claims.iter().find(|(claimed, _)| *claimed == input) {
+            Some((_, owner)) => *owner == id,
+            None => {
+                self.claims.push((input, id));
+                true
+            }
+        }
+    }
+
+    /// Writes inputs from a payload that is long enough.
+    pub fn write(&mut self, inputs: &[Input], payload: &mut &[u8]) {
+        self.silent_ticks = 0;
+        inputs.iter().for_each(|input| input.read(payload, &mut self.inputs));
+    }
+
+    /// Begins a program; the one before ends.
+    ///
+    /// # Errors
+    /// [`LoadError`]; nothing has changed, except that the refusal is noted.
+    pub fn load(&mut self, text: &str, has_joints: bool) -> Result<(), LoadError> {
+        let understood = self.understand(text, has_joints);
+        if let Err(error) = &understood {
+            self.note("a program", &error.to_string());
+        }
+        let (name, program) = understood?;
+        self.mover.rest();
+        self.outputs.int = Registers::default().int;
+        self.silent_ticks = 0;
+        self.tell(false, format!("the program {name} begins"));
+        self.running = Some(Running { name, program, has_arm: false, has_asked: false });
+        Ok(())
+    }
+
+    fn understand(&self, text: &str, has_joints: bool) -> Result<(String, Program), LoadError> {
+        if !has_joints {
+            return Err(LoadError::NoArm);
+        }
+        if let Some(stop) = &self.stop {
+            return Err(LoadError::Stopped(stop.clone()));
+        }
+        if let Some(script) = ControlScript::recognise(text) {
+            return Ok(("rtde_control".to_owned(), Program::Control(script)));
+        }
+        let (name, lines) = script::parse(text)?;
+        Ok((name, Program::Lines { lines: lines.into(), wait_ticks: 0 }))
+    }
+
+    /// Ends the program; the arm comes to rest.
+    pub fn end(&mut self, why: &str) {
+        if let Some(running) = self.running.take() {
+            self.tell(false, format!("the program {} ends: {why}", running.name));
+        }
+        self.mover.rest();
+    }
+
+    fn tell(&mut self, is_refused: bool, text: String) {
+        if self.news.len() < NEWS_MOST {
+            self.news.push((is_refused, text));
+        }
+    }
+
+    /// What has happened since the last call: whether it was a refusal, and what.
+    pub fn take_news(&mut self) -> Vec<(bool, String)> {
+        std::mem::take(&mut self.news)
+    }
+
+    /// Whether a program waits for the arm.
+    pub fn wants_arm(&self) -> bool {
+        self.running.as_ref().is_some_and(|running| !running.has_arm && !running.has_asked)
+    }
+
+    /// The session gives it the arm now.
+    pub fn give_arm(&mut self) {
+        if let Some(running) = &mut self.running {
+            running.has_asked = true;
+        }
+    }
+
+    /// Ends the program, because it cannot go on.
+    pub fn refuse(&mut self, what: &str, why: &str) {
+        self.note(what, why);
+        self.end(why);
+    }
+
+    fn note(&mut self, what: &str, why: &str) {
+        self.tell(true, format!("{what}: {why}"));
+        if self.refused.len() >= REFUSALS_MOST {
+            self.refused.pop_front();
+        }
+        self.refused.push_back(Refused { tick: self.tick, what: what.to_owned(), why: why.to_owned() });
+    }
+
+    /// A limit is violated: the arm stands still at once.
+    pub fn stop_at_once(&mut self, what: &str, why: &str) {
+        self.note(what, why);
+        self.end(why);
+        self.mover.clear();
+        self.stop = Some(why.to_owned());
+    }
+
+    /// What the program wanted was refused.
+    pub fn violate(&mut self, why: &str) {
+        self.stop_at_once(self.command.unwrap_or("motion"), why);
+    }
+
+    /// Leaves the protective stop; false if there was none.
+    pub fn unlock(&mut self) -> bool {
+        self.stop.take().is_some()
+    }
+
+    /// The joints for a tick, if a program moves the arm. `is_ours` is whether the session has given it the arm.
+    pub fn next(&mut self, tick: u64, is_ours: bool, here_rad: Option<&Joints>, limits: &Limits) -> Option<Joints> {
+        let has_jumped = tick != self.tick + 1 && tick != self.tick;
+        self.tick = tick;
+        self.silent_ticks += 1;
+        if let Some(running) = &mut self.running {
+            match (running.has_arm, is_ours) {
+                (true, _) if has_jumped => self.end("the session was set back"),
+                (true, false) => self.end("the operator has taken the arm"),
+                (false, true) => running.has_arm = true,
+                _ => {}
+            }
+        }
+        let here_rad = here_rad.filter(|_| is_ours)?;
+        if has_jumped {
+            self.mover.clear();
+        }
+        self.go_on(here_rad, limits);
+        match self.mover.next(here_rad, limits.tool_speed_m_s(), self.inputs.fraction()) {
+            Ok(joints) => joints,
+            Err(error) => {
+                self.stop_at_once(self.command.unwrap_or("motion"), &error.to_string());
+                None
+            }
+        }
+    }
+
+    /// One period of the program.
+    fn go_on(&mut self, here_rad: &Joints, limits: &Limits) {
+        let Some(running) = self.running.as_mut().filter(|running| running.has_arm) else { return };
+        match &mut running.program {
+            Program::Control(script) => {
+                let Self { inputs, outputs, mover, silent_ticks, .. } = self;
+                let next = script.cycle(inputs, outputs, mover, here_rad, limits, *silent_ticks);
+                if let Some(name) = script.begun() {
+                    self.command = Some(name);
+                }
+                match next {
+                    Next::Goes => {}
+                    Next::Ends => self.end("as asked"),
+                    Next::Refused { what, why } => self.refuse(&what, &why),
+                    Next::ProtectiveStop => self.stop_at_once("protective_stop", "a program has asked for it"),
+                }
+            }
+            Program::Lines { wait_ticks, .. } if *wait_ticks > 0 => *wait_ticks -= 1,
+            Program::Lines { lines, wait_ticks } => {
+                // A velocity without a time, or a servo target, goes on while the next lines are read.
+                if self.mover.is_busy() && !self.mover.goes_on() {
+                    return;
+                }
+                match lines.pop_front() {
+                    None => self.end("it is over"),
+                    Some(Line::Nothing) => {}
+                    Some(Line::Sleep { time_s }) => *wait_ticks = (time_s / SERVO_PERIOD_S).round() as u64,
+                    Some(Line::WriteInt { register, value }) => self.outputs.int[register] = value,
+                    Some(Line::Motion(command)) => self.begin(&command, here_rad),
+                }
+            }
+        }
+    }
+
+    fn begin(&mut self, command: &Command, here_rad: &Joints) {
+        self.command = Some(command.name());
+        if let Err(error) = self.mover.begin(command, here_rad) {
+            self.refuse(command.name(), &error.to_string());
+        }
+    }
+}
