@@ -25,6 +25,9 @@ const NEVER_ACCEPTED: [&str; 10] = [
     "POST /login",
 ];
 
+/// Only a training that has paused can go on, and this may take longer than until the next request (`trainings` does it).
+const DEPENDS_ON_TIMING: &str = "POST /api/trainings/{id}/resume";
+
 /// The same in `schemathesis.toml`.
 const LONG_EVALUATION: &str = "evaluation-2";
 
@@ -130,7 +133,9 @@ async fn the_server_matches_its_description() {
             (name.as_str(), counts.sum())
         })
         .collect();
-    let refused: Vec<_> = accepted.iter().filter(|(_, count)| **count == 0).map(|(name, _)| *name).collect();
+    let is_refused = |name: &str, count: u64| count == 0 && name != DEPENDS_ON_TIMING;
+    let refused: Vec<_> =
+        accepted.iter().filter(|(name, count)| is_refused(name, **count)).map(|(name, _)| *name).collect();
     assert_eq!(refused, NEVER_ACCEPTED, "of {accepted:?}");
     assert_eq!(accepted.len(), described - 1);
 }

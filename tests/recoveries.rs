@@ -27,7 +27,7 @@ impl Laboratory {
             if report["done"] != last {
                 (last, since) = (report["done"].clone(), Instant::now());
             }
-            assert!(since.elapsed() < Duration::from_secs(60), "{} of {}", report["done"], report["planned"]);
+            assert!(since.elapsed() < Duration::from_secs(900), "{} of {}", report["done"], report["planned"]);
             tokio::time::sleep(Duration::from_millis(50)).await;
         }
     }

@@ -219,7 +219,7 @@ fn programs() -> Vec<Vec<u8>> {
         "movel(p[0.02,-0.36,0.1,2.2214,-2.2214,0], a=1.2, v=0.25)\nstopl(2)\n",
         "def mine():\n  movej([-1.6,-1.6,-1.6,-1.6,1.6,0])\n  sleep(0.1)\n  speedl([0.02,0,0,0,0,0], 0.5, 0.1)\nend\n",
         "servoj([-1.6,-1.6,-1.6,-1.6,1.6,0], t=0.008, lookahead_time=0.1, gain=300)\nspeedj([0.1,0,0,0,0,0])\nstopj(1)\n",
-        "def a():\n  write_output_integer_register(0 +24, 1)\n  textmsg(\"hello\")\n  sync()\nend\nset_digital_out(1, True)\n",
+        "def a():\n  write_output_integer_register(0 +24, 1)\n  textmsg(\"hello\")\n  sync()\nend\n",
     ];
     texts.map(|text| text.as_bytes().to_vec()).into()
 }

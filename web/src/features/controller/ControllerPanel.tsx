@@ -131,8 +131,8 @@ function About(props: { state: StateMessage; policy: string }): JSX.Element {
       <p class="about-controller" classList={{ trouble: trouble() !== undefined }}>
         {trouble() ?? help()}
       </p>
-      {/* Below You, steering needs the room. */}
-      <Show when={props.state.controller !== 'you'}>
+      {/* Below these, their own facts need the room. */}
+      <Show when={!['you', 'robot'].includes(props.state.controller)}>
         <div class="about-others">
           <For each={CONTROLLERS.filter((name) => name !== props.state.controller)}>
             {(name) => <p>{CONTROLLER_HELP[name]}</p>}
@@ -163,7 +163,10 @@ export function ControllerPanel(props: {
             {(state) => (
               <>
                 <About state={state()} policy={scene().parameters.rl_policy} />
-                <SwitchingLaw state={state()} scene={scene()} />
+                {/* A robot client knows no sub-controllers. */}
+                <Show when={state().controller !== 'robot'}>
+                  <SwitchingLaw state={state()} scene={scene()} />
+                </Show>
                 {props.children}
                 {/* Not before the rest, which would push it down. */}
                 <ParameterForm lab={lab} scene={scene()} />
