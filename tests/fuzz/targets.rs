@@ -241,8 +241,8 @@ fn script(text: &str) -> bool {
         let Ok(program) = reader.take(line) else { return false };
         let Some(program) = program else { continue };
         robot.controller.unlock();
-        let before = robot.joints_rad;
         let is_loaded = robot.load(&program).is_ok();
+        let before = robot.joints_rad;
         robot.runs(TICKS);
         let may_move = is_loaded || robot.begun;
         assert!(may_move || before == robot.joints_rad, "no motion from what was refused");
