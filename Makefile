@@ -127,8 +127,8 @@ soak: system-test
 # Coverage-guided fuzzing: `FUZZ_SECONDS` for each of `FUZZ_TARGETS`. It stops at the first input that panics, takes five
 # seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with the same compiler.
 # The stack has the size of a server thread's.
-FUZZ_SECONDS := 300
-FUZZ_TARGETS := message map case log entries policy rtde script dashboard
+FUZZ_SECONDS ?= 300
+FUZZ_TARGETS ?= message map case log entries policy rtde script dashboard
 fuzz: system-run
 	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
 	ulimit -s 2048; \

@@ -2,6 +2,7 @@
 
 mod attempts;
 mod check;
+mod drive;
 mod evaluate;
 mod export;
 mod formats;
@@ -47,6 +48,8 @@ enum Command {
     Attempts(attempts::Command),
     /// Run stored trials again, and fail if a controller delivers less often
     Check(check::Arguments),
+    /// Serve the laboratory page with the arm as the twin of a real UR5
+    Drive(drive::Arguments),
     /// Repeat the paper's experiment: random trials, counted
     Evaluate(evaluate::Arguments),
     /// Write the arm with gripper and magnet as a model for other programs
@@ -88,9 +91,10 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     begin_logging()?;
     match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
-        Command::Serve(arguments) => serve::run(&arguments),
+        Command::Serve(arguments) => serve::run(&arguments, None),
         Command::Attempts(command) => attempts::run(&command),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Drive(arguments) => drive::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Recovery(arguments) => recovery::run(&arguments),

@@ -38,7 +38,7 @@ use crate::recording::{Archive, Retention};
 use crate::recovery::Recoveries;
 use crate::scenario::Scenario;
 use crate::trial::{Catalog, TrialError};
-use crate::ur::Robot;
+use crate::ur::{Robot, Twin};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 use metrics::Counters;
@@ -94,6 +94,8 @@ pub struct Settings {
     pub opening: Scenario,
     /// Whether saved sessions begin with that scenario, too.
     pub start_over: bool,
+    /// The robot outside of Ferry that the arm of the session `main` mirrors.
+    pub twin: Option<Arc<Twin>>,
 }
 
 impl Settings {
@@ -106,6 +108,7 @@ impl Settings {
             park_after: Duration::from_secs(600),
             opening: Scenario::idle("posts", 1),
             start_over: false,
+            twin: None,
         }
     }
 }
@@ -153,7 +156,7 @@ impl Server {
         access: Access,
         stopping: watch::Receiver<bool>,
     ) -> Result<Arc<Self>, ServeError> {
-        let Settings { data, retention, sessions, park_after, opening, start_over } = settings;
+        let Settings { data, retention, sessions, park_after, opening, start_over, twin } = settings;
         let recordings = Archive::new(data.join("recordings"), retention);
         let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
         let settings = SessionSettings { most: sessions, park_after, opening };
@@ -164,7 +167,7 @@ impl Server {
         });
         let catalog = Catalog { maps: maps.all.clone(), policies: Arc::new(policies) };
         let sessions =
-            Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), maps.changes(), settings, saved)?;
+            Sessions::new(gpu.clone(), recordings.clone(), catalog.clone(), maps.changes(), settings, saved, twin)?;
         let (jobs, sweeps) = (Arc::new(Queue::start(gpu.clone())?), data.join("sweeps"));
         Ok(Arc::new(Self {
             contests: Contests::in_folder(data.join("challenges")),

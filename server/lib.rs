@@ -52,6 +52,7 @@ pub mod protocol;
 pub mod recording;
 pub mod recovery;
 pub mod robot;
+mod robot_client;
 pub mod robot_server;
 pub mod scenario;
 pub mod session;

@@ -17,7 +17,7 @@ use crate::geometry::{Isometry3, Point2, Point3, Translation3, Vector2};
 use crate::magnetics::cuboid::Cuboid;
 use crate::magnetics::posed::PosedBlock;
 use crate::magnetics::{dipole, force};
-use crate::robot::ur5;
+use crate::robot::{Joints, ur5};
 
 pub use bead::{Bead, BeadMotion};
 pub use force::Orientation as BlockOrientation;
@@ -81,6 +81,15 @@ pub struct Hand {
     pub lift: bool,
 }
 
+/// The arm of a robot outside of Ferry: the simulated arm is where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mirror {
+    /// Measured by the robot.
+    pub joints_rad: Joints,
+    /// Whether the robot follows Ferry's reference. If not, something else moves it.
+    pub is_driven: bool,
+}
+
 /// The complete state of the physics.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlantState {
@@ -94,12 +103,15 @@ pub struct PlantState {
     /// Contractions of the walls; `None` at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub walls: Option<WallMotion>,
+    /// The robot that the arm mirrors in this tick, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mirror: Option<Mirror>,
 }
 
 impl PlantState {
     /// A bead at rest at `bead_m`, without disturbances.
     pub fn at_rest(positioner: Positioner, bead_m: Point2<f64>) -> Self {
-        Self { positioner, bead: Bead::at(bead_m), hand: None, drift_n: Vector2::zeros(), walls: None }
+        Self { positioner, bead: Bead::at(bead_m), hand: None, drift_n: Vector2::zeros(), walls: None, mirror: None }
     }
 }
 
@@ -146,8 +158,8 @@ impl Plant {
         Load { lateral_n: force_n.xy(), vertical_n: force_n.z }
     }
 
-    /// Advances one servo period from `tick`: the positioner follows `reference` → `next_reference`, the walls contract,
-    /// and the bead follows the magnet, the hand and the walls.
+    /// Advances one servo period from `tick`: the positioner follows `reference` → `next_reference` or the robot that it
+    /// mirrors, the walls contract, and the bead follows the magnet, the hand and the walls.
     pub fn step(
         &self,
         state: &mut PlantState,
@@ -157,7 +169,10 @@ impl Plant {
         next_reference: &Positioner,
     ) {
         let before = state.positioner.base_from_tool();
-        state.positioner = state.positioner.step(reference, next_reference);
+        state.positioner = match state.mirror {
+            Some(mirror) => Positioner::Arm(mirror.joints_rad),
+            None => state.positioner.step(reference, next_reference),
+        };
         let mut base_from_tool = state.positioner.base_from_tool();
         let travel_m = base_from_tool.translation.vector - before.translation.vector;
         let rested = state.walls;

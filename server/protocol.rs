@@ -61,7 +61,7 @@ pub use policies::{Policies, PolicyName, PolicyOrigin, PolicySummary};
 pub use programs::{ImageFacts, PROGRAM_PROTOCOL_VERSION, ProgramAnswer, ProgramMessage, ProgramStanding, Programs};
 pub use recordings::{RecordingContent, RecordingFile, RecordingList, RecordingTitle};
 pub use recoveries::{Recoveries, RecoveryQuery, RecoveryReport, RecoverySummary, RecoveryTrial, RecoveryTrials};
-pub use robot::{RobotClient, RobotRefusal, RobotStanding};
+pub use robot::{RobotClient, RobotRefusal, RobotStanding, TwinStanding};
 pub use server::{CaseSummary, Hello, KeptRun, Role, SceneMessage, ServerMessage, StateMessage};
 pub use tracker::{GoalPlace, TrackerEstimate};
 pub use trainings::{

@@ -23,6 +23,7 @@ mod saved;
 mod stepping;
 mod timeline;
 mod trials;
+mod twin;
 mod worker;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +42,7 @@ use crate::scenario::{Parameters, Scenario};
 use crate::trial::{
     Arena, Case, Catalog, Event, Input, LogError, Moment, Origin, Sight, Sink, Timed, Trial, TrialError,
 };
-use crate::ur::{Robot, Standing as RobotStanding};
+use crate::ur::{Robot, Standing as RobotStanding, Twin, TwinStanding};
 
 pub use branch_point::{BranchPoint, Progress};
 pub use error::CommandError;
@@ -182,6 +183,8 @@ pub struct View {
     pub program: Option<Arc<Program>>,
     /// The clients of the robot server, if this session moves its arm.
     pub robot: Option<RobotStanding>,
+    /// The robot outside of Ferry that the arm mirrors.
+    pub twin: Option<TwinStanding>,
     /// `recording`, or why nothing is recorded.
     pub recording: String,
     /// Why the session ended, if it has.
@@ -218,6 +221,7 @@ enum Request {
     Played { answer: oneshot::Sender<Result<Played, CommandError>> },
     Save { answer: oneshot::Sender<Saved> },
     Robot(Arc<Robot>),
+    Twin(Arc<Twin>),
 }
 
 /// What a session begins with, besides its scenario.
@@ -317,6 +321,14 @@ impl Session {
     /// [`CommandError::Busy`] and [`CommandError::Ended`].
     pub fn connect_robot(&self, robot: Arc<Robot>) -> Result<(), CommandError> {
         self.enqueue(Request::Robot(robot))
+    }
+
+    /// Its arm is the twin of a robot outside of Ferry from now on.
+    ///
+    /// # Errors
+    /// [`CommandError::Busy`] and [`CommandError::Ended`].
+    pub fn connect_twin(&self, twin: Arc<Twin>) -> Result<(), CommandError> {
+        self.enqueue(Request::Twin(twin))
     }
 
     fn enqueue(&self, request: Request) -> Result<(), CommandError> {

@@ -37,7 +37,7 @@ use crate::map::MapError;
 use crate::plant::{Plant, PlantState, Positioner, PositionerKind, Surroundings, Walls};
 use crate::policy::PolicyError;
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, ParameterError, RandomTrialError, Scenario, Stream, start_point};
+use crate::scenario::{ParameterError, RandomTrialError, Scenario, Stream, start_point};
 use crate::tracking::{self, TrackerParameters};
 
 pub use arena::Arena;
@@ -249,6 +249,9 @@ impl Trial {
     pub fn tick(&mut self, source: Source<'_>) -> Result<TickRecord, TrialError> {
         fault_point!("step");
         let tick = self.state.world.tick;
+        if !self.inputs.iter().any(|input| matches!(input, Input::Mirror { .. })) {
+            self.state.world.plant.mirror = None;
+        }
         let mut decision = None;
         let mut seen = None;
         if step_is_due(tick) {
@@ -286,6 +289,7 @@ impl Trial {
 
     /// Moves the tool's reference along the motion; arm and bead follow.
     fn advance_reference(&mut self) {
+        let is_led = self.state.is_led_from_outside();
         let world = &mut self.state.world;
         let limits = self.arena.limits(&world.parameters);
         let here = world.reference_m.xy();
@@ -297,7 +301,7 @@ impl Trial {
                 return self.follow(&reference);
             }
             // Also at another height than the parameters'.
-            Motion::Hold if self.state.controller == ControllerName::Robot => return self.follow(&reference),
+            Motion::Hold if is_led => return self.follow(&reference),
             Motion::Hold => here,
             Motion::Segment(step) => {
                 let way: Vector2<f64> = step.target_m - here;

@@ -1,4 +1,4 @@
-//! What a CB3 controller of a UR5 says and understands, without sockets.
+//! What a CB3 controller of a UR5 and its clients say to each other, without sockets.
 //!
 //! - [`arm`]: the arm at a moment, as the controller reports it.
 //! - [`command`], [`mover`]: motions, and the joints that they lead to, tick by tick.
@@ -7,6 +7,11 @@
 //! - [`rtde`]: frames of the Real-Time Data Exchange; recipes.
 //! - [`dashboard`]: lines and their answers.
 //!
+//! And the other side, for a robot outside of Ferry:
+//! - [`peer`]: what Ferry asks for by RTDE, and how it reads and writes it.
+//! - [`twin`]: what the robot reports, and whether it follows Ferry's controllers.
+//! - [`drive_script`]: the program on the robot that follows them.
+//!
 //! Source: Universal Robots, "Real-Time Data Exchange (RTDE) Guide" and "Dashboard Server CB-Series".
 
 pub mod arm;
@@ -14,13 +19,17 @@ pub mod command;
 pub mod control_script;
 pub mod controller;
 pub mod dashboard;
+pub mod drive_script;
 pub mod inputs;
 pub mod mover;
+pub mod peer;
 pub mod registers;
 pub mod robot;
 pub mod rtde;
 pub mod script;
+pub mod twin;
 
 pub use arm::Arm;
 pub use controller::Standing;
 pub use robot::Robot;
+pub use twin::{Twin, TwinStanding};

@@ -15,7 +15,7 @@ const FLOORS: [&[&str]; 13] = [
     &["learn", "evaluate", "session"],
     &["recovery"],
     &["recording", "protocol"],
-    &["http", "robot_server"],
+    &["http", "robot_client", "robot_server"],
     &["cli", "main", "lib"],
 ];
 
@@ -23,7 +23,7 @@ const FLOORS: [&[&str]; 13] = [
 const CONFINED: [(&str, &[&str]); 7] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
-    ("tokio", &["program", "ur", "session", "http", "robot_server", "cli", "main"]),
+    ("tokio", &["program", "ur", "session", "http", "robot_client", "robot_server", "cli", "main"]),
     ("re_sdk", &["recording"]),
     ("re_sdk_types", &["recording"]),
     ("utoipa", &["protocol", "http"]),

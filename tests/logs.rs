@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use ferry::plant::{BeadMotion, PositionerKind};
 use ferry::recording::{Archive, Options, Recorder, Retention};
+use ferry::robot::Joints;
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario};
 use ferry::session::{Command, Kept, Opening, Session};
 use ferry::trial::{Catalog, Input, InputLog, LogError, Replayed, replay};
@@ -24,10 +25,15 @@ fn place(rng: &mut impl Rng) -> (f64, f64) {
     (rng.random_range(-0.32..0.30), rng.random_range(-0.56..-0.19))
 }
 
+/// With the tool over the table.
+fn joints(rng: &mut impl Rng) -> Joints {
+    [-1.6, -1.6, -1.6, -1.6, 1.6, 0.0].map(|angle_rad| angle_rad + rng.random_range(-0.3..0.3))
+}
+
 /// A random input of an operator; many are refused.
 fn action(rng: &mut impl Rng, tick: u64) -> Command {
     let (x_m, y_m) = place(rng);
-    Command::Input(match rng.random_range(0..18) {
+    Command::Input(match rng.random_range(0..21) {
         0 | 1 => Input::SetGoal { x_m, y_m },
         2 | 3 => Input::Drag { x_m, y_m, lift: rng.random() },
         4 => Input::Release,
@@ -40,6 +46,9 @@ fn action(rng: &mut impl Rng, tick: u64) -> Command {
             bead_motion: if rng.random() { BeadMotion::Rolling } else { BeadMotion::Sliding },
             ..Parameters::default()
         })),
+        // A robot that is mirrored, and one that is commanded.
+        18 | 19 => Input::Mirror { joints_rad: joints(rng), is_driven: rng.random() },
+        20 => Input::Servo { joints_rad: joints(rng) },
         16 => Input::Go { x_m, y_m },
         17 => Input::Hold { reason: "it thinks".to_owned() },
         15 => Input::Steer { x_m, y_m, approach: rng.random() },

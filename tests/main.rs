@@ -13,6 +13,7 @@ mod contract;
 mod crashes;
 mod determinism;
 mod disturbances;
+mod drive;
 mod evaluations;
 mod examples;
 mod exports;

@@ -3,6 +3,7 @@
 use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::Context;
@@ -10,9 +11,11 @@ use tokio::sync::watch;
 
 use crate::http;
 use crate::recording::Retention;
+use crate::robot_client;
 use crate::robot_server::{self, Ports};
 use crate::scenario::Scenario;
 use crate::trial::Case;
+use crate::ur::Twin;
 
 #[derive(clap::Args, Clone)]
 pub struct Arguments {
@@ -99,9 +102,14 @@ fn opening(name_or_path: &str) -> anyhow::Result<Scenario> {
     Ok(case.scenario)
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+/// Serves; the arm of the session `main` is the twin of a robot, if there is one.
+pub fn run(arguments: &Arguments, twin: Option<Twin>) -> anyhow::Result<ExitCode> {
+    anyhow::ensure!(
+        twin.is_none() || arguments.robot_server.is_none(),
+        "--robot-server: it cannot be used with `ferry drive`, because the arm follows the robot"
+    );
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    let served = runtime.block_on(serve(arguments));
+    let served = runtime.block_on(serve(arguments, twin.map(Arc::new)));
     // Unfinished background work must not keep the process alive.
     runtime.shutdown_background();
     served?;
@@ -121,7 +129,7 @@ async fn robot_ports(arguments: &Arguments) -> anyhow::Result<Option<Ports>> {
     Ok(Some(Ports::open(address).await?))
 }
 
-async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
+async fn serve(arguments: &Arguments, twin: Option<Arc<Twin>>) -> anyhow::Result<()> {
     let token = token(arguments)?;
     let opening = opening(arguments.scenario.as_deref().unwrap_or("opening"))?;
     let listener = http::listen(arguments.bind).await?;
@@ -141,10 +149,14 @@ async fn serve(arguments: &Arguments) -> anyhow::Result<()> {
         park_after: Duration::from_secs(60 * u64::from(arguments.park_after)),
         opening,
         start_over: arguments.scenario.is_some(),
+        twin: twin.clone(),
     };
     let server = http::Server::new(gpu, settings, access, stopping.clone())?;
     if let Some(ports) = ports {
-        tokio::spawn(robot_server::serve(ports, server.robot().clone(), stopping));
+        tokio::spawn(robot_server::serve(ports, server.robot().clone(), stopping.clone()));
+    }
+    if let Some(twin) = twin {
+        tokio::spawn(robot_client::keep(twin, stopping));
     }
     println!("listening on http://{address}");
     if arguments.open

@@ -340,6 +340,12 @@ impl Connection {
                 let program = self.server.programs.find(&name).ok_or(CommandError::NoProgram { name })?;
                 self.hub.session.send(Command::Attach(program)).await?;
             }
+            ClientMessage::DriveRobot { held } => {
+                let twin = self.server.sessions.twin_of(&self.hub.id).ok_or(CommandError::NoRobot)?;
+                twin.hold(held, Instant::now().into_std())?;
+                // The page's hand on the bead is another matter.
+                return Ok(());
+            }
             message => match message.command() {
                 Some(command @ Command::Step(_)) => self.stepping.push(self.hub.session.begin(command)?),
                 Some(command) => self.hub.session.send(command).await?,

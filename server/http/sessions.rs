@@ -19,7 +19,7 @@ use crate::recording::{Archive, Options, Recorder};
 use crate::scenario::Scenario;
 use crate::session::{Command, CommandError, Opening, Session};
 use crate::trial::{Catalog, Nowhere, Sink, TrialError};
-use crate::ur::Robot;
+use crate::ur::{Robot, Twin};
 
 /// The session that exists from the start.
 pub const MAIN: &str = "main";
@@ -56,6 +56,8 @@ pub struct Sessions {
     saved: SavedSessions,
     /// The robot whose arm is that of [`MAIN`].
     robot: Arc<Robot>,
+    /// The robot outside of Ferry that the arm of [`MAIN`] mirrors.
+    twin: Option<Arc<Twin>>,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
     /// Held while a session opens, so that two requests for one name get the same session.
     opening: tokio::sync::Mutex<()>,
@@ -77,6 +79,7 @@ impl Sessions {
         maps: watch::Receiver<u64>,
         settings: SessionSettings,
         saved: SavedSessions,
+        twin: Option<Arc<Twin>>,
     ) -> Result<Self, TrialError> {
         let sessions = Self {
             gpu,
@@ -86,6 +89,7 @@ impl Sessions {
             settings,
             saved,
             robot: Arc::default(),
+            twin,
             hubs: RwLock::default(),
             opening: tokio::sync::Mutex::default(),
             made: AtomicU64::new(0),
@@ -98,6 +102,11 @@ impl Sessions {
     /// The robot of the session `main`.
     pub fn robot(&self) -> &Arc<Robot> {
         &self.robot
+    }
+
+    /// The robot that the arm of a session mirrors.
+    pub fn twin_of(&self, id: &str) -> Option<&Arc<Twin>> {
+        self.twin.as_ref().filter(|_| id == MAIN)
     }
 
     pub fn park_after(&self) -> Duration {
@@ -214,6 +223,11 @@ impl Sessions {
             && let Err(error) = session.connect_robot(self.robot.clone())
         {
             tracing::warn!(%error, "the session has no robot");
+        }
+        if let Some(twin) = self.twin_of(id)
+            && let Err(error) = session.connect_twin(twin.clone())
+        {
+            tracing::warn!(%error, "the session mirrors no robot");
         }
         tracing::info!(session = id, "session opened");
         Ok(Hub::start(id, session, self.maps.clone(), self.gpu.clone()))

@@ -151,13 +151,18 @@ pub enum ClientMessage {
         #[ts(optional, as = "Option<Vec<ControllerName>>")]
         controllers: Vec<ControllerName>,
     },
+    /// The button that lets a robot outside of Ferry follow its controllers is held (`ferry drive --enable-motion`). Must be
+    /// repeated at least every 0.25 s; `false` lets it stop at once.
+    DriveRobot {
+        held: bool,
+    },
     /// Requests control.
     TakeControl {},
     ReleaseControl {},
 }
 
 impl ClientMessage {
-    /// The command for the session; `None` for messages about the connection or the comparison, and for a test case,
+    /// The command for the session; `None` for messages about the connection, the comparison or a robot, and for a test case,
     /// which must be read first.
     pub fn command(self) -> Option<Command> {
         let point = |[x, y]: [f64; 2]| Point2::new(x, y);
@@ -207,6 +212,7 @@ impl ClientMessage {
             Self::OpenCase { .. }
             | Self::OpenTry { .. }
             | Self::Compare { .. }
+            | Self::DriveRobot { .. }
             | Self::TakeControl {}
             | Self::ReleaseControl {} => {
                 return None;

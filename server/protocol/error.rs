@@ -43,6 +43,8 @@ impl From<&CommandError> for ErrorMessage {
             CommandError::NoGoal { .. } => ("no_goal", Some("tick")),
             CommandError::NothingCarried { .. } => ("nothing_carried", Some("tick")),
             CommandError::Forgotten => ("forgotten", None),
+            CommandError::NoRobot => ("no_robot", None),
+            CommandError::Drive(_) => ("robot_refused", None),
             CommandError::Busy => ("busy", None),
             CommandError::Unanswered => ("unanswered", None),
             CommandError::Ended => ("ended", None),

@@ -1,4 +1,4 @@
-//! The clients of the robot server, for the page.
+//! The clients of the robot server, and the robot that the arm mirrors, for the page.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -36,6 +36,41 @@ pub struct RobotRefusal {
     pub tick: u64,
     pub what: String,
     pub why: String,
+}
+
+/// A robot outside of Ferry (`ferry drive`), whose arm the simulated one mirrors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS, ToSchema)]
+pub struct TwinStanding {
+    pub address: String,
+    /// Whether Ferry may move it (`--enable-motion`).
+    pub allows_motion: bool,
+    /// Why it is not connected; `null` if it is.
+    pub trouble: Option<String>,
+    /// As it reports it: 7 while it runs.
+    pub robot_mode: i32,
+    /// As it reports it: 1 normal, 2 reduced, 3 protective stop.
+    pub safety_mode: i32,
+    /// Whether the button is held and the robot begins to follow, or follows.
+    pub is_held: bool,
+    /// Whether it follows Ferry's controllers.
+    pub is_driven: bool,
+    /// Why it does not follow, or no longer.
+    pub stopped: Option<String>,
+}
+
+impl From<&crate::ur::TwinStanding> for TwinStanding {
+    fn from(standing: &crate::ur::TwinStanding) -> Self {
+        Self {
+            address: standing.address.to_string(),
+            allows_motion: standing.allows_motion,
+            trouble: standing.trouble.clone(),
+            robot_mode: standing.robot_mode,
+            safety_mode: standing.safety_mode,
+            is_held: standing.is_held,
+            is_driven: standing.is_driven,
+            stopped: standing.stopped.clone(),
+        }
+    }
 }
 
 impl From<&Standing> for RobotStanding {

@@ -8,7 +8,7 @@ use super::lumen::wave_m;
 use super::numbers::{Numbers2, Numbers3, Numbers6};
 use super::{
     AttemptStanding, ComparisonMessage, ErrorMessage, EventMessage, OverlayMessage, ProgramStanding, RobotStanding,
-    SeenMessage,
+    SeenMessage, TwinStanding,
 };
 use crate::geometry::{Point2, Polygon, Rect};
 use crate::plant::{BEAD_RADIUS_M, PositionerKind};
@@ -283,6 +283,9 @@ pub struct StateMessage {
     pub program: Option<ProgramStanding>,
     /// The clients of the robot server; `null` if this session has none.
     pub robot: Option<RobotStanding>,
+    /// The robot outside of Ferry that the arm mirrors; `null` if there is none.
+    #[serde(default)]
+    pub twin: Option<TwinStanding>,
     /// Hash of the plant's state, in hex.
     pub world_hash: String,
     /// `recording`, or why nothing is recorded.
@@ -369,6 +372,7 @@ impl From<&View> for StateMessage {
             attempt: view.attempt.as_ref().map(AttemptStanding::from),
             program: view.program.as_deref().map(ProgramStanding::from),
             robot: view.robot.as_ref().map(RobotStanding::from),
+            twin: view.twin.as_ref().map(TwinStanding::from),
             world_hash: format!("{:016x}", view.world_hash),
             recording: view.recording.clone(),
             ended: view.ended.clone(),

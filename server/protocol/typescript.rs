@@ -224,7 +224,7 @@ fn modules() -> [(&'static str, Vec<Declaration>); 18] {
         ),
         ("lumen", declared![WallRing, Lumen]),
         ("programs", declared![ProgramStanding, Programs]),
-        ("robot", declared![RobotClient, RobotRefusal, RobotStanding]),
+        ("robot", declared![RobotClient, RobotRefusal, RobotStanding, TwinStanding]),
         ("policies", declared![PolicyOrigin, PolicySummary, Policies, PolicyName]),
     ]
 }

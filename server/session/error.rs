@@ -4,6 +4,7 @@ use super::{ANSWER_WITHIN, COMMAND_QUEUE};
 use crate::challenge::ChallengeError;
 use crate::map::MapError;
 use crate::trial::{CaseError, InputError, TrialError};
+use crate::ur::twin::DriveError;
 
 /// Why a command was refused; the session is unchanged.
 #[derive(Debug, thiserror::Error)]
@@ -60,6 +61,12 @@ pub enum CommandError {
         /// The tick of the session.
         tick: u64,
     },
+    /// No robot is connected with this session.
+    #[error("this session drives no robot; `ferry drive --robot ADDRESS --enable-motion` does, in the session main")]
+    NoRobot,
+    /// The robot does not follow.
+    #[error("robot: {0}")]
+    Drive(#[from] DriveError),
     /// The command queue is full.
     #[error("the session is busy: more than {COMMAND_QUEUE} commands wait")]
     Busy,

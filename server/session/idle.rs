@@ -10,9 +10,14 @@ use crate::camera::ImageSource;
 
 impl<E: ImageSource> Worker<E> {
     /// Publishes a change, unless ticks publish it anyway.
-    pub(super) fn look_around(&self, publish: &watch::Sender<Arc<View>>) {
+    pub(super) fn look_around(&mut self, publish: &watch::Sender<Arc<View>>) {
+        self.tell_of_twin();
         let robot = self.robot.as_ref().map(|robot| robot.standing());
-        let has_changed = self.sink.status() != publish.borrow().recording || robot != publish.borrow().robot;
+        let twin = self.twin.as_ref().map(|twin| twin.standing());
+        let has_changed = {
+            let last = publish.borrow();
+            self.sink.status() != last.recording || robot != last.robot || twin != last.twin
+        };
         if !self.running && has_changed {
             publish.send_replace(Arc::new(self.view()));
         }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::CommandError;
 use super::playing::Void;
-use super::worker::{Worker, hashes};
+use super::worker::Worker;
 use crate::camera::ImageSource;
-use crate::trial::{Input, InputError};
+use crate::trial::{Input, InputError, TrialState};
 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn input(&mut self, mut input: Input) -> Result<(), CommandError> {
@@ -56,4 +56,22 @@ impl<E: ImageSource> Worker<E> {
         }
         Ok(())
     }
+
+    /// Drops everything after a tick. What a rewind has left behind becomes a run.
+    pub(super) fn forget_after(&mut self, tick: u64) {
+        if let Some(end) = self.end.take()
+            && self.timeline.reaches_past(tick)
+        {
+            self.keep_run(end);
+            self.scenery = Arc::new(self.next_scenery(0));
+        }
+        self.timeline.forget_after(tick);
+        if self.journal.iter().any(|told| told.tick > tick) {
+            Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
+        }
+    }
+}
+
+pub(super) fn hashes(state: &TrialState) -> (u64, u64) {
+    (state.world_hash(), state.controller_hash())
 }

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{broadcast, oneshot, watch};
 
+use super::inputs::hashes;
 use super::kept_runs::KeptRuns;
 use super::pacing::{LOOK_EVERY, Pace, SPEED_MAX, SPEED_MIN};
 use super::playing::{Playing, Void};
@@ -21,7 +22,7 @@ use crate::faults;
 use crate::program::Program;
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
-use crate::ur::Robot;
+use crate::ur::{Robot, Twin};
 
 /// Watchers get about sixty views per second, and one after each command.
 const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
@@ -70,6 +71,8 @@ pub(super) struct Worker<E> {
     pub(super) journal: Arc<Vec<Event>>,
     /// Where the arm is reported, and whose clients may command it.
     pub(super) robot: Option<Arc<Robot>>,
+    /// The robot outside of Ferry that the arm mirrors.
+    pub(super) twin: Option<Arc<Twin>>,
     /// Ticks that are left of a `Step`. They run in slices, between which requests are answered.
     pub(super) stepping: u32,
     /// Who waits for the end of the `Step`.
@@ -121,6 +124,7 @@ impl<E: ImageSource> Worker<E> {
             asking: None,
             journal: Arc::default(),
             robot: None,
+            twin: None,
             stepping: 0,
             stepped: None,
             deferred: VecDeque::new(),
@@ -145,6 +149,7 @@ impl<E: ImageSource> Worker<E> {
             attempt: self.playing.as_ref().map(|playing| playing.standing(self.trial.state().world.tick)),
             program: self.program.clone(),
             robot: self.robot.as_ref().map(|robot| robot.standing()),
+            twin: self.twin.as_ref().map(|twin| twin.standing()),
             recording: self.sink.status(),
             ended: None,
         }
@@ -173,6 +178,7 @@ impl<E: ImageSource> Worker<E> {
         let mut publish_at = Instant::now();
         loop {
             self.give_arm(publish);
+            self.run_for_twin(publish);
             let now = Instant::now();
             let steps = self.stepping > 0 || self.stepped.is_some() || !self.deferred.is_empty();
             let wait = match (steps, self.running) {
@@ -250,6 +256,7 @@ impl<E: ImageSource> Worker<E> {
                 let _ = answer.send(self.saved());
             }
             Request::Robot(robot) => self.robot = Some(robot),
+            Request::Twin(twin) => self.twin = Some(twin),
         }
         // A reset moves the arm without a tick.
         self.report_arm();
@@ -260,6 +267,7 @@ impl<E: ImageSource> Worker<E> {
         if self.interrupted.load(Ordering::Relaxed) && !matches!(command, Command::Pause) {
             return Err(CommandError::Ended);
         }
+        self.let_go_for(&command);
         match command {
             Command::Input(input) => self.input(input)?,
             Command::Run => {
@@ -355,6 +363,7 @@ impl<E: ImageSource> Worker<E> {
             self.timeline.keep(self.trial.snapshot());
         }
         self.ask_robot();
+        self.mirror_robot();
         let source = match self.see()? {
             Sees::Waits => return Ok(false),
             Sees::Now(seen) => Source::Seen(seen),
@@ -373,26 +382,9 @@ impl<E: ImageSource> Worker<E> {
         if let Some(sight) = record.sight {
             self.sight = Arc::new((record.tick, sight));
         }
+        self.lead_twin();
         self.apply_case();
         self.report_arm();
         Ok(true)
     }
-
-    /// Drops everything after a tick. What a rewind has left behind becomes a run.
-    pub(super) fn forget_after(&mut self, tick: u64) {
-        if let Some(end) = self.end.take()
-            && self.timeline.reaches_past(tick)
-        {
-            self.keep_run(end);
-            self.scenery = Arc::new(self.next_scenery(0));
-        }
-        self.timeline.forget_after(tick);
-        if self.journal.iter().any(|told| told.tick > tick) {
-            Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
-        }
-    }
-}
-
-pub(super) fn hashes(state: &TrialState) -> (u64, u64) {
-    (state.world_hash(), state.controller_hash())
 }

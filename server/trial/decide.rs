@@ -17,7 +17,7 @@ use crate::perception::{
     BeadView, CellRect, Observation, ObstacleMap, Percept, Quadtree, QuadtreeParameters, wall_spread,
 };
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::scenario::{ControllerName, Parameters};
+use crate::scenario::Parameters;
 
 /// A planner that finds no path between moving walls waits this many times the obstacle map's memory for one.
 const MEMORIES_WAITED: f64 = 2.0;
@@ -69,7 +69,7 @@ impl Trial {
         let TrialState { world, controller_state, .. } = &mut self.state;
         controller_state.seen = xxhash_rust::xxh3::xxh3_64(&percept.gray.pixels);
         update_known(&mut controller_state.known, world.tick, percept, &world.parameters);
-        if self.state.controller == ControllerName::Robot {
+        if self.state.is_led_from_outside() {
             return self.leave_to_robot();
         }
         let (switching, stage) = self.stage(percept);
@@ -105,7 +105,7 @@ impl Trial {
         }
     }
 
-    /// A program for a UR5 commands the joints: no sub-controller does anything.
+    /// No sub-controller does anything.
     fn leave_to_robot(&self) -> Decision {
         let world = &self.state.world;
         let motion = match world.motion {
@@ -167,7 +167,8 @@ impl Trial {
 
     /// What the program has to answer before the next tick; `None` if that needs no answer.
     pub fn question(&self, seen: &Seen) -> Option<Question> {
-        let is_asked = matches!(self.state.controller_state.carrier, Carrier::Program(_));
+        let has_program = matches!(self.state.controller_state.carrier, Carrier::Program(_));
+        let is_asked = has_program && !self.state.is_led_from_outside();
         let Stage::Transport(goal_m) = is_asked.then(|| self.stage(&seen.percept).1)? else { return None };
         let world = &self.state.world;
         let bead_m = world.tracker.estimate().position_m;
@@ -285,8 +286,7 @@ impl Trial {
 
     /// Counts the control step, or stops the trial if no step is left. A step without the tracker has its own count.
     fn count(&mut self) {
-        // What a program for a UR5 does has no steps.
-        if self.state.controller == ControllerName::Robot {
+        if self.state.is_led_from_outside() {
             return;
         }
         // A person may rest: only steps that move the tool count.

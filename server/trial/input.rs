@@ -10,9 +10,12 @@ use crate::control::transport::program::Answer;
 use crate::control::transport::you::Steering;
 use crate::geometry::{Point2, Point3};
 use crate::map::Map;
-use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Plant};
-use crate::robot::Joints;
+use crate::plant::{BEAD_RADIUS_M, Bead, Hand, Mirror, Plant, Positioner};
+use crate::robot::{Joints, ur5::JOINT_LIMIT_RAD};
 use crate::scenario::{ControllerName, Disturbance, Parameters, Stream};
+
+/// How far beyond a joint's limit a robot may report it.
+const MEASURED_BEYOND_RAD: f64 = 0.1;
 
 /// An input of a trial; it is logged with the tick that follows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,6 +65,12 @@ pub enum Input {
     },
     /// Joint angles at the next tick, from a program for a UR5.
     Servo { joints_rad: Joints },
+    /// At the next tick the arm is where a robot outside of Ferry is. A tick without this moves the simulated arm.
+    Mirror {
+        joints_rad: Joints,
+        /// Whether the robot follows Ferry's controllers. If not, something else moves it.
+        is_driven: bool,
+    },
 }
 
 /// Finite and on the table.
@@ -140,6 +149,9 @@ impl Trial {
             }
             Input::Hold { reason } => self.answer(Answer::Hold { reason: reason.clone() })?,
             Input::Servo { joints_rad } => self.servo(joints_rad)?,
+            Input::Mirror { joints_rad, is_driven } => {
+                self.mirror(Mirror { joints_rad: *joints_rad, is_driven: *is_driven })?;
+            }
         }
         self.inputs.push(input);
         Ok(())
@@ -172,6 +184,28 @@ impl Trial {
         let here_rad = world.reference.joints_rad().ok_or(JointRefusal::NoJoints)?;
         self.arena.limits(&world.parameters).joints(&here_rad, joints_rad)?;
         world.motion = Motion::Joints(*joints_rad);
+        Ok(())
+    }
+
+    /// The robot may be anywhere. The first report puts the arm there, without a motion on the way.
+    fn mirror(&mut self, mirror: Mirror) -> Result<(), InputError> {
+        let world = &mut self.state.world;
+        world.reference.joints_rad().ok_or(JointRefusal::NoJoints)?;
+        for (joint, &angle_rad) in mirror.joints_rad.iter().enumerate() {
+            if !angle_rad.is_finite() {
+                return Err(JointRefusal::NotFinite { joint, angle_rad }.into());
+            }
+            if angle_rad.abs() > JOINT_LIMIT_RAD + MEASURED_BEYOND_RAD {
+                return Err(JointRefusal::JointLimit { joint, angle_rad }.into());
+            }
+        }
+        let is_first = world.plant.mirror.replace(mirror).is_none();
+        if is_first {
+            world.plant.positioner = Positioner::Arm(mirror.joints_rad);
+        }
+        if is_first || !mirror.is_driven {
+            world.motion = Motion::Joints(mirror.joints_rad);
+        }
         Ok(())
     }
 

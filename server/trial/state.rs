@@ -28,7 +28,7 @@ pub enum Motion {
     Segment(TargetStep),
     /// Follows the tracked bead, tick by tick (sub-controller 1).
     Track,
-    /// Joint angles in rad, at the next tick, and then rest (a program for a UR5).
+    /// Joint angles in rad, at the next tick, and then rest (a program for a UR5, or a robot that is mirrored).
     Joints(Joints),
 }
 
@@ -164,7 +164,7 @@ impl World {
             tick,
             parameters,
             goal_m,
-            plant: PlantState { positioner, bead, hand, drift_n, walls },
+            plant: PlantState { positioner, bead, hand, drift_n, walls, mirror },
             tracker,
             past,
             reference_m,
@@ -181,10 +181,10 @@ impl World {
             hash(tick),
             hash(&Hashed(parameters)),
             hash(goal_m),
-            hash(positioner),
+            // Mirrors and walls came later; without them, the hash is as before.
+            mirror.map_or_else(|| hash(positioner), |mirror| hash(&(positioner, mirror))),
             hash(bead),
             hash(hand),
-            // Walls came later; at rest, the hash is as before.
             walls.map_or_else(|| hash(drift_n), |walls| hash(&(drift_n, walls))),
             hash(tracker),
             hash(past),
@@ -251,6 +251,12 @@ impl TrialState {
                 closed_steps: 0,
             },
         }
+    }
+
+    /// Whether something outside of Ferry moves the arm: a program for a UR5, or whatever moves the robot that is
+    /// mirrored. Then there are no control steps to count.
+    pub(super) fn is_led_from_outside(&self) -> bool {
+        self.controller == ControllerName::Robot || self.world.plant.mirror.is_some_and(|mirror| !mirror.is_driven)
     }
 
     /// Hash of the world: equal in a replay from logged decisions.

@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 
 use super::command::Command;
 use super::control_script::{ControlScript, Next};
+use super::drive_script::DriveScript;
 use super::inputs::Input;
 use super::mover::Mover;
 use super::registers::Registers;
@@ -71,6 +72,7 @@ pub enum LoadError {
 #[derive(Clone, Debug)]
 enum Program {
     Control(ControlScript),
+    Drive(DriveScript),
     Lines { lines: VecDeque<Line>, wait_ticks: u64 },
 }
 
@@ -206,6 +208,9 @@ impl Controller {
         if let Some(script) = ControlScript::recognise(text) {
             return Ok(("rtde_control".to_owned(), Program::Control(script)));
         }
+        if let Some(script) = DriveScript::recognise(text) {
+            return Ok(("ferry_drive".to_owned(), Program::Drive(script)));
+        }
         let (name, lines) = script::parse(text)?;
         Ok((name, Program::Lines { lines: lines.into(), wait_ticks: 0 }))
     }
@@ -310,12 +315,12 @@ impl Controller {
                 if let Some(name) = script.begun() {
                     self.command = Some(name);
                 }
-                match next {
-                    Next::Goes => {}
-                    Next::Ends => self.end("as asked"),
-                    Next::Refused { what, why } => self.refuse(&what, &why),
-                    Next::ProtectiveStop => self.stop_at_once("protective_stop", "a program has asked for it"),
-                }
+                self.carry_on(next);
+            }
+            Program::Drive(script) => {
+                let (next, begun) = script.cycle(&self.inputs, &mut self.outputs, &mut self.mover, here_rad);
+                self.command = begun.or(self.command);
+                self.carry_on(next);
             }
             Program::Lines { wait_ticks, .. } if *wait_ticks > 0 => *wait_ticks -= 1,
             Program::Lines { lines, wait_ticks } => {
@@ -331,6 +336,15 @@ impl Controller {
                     Some(Line::Motion(command)) => self.begin(&command, here_rad),
                 }
             }
+        }
+    }
+
+    fn carry_on(&mut self, next: Next) {
+        match next {
+            Next::Goes => {}
+            Next::Ends => self.end("as asked"),
+            Next::Refused { what, why } => self.refuse(&what, &why),
+            Next::ProtectiveStop => self.stop_at_once("protective_stop", "a program has asked for it"),
         }
     }
 

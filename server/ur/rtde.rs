@@ -14,7 +14,7 @@ use super::dashboard::VERSION;
 use super::inputs::Input;
 
 /// The protocol version that is spoken.
-const PROTOCOL: u16 = 2;
+pub(super) const PROTOCOL: u16 = 2;
 /// The rate of a CB3 controller.
 pub const RATE_MOST_HZ: f64 = 125.0;
 /// Names in a recipe.
@@ -23,15 +23,15 @@ const NAMES_MOST: usize = 256;
 const RECIPES_MOST: usize = 64;
 
 /// Types of frames.
-mod kind {
-    pub(super) const PROTOCOL_VERSION: u8 = b'V';
-    pub(super) const CONTROLLER_VERSION: u8 = b'v';
-    pub(super) const TEXT_MESSAGE: u8 = b'M';
-    pub(super) const DATA: u8 = b'U';
-    pub(super) const OUTPUTS: u8 = b'O';
-    pub(super) const INPUTS: u8 = b'I';
-    pub(super) const START: u8 = b'S';
-    pub(super) const PAUSE: u8 = b'P';
+pub(super) mod kind {
+    pub const PROTOCOL_VERSION: u8 = b'V';
+    pub const CONTROLLER_VERSION: u8 = b'v';
+    pub const TEXT_MESSAGE: u8 = b'M';
+    pub const DATA: u8 = b'U';
+    pub const OUTPUTS: u8 = b'O';
+    pub const INPUTS: u8 = b'I';
+    pub const START: u8 = b'S';
+    pub const PAUSE: u8 = b'P';
 }
 
 /// Why a connection is closed: what follows cannot be understood.
@@ -74,7 +74,7 @@ struct Recipe {
 }
 
 /// A frame without its size.
-fn frame(kind: u8, payload: &[u8]) -> Vec<u8> {
+pub(super) fn frame(kind: u8, payload: &[u8]) -> Vec<u8> {
     [&[kind], payload].concat()
 }
 

@@ -113,4 +113,10 @@ pub enum Input {
     },
     /// Joint angles at the next tick, from a program for a UR5.
     Servo { joints_rad: [f64; 6] },
+    /// At the next tick the arm is where a robot outside of Ferry is. A tick without this moves the simulated arm.
+    Mirror {
+        joints_rad: [f64; 6],
+        /// Whether the robot follows Ferry's controllers. If not, something else moves it.
+        is_driven: bool,
+    },
 }

@@ -26,6 +26,8 @@ export interface ServerOptions {
   readonly data?: string;
   /** The address of its robot server; without one if not set. Each test has its own. */
   readonly robot?: string;
+  /** The address of a robot that it mirrors and may move. */
+  readonly drives?: string;
 }
 
 /** A server process with its own data folder. */
@@ -48,7 +50,9 @@ export class Server {
     const child = spawn(
       BINARY,
       [
-        'serve',
+        ...(given.drives === undefined
+          ? ['serve']
+          : ['drive', '--robot', given.drives, '--enable-motion']),
         ...['--bind', `127.0.0.1:${port}`],
         ...['--data', data],
         ...['--sessions', String(SESSIONS)],

@@ -6,6 +6,7 @@ import { type View, VIEWS } from './views';
 import { ConnectionStatus } from './ConnectionStatus';
 import { KeyboardHelp } from './KeyboardHelp';
 import { PlaceNotice } from '../lab/PlaceNotice';
+import { isLedFromOutside } from '../lab/outside';
 import type { Lab, Notices, Session } from '../lab/slices';
 import { takeControl } from '../lab/takeControl';
 import { TERMS } from '../lab/terms';
@@ -73,6 +74,10 @@ function recordingState(status: string): 'on' | 'gaps' | 'off' {
 
 export function Header(props: HeaderProps): JSX.Element {
   const { lab } = props;
+  const mode = (): number | undefined => {
+    const state = lab.state();
+    return state && !isLedFromOutside(state) ? state.mode : undefined;
+  };
   return (
     <header class="bar top">
       <div class="brand">
@@ -115,10 +120,10 @@ export function Header(props: HeaderProps): JSX.Element {
         </Show>
         <PlaceNotice lab={lab} place="session" />
       </div>
-      <div class="mode" data-mode={lab.state()?.mode ?? 0} title={TERMS.mode}>
+      <div class="mode" data-mode={mode() ?? 0} title={TERMS.mode}>
         <span class="mode-label">mode</span>
         <span class="mode-badge number" data-testid="mode">
-          {lab.state()?.mode ?? '–'}
+          {mode() ?? '–'}
         </span>
         <span
           class="phase"

@@ -14,6 +14,7 @@ export const PLACE_OF_COMMAND: Record<ClientMessage['type'], Place> = {
   disturb: 'workspace',
   steer: 'workspace',
   select_controller: 'controller',
+  drive_robot: 'controller',
   configure: 'controller',
   run: 'playback',
   pause: 'playback',

@@ -50,6 +50,7 @@ export function stateAt(tick: number, change: Partial<StateMessage> = {}): State
     attempt: null,
     program: null,
     robot: null,
+    twin: null,
     world_hash: '',
     recording: '',
     ended: null,

@@ -15,6 +15,7 @@ import { CONTROLLERS, CONTROLLER_HELP, CONTROLLER_LABELS, policyName } from '../
 import type { ControllerName, StateMessage } from '../../net/protocol.gen';
 import { createPrograms } from '../../lab/programs';
 import { PlaceNotice } from '../../lab/PlaceNotice';
+import { isLedFromOutside } from '../../lab/outside';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
 import type { Notices, Session, Trial } from '../../lab/slices';
@@ -163,8 +164,7 @@ export function ControllerPanel(props: {
             {(state) => (
               <>
                 <About state={state()} policy={scene().parameters.rl_policy} />
-                {/* A robot client knows no sub-controllers. */}
-                <Show when={state().controller !== 'robot'}>
+                <Show when={!isLedFromOutside(state())}>
                   <SwitchingLaw state={state()} scene={scene()} />
                 </Show>
                 {props.children}

@@ -38,3 +38,36 @@ stop: string | null,
  * Newest last, at most 20.
  */
 refused: Array<RobotRefusal>, };
+
+/**
+ * A robot outside of Ferry (`ferry drive`), whose arm the simulated one mirrors.
+ */
+export type TwinStanding = { address: string, 
+/**
+ * Whether Ferry may move it (`--enable-motion`).
+ */
+allows_motion: boolean, 
+/**
+ * Why it is not connected; `null` if it is.
+ */
+trouble: string | null, 
+/**
+ * As it reports it: 7 while it runs.
+ */
+robot_mode: number, 
+/**
+ * As it reports it: 1 normal, 2 reduced, 3 protective stop.
+ */
+safety_mode: number, 
+/**
+ * Whether the button is held and the robot begins to follow, or follows.
+ */
+is_held: boolean, 
+/**
+ * Whether it follows Ferry's controllers.
+ */
+is_driven: boolean, 
+/**
+ * Why it does not follow, or no longer.
+ */
+stopped: string | null, };

@@ -4,7 +4,7 @@ import type { Parameters } from '../parameters.gen';
 import type { AttemptStanding } from './challenges.gen';
 import type { ControllerName, Polygon, PositionerKind, Rect, Scenario } from './experiment.gen';
 import type { ProgramStanding } from './programs.gen';
-import type { RobotStanding } from './robot.gen';
+import type { RobotStanding, TwinStanding } from './robot.gen';
 
 /**
  * See `ServerMessage::Scene`.
@@ -267,6 +267,10 @@ program: ProgramStanding | null,
  * The clients of the robot server; `null` if this session has none.
  */
 robot: RobotStanding | null, 
+/**
+ * The robot outside of Ferry that the arm mirrors; `null` if there is none.
+ */
+twin: TwinStanding | null, 
 /**
  * Hash of the plant's state, in hex.
  */

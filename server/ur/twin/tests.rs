@@ -1,0 +1,247 @@
+use super::*;
+use crate::camera::{AdapterChoice, Camera, Gpu};
+use crate::geometry::Point2;
+use crate::scenario::{ControllerName, Scenario};
+use crate::trial::{Arena, Source};
+use proptest::prelude::*;
+
+const TICK: Duration = Duration::from_millis(8);
+
+/// A trial whose arm is at a place, a twin, and a clock.
+struct Bench {
+    trial: Trial,
+    camera: Camera,
+    twin: Twin,
+    report: Report,
+    now: Instant,
+}
+
+impl Bench {
+    fn new(allows_motion: bool) -> Self {
+        let start_m = Some(Point2::new(0.0, -0.35));
+        let scenario = Scenario { controller: ControllerName::Errt, start_m, ..Scenario::idle("open", 1) };
+        let trial = Trial::new(scenario, Arena::open("open").unwrap()).unwrap();
+        let joints_rad = trial.state().world.reference.joints_rad().unwrap();
+        let report = Report { joints_rad, robot_mode: RUNNING, safety_mode: NORMAL, ..Report::default() };
+        let twin = Twin::new([127, 0, 0, 1].into(), allows_motion);
+        twin.connected(Ok(()));
+        let camera = trial.arena().camera(&Gpu::open(AdapterChoice::default()).unwrap()).unwrap();
+        Self { trial, camera, twin, report, now: Instant::now() }
+    }
+
+    /// The robot reports, and the session makes a tick.
+    fn tick(&mut self) -> Answer {
+        self.now += TICK;
+        self.twin.hear(self.report, self.now);
+        self.silent_tick()
+    }
+
+    fn silent_tick(&mut self) -> Answer {
+        if let Some(input) = self.twin.next(&self.trial, self.now) {
+            self.trial.apply(input).unwrap();
+        }
+        self.trial.tick(Source::Camera(&mut self.camera)).unwrap();
+        self.twin.follow(&self.trial);
+        *self.twin.answers().borrow()
+    }
+
+    fn hold(&mut self) -> Result<(), DriveError> {
+        self.twin.hold(true, self.now)
+    }
+
+    /// Until the robot follows.
+    fn begin(&mut self) {
+        self.tick();
+        self.hold().unwrap();
+        self.tick();
+        assert_eq!((self.tick().programs, self.twin.standing().is_driven), (1, false));
+        (self.report.period, self.report.runtime_state) = (1, PLAYING);
+        self.tick();
+        assert!(self.twin.standing().is_driven);
+    }
+
+    /// One more period of the robot's program, with the button held.
+    fn go_on(&mut self) -> Answer {
+        self.report.period += 1;
+        self.hold().unwrap();
+        self.tick()
+    }
+
+    fn stopped(&self) -> String {
+        let standing = self.twin.standing();
+        assert!(!standing.is_driven && !standing.is_held, "{standing:?}");
+        standing.stopped.unwrap_or_default()
+    }
+}
+
+#[test]
+fn a_twin_that_only_reads_never_answers() {
+    let mut bench = Bench::new(false);
+    bench.trial.apply(Input::SetGoal { x_m: 0.1, y_m: -0.35 }).unwrap();
+    for _ in 0..100 {
+        bench.report.joints_rad[0] += 1e-3;
+        assert_eq!(bench.tick(), Answer::default());
+        assert_eq!(bench.trial.state().world.plant.positioner.joints_rad(), Some(bench.report.joints_rad));
+    }
+    assert_eq!(bench.hold(), Err(DriveError::NotEnabled));
+    assert_eq!(bench.tick(), Answer::default());
+    assert_eq!(bench.trial.state().world.counters.steps, 0);
+}
+
+#[test]
+fn the_robot_follows_the_controllers_while_the_button_is_held() {
+    let mut bench = Bench::new(true);
+    bench.trial.apply(Input::SetGoal { x_m: 0.1, y_m: -0.35 }).unwrap();
+    bench.begin();
+    let from_m = bench.trial.tool_m();
+    for _ in 0..200 {
+        let answer = bench.go_on();
+        assert_eq!(answer.period, bench.report.period);
+        bench.report.joints_rad = answer.joints_rad;
+    }
+    let travel_m = (bench.trial.tool_m() - from_m).norm();
+    assert!(travel_m > 0.03 && bench.trial.state().world.counters.steps > 4, "{travel_m}");
+    bench.twin.hold(false, bench.now).unwrap();
+    assert_eq!(bench.stopped(), "");
+    // The robot's program stops the arm; the simulated one goes where the robot does.
+    bench.report.joints_rad[0] += 0.01;
+    assert_eq!(bench.tick().period, 0);
+    assert_eq!(bench.trial.state().world.reference.joints_rad(), Some(bench.report.joints_rad));
+    // Its program of before has ended; another begins.
+    (bench.report.period, bench.report.runtime_state) = (OVER, 1);
+    bench.tick();
+    bench.hold().unwrap();
+    bench.tick();
+    assert_eq!(bench.tick().programs, 2);
+}
+
+#[test]
+fn whatever_is_wrong_stops_the_robot_until_the_button_is_pressed_again() {
+    let causes: [(&str, fn(&mut Bench)); 10] = [
+        ("nothing was heard", |bench| {
+            bench.now += SILENCE + TICK;
+            bench.silent_tick();
+        }),
+        ("nothing was heard", |bench| (0..14).for_each(|_| drop((bench.hold(), bench.tick())))),
+        ("safety_mode is 3", |bench| bench.report.safety_mode = 3),
+        ("robot_mode is 5", |bench| bench.report.robot_mode = 5),
+        ("has ended Ferry's program", |bench| bench.report.period = OVER - 1),
+        ("has ended Ferry's program", |bench| bench.report.runtime_state = 1),
+        ("joint 2 is", |bench| bench.report.joints_rad[2] += 0.3),
+        ("not connected", |bench| bench.twin.connected(Err("the cable is out".to_owned()))),
+        ("could not be sent", |bench| bench.twin.not_sent("port 30002 is closed".to_owned())),
+        ("was paused", |bench| bench.twin.let_go()),
+    ];
+    for (why, happens) in causes {
+        let mut bench = Bench::new(true);
+        bench.begin();
+        assert!(bench.go_on().period > 0);
+        happens(&mut bench);
+        bench.report.period += 1;
+        assert_eq!(bench.tick().period, 0, "{why}");
+        assert!(bench.stopped().contains(why), "{why}: {}", bench.stopped());
+        // Everything is well again, but the button was not released.
+        let before = bench.twin.answers().borrow().programs;
+        bench.twin.connected(Ok(()));
+        bench.report =
+            Report { joints_rad: bench.report.joints_rad, period: OVER, runtime_state: 1, ..Bench::new(true).report };
+        bench.report.joints_rad = Bench::new(true).report.joints_rad;
+        for _ in 0..5 {
+            bench.hold().unwrap();
+            assert_eq!((bench.tick().programs, bench.twin.standing().is_held), (before, false), "{why}");
+        }
+        bench.twin.hold(false, bench.now).unwrap();
+        bench.hold().unwrap();
+        bench.tick();
+        assert_eq!(bench.tick().programs, before + 1, "{why}");
+    }
+}
+
+#[test]
+fn a_page_that_says_nothing_has_released_the_button() {
+    let mut bench = Bench::new(true);
+    bench.begin();
+    let mut ticks = 0;
+    while bench.tick().period > 0 {
+        bench.report.period += 1;
+        ticks += 1;
+        assert!(ticks < 40, "it goes on");
+    }
+    assert!((27..=31).contains(&ticks) && bench.stopped().is_empty(), "0.25 s: {ticks}");
+}
+
+#[test]
+fn a_robot_that_cannot_follow_is_not_asked_to() {
+    let refused = |change: fn(&mut Bench)| {
+        let mut bench = Bench::new(true);
+        bench.tick();
+        change(&mut bench);
+        bench.tick();
+        let error = bench.hold().err().map(|error| error.to_string());
+        assert_eq!(bench.tick(), Answer { joints_rad: bench.twin.answers().borrow().joints_rad, ..Answer::default() });
+        error.unwrap_or_else(|| bench.stopped())
+    };
+    assert!(refused(|bench| bench.report.robot_mode = 3).contains("robot_mode is 3"));
+    assert!(refused(|bench| bench.report.safety_mode = 4).contains("safety_mode is 4"));
+    assert!(refused(|bench| bench.report.runtime_state = PLAYING).contains("another program"));
+    assert!(refused(|bench| bench.report.joints_rad[5] += 0.2).contains("turned 0.2000 rad"));
+    assert!(refused(|bench| bench.report.joints_rad[1] -= 0.9).contains("not where Ferry may move it"));
+    assert!(refused(|bench| bench.twin.connected(Err("no".to_owned()))).contains("not connected"));
+    let mut bench = Bench::new(true);
+    bench.tick();
+    bench.now += SILENCE + TICK;
+    assert_eq!(bench.hold(), Err(DriveError::Silent));
+}
+
+#[test]
+fn a_program_that_does_not_begin_is_given_up() {
+    let mut bench = Bench::new(true);
+    bench.tick();
+    let mut ticks = 0;
+    while bench.hold().is_ok() && bench.twin.standing().stopped.is_none() {
+        bench.tick();
+        ticks += 1;
+    }
+    assert!((375..380).contains(&ticks) && bench.stopped().contains("has not begun"), "{ticks}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+    /// Whatever a robot reports: a target answers its last period, and is within the limits of the one before.
+    #[test]
+    fn targets_are_within_the_limits(
+        steps in prop::collection::vec((prop::array::uniform6(-0.02..0.02), 0..40_u32, -2..3, any::<bool>()), 1..150),
+    ) {
+        let mut bench = Bench::new(true);
+        bench.trial.apply(Input::SetGoal { x_m: 0.15, y_m: -0.3 }).unwrap();
+        bench.begin();
+        let mut last: Option<Joints> = None;
+        for (noise, event, later, is_held) in steps {
+            bench.report.period = bench.report.period.saturating_add(later);
+            match event {
+                0 => bench.report.safety_mode = 3,
+                1 => bench.report = Report { safety_mode: NORMAL, ..bench.report },
+                2 => bench.twin.let_go(),
+                3 => bench.now += SILENCE,
+                4 => drop(bench.twin.hold(false, bench.now)),
+                _ => {}
+            }
+            if is_held {
+                let _ = bench.hold();
+            }
+            let answer = bench.tick();
+            if answer.period == 0 {
+                last = None;
+                bench.report.runtime_state = if event % 2 == 0 { 1 } else { PLAYING };
+                continue;
+            }
+            prop_assert_eq!(answer.period, bench.report.period);
+            let limits = bench.trial.arena().limits(&bench.trial.state().world.parameters);
+            if let Some(last) = last {
+                prop_assert_eq!(limits.joints(&last, &answer.joints_rad), Ok(()));
+            }
+            last = Some(answer.joints_rad);
+            bench.report.joints_rad = std::array::from_fn(|i| answer.joints_rad[i] + noise[i]);
+        }
+    }
+}

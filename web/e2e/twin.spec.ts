@@ -1,0 +1,91 @@
+// The robot that the arm mirrors: what the page says of it, and the button that lets it follow while it is held.
+
+import type { Locator } from '@playwright/test';
+import { Lab, expect, test as base } from './fixtures';
+import { violations } from './support/axe';
+import { DESKTOP, TABLET } from './support/browser';
+import { INPUT_METHODS } from './support/inputMethods';
+import { Server } from './support/server';
+import { until } from './support/wait';
+
+/** The table in front of the arm, free on the map `open`. */
+const GOAL = [0.1, -0.3] as const;
+
+type Way = 'mouse' | 'touch' | 'keyboard';
+
+/** Presses the button, waits, and releases it. */
+async function hold(lab: Lab, way: Way, button: Locator, whileHeld: () => Promise<void>) {
+  if (way === 'keyboard') {
+    await button.focus();
+    await lab.page.keyboard.down('Space');
+    await whileHeld();
+    await lab.page.keyboard.up('Space');
+    return;
+  }
+  const box = await lab.boxOf(button);
+  const middle = [box.x + box.width / 2, box.y + box.height / 2] as const;
+  const input = new INPUT_METHODS[way](lab);
+  if (!('drag' in input)) throw new Error(`${way} does not drag`);
+  await input.drag(middle, middle, whileHeld);
+}
+
+for (const [number, way] of (['mouse', 'touch', 'keyboard'] as const).entries()) {
+  const address = `127.0.28.${112 + number}`;
+  const test = base.extend<{ robot: Server; twinLab: Lab }>({
+    robot: async ({}, use) => {
+      const robot = await Server.start({ robot: address });
+      await use(robot);
+      await robot.stop();
+    },
+    twinLab: async ({ page, watch, robot }, use) => {
+      expect(robot.pid).toBeDefined();
+      const server = await Server.start({ drives: address });
+      watch.allowHost(server.url);
+      await use(await Lab.attach(page, server.url));
+      await page.goto('about:blank');
+      await server.stop();
+    },
+  });
+
+  test.describe(`by ${way}`, () => {
+    test.use(way === 'touch' ? TABLET : DESKTOP);
+
+    test(`the robot follows while the button is held by ${way}, and only then`, async ({
+      robot,
+      twinLab: lab,
+    }) => {
+      const connection = lab.page.getByTestId('twin-connection');
+      const motion = lab.page.getByTestId('twin-motion');
+      const button = lab.button('Hold to move the robot');
+      await expect(connection).toHaveText(`Robot ${address}: running, safety: normal.`);
+      await expect(motion).toHaveText('The robot rests, or something else moves it.');
+      await until('a robot that is connected is shown where it is', () => lab.state.running);
+      await lab.map('open');
+      await lab.controller('ERRT');
+      await lab.run();
+      await lab.setGoal(GOAL);
+      const rests = lab.state.tool_m;
+      await lab.later(50);
+      expect(lab.state.tool_m).toEqual(rests);
+      expect(await violations(lab.page)).toEqual([]);
+
+      const travel = () =>
+        Math.hypot(lab.state.tool_m[0] - rests[0], lab.state.tool_m[1] - rests[1]);
+      await hold(lab, way, button, async () => {
+        await expect(motion).toHaveText('The robot follows Ferry’s controller.');
+        await until('it moves', () => travel() > 0.02);
+      });
+      await until('it no longer follows', () => lab.state.twin?.is_held === false);
+      await expect(motion).toHaveText('The robot rests, or something else moves it.');
+      // The stop takes a moment.
+      await lab.later(60);
+      const stopped = lab.state.tool_m;
+      await lab.later(50);
+      expect(lab.state.tool_m).toEqual(stopped);
+
+      await robot.end();
+      await expect(connection).toContainText('is not connected');
+      await expect(button).toBeDisabled();
+    });
+  });
+}

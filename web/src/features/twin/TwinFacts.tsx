@@ -1,0 +1,91 @@
+// The robot that the arm mirrors, and the button that lets it follow Ferry's controller while it is held.
+
+import { Show, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
+import type { Session } from '../../lab/slices';
+import type { TwinStanding } from '../../net/protocol.gen';
+import { createHold } from './hold';
+import { connectionWords, motionWords } from './words';
+import './twin.css';
+
+const isKey = ({ key }: KeyboardEvent): boolean => key === ' ' || key === 'Enter';
+
+function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
+  const { lab } = props;
+  const hold = createHold((held) => {
+    lab.send({ type: 'drive_robot', held });
+  });
+  const release = (): void => {
+    hold.release();
+  };
+  const isEnabled = (): boolean => lab.canOperate() && props.twin.trouble === null;
+  createEffect(
+    on(isEnabled, (enabled) => {
+      if (!enabled) release();
+    }),
+  );
+  // A page that cannot be seen holds nothing.
+  onMount(() => {
+    document.addEventListener('visibilitychange', release);
+    window.addEventListener('blur', release);
+  });
+  onCleanup(() => {
+    document.removeEventListener('visibilitychange', release);
+    window.removeEventListener('blur', release);
+    release();
+  });
+  return (
+    <button
+      type="button"
+      class="hold"
+      classList={{ driven: props.twin.is_driven }}
+      disabled={!isEnabled()}
+      aria-describedby="twin-motion"
+      onPointerDown={(event) => {
+        if (event.button !== 0) return;
+        event.currentTarget.setPointerCapture(event.pointerId);
+        hold.press();
+      }}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onLostPointerCapture={release}
+      onContextMenu={(event) => {
+        // A long touch would open a menu.
+        event.preventDefault();
+      }}
+      onKeyDown={(event) => {
+        if (!isKey(event)) return;
+        event.preventDefault();
+        hold.press();
+      }}
+      onKeyUp={(event) => {
+        if (isKey(event)) release();
+      }}
+      onBlur={release}
+    >
+      Hold to move the robot
+    </button>
+  );
+}
+
+export function TwinFacts(props: { lab: Session; twin: TwinStanding }): JSX.Element {
+  const hasStopped = (): boolean => props.twin.trouble !== null || props.twin.stopped !== null;
+  return (
+    <section class="twin-facts" aria-label="Robot">
+      <p data-testid="twin-connection" classList={{ stopped: props.twin.trouble !== null }}>
+        {connectionWords(props.twin)}
+      </p>
+      <p
+        id="twin-motion"
+        data-testid="twin-motion"
+        classList={{ stopped: props.twin.stopped !== null }}
+        role={hasStopped() ? 'alert' : undefined}
+      >
+        {motionWords(props.twin)}
+      </p>
+      <Show when={props.twin.allows_motion}>
+        <HoldButton lab={props.lab} twin={props.twin} />
+        <p class="hint">Not safety-rated: the robot’s emergency stop must be within reach.</p>
+      </Show>
+    </section>
+  );
+}
