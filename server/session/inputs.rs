@@ -6,7 +6,7 @@ use super::CommandError;
 use super::playing::Void;
 use super::worker::Worker;
 use crate::camera::ImageSource;
-use crate::trial::{Input, InputError, TrialState};
+use crate::trial::{Input, InputError};
 
 impl<E: ImageSource> Worker<E> {
     pub(super) fn input(&mut self, mut input: Input) -> Result<(), CommandError> {
@@ -17,7 +17,7 @@ impl<E: ImageSource> Worker<E> {
         }
         let tick = self.trial.state().world.tick;
         // Hashes cost more than most inputs and are needed only after a rewind.
-        let before = self.timeline.reaches_past(tick).then(|| hashes(self.trial.state()));
+        let before = self.timeline.reaches_past(tick).then(|| self.trial.state().hashes());
         let as_it_was = self.hand_is_stale.then(|| self.trial.snapshot());
         if !matches!(input, Input::Release) {
             self.drop_stale_hand()?;
@@ -31,7 +31,7 @@ impl<E: ImageSource> Worker<E> {
         if !steers {
             self.spoil(Void::OtherInput);
         }
-        if before.is_some_and(|before| before != hashes(self.trial.state())) {
+        if before.is_some_and(|before| before != self.trial.state().hashes()) {
             self.forget_after(tick);
         }
         if configures {
@@ -70,8 +70,4 @@ impl<E: ImageSource> Worker<E> {
             Arc::make_mut(&mut self.journal).retain(|told| told.tick <= tick);
         }
     }
-}
-
-pub(super) fn hashes(state: &TrialState) -> (u64, u64) {
-    (state.world_hash(), state.controller_hash())
 }

@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::{broadcast, oneshot, watch};
 
-use super::inputs::hashes;
 use super::kept_runs::KeptRuns;
 use super::pacing::{LOOK_EVERY, Pace, SPEED_MAX, SPEED_MIN};
 use super::playing::{Playing, Void};
@@ -326,7 +325,7 @@ impl<E: ImageSource> Worker<E> {
             Command::Rewind(tick) => {
                 let state = self.moment(tick)?.clone();
                 self.running = false;
-                if state.world.tick == self.trial.state().world.tick && hashes(&state) == hashes(self.trial.state()) {
+                if state.world.tick == self.trial.state().world.tick && state.hashes() == self.trial.state().hashes() {
                     // Restoring it would drop the inputs that wait.
                     return Ok(());
                 }

@@ -264,6 +264,11 @@ impl TrialState {
         self.world.hashes().total()
     }
 
+    /// Both hashes.
+    pub fn hashes(&self) -> (u64, u64) {
+        (self.world_hash(), self.controller_hash())
+    }
+
     /// Hash of the controller state: equal if the decisions are made again from frames.
     pub fn controller_hash(&self) -> u64 {
         hash(&(&self.controller_state, self.controller))

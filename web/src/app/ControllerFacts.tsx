@@ -4,9 +4,8 @@ import { Match, Show, Switch, type JSX } from 'solid-js';
 import { PlannerFacts } from '../features/planner/PlannerFacts';
 import { ProgramFacts } from '../features/program/ProgramFacts';
 import { RobotFacts } from '../features/robot/RobotFacts';
-import { TwinFacts } from '../features/twin/TwinFacts';
 import { ValueFans } from '../features/values/ValueFans';
-import type { ByHand, OpenTab, Pictures, Session, Trial } from '../lab/slices';
+import type { ByHand, OpenTab, Pictures, Trial } from '../lab/slices';
 import { YouFacts } from '../features/steer/YouFacts';
 import type { ControllerName } from '../net/protocol.gen';
 import './ControllerFacts.css';
@@ -21,15 +20,12 @@ const NONE_YET: Record<ControllerName, string | undefined> = {
   robot: undefined,
 };
 
-export function ControllerFacts(props: {
-  lab: Session & Trial & Pictures & ByHand & OpenTab;
-}): JSX.Element {
+export function ControllerFacts(props: { lab: Trial & Pictures & ByHand & OpenTab }): JSX.Element {
   const { lab } = props;
   return (
     <Show when={lab.state()}>
       {(state) => (
         <>
-          <Show when={state().twin}>{(twin) => <TwinFacts lab={lab} twin={twin()} />}</Show>
           <Show when={state().controller === 'you'}>
             <YouFacts lab={lab} />
           </Show>

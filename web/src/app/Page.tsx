@@ -30,6 +30,7 @@ import { KeptRuns } from '../features/runs/KeptRuns';
 import { ExperimentNotice } from '../features/share/ExperimentNotice';
 import { PresetSelect } from '../features/share/PresetSelect';
 import { ShareButton } from '../features/share/ShareButton';
+import { TwinFacts } from '../features/twin/TwinFacts';
 import { WhyCard } from '../features/why/WhyCard';
 import { ControllerFacts } from './ControllerFacts';
 import { onFileDrop } from '../ui/fileDrop';
@@ -97,7 +98,7 @@ export function Page(): JSX.Element {
               <RecordingClock capture={capture} />
             </WorkspacePanel>
             <CameraPanel lab={lab} />
-            <ControllerPanel lab={lab}>
+            <ControllerPanel lab={lab} above={<TwinFacts lab={lab} />}>
               <ControllerFacts lab={lab} />
             </ControllerPanel>
             <LowerPanel lab={lab} theme={theme} />

@@ -144,9 +144,10 @@ function About(props: { state: StateMessage; policy: string }): JSX.Element {
   );
 }
 
-/** The children show details of the active controller. */
+/** The children show details of the active controller. What is `above` does not move when another one is active. */
 export function ControllerPanel(props: {
   lab: Session & Trial & Notices;
+  above: JSX.Element;
   children: JSX.Element;
 }): JSX.Element {
   const { lab } = props;
@@ -158,6 +159,7 @@ export function ControllerPanel(props: {
           {(scene) => <ControllerChoice lab={lab} names={scene().controllers} />}
         </Show>
       </header>
+      {props.above}
       <Show when={lab.scene()}>
         {(scene) => (
           <Show when={lab.state()}>

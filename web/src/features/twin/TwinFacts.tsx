@@ -1,7 +1,7 @@
 // The robot that the arm mirrors, and the button that lets it follow Ferry's controller while it is held.
 
 import { Show, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
-import type { Session } from '../../lab/slices';
+import type { Session, Trial } from '../../lab/slices';
 import type { TwinStanding } from '../../net/protocol.gen';
 import { createHold } from './hold';
 import { connectionWords, motionWords } from './words';
@@ -67,7 +67,7 @@ function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   );
 }
 
-export function TwinFacts(props: { lab: Session; twin: TwinStanding }): JSX.Element {
+function Facts(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   const hasStopped = (): boolean => props.twin.trouble !== null || props.twin.stopped !== null;
   return (
     <section class="twin-facts" aria-label="Robot">
@@ -87,5 +87,12 @@ export function TwinFacts(props: { lab: Session; twin: TwinStanding }): JSX.Elem
         <p class="hint">Not safety-rated: the robot’s emergency stop must be within reach.</p>
       </Show>
     </section>
+  );
+}
+
+/** Shown if the arm of this session mirrors a robot. */
+export function TwinFacts(props: { lab: Session & Trial }): JSX.Element {
+  return (
+    <Show when={props.lab.state()?.twin}>{(twin) => <Facts lab={props.lab} twin={twin()} />}</Show>
   );
 }
