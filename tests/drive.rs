@@ -4,6 +4,7 @@
 mod cable;
 
 use std::cell::Cell;
+use std::ops::{Deref, DerefMut};
 use std::process::Stdio;
 use std::time::Duration;
 
@@ -32,12 +33,33 @@ async fn robot(address: &str, map: &str, start_m: [f64; 2], data: &std::path::Pa
     (server, browser)
 }
 
+/// A page with the button that lets the robot follow.
+struct Page {
+    browser: Browser,
+    /// Number of the press.
+    press: u32,
+}
+
+impl Deref for Page {
+    type Target = Browser;
+
+    fn deref(&self) -> &Browser {
+        &self.browser
+    }
+}
+
+impl DerefMut for Page {
+    fn deref_mut(&mut self) -> &mut Browser {
+        &mut self.browser
+    }
+}
+
 /// A Ferry that mirrors a robot, and its page.
-async fn driver(address: &str, more: &[&str], data: &std::path::Path) -> (Ferry, Browser) {
+async fn driver(address: &str, more: &[&str], data: &std::path::Path) -> (Ferry, Page) {
     let mut command = ferry(&["drive", "--robot", address, "--bind", "127.0.0.1:0", "--data"]);
     let server = Ferry::start(command.arg(data).args(more).stderr(Stdio::null()));
-    let browser = Browser::at(server.address).await;
-    (server, browser)
+    let page = Page { browser: Browser::at(server.address).await, press: 1 };
+    (server, page)
 }
 
 fn number(value: &Value) -> f64 {
@@ -70,12 +92,13 @@ async fn present(browser: &mut Browser) -> Value {
 }
 
 /// Holds the button until a message fits.
-async fn hold_until(browser: &mut Browser, what: &str, within: Duration, fits: impl Fn(&Value) -> bool) -> Value {
+async fn hold_until(page: &mut Page, what: &str, within: Duration, fits: impl Fn(&Value) -> bool) -> Value {
+    let Page { browser, press } = page;
     let mut beat = tokio::time::interval(HOLD_EVERY);
     let waiting = async {
         loop {
             tokio::select! {
-                _ = beat.tick() => browser.send(json!({"type": "drive_robot", "held": true})).await,
+                _ = beat.tick() => browser.send(json!({"type": "drive_robot", "press": press})).await,
                 message = browser.socket.next() => {
                     let message = message.unwrap_or_else(|| panic!("closed before: {what}")).unwrap();
                     let Message::Text(text) = message else { continue };
@@ -90,20 +113,21 @@ async fn hold_until(browser: &mut Browser, what: &str, within: Duration, fits: i
     tokio::time::timeout(within, waiting).await.unwrap_or_else(|_| panic!("waited in vain: {what}"))
 }
 
-/// Whether the robot has begun to follow and has stopped since. An older state may still say why it stopped before.
+/// Whether the robot has begun to follow and has stopped since, also because a busy machine did not hold the button in
+/// time.
 fn stopping() -> impl Fn(&Value) -> bool {
     let was_held = Cell::new(false);
     move |m| {
         was_held.set(was_held.get() || m["twin"]["is_held"] == true);
-        was_held.get() && m["twin"]["is_held"] == false && m["twin"]["stopped"].is_string()
+        was_held.get() && m["twin"]["is_held"] == false
     }
 }
 
 /// Presses the button, again and again, until the robot follows.
-async fn press(browser: &mut Browser) {
+async fn press(page: &mut Page) {
     for _ in 0..20 {
         let has_stopped = stopping();
-        let tried = hold_until(browser, "it follows or not", Duration::from_secs(30), |m| {
+        let tried = hold_until(page, "it follows or not", Duration::from_secs(30), |m| {
             m["twin"]["is_driven"] == true || has_stopped(m) || m["type"] == "error"
         });
         let tried = tried.await;
@@ -111,27 +135,28 @@ async fn press(browser: &mut Browser) {
             return;
         }
         eprintln!("it does not follow: {} {}", tried["twin"], tried["message"]);
-        release(browser).await;
+        release(page).await;
         tokio::time::sleep(Duration::from_millis(300)).await;
     }
     panic!("the robot does not follow");
 }
 
-async fn release(browser: &mut Browser) {
-    browser.send(json!({"type": "drive_robot", "held": false})).await;
-    browser.state("released", |state| state["twin"]["is_held"] == false).await;
+async fn release(page: &mut Page) {
+    page.send(json!({"type": "drive_robot"})).await;
+    page.press += 1;
+    page.state("released", |state| state["twin"]["is_held"] == false).await;
 }
 
 /// Sends the bead and its goal to a place; the button has to be pressed again.
-async fn task(browser: &mut Browser, map: &str, seed: usize, start_m: Option<[f64; 2]>, goal_m: [f64; 2]) {
+async fn task(page: &mut Page, map: &str, seed: usize, start_m: Option<[f64; 2]>, goal_m: [f64; 2]) {
     let mut load = json!({"type": "load_scenario", "map": map, "controller": "errt", "seed": seed, "goal_m": goal_m});
     if let Some(start_m) = start_m {
         load["start_m"] = json!(start_m);
     }
-    browser.send(load).await;
-    browser.until("it is loaded", |m| m["type"] == "scene" && m["seed"] == seed && m["map"] == map).await;
-    browser.send(json!({"type": "run"})).await;
-    release(browser).await;
+    page.send(load).await;
+    page.until("it is loaded", |m| m["type"] == "scene" && m["seed"] == seed && m["map"] == map).await;
+    page.send(json!({"type": "run"})).await;
+    release(page).await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -149,7 +174,7 @@ async fn a_twin_is_where_the_robot_is_and_does_not_move_it() {
 
     // Ferry's controllers want to go somewhere, but the arm is the robot's.
     task(&mut twin, "open", 5, Some([0.2, -0.45]), [0.0, -0.3]).await;
-    twin.send(json!({"type": "drive_robot", "held": true})).await;
+    twin.send(json!({"type": "drive_robot", "press": 1})).await;
     let refused = twin.error().await;
     assert_eq!(refused["code"], "robot_refused");
     assert!(refused["message"].as_str().unwrap().contains("--enable-motion"), "{refused}");
@@ -199,14 +224,14 @@ async fn ferry_delivers_with_a_robot_over_the_wire() {
         loop {
             // A busy machine may be late, and the robot then stops. The operator presses again.
             let has_stopped = stopping();
+            let is_over =
+                |m: &Value| m["deliveries"] == 1 || m["phase"].as_str().is_some_and(|phase| phase.contains("stopped"));
             let end = hold_until(&mut page, "a delivery", Duration::from_secs(300), |m| {
-                let is_over =
-                    m["deliveries"] == 1 || m["phase"].as_str().is_some_and(|phase| phase.contains("stopped"));
-                m["type"] == "state" && (has_stopped(m) || is_over) || m["type"] == "error"
+                m["type"] == "state" && (has_stopped(m) || is_over(m)) || m["type"] == "error"
             })
             .await;
             release(&mut page).await;
-            if end["type"] == "error" || end["twin"]["stopped"].is_string() && end["deliveries"] == 0 {
+            if !is_over(&end) {
                 eprintln!("seed {seed}: {} {}", end["twin"]["stopped"], end["message"]);
                 stops += 1;
                 assert!(stops <= 3 * wanted, "the robot stops again and again");
@@ -241,8 +266,8 @@ async fn the_robot_stops_when_the_cable_is_damaged() {
         let side = if turn % 2 == 0 { 0.22 } else { -0.22 };
         task(&mut page, "open", turn, Some([side, -0.4]), [0.0, -0.3]).await;
         let (before, at) = loop {
-            press(&mut page).await;
             let from = joints(&present(&mut robot).await);
+            press(&mut page).await;
             let moves = async {
                 robot.state("it moves", |state| apart(&joints(state), &from) > 0.05).await;
                 let before = present(&mut robot).await;
@@ -336,7 +361,7 @@ async fn what_is_not_a_robot_is_said_and_moves_nothing() {
         let told = page.until(why, |m| m["twin"]["trouble"].as_str().is_some_and(|told| told.contains(why))).await;
         assert_eq!(told["running"], false);
     }
-    page.send(json!({"type": "drive_robot", "held": true})).await;
+    page.send(json!({"type": "drive_robot", "press": 1})).await;
     let refused = page.error().await;
     assert!(refused["message"].as_str().unwrap().contains("not connected"), "{refused}");
     let told = page.until("an event", |m| m["type"] == "event" && text(m).starts_with("robot: ")).await;

@@ -340,9 +340,9 @@ impl Connection {
                 let program = self.server.programs.find(&name).ok_or(CommandError::NoProgram { name })?;
                 self.hub.session.send(Command::Attach(program)).await?;
             }
-            ClientMessage::DriveRobot { held } => {
+            ClientMessage::DriveRobot { press } => {
                 let twin = self.server.sessions.twin_of(&self.hub.id).ok_or(CommandError::NoRobot)?;
-                twin.hold(held, Instant::now().into_std())?;
+                twin.hold(press, Instant::now().into_std())?;
                 // The page's hand on the bead is another matter.
                 return Ok(());
             }

@@ -152,9 +152,12 @@ pub enum ClientMessage {
         controllers: Vec<ControllerName>,
     },
     /// The button that lets a robot outside of Ferry follow its controllers is held (`ferry drive --enable-motion`). Must be
-    /// repeated at least every 0.25 s; `false` lets it stop at once.
+    /// repeated at least every 0.25 s. Without `press` it is released.
     DriveRobot {
-        held: bool,
+        /// Another number for each press: one whose motion has ended moves nothing again.
+        #[serde(default)]
+        #[ts(optional)]
+        press: Option<u32>,
     },
     /// Requests control.
     TakeControl {},

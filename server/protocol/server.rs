@@ -283,7 +283,7 @@ pub struct StateMessage {
     pub program: Option<ProgramStanding>,
     /// The clients of the robot server; `null` if this session has none.
     pub robot: Option<RobotStanding>,
-    /// The robot outside of Ferry that the arm mirrors; `null` if there is none.
+    /// The robot outside of Ferry that the arm mirrors; `null` without one.
     #[serde(default)]
     pub twin: Option<TwinStanding>,
     /// Hash of the plant's state, in hex.

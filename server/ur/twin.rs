@@ -12,6 +12,7 @@ use tokio::sync::watch;
 
 use super::drive_script::OVER;
 use super::peer::Report;
+use crate::control::limits::{LIFT_SPEED_M_S, Limits};
 use crate::plant::PositionerKind;
 use crate::robot::Joints;
 use crate::trial::{Input, Trial};
@@ -122,8 +123,9 @@ struct State {
     heard: Option<(Report, Instant)>,
     /// Until when the page's button counts as held.
     held_until: Option<Instant>,
-    /// The button must be released before it counts again.
-    is_spent: bool,
+    /// The press of the button that is held, and the last one whose motion has ended.
+    press: Option<u32>,
+    spent: Option<u32>,
     drive: Drive,
     stopped: Option<DriveError>,
     /// A connection has begun, and the session may not run yet.
@@ -145,7 +147,8 @@ impl Twin {
             trouble: Some("not connected yet".to_owned()),
             heard: None,
             held_until: None,
-            is_spent: false,
+            press: None,
+            spent: None,
             drive: Drive::Rests,
             stopped: None,
             is_new: false,
@@ -232,24 +235,23 @@ impl Twin {
         self.review(&mut state, now);
     }
 
-    /// The page's button is held, or not.
+    /// The page's button is held, in a press that has this number, or is not. A press whose motion has ended moves nothing
+    /// again.
     ///
     /// # Errors
-    /// Why the robot cannot follow. It must be released before it is held again.
-    pub fn hold(&self, is_held: bool, now: Instant) -> Result<(), DriveError> {
+    /// Why the robot cannot follow, once in each press.
+    pub fn hold(&self, press: Option<u32>, now: Instant) -> Result<(), DriveError> {
         let mut state = self.state();
         self.review(&mut state, now);
-        if !is_held {
+        if press.is_none() || state.press.is_some_and(|held| Some(held) != press) {
             self.stop(&mut state, DriveError::Released);
-            (state.held_until, state.is_spent) = (None, false);
-            return Ok(());
         }
-        state.held_until = Some(now + HOLD);
-        if state.is_spent || state.drive != Drive::Rests {
+        (state.press, state.held_until) = (press, press.map(|_| now + HOLD));
+        if press.is_none() || press == state.spent || state.drive != Drive::Rests {
             return Ok(());
         }
         if let Err(error) = self.check(&state, now) {
-            state.is_spent = true;
+            state.spent = press;
             state.stopped = Some(error.clone());
             return Err(error);
         }
@@ -295,7 +297,7 @@ impl Twin {
         if state.drive == Drive::Rests {
             return;
         }
-        (state.drive, state.is_spent) = (Drive::Rests, true);
+        (state.drive, state.spent) = (Drive::Rests, state.press);
         state.tell(why != DriveError::Released, format!("the arm no longer follows: {why}"));
         state.stopped = (why != DriveError::Released).then_some(why);
         self.answer.send_modify(|answer| answer.period = 0);
@@ -305,7 +307,7 @@ impl Twin {
     fn review(&self, state: &mut State, now: Instant) {
         if state.held_until.is_some_and(|until| until < now) {
             self.stop(state, DriveError::Released);
-            (state.held_until, state.is_spent) = (None, false);
+            (state.held_until, state.press) = (None, None);
         }
         if let Err(why) = state.check_drive(now) {
             self.stop(state, why);
@@ -343,6 +345,8 @@ impl Twin {
         let (true, Drive::Follows { sent_rad, period, period_at }) = (is_driven, state.drive) else { return };
         let (Some(target_rad), Some((report, _))) = (world.reference.joints_rad(), state.heard) else { return };
         let limits = trial.arena().limits(&world.parameters);
+        // A flight to another height is a little faster.
+        let limits = Limits { flight_speed_m_s: limits.tool_speed_m_s() + LIFT_SPEED_M_S, ..limits };
         let behind = |joint: &usize| (target_rad[*joint] - report.joints_rad[*joint]).abs() > BEHIND_MOST_RAD;
         if let Some(joint) = (0..6).find(behind) {
             let behind_rad = (target_rad[joint] - report.joints_rad[joint]).abs();

@@ -59,7 +59,6 @@ mod tests {
                 "controller" => json!("errt"),
                 "map" | "case" | "recovery" => json!("posts"),
                 "challenge" => json!("easy-1"),
-                "held" => json!(true),
                 "parameters" => json!({}),
                 "disturbance" => json!({"dropout": {"for_s": 1.0}}),
                 _ => json!(1),

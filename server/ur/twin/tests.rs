@@ -1,6 +1,7 @@
 use super::*;
 use crate::camera::{AdapterChoice, Camera, Gpu};
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Point3};
+use crate::plant::{Positioner, ToolOrientation};
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Source};
 use proptest::prelude::*;
@@ -14,6 +15,7 @@ struct Bench {
     twin: Twin,
     report: Report,
     now: Instant,
+    press: u32,
 }
 
 impl Bench {
@@ -26,7 +28,7 @@ impl Bench {
         let twin = Twin::new([127, 0, 0, 1].into(), allows_motion);
         twin.connected(Ok(()));
         let camera = trial.arena().camera(&Gpu::open(AdapterChoice::default()).unwrap()).unwrap();
-        Self { trial, camera, twin, report, now: Instant::now() }
+        Self { trial, camera, twin, report, now: Instant::now(), press: 1 }
     }
 
     /// The robot reports, and the session makes a tick.
@@ -46,7 +48,12 @@ impl Bench {
     }
 
     fn hold(&mut self) -> Result<(), DriveError> {
-        self.twin.hold(true, self.now)
+        self.twin.hold(Some(self.press), self.now)
+    }
+
+    fn release(&mut self) {
+        self.twin.hold(None, self.now).unwrap();
+        self.press += 1;
     }
 
     /// Until the robot follows.
@@ -101,7 +108,7 @@ fn the_robot_follows_the_controllers_while_the_button_is_held() {
     }
     let travel_m = (bench.trial.tool_m() - from_m).norm();
     assert!(travel_m > 0.03 && bench.trial.state().world.counters.steps > 4, "{travel_m}");
-    bench.twin.hold(false, bench.now).unwrap();
+    bench.release();
     assert_eq!(bench.stopped(), "");
     // The robot's program stops the arm; the simulated one goes where the robot does.
     bench.report.joints_rad[0] += 0.01;
@@ -113,6 +120,21 @@ fn the_robot_follows_the_controllers_while_the_button_is_held() {
     bench.hold().unwrap();
     bench.tick();
     assert_eq!(bench.tick().programs, 2);
+}
+
+#[test]
+fn a_flight_from_another_height_is_within_the_limits() {
+    let mut bench = Bench::new(true);
+    let start = bench.trial.state().world.reference;
+    let high = Positioner::at(Point3::new(0.0, -0.35, 0.14), ToolOrientation::Vertical, &start).unwrap();
+    bench.report.joints_rad = high.joints_rad().unwrap();
+    bench.begin();
+    bench.trial.apply(Input::Place { x_m: 0.2, y_m: -0.45 }).unwrap();
+    for _ in 0..150 {
+        bench.report.joints_rad = bench.go_on().joints_rad;
+    }
+    assert_eq!(bench.twin.standing().stopped, None);
+    assert!(bench.trial.tool_m().x > 0.1 && bench.trial.tool_m().z < 0.11, "{}", bench.trial.tool_m());
 }
 
 #[test]
@@ -150,7 +172,7 @@ fn whatever_is_wrong_stops_the_robot_until_the_button_is_pressed_again() {
             bench.hold().unwrap();
             assert_eq!((bench.tick().programs, bench.twin.standing().is_held), (before, false), "{why}");
         }
-        bench.twin.hold(false, bench.now).unwrap();
+        bench.release();
         bench.hold().unwrap();
         bench.tick();
         assert_eq!(bench.tick().programs, before + 1, "{why}");
@@ -168,6 +190,16 @@ fn a_page_that_says_nothing_has_released_the_button() {
         assert!(ticks < 40, "it goes on");
     }
     assert!((27..=31).contains(&ticks) && bench.stopped().is_empty(), "0.25 s: {ticks}");
+    // It was held all the time, and only the network was slow: nothing moves again.
+    (bench.report.period, bench.report.runtime_state) = (OVER, 1);
+    for _ in 0..5 {
+        bench.hold().unwrap();
+        assert_eq!((bench.tick().programs, bench.twin.standing().is_held), (1, false));
+    }
+    // Another page presses.
+    bench.press += 1;
+    bench.hold().unwrap();
+    assert!(bench.twin.standing().is_held);
 }
 
 #[test]
@@ -223,7 +255,7 @@ proptest! {
                 1 => bench.report = Report { safety_mode: NORMAL, ..bench.report },
                 2 => bench.twin.let_go(),
                 3 => bench.now += SILENCE,
-                4 => drop(bench.twin.hold(false, bench.now)),
+                4 => bench.release(),
                 _ => {}
             }
             if is_held {
@@ -237,6 +269,7 @@ proptest! {
             }
             prop_assert_eq!(answer.period, bench.report.period);
             let limits = bench.trial.arena().limits(&bench.trial.state().world.parameters);
+            let limits = Limits { flight_speed_m_s: limits.tool_speed_m_s() + LIFT_SPEED_M_S, ..limits };
             if let Some(last) = last {
                 prop_assert_eq!(limits.joints(&last, &answer.joints_rad), Ok(()));
             }

@@ -11,8 +11,8 @@ const isKey = ({ key }: KeyboardEvent): boolean => key === ' ' || key === 'Enter
 
 function HoldButton(props: { lab: Session; twin: TwinStanding }): JSX.Element {
   const { lab } = props;
-  const hold = createHold((held) => {
-    lab.send({ type: 'drive_robot', held });
+  const hold = createHold((press) => {
+    lab.send({ type: 'drive_robot', ...(press === undefined ? {} : { press }) });
   });
   const release = (): void => {
     hold.release();

@@ -8,22 +8,26 @@ export interface Hold {
   release(): void;
 }
 
-/** Says at once and again and again that the button is held, and once that it is not. */
-export function createHold(say: (held: boolean) => void): Hold {
+/** The server knows presses apart by their numbers, also those of other pages. */
+const newNumber = (): number => crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
+
+/** Says at once and again and again that the button is held, in a press with this number, and once that it is not. */
+export function createHold(say: (press: number | undefined) => void): Hold {
   let timer: ReturnType<typeof setInterval> | undefined;
   return {
     press() {
       if (timer !== undefined) return;
-      say(true);
+      const press = newNumber();
+      say(press);
       timer = setInterval(() => {
-        say(true);
+        say(press);
       }, REPEAT_MS);
     },
     release() {
       if (timer === undefined) return;
       clearInterval(timer);
       timer = undefined;
-      say(false);
+      say(undefined);
     },
   };
 }

@@ -1,17 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import type { TwinStanding } from '../../net/protocol.gen';
+import { twinOf } from '../../lab/testingTwin';
 import { connectionWords, motionWords } from './words';
 
-const twin: TwinStanding = {
-  address: '192.168.0.5',
-  allows_motion: true,
-  trouble: null,
-  robot_mode: 7,
-  safety_mode: 1,
-  is_held: false,
-  is_driven: false,
-  stopped: null,
-};
+const twin = twinOf();
 
 describe('the words about a mirrored robot', () => {
   it('say whether it is there, and in what state', () => {

@@ -25,7 +25,11 @@ cell: number, controller: ControllerName,
 /**
  * From 0.
  */
-repeat: number, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "return_to", run: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "drive_robot", held: boolean, } | { "type": "take_control", } | { "type": "release_control", };
+repeat: number, } | { "type": "disturb", disturbance: Disturbance, } | { "type": "rewind", tick: number, } | { "type": "return_to", run: number, } | { "type": "fork", tick: number, controllers?: Array<ControllerName>, } | { "type": "drive_robot", 
+/**
+ * Another number for each press: one whose motion has ended moves nothing again.
+ */
+press?: number, } | { "type": "take_control", } | { "type": "release_control", };
 
 /**
  * Role of a browser.

@@ -268,7 +268,7 @@ program: ProgramStanding | null,
  */
 robot: RobotStanding | null, 
 /**
- * The robot outside of Ferry that the arm mirrors; `null` if there is none.
+ * The robot outside of Ferry that the arm mirrors; `null` without one.
  */
 twin: TwinStanding | null, 
 /**
