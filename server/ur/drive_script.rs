@@ -105,7 +105,8 @@ impl DriveScript {
 /// One period's way from `here_rad` to a target; `None` if that is far away, or not a number.
 fn toward(here_rad: &Joints, target_rad: &Joints) -> Option<Joints> {
     let part = |share: f64| -> Joints { std::array::from_fn(|i| here_rad[i] + share * (target_rad[i] - here_rad[i])) };
-    if (0..6).any(|i| !((target_rad[i] - here_rad[i]).abs() <= FAR_RAD)) {
+    let is_near = |i: usize| (target_rad[i] - here_rad[i]).abs() <= FAR_RAD;
+    if !(0..6).all(is_near) {
         return None;
     }
     let largest_rad = (0..6).map(|i| (target_rad[i] - here_rad[i]).abs()).fold(1e-6, f64::max);

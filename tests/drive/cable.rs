@@ -90,7 +90,8 @@ impl Cable {
                 loop {
                     let (near, _) = listener.accept().await.unwrap();
                     let Ok(far) = TcpStream::connect((to, port)).await else { continue };
-                    (near.set_nodelay(true).unwrap(), far.set_nodelay(true).unwrap());
+                    near.set_nodelay(true).unwrap();
+                    far.set_nodelay(true).unwrap();
                     let ((near_in, near_out), (far_in, far_out)) = (near.into_split(), far.into_split());
                     let kept = (port == RTDE).then(|| recorded.clone());
                     if let Some(kept) = &kept {

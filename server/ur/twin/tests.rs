@@ -139,7 +139,8 @@ fn a_flight_from_another_height_is_within_the_limits() {
 
 #[test]
 fn whatever_is_wrong_stops_the_robot_until_the_button_is_pressed_again() {
-    let causes: [(&str, fn(&mut Bench)); 10] = [
+    type Cause = fn(&mut Bench);
+    let causes: [(&str, Cause); 10] = [
         ("nothing was heard", |bench| {
             bench.now += SILENCE + TICK;
             bench.silent_tick();
