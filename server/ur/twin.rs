@@ -98,8 +98,7 @@ pub struct TwinStanding {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Drive {
     Rests,
-    /// Waits until the session has checked where the arm is, and the robot has got a 0 in the register, so that no number
-    /// from before counts.
+    /// Waits until the session has checked where the arm is, and the robot's register is 0: no old number counts.
     Clears {
         since: Instant,
         is_checked: bool,
@@ -198,10 +197,8 @@ impl Twin {
     pub fn connected(&self, outcome: Result<(), String>) {
         let mut state = self.state();
         let trouble = outcome.err();
-        if trouble == state.trouble {
-            return;
-        }
         match &trouble {
+            _ if trouble == state.trouble => return,
             None => state.tell(false, format!("{} is connected", self.address)),
             Some(why) => state.tell(true, format!("{} is not connected: {why}", self.address)),
         }
@@ -273,8 +270,8 @@ impl Twin {
             return Err(DriveError::Silent);
         }
         check_modes(&report)?;
-        let is_ours = report.period > 0;
-        if report.runtime_state == PLAYING && !is_ours { Err(DriveError::Busy) } else { Ok(()) }
+        // A period is that of Ferry's own program.
+        if report.runtime_state == PLAYING && report.period <= 0 { Err(DriveError::Busy) } else { Ok(()) }
     }
 
     /// The robot no longer follows, because the session is no longer what it was.
