@@ -23,8 +23,8 @@ use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Beginning, Catalog, Event, Input, Sight, Sink, Source, Trial, TrialError, TrialState};
 use crate::ur::{Robot, Twin};
 
-/// Watchers get about sixty views per second, and one after each command.
-const PUBLISH_EVERY: Duration = Duration::from_micros(16_600);
+/// Watchers get a view every second tick at real time, a few more than a display shows, and one after each command.
+const PUBLISH_EVERY: Duration = Duration::from_millis(16);
 /// Maximum waiting time of commands while ticks are always due.
 pub(super) const DRAIN_EVERY: Duration = Duration::from_millis(4);
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { enqueue } from './inbox';
+import { Inbox } from './inbox';
 import type { Input } from './model';
 import { sceneOf, stateAt } from './testing';
 
@@ -8,22 +8,43 @@ const state = (tick: number): Input => ({
   message: { type: 'state', ...stateAt(tick) },
 });
 
-describe('the queue before a frame', () => {
-  it('keeps only the newest state, after the messages before it', () => {
-    const queue: Input[] = [];
-    const scene: Input = { type: 'message', message: { type: 'scene', ...sceneOf('posts') } };
-    for (const input of [state(1), scene, state(2), state(3)]) enqueue(queue, input);
-    expect(queue).toEqual([scene, state(3)]);
+const scene: Input = { type: 'message', message: { type: 'scene', ...sceneOf('posts') } };
+
+function filled(...inputs: Input[]): Inbox {
+  const inbox = new Inbox();
+  for (const input of inputs) inbox.add(input);
+  return inbox;
+}
+
+describe('the inputs before a frame', () => {
+  it('keep two states, one for each of the next frames', () => {
+    const inbox = filled(state(1), scene, state(2), state(3));
+    expect(inbox.take()).toEqual([scene, state(2)]);
+    expect(inbox.isEmpty).toBe(false);
+    expect(inbox.take()).toEqual([state(3)]);
+    expect(inbox.isEmpty).toBe(true);
   });
 
-  it('keeps every event', () => {
-    const queue: Input[] = [];
-    for (const tick of [1, 2, 3]) {
-      enqueue(queue, {
-        type: 'message',
-        message: { type: 'event', tick, sim_time_s: 0, kind: 'goal', text: '' },
-      });
+  it('come with the state before them', () => {
+    const inbox = filled(state(1), scene, state(2));
+    expect(inbox.take()).toEqual([state(1), scene]);
+    expect(inbox.take()).toEqual([state(2)]);
+  });
+
+  it('never lag by more than one state', () => {
+    const inbox = filled();
+    for (let tick = 2; tick < 40; tick += 2) {
+      inbox.add(state(tick));
+      inbox.add(state(tick + 1));
+      expect(inbox.take()).toEqual([state(tick)]);
     }
-    expect(queue).toHaveLength(3);
+  });
+
+  it('keep every event', () => {
+    const events = [1, 2, 3].map((tick): Input => ({
+      type: 'message',
+      message: { type: 'event', tick, sim_time_s: 0, kind: 'goal', text: '' },
+    }));
+    expect(filled(...events).take()).toHaveLength(3);
   });
 });

@@ -3,6 +3,8 @@
 import type { Input } from './model';
 
 const HIDDEN_FLUSH_MS = 250;
+/** States that wait to be drawn. Two of them often arrive within one frame, and none within the next. */
+const STATES_MOST = 2;
 
 /** Calls `work` before the next frame, or soon if the page is hidden and draws no frames. */
 export function frameScheduler(work: () => void): () => void {
@@ -32,14 +34,31 @@ export function frameScheduler(work: () => void): () => void {
   };
 }
 
-/** Drops what `input` supersedes: only the newest state, overlay and obstacle map are drawn. */
-export function enqueue(queue: Input[], input: Input): void {
-  if (input.type === 'message') {
-    const kind = input.message.type;
-    if (kind === 'state' || kind === 'overlay' || kind === 'seen') {
-      const old = queue.findIndex((item) => item.type === 'message' && item.message.type === kind);
-      if (old >= 0) queue.splice(old, 1);
-    }
+const kindOf = (input: Input): string | undefined =>
+  input.type === 'message' ? input.message.type : undefined;
+
+/** Inputs that wait for a frame. */
+export class Inbox {
+  private queue: Input[] = [];
+
+  /** Drops what `input` supersedes: an older overlay or obstacle map, and the oldest of too many states. */
+  add(input: Input): void {
+    const kind = kindOf(input);
+    const most =
+      kind === 'state' ? STATES_MOST : kind === 'overlay' || kind === 'seen' ? 1 : Infinity;
+    const same = this.queue.filter((item) => kindOf(item) === kind);
+    const [oldest] = same;
+    if (oldest && same.length >= most) this.queue.splice(this.queue.indexOf(oldest), 1);
+    this.queue.push(input);
   }
-  queue.push(input);
+
+  /** The inputs for one frame, oldest first: those before the second state. */
+  take(): Input[] {
+    const states = this.queue.flatMap((item, index) => (kindOf(item) === 'state' ? [index] : []));
+    return this.queue.splice(0, states[1] ?? this.queue.length);
+  }
+
+  get isEmpty(): boolean {
+    return this.queue.length === 0;
+  }
 }

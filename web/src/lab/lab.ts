@@ -15,7 +15,7 @@ import { createContest } from './contest';
 import { createEdits } from './edits';
 import { createGoal } from './goal';
 import { History } from './history';
-import { enqueue, frameScheduler } from './inbox';
+import { frameScheduler, Inbox } from './inbox';
 import { createKeeper } from './keepControl';
 import { createLayerChoice, type KnownLayer } from './layers';
 import { EMPTY, type Input, type Model, reduce } from './model';
@@ -32,7 +32,7 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   const [inspected, setInspected] = createSignal<EventMessage>();
   const [opened, setOpened] = createSignal<{ readonly tab: string }>();
   const history = new History();
-  let queue: Input[] = [];
+  const inbox = new Inbox();
   const pictures = new Map<number, Picture>();
 
   const remember = (before: Model, after: Model): void => {
@@ -49,10 +49,8 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
   };
 
   const flush = (): void => {
-    const inputs = queue;
-    queue = [];
     const before = model();
-    const after = inputs.reduce(reduce, before);
+    const after = inbox.take().reduce(reduce, before);
     remember(before, after);
     batch(() => {
       setModel(after);
@@ -62,10 +60,11 @@ export function createLab(page: Location, knownLayers: readonly KnownLayer[]): L
       if (newObservation) setObservation(newObservation);
       pictures.clear();
     });
+    if (!inbox.isEmpty) schedule();
   };
   const schedule = frameScheduler(flush);
   const take = (input: Input): void => {
-    enqueue(queue, input);
+    inbox.add(input);
     schedule();
   };
 

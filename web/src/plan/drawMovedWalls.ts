@@ -6,11 +6,10 @@ import type { Palette } from '../ui/palette';
 import { drawBorder, EDGE_PX } from './drawMap';
 import { pxFromWorld, type View } from './transform';
 
-/** A path around what is not free. The outlines are moved into the walls by half of their line. */
-function wallPath(table: Path2D, walls: MovedWalls, view: View): Path2D {
+/** A path around what is not free. The outlines are moved into the walls by `into_px`. */
+function wallPath(table: Path2D, walls: MovedWalls, view: View, into_px: number): Path2D {
   const { point_m, normal } = walls;
   const { pxPerM, originX, originY } = view;
-  const into_px = EDGE_PX / 2;
   // The table runs clockwise and the outlines run the other way: what both enclose is free.
   const path = new Path2D(table);
   for (const [from, to] of walls.outlines) {
@@ -36,16 +35,15 @@ export function drawMovedWalls(
   const [right, bottom] = pxFromWorld(view, [rect.x_max_m, rect.y_min_m]);
   const table = new Path2D();
   table.rect(left, top, right - left, bottom - top);
-  const path = wallPath(table, walls, view);
   ctx.save();
   ctx.clip(table);
-  ctx.lineJoin = 'bevel';
-  ctx.lineWidth = 2 * EDGE_PX;
+  // Lines of one pixel are drawn much faster than wider ones.
   ctx.strokeStyle = palette['wall-edge'];
-  ctx.stroke(path);
-  // Hides the inner half of the line, and loops of an outline that has closed in on itself.
+  ctx.lineWidth = EDGE_PX;
+  ctx.stroke(wallPath(table, walls, view, 0));
+  // Hides loops of an outline that has closed in on itself.
   ctx.fillStyle = palette.wall;
-  ctx.fill(path);
+  ctx.fill(wallPath(table, walls, view, EDGE_PX / 2));
   ctx.restore();
   drawBorder(ctx, rect, view, palette);
 }
