@@ -40,7 +40,10 @@ pub async fn keep(twin: Arc<Twin>, mut stopping: watch::Receiver<bool>) {
         let Err(error) = ended;
         tracing::info!(address = %twin.address(), %error, "robot: not connected");
         twin.connected(Err(error.to_string()));
-        tokio::time::sleep(RETRY_AFTER).await;
+        tokio::select! {
+            () = tokio::time::sleep(RETRY_AFTER) => {}
+            _ = stopping.wait_for(|&stop| stop) => return,
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 //! - [`command`], [`mover`]: motions, and the joints that they lead to, tick by tick.
 //! - [`script`], [`control_script`]: programs that are sent to the robot.
 //! - [`controller`], [`robot`]: who is connected, what runs, the protective stop; shared by the session and the sockets.
+//! - [`news`]: what the session reports of them.
 //! - [`rtde`]: frames of the Real-Time Data Exchange; recipes.
 //! - [`dashboard`]: lines and their answers.
 //!
@@ -22,6 +23,7 @@ pub mod dashboard;
 pub mod drive_script;
 pub mod inputs;
 pub mod mover;
+pub mod news;
 pub mod peer;
 pub mod registers;
 pub mod robot;

@@ -9,6 +9,7 @@ use super::{Command, View};
 use crate::camera::ImageSource;
 use crate::scenario::ControllerName;
 use crate::trial::{Event, EventKind, Input};
+use crate::ur::news::Item;
 
 impl<E: ImageSource> Worker<E> {
     /// Gives the arm to a program that a client has sent to the robot: the session runs, at real speed.
@@ -33,11 +34,16 @@ impl<E: ImageSource> Worker<E> {
         {
             robot.stop(&error);
         }
-        let tick = self.trial.state().world.tick;
         let news = robot.controller().take_news();
-        for (is_refused, text) in news {
+        self.report_news("robot client", news);
+    }
+
+    /// `whom` is what they are about.
+    pub(super) fn report_news(&mut self, whom: &str, news: Vec<Item>) {
+        let tick = self.trial.state().world.tick;
+        for Item { is_refused, text } in news {
             let kind = if is_refused { EventKind::Refused } else { EventKind::Session };
-            self.report(Event::new(tick, kind, format!("robot client: {text}")));
+            self.report(Event::new(tick, kind, format!("{whom}: {text}")));
         }
     }
 

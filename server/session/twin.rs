@@ -8,7 +8,6 @@ use tokio::sync::watch;
 use super::worker::Worker;
 use super::{Command, View};
 use crate::camera::ImageSource;
-use crate::trial::{Event, EventKind};
 
 impl<E: ImageSource> Worker<E> {
     /// Runs at real speed when the robot is connected, and while it is to follow.
@@ -30,20 +29,17 @@ impl<E: ImageSource> Worker<E> {
         // While a program is asked, the tick has its place already.
         let Some(twin) = self.twin.clone().filter(|_| self.asking.is_none()) else { return };
         if let Some(input) = twin.next(&self.trial, Instant::now())
-            && self.trial.apply(input).is_err()
+            && let Err(error) = self.trial.apply(input)
         {
-            twin.let_go();
+            twin.refuse(error.to_string());
         }
         self.tell_of_twin();
     }
 
     /// Reports what has happened to the robot.
     pub(super) fn tell_of_twin(&mut self) {
-        let Some(twin) = self.twin.clone() else { return };
-        let tick = self.trial.state().world.tick;
-        for (is_refused, text) in twin.take_news() {
-            let kind = if is_refused { EventKind::Refused } else { EventKind::Session };
-            self.report(Event::new(tick, kind, format!("robot: {text}")));
+        if let Some(twin) = self.twin.clone() {
+            self.report_news("robot", twin.take_news());
         }
     }
 

@@ -10,6 +10,7 @@ use super::control_script::{ControlScript, Next};
 use super::drive_script::DriveScript;
 use super::inputs::Input;
 use super::mover::Mover;
+use super::news::{Item, News};
 use super::registers::Registers;
 use super::script::{self, Line, ScriptError};
 use crate::control::limits::Limits;
@@ -17,8 +18,6 @@ use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
 
 /// Refusals that the page shows.
 const REFUSALS_MOST: usize = 20;
-/// What is kept for a session that does not ask.
-const NEWS_MOST: usize = 100;
 /// Values of `safety_mode`.
 const NORMAL: i32 = 1;
 const PROTECTIVE_STOP: i32 = 3;
@@ -99,8 +98,7 @@ pub struct Controller {
     command: Option<&'static str>,
     stop: Option<String>,
     refused: VecDeque<Refused>,
-    /// What has happened since the session asked: whether it was a refusal, and what.
-    news: Vec<(bool, String)>,
+    news: News,
     /// The last tick that was asked for, and how long no client has written.
     tick: u64,
     silent_ticks: u64,
@@ -193,7 +191,7 @@ impl Controller {
         self.mover.rest();
         self.outputs.int = Registers::default().int;
         self.silent_ticks = 0;
-        self.tell(false, format!("the program {name} begins"));
+        self.news.tell(format!("the program {name} begins"));
         self.running = Some(Running { name, program, has_arm: false, has_asked: false });
         Ok(())
     }
@@ -218,20 +216,14 @@ impl Controller {
     /// Ends the program; the arm comes to rest.
     pub fn end(&mut self, why: &str) {
         if let Some(running) = self.running.take() {
-            self.tell(false, format!("the program {} ends: {why}", running.name));
+            self.news.tell(format!("the program {} ends: {why}", running.name));
         }
         self.mover.rest();
     }
 
-    fn tell(&mut self, is_refused: bool, text: String) {
-        if self.news.len() < NEWS_MOST {
-            self.news.push((is_refused, text));
-        }
-    }
-
-    /// What has happened since the last call: whether it was a refusal, and what.
-    pub fn take_news(&mut self) -> Vec<(bool, String)> {
-        std::mem::take(&mut self.news)
+    /// What has happened since the last call.
+    pub fn take_news(&mut self) -> Vec<Item> {
+        self.news.take()
     }
 
     /// Whether a program waits for the arm.
@@ -253,7 +245,7 @@ impl Controller {
     }
 
     fn note(&mut self, what: &str, why: &str) {
-        self.tell(true, format!("{what}: {why}"));
+        self.news.refuse(format!("{what}: {why}"));
         if self.refused.len() >= REFUSALS_MOST {
             self.refused.pop_front();
         }

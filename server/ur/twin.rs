@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use tokio::sync::watch;
 
 use super::drive_script::OVER;
+use super::news::{Item, News};
 use super::peer::Report;
-use crate::control::limits::{LIFT_SPEED_M_S, Limits};
 use crate::plant::PositionerKind;
 use crate::robot::Joints;
 use crate::trial::{Input, Trial};
@@ -25,8 +25,6 @@ pub const HOLD: Duration = Duration::from_millis(250);
 const START_WITHIN: Duration = Duration::from_secs(3);
 /// Largest difference between a joint and where it should be.
 const BEHIND_MOST_RAD: f64 = 0.2;
-/// What is kept for a session that does not ask.
-const NEWS_MOST: usize = 100;
 /// Values of `robot_mode`, `safety_mode` and `runtime_state`.
 const RUNNING: i32 = 7;
 const NORMAL: i32 = 1;
@@ -62,6 +60,8 @@ pub enum DriveError {
     Behind { joint: usize, behind_rad: f64 },
     #[error("a limit would be violated: {0}")]
     Limit(String),
+    #[error("the session refuses what the robot reports: {0}")]
+    Refused(String),
     #[error("the session was paused, set back or changed")]
     Changed,
     #[error("the page's button is no longer held")]
@@ -129,7 +129,7 @@ struct State {
     stopped: Option<DriveError>,
     /// A connection has begun, and the session may not run yet.
     is_new: bool,
-    news: Vec<(bool, String)>,
+    news: News,
 }
 
 #[derive(Debug)]
@@ -151,7 +151,7 @@ impl Twin {
             drive: Drive::Rests,
             stopped: None,
             is_new: false,
-            news: Vec::new(),
+            news: News::default(),
         };
         Self { address, allows_motion, state: Mutex::new(state), answer: watch::Sender::default() }
     }
@@ -188,9 +188,9 @@ impl Twin {
         }
     }
 
-    /// What has happened since the last call: whether it was a refusal, and what.
-    pub fn take_news(&self) -> Vec<(bool, String)> {
-        std::mem::take(&mut self.state().news)
+    /// What has happened since the last call.
+    pub fn take_news(&self) -> Vec<Item> {
+        self.state().news.take()
     }
 
     /// The connection exists, or why it does not.
@@ -199,8 +199,8 @@ impl Twin {
         let trouble = outcome.err();
         match &trouble {
             _ if trouble == state.trouble => return,
-            None => state.tell(false, format!("{} is connected", self.address)),
-            Some(why) => state.tell(true, format!("{} is not connected: {why}", self.address)),
+            None => state.news.tell(format!("{} is connected", self.address)),
+            Some(why) => state.news.refuse(format!("{} is not connected: {why}", self.address)),
         }
         state.is_new = trouble.is_none();
         state.trouble = trouble;
@@ -222,7 +222,7 @@ impl Twin {
             Drive::Begins { before, .. } if report.period > 0 && report.period != before => {
                 let (sent_rad, period) = (report.joints_rad, report.period);
                 state.drive = Drive::Follows { sent_rad, period, period_at: now };
-                state.tell(false, "the arm follows Ferry's controllers".to_owned());
+                state.news.tell("the arm follows Ferry's controllers".to_owned());
             }
             Drive::Follows { sent_rad, period, .. } if report.period != period => {
                 state.drive = Drive::Follows { sent_rad, period: report.period, period_at: now };
@@ -279,6 +279,11 @@ impl Twin {
         self.stop(&mut self.state(), DriveError::Changed);
     }
 
+    /// The trial has refused what the robot reported.
+    pub fn refuse(&self, why: String) {
+        self.stop(&mut self.state(), DriveError::Refused(why));
+    }
+
     /// The program could not be sent.
     pub fn not_sent(&self, why: String) {
         self.stop(&mut self.state(), DriveError::NotSent(why));
@@ -295,8 +300,14 @@ impl Twin {
             return;
         }
         (state.drive, state.spent) = (Drive::Rests, state.press);
-        state.tell(why != DriveError::Released, format!("the arm no longer follows: {why}"));
-        state.stopped = (why != DriveError::Released).then_some(why);
+        let text = format!("the arm no longer follows: {why}");
+        if why == DriveError::Released {
+            state.news.tell(text);
+            state.stopped = None;
+        } else {
+            state.news.refuse(text);
+            state.stopped = Some(why);
+        }
         self.answer.send_modify(|answer| answer.period = 0);
     }
 
@@ -342,8 +353,6 @@ impl Twin {
         let (true, Drive::Follows { sent_rad, period, period_at }) = (is_driven, state.drive) else { return };
         let (Some(target_rad), Some((report, _))) = (world.reference.joints_rad(), state.heard) else { return };
         let limits = trial.arena().limits(&world.parameters);
-        // A flight to another height is a little faster.
-        let limits = Limits { flight_speed_m_s: limits.tool_speed_m_s() + LIFT_SPEED_M_S, ..limits };
         let behind = |joint: &usize| (target_rad[*joint] - report.joints_rad[*joint]).abs() > BEHIND_MOST_RAD;
         if let Some(joint) = (0..6).find(behind) {
             let behind_rad = (target_rad[joint] - report.joints_rad[joint]).abs();
@@ -368,12 +377,6 @@ fn check_modes(report: &Report) -> Result<(), DriveError> {
 }
 
 impl State {
-    fn tell(&mut self, is_refused: bool, text: String) {
-        if self.news.len() < NEWS_MOST {
-            self.news.push((is_refused, text));
-        }
-    }
-
     fn check_drive(&self, now: Instant) -> Result<(), DriveError> {
         if self.drive == Drive::Rests {
             return Ok(());

@@ -115,7 +115,7 @@ fn the_operator_and_a_jump_in_time_end_a_program() {
         }
         let turned = bench.run(5);
         assert!(!bench.robot.is_running() && turned == 0.0, "{turned}");
-        let [(false, said)] = &bench.robot.take_news()[..] else { panic!() };
+        let [Item { is_refused: false, text: said }] = &bench.robot.take_news()[..] else { panic!() };
         assert!(said.contains(if is_jump { "set back" } else { "operator" }), "{said}");
     }
 }

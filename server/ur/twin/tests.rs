@@ -270,7 +270,6 @@ proptest! {
             }
             prop_assert_eq!(answer.period, bench.report.period);
             let limits = bench.trial.arena().limits(&bench.trial.state().world.parameters);
-            let limits = Limits { flight_speed_m_s: limits.tool_speed_m_s() + LIFT_SPEED_M_S, ..limits };
             if let Some(last) = last {
                 prop_assert_eq!(limits.joints(&last, &answer.joints_rad), Ok(()));
             }
