@@ -48,6 +48,23 @@ describe('moved walls', () => {
     expect(walls.covers([0.2, -0.001])).toBe(true);
   });
 
+  it('change when they have moved visibly since they last changed', () => {
+    const walls = new MovedWalls(lumenOf([ROOM]));
+    const to = (wave_m: number) => walls.move(Array<number>(5).fill(wave_m), FAR);
+    expect([0, 0, 0.0001, 0.0002, 0.0003, 0.0004].map(to)).toEqual([
+      true,
+      false,
+      false,
+      true,
+      false,
+      true,
+    ]);
+    expect(walls.moves).toBe(3);
+    expect(heightsAt(walls, 0.2)[0]).toBeCloseTo(0.0004, 9);
+    to(0.0003);
+    expect(heightsAt(walls, 0.2)[0]).toBeCloseTo(0.0004, 9);
+  });
+
   it('close in as far as the wave, and keep their corners', () => {
     const walls = new MovedWalls(lumenOf([ROOM]));
     walls.move([0.01, 0.01, 0.01, 0.01, 0.01], FAR);

@@ -12,6 +12,8 @@ const SAME_PLACE_M = 1e-6;
 const ARC_RAD = 0.25;
 /** A wall that has closed in less is at rest. */
 const LEAST_M = 1e-5;
+/** A smaller motion is not visible: a fifth of a pixel of the plan. */
+const VISIBLE_M = 1.5e-4;
 /** Points of arcs for each vertex, on average and at most. */
 const MOST_ARC_POINTS = 2;
 
@@ -70,8 +72,12 @@ export class MovedWalls {
   readonly vertexOf: Uint32Array;
   /** x and y of each vertex: where the wall is at rest. */
   readonly foot_m: Float64Array;
-  /** How far each vertex has closed in. */
+  /** How far each vertex has closed in, as it shows. */
   readonly closing_m: Float64Array;
+  /** The same in the latest state, also where that does not show yet. */
+  private readonly newest_m: Float64Array;
+  /** Visible motions so far. */
+  moves = 0;
   private count = 0;
   /** Points that arcs may still have. */
   private spare = 0;
@@ -100,18 +106,28 @@ export class MovedWalls {
         return Math.hypot(x - fromX, y - fromY);
       }),
     );
-    this.closing_m = new Float64Array(vertices);
+    this.closing_m = new Float64Array(vertices).fill(NaN);
+    this.newest_m = new Float64Array(vertices);
     this.capacity = (2 + MOST_ARC_POINTS) * vertices;
     this.point_m = new Float64Array(2 * this.capacity);
     this.normal = new Float64Array(2 * this.capacity);
     this.vertexOf = new Uint32Array(this.capacity);
   }
 
-  /** Moves the outlines. `wave_m` is how far walls close in at the knots. */
-  move(wave_m: readonly number[], ball: Ball): void {
+  /** Moves the outlines, and returns whether that is visible. `wave_m` is how far walls close in at the knots. */
+  move(wave_m: readonly number[], ball: Ball): boolean {
     this.close(wave_m, ball);
     this.smooth();
-    this.trace();
+    const { closing_m, newest_m } = this;
+    const isVisible = closing_m.some(
+      (old_m, i) => !(Math.abs((newest_m[i] ?? 0) - old_m) < VISIBLE_M),
+    );
+    if (isVisible) {
+      closing_m.set(newest_m);
+      this.moves += 1;
+      this.trace();
+    }
+    return isVisible;
   }
 
   /** Whether a point of the table is in a wall: then the outlines do not run around it. */
@@ -137,25 +153,25 @@ export class MovedWalls {
   }
 
   private close(wave_m: readonly number[], { at_m, radius_m }: Ball): void {
-    const { foot_m, closing_m, limit_m, knot } = this;
+    const { foot_m, newest_m, limit_m, knot } = this;
     const last = Math.max(0, wave_m.length - 2);
-    for (let i = 0; i < closing_m.length; i++) {
+    for (let i = 0; i < newest_m.length; i++) {
       const at = knot[i] ?? 0;
       const low = Math.min(last, Math.floor(at));
       const before_m = wave_m[low] ?? 0;
       const wave = before_m + (at - low) * ((wave_m[low + 1] ?? before_m) - before_m);
       const [x, y] = [at_m[0] - (foot_m[2 * i] ?? 0), at_m[1] - (foot_m[2 * i + 1] ?? 0)];
       const room_m = Math.max(0, Math.sqrt(x * x + y * y) - radius_m);
-      closing_m[i] = Math.min(wave, limit_m[i] ?? 0, room_m);
+      newest_m[i] = Math.min(wave, limit_m[i] ?? 0, room_m);
     }
   }
 
   /** Enlarges discs that lie inside others: every outline is then smooth. */
   private smooth(): void {
-    const { closing_m, gap_m } = this;
+    const { newest_m, gap_m } = this;
     const grow = (i: number, from: number, gap: number): void => {
-      const least = (closing_m[from] ?? 0) - STEEPEST * (gap_m[gap] ?? 0);
-      if (least > (closing_m[i] ?? 0)) closing_m[i] = least;
+      const least = (newest_m[from] ?? 0) - STEEPEST * (gap_m[gap] ?? 0);
+      if (least > (newest_m[i] ?? 0)) newest_m[i] = least;
     };
     for (const [from, to] of this.rings) {
       // The second time, what was at the end arrives at the beginning.

@@ -11,7 +11,10 @@ type Known = Pick<Session, 'session' | 'connection'> &
   Pick<Trial, 'scene' | 'state'> &
   Pick<Notices, 'notify'>;
 
-/** The walls where they are now; undefined while they are at rest. It is the same object that has moved. */
+/**
+ * The walls where they are now; undefined while they are at rest. It is the same object that has moved, and it changes
+ * when that is visible.
+ */
 export function createWalls(
   lab: Known,
   request: (path: string) => Promise<Lumen> = get,
@@ -39,15 +42,16 @@ export function createWalls(
     const map = wanted();
     if (map !== undefined && untrack(walls)?.map !== map) void load();
   });
+  let hasMoved = false;
   return createMemo(
     () => {
       const [now, scene, state] = [walls(), lab.scene(), lab.state()];
       if (!scene || !state?.wave_m || now?.map !== scene.map) return undefined;
       const [x, y] = state.bead_m;
-      now.move(state.wave_m, { at_m: [x, y], radius_m: scene.bead_radius_m });
+      hasMoved = now.move(state.wave_m, { at_m: [x, y], radius_m: scene.bead_radius_m });
       return now;
     },
     undefined,
-    { equals: (before, after) => before === undefined && after === undefined },
+    { equals: (before, after) => before === after && !(after && hasMoved) },
   );
 }

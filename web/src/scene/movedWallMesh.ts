@@ -43,6 +43,8 @@ export class MovedWallMesh {
   private readonly ends: BufferAttribute;
   /** Corners in use. */
   private corners = 0;
+  /** Motions of the walls that are shown. */
+  private moves = -1;
 
   constructor(
     paints: Paints,
@@ -72,6 +74,8 @@ export class MovedWallMesh {
   /** Takes the outlines as they are now. */
   update(): void {
     const { of, edges } = this;
+    if (of.moves === this.moves) return;
+    this.moves = of.moves;
     this.corners = 0;
     edges.update();
     for (const [from, to] of of.outlines) {
