@@ -128,7 +128,7 @@ soak: system-test
 # seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with the same compiler.
 # The stack has the size of a server thread's.
 FUZZ_SECONDS ?= 300
-FUZZ_TARGETS ?= message map case log entries policy rtde script dashboard
+FUZZ_TARGETS ?= message map case log entries policy rtde reports script dashboard
 fuzz: system-run
 	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
 	ulimit -s 2048; \

@@ -28,7 +28,7 @@ impl News {
         std::mem::take(&mut self.0)
     }
 
-    fn push(&mut self, item: Item) {
+    pub fn push(&mut self, item: Item) {
         if self.0.len() < MOST {
             self.0.push(item);
         }

@@ -300,14 +300,9 @@ impl Twin {
             return;
         }
         (state.drive, state.spent) = (Drive::Rests, state.press);
-        let text = format!("the arm no longer follows: {why}");
-        if why == DriveError::Released {
-            state.news.tell(text);
-            state.stopped = None;
-        } else {
-            state.news.refuse(text);
-            state.stopped = Some(why);
-        }
+        let is_released = why == DriveError::Released;
+        state.news.push(Item { is_refused: !is_released, text: format!("the arm no longer follows: {why}") });
+        state.stopped = (!is_released).then_some(why);
         self.answer.send_modify(|answer| answer.period = 0);
     }
 

@@ -77,6 +77,11 @@ fn conversations_with_the_robot_server() {
 }
 
 #[test]
+fn reports_of_a_robot() {
+    survives(Target::Reports, 20_000);
+}
+
+#[test]
 fn programs_for_the_robot_are_refused_or_carried_out_within_the_limits() {
     survives(Target::Script, 20_000);
 }

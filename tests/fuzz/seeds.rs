@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use bytes::BytesMut;
 use ferry::geometry::Point2;
 use ferry::map::Map;
 use ferry::plant::PositionerKind;
@@ -10,6 +11,10 @@ use ferry::policy::Policy;
 use ferry::protocol::ClientMessage;
 use ferry::scenario::{ControllerName, Disturbance, Parameters, Scenario, Scripted, Shipped, When};
 use ferry::trial::{Arena, Beginning, Case, Entry, Input, LogWriter, LoggedBeginning, LoggedTick, Source, Trial};
+use ferry::ur::controller::Controller;
+use ferry::ur::peer::Peer;
+use ferry::ur::{Arm, rtde};
+use tokio_util::codec::Encoder;
 
 use super::targets::{Spots, Target, written};
 
@@ -18,7 +23,7 @@ const SMALL_MAP: &str = r#"<svg viewBox="-60 300 120 100"><rect x="-10" y="340" 
 
 impl Target {
     pub fn seeds(self) -> &'static [Vec<u8>] {
-        static SEEDS: LazyLock<[Vec<Vec<u8>>; 9]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
+        static SEEDS: LazyLock<[Vec<Vec<u8>>; 10]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
         &SEEDS[self as usize]
     }
 
@@ -31,6 +36,7 @@ impl Target {
             Self::Entries => ControllerName::ALL.map(|name| payload(&trial(name))).into(),
             Self::Policy => headers(),
             Self::Rtde => conversations(),
+            Self::Reports => [false, true].map(reported).into(),
             Self::Script => programs(),
             Self::Dashboard => vec![
                 b"PolyscopeVersion\nrobotmode\nprogramState\nstop\nunlock protective stop\nquit\n".to_vec(),
@@ -212,6 +218,22 @@ fn conversations() -> Vec<Vec<u8>> {
         frames.concat()
     };
     names.map(conversation).into()
+}
+
+/// What Ferry's own controller sends to `ferry drive`.
+fn reported(writes: bool) -> Vec<u8> {
+    let (mut peer, mut client, mut robot) = (Peer::new(writes), rtde::Client::default(), Controller::default());
+    let (mut framing, mut sent) = (rtde::framing(), BytesMut::new());
+    for &step in peer.steps() {
+        let answer = client.answer(&peer.request(step), &mut robot).expect("it is understood").expect("it is answered");
+        assert!(peer.accept(step, &answer).expect("it is as expected"));
+        framing.encode(answer.into(), &mut sent).expect("an answer fits into a frame");
+    }
+    for _ in 0..3 {
+        let data = client.data(&Arm::default(), &robot).expect("it has started");
+        framing.encode(data.into(), &mut sent).expect("data fit into a frame");
+    }
+    [&[u8::from(writes)][..], &sent].concat()
 }
 
 fn programs() -> Vec<Vec<u8>> {

@@ -1,7 +1,9 @@
 //! What reads bytes that others wrote: each target takes any bytes, and the answer is a value or an error.
 
 use std::collections::HashMap;
+use std::net::IpAddr;
 use std::sync::{Arc, LazyLock, Mutex};
+use std::time::{Duration, Instant};
 
 use ferry::camera::{CameraError, ImageSource, Subject};
 use ferry::control::limits::Limits;
@@ -15,7 +17,8 @@ use ferry::robot::Joints;
 use ferry::scenario::{ControllerName, Scenario};
 use ferry::trial::{Arena, Case, Entry, InputLog, LoggedBeginning, Source, Trial, replay};
 use ferry::ur::controller::{Controller, LoadError};
-use ferry::ur::{Arm, dashboard, rtde, script};
+use ferry::ur::peer::{Peer, PeerError, Report};
+use ferry::ur::{Arm, Twin, dashboard, rtde, script};
 use tokio_util::codec::{Decoder, Encoder};
 
 /// Ticks that what was read is run on for: the first has a control step.
@@ -38,6 +41,8 @@ pub enum Target {
     Policy,
     /// What a client sends to the robot server's RTDE port.
     Rtde,
+    /// What a robot sends to `ferry drive`; the first byte says whether Ferry may move it.
+    Reports,
     /// Programs for the robot.
     Script,
     /// Lines for the robot's dashboard.
@@ -45,7 +50,7 @@ pub enum Target {
 }
 
 impl Target {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Message,
         Self::Map,
         Self::Case,
@@ -53,6 +58,7 @@ impl Target {
         Self::Entries,
         Self::Policy,
         Self::Rtde,
+        Self::Reports,
         Self::Script,
         Self::Dashboard,
     ];
@@ -66,6 +72,7 @@ impl Target {
             Self::Entries => "entries",
             Self::Policy => "policy",
             Self::Rtde => "rtde",
+            Self::Reports => "reports",
             Self::Script => "script",
             Self::Dashboard => "dashboard",
         }
@@ -81,6 +88,7 @@ impl Target {
             Self::Entries => InputLog::read(&framed(bytes)).is_ok_and(|log| run(&log)),
             Self::Policy => policy(bytes),
             Self::Rtde => rtde(bytes).is_some(),
+            Self::Reports => reports(bytes).is_some(),
             Self::Script => std::str::from_utf8(bytes).is_ok_and(script),
             Self::Dashboard => std::str::from_utf8(bytes).is_ok_and(lines),
         }
@@ -231,6 +239,35 @@ fn rtde(mut stream: &[u8]) -> Option<()> {
         }
     }
     Some(())
+}
+
+/// `None` where Ferry gives up the connection, or before the robot has reported.
+fn reports(bytes: &[u8]) -> Option<Report> {
+    let (&first, stream) = bytes.split_first()?;
+    let mut peer = Peer::new(first & 1 == 1);
+    let mut framing = rtde::framing();
+    let mut received = bytes::BytesMut::from(stream);
+    let twin = Twin::new(IpAddr::from([127, 0, 0, 1]), first & 1 == 1);
+    for &step in peer.steps() {
+        while !peer.accept(step, &framing.decode(&mut received).ok()??).map_err(is_brief).ok()? {}
+    }
+    twin.connected(Ok(()));
+    let (mut last, mut now) = (None, Instant::now());
+    while let Some(frame) = framing.decode(&mut received).ok()? {
+        now += Duration::from_millis(8);
+        let Some(report) = peer.report(&frame).map_err(is_brief).ok()? else { continue };
+        assert!(report.joints_rad.iter().all(|angle_rad| angle_rad.abs() < 6.4), "{report:?}");
+        twin.hear(report, now);
+        let _ = twin.hold(Some(1), now);
+        assert_eq!(twin.answers().borrow().period, 0, "no session has checked where the arm is");
+        last = Some(report);
+    }
+    last
+}
+
+/// The page shows it.
+fn is_brief(error: PeerError) {
+    assert!(error.to_string().len() < 200, "{error}");
 }
 
 fn script(text: &str) -> bool {
