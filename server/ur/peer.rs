@@ -43,7 +43,7 @@ pub enum PeerError {
     Short { kind: u8, bytes: usize },
     #[error("a frame of type {found} came instead of {expected}")]
     Unexpected { found: u8, expected: u8 },
-    #[error("actual_q[{joint}] is {angle_rad}, it must be within ±{ANGLE_MOST_RAD}")]
+    #[error("actual_q[{joint}] is {angle_rad:e}, it must be within ±{ANGLE_MOST_RAD}")]
     Angle { joint: usize, angle_rad: f64 },
 }
 

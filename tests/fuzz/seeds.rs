@@ -227,11 +227,11 @@ fn reported(writes: bool) -> Vec<u8> {
     for &step in peer.steps() {
         let answer = client.answer(&peer.request(step), &mut robot).expect("it is understood").expect("it is answered");
         assert!(peer.accept(step, &answer).expect("it is as expected"));
-        framing.encode(answer.into(), &mut sent).expect("an answer fits into a frame");
+        framing.encode(&answer[..], &mut sent).expect("an answer fits into a frame");
     }
     for _ in 0..3 {
         let data = client.data(&Arm::default(), &robot).expect("it has started");
-        framing.encode(data.into(), &mut sent).expect("data fit into a frame");
+        framing.encode(&data[..], &mut sent).expect("data fit into a frame");
     }
     [&[u8::from(writes)][..], &sent].concat()
 }
