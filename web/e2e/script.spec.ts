@@ -38,14 +38,16 @@ test('adds, applies, shows and removes a disturbance of the script', async ({ la
   await lab.run();
   await until('the move', () => lab.state.disturbances === 1);
   await lab.pause();
+  const random = page.getByLabel('Number of random moves');
+  await random.fill('3');
   // Before the move, its mark is hollow and ahead.
   const track = await lab.boxOf(page.getByLabel('Timeline'));
   await page.mouse.click(track.x + 0.2 * track.width, track.y + track.height / 2);
   await until('a tick before the move', () => lab.state.tick < 200 && lab.state.disturbances === 0);
   await expect(page.locator('.script-marks circle')).toHaveCount(1);
 
-  const random = page.getByLabel('Number of random moves');
-  await random.fill('3');
+  await lab.drawn();
+  await expect(random, 'the rewind set the field').toHaveValue('3');
   await lab.button('Set and restart').click();
   await until('three random moves', () => lab.scene.scenario.disturbances === 3);
   expect(lab.scene.scenario.script.length).toBe(1);

@@ -28,15 +28,16 @@ describe('steering', () => {
   const open = (controller: 'you' | 'rl') => {
     const sent: ClientMessage[] = [];
     const [state, setState] = createSignal(stateAt(0, { controller, tool_m: [0.1, -0.3, 0.1] }));
+    const [scene, setScene] = createSignal(sceneOf('posts', 0));
     const steering = createRoot(() =>
       createSteering({
-        scene: () => sceneOf('posts', 0),
+        scene,
         state,
         canOperate: () => true,
         send: (message) => sent.push(message),
       }),
     );
-    return { steering, sent, setState };
+    return { steering, sent, setState, setScene };
   };
 
   it('points inside the workspace', () => {
@@ -44,6 +45,15 @@ describe('steering', () => {
     steering.point([5, -0.3]);
     expect(sent).toEqual([{ type: 'steer', x_m: 0.28, y_m: -0.3, approach: false }]);
     expect(steering.target()).toEqual([0.28, -0.3]);
+  });
+
+  it('keeps its target until the trial is another', () => {
+    const { steering, setScene } = open('you');
+    steering.point([0.2, -0.3]);
+    setScene(sceneOf('posts', 0));
+    expect(steering.target()).toEqual([0.2, -0.3]);
+    setScene(sceneOf('posts', 1));
+    expect(steering.target()).toBeUndefined();
   });
 
   it('leans ahead of the tool until the direction ends, and then stops it', () => {

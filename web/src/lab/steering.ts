@@ -72,7 +72,8 @@ export function createSteering(lab: Reads): Steering {
     stop();
     setTarget(undefined);
   };
-  createEffect(on([isActive, () => lab.scene()?.trial], forget));
+  const trial = createMemo(() => lab.scene()?.trial);
+  createEffect(on([isActive, trial], forget));
   onCleanup(stop);
   return {
     isActive,

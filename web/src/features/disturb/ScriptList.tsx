@@ -1,6 +1,6 @@
 // The disturbances of the scenario: its script and the number of random ones.
 
-import { For, Show, createEffect, createSignal, on, type JSX } from 'solid-js';
+import { For, Show, createEffect, createMemo, createSignal, on, type JSX } from 'solid-js';
 import { describe, describeWhen, MAX_RANDOM, restart } from '../../lab/disturbance';
 import type { Scripted } from '../../net/protocol.gen';
 import { Amount } from './disturbFields';
@@ -9,7 +9,8 @@ import type { Session, Trial } from '../../lab/slices';
 export function ScriptList(props: { lab: Session & Trial }): JSX.Element {
   const { lab } = props;
   const script = (): readonly Scripted[] => lab.scene()?.scenario.script ?? [];
-  const inForce = (): number => lab.scene()?.scenario.disturbances ?? 0;
+  // A memo: another scene with the same number, as after a rewind, keeps what the user has typed.
+  const inForce = createMemo(() => lab.scene()?.scenario.disturbances ?? 0);
   const [random, setRandom] = createSignal(inForce());
   createEffect(
     on([inForce, lab.refusals], ([count]) => {

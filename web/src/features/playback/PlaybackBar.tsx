@@ -75,7 +75,8 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
   const show = (): void => {
     input.value = String(props.seed);
   };
-  createEffect(on([() => props.seed, lab.refusals], show));
+  const seed = createMemo(() => props.seed);
+  createEffect(on([seed, lab.refusals], show));
   return (
     <form
       class="field"
