@@ -5,6 +5,7 @@ import { type Lab, expect, test } from './fixtures';
 import { check, drawAlong } from './support/drawing';
 import {
   FEW_UPDATES,
+  MORE_UPDATES,
   TRAIN_MS,
   clearTrainings,
   reachStage,
@@ -173,7 +174,9 @@ test('draws a maze, trains on it, uses the policy, and it delivers', async ({ la
 
 test('pauses, resumes, cancels and removes a training', async ({ lab, server }) => {
   const { page } = lab;
-  for (const name of ['one', 'two']) await startTraining(page.request, server.url, name);
+  for (const name of ['one', 'two']) {
+    await startTraining(page.request, server.url, name, MORE_UPDATES);
+  }
   await lab.view('Train').click();
   await expect(entry(lab, 'two')).toContainText('Waits until one is finished.');
   await expect(entry(lab, 'one')).toContainText('learns', { timeout: TRAIN_MS });

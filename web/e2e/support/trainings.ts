@@ -6,16 +6,23 @@ import type { Policies, Trainings, TrainingSummary } from './wire';
 /** A training takes both processors of a small machine. */
 export const TRAIN_MS = 300_000;
 /** So few that a training takes seconds; the policy is not good. */
-export const FEW_UPDATES = 400;
+export const FEW_UPDATES = 200;
+/** A training that is still learning when a test pauses it. */
+export const MORE_UPDATES = 400;
 
 async function read<T>(request: APIRequestContext, address: string) {
   return (await (await request.get(address)).json()) as T;
 }
 
 /** Starts a short training on the map `open`, and returns its id. */
-export async function startTraining(request: APIRequestContext, origin: string, name: string) {
+export async function startTraining(
+  request: APIRequestContext,
+  origin: string,
+  name: string,
+  updates = FEW_UPDATES,
+) {
   const response = await request.post(`${origin}/api/trainings`, {
-    data: { map: 'open', name, seed: 1, settings: { updates: FEW_UPDATES } },
+    data: { map: 'open', name, seed: 1, settings: { updates } },
   });
   expect(response.status(), await response.text()).toBe(201);
   return ((await response.json()) as TrainingSummary).id;
