@@ -72,8 +72,8 @@ export function createSteering(lab: Reads): Steering {
     stop();
     setTarget(undefined);
   };
-  const trial = createMemo(() => lab.scene()?.trial);
-  createEffect(on([isActive, trial], forget));
+  // A rewind sends the scene again: the rewound state says where the tool is pointed.
+  createEffect(on([isActive, lab.scene], forget));
   onCleanup(stop);
   return {
     isActive,
