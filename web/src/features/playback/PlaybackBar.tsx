@@ -75,8 +75,7 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
   const show = (): void => {
     input.value = String(props.seed);
   };
-  const seed = createMemo(() => props.seed);
-  createEffect(on([seed, lab.refusals], show));
+  createEffect(on([() => props.seed, lab.refusals], show));
   return (
     <form
       class="field"
