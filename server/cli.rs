@@ -27,6 +27,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::camera::{AdapterChoice, CameraError, Gpu};
+use crate::http::EmbeddedFile;
 
 /// A browser laboratory: a robot arm carries a magnetic bead through a maze.
 #[derive(Parser)]
@@ -77,8 +78,9 @@ enum Command {
     Train(train::Arguments),
 }
 
-/// Parses the arguments and runs the command. Help, version and usage errors are printed by clap and returned as codes.
-pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode> {
+/// Parses the arguments and runs the command, which may serve the page with these files. Help, version and usage errors are
+/// printed by clap and returned as codes.
+pub fn run(arguments: impl Iterator<Item = OsString>, files: &'static [EmbeddedFile]) -> anyhow::Result<ExitCode> {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(usage) => {
@@ -91,10 +93,10 @@ pub fn run(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<ExitCode
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     begin_logging()?;
     match arguments.command.unwrap_or(Command::Serve(arguments.serve)) {
-        Command::Serve(arguments) => serve::run(&arguments, None),
+        Command::Serve(arguments) => serve::run(&arguments, files, None),
         Command::Attempts(command) => attempts::run(&command),
         Command::Check(arguments) => check::run(&arguments),
-        Command::Drive(arguments) => drive::run(&arguments),
+        Command::Drive(arguments) => drive::run(&arguments, files),
         Command::Evaluate(arguments) => evaluate::run_command(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Recovery(arguments) => recovery::run(&arguments),

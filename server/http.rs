@@ -41,6 +41,7 @@ use crate::trial::{Catalog, TrialError};
 use crate::ur::{Robot, Twin};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
+pub use assets::{EmbeddedFile, Page};
 use metrics::Counters;
 use problem::Problem;
 use programs::Programs;
@@ -96,10 +97,12 @@ pub struct Settings {
     pub start_over: bool,
     /// The robot outside of Ferry that the arm of the session `main` mirrors.
     pub twin: Option<Arc<Twin>>,
+    /// What browsers load.
+    pub page: Page,
 }
 
 impl Settings {
-    /// Default settings with this data folder.
+    /// Default settings with this data folder, without a page.
     pub fn in_folder(data: PathBuf) -> Self {
         Self {
             data,
@@ -109,12 +112,14 @@ impl Settings {
             opening: Scenario::idle("posts", 1),
             start_over: false,
             twin: None,
+            page: Page::default(),
         }
     }
 }
 
 /// State shared by all requests.
 pub struct Server {
+    page: Page,
     gpu: Arc<Gpu>,
     access: Access,
     counters: Arc<Counters>,
@@ -156,7 +161,7 @@ impl Server {
         access: Access,
         stopping: watch::Receiver<bool>,
     ) -> Result<Arc<Self>, ServeError> {
-        let Settings { data, retention, sessions, park_after, opening, start_over, twin } = settings;
+        let Settings { data, retention, sessions, park_after, opening, start_over, twin, page } = settings;
         let recordings = Archive::new(data.join("recordings"), retention);
         let maps = Maps::in_folder(data.join("maps"), opening.map.clone());
         let settings = SessionSettings { most: sessions, park_after, opening };
@@ -176,6 +181,7 @@ impl Server {
             recoveries: Recoveries::new(jobs.clone()),
             trainings: Trainings::in_folder(data.join("trainings"), sweeps.clone(), jobs.clone(), catalog.clone()),
             jobs,
+            page,
             gpu,
             access,
             counters: Arc::default(),

@@ -6,7 +6,7 @@
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> std::process::ExitCode {
-    match ferry::cli::run(std::env::args_os()) {
+    match ferry::cli::run(std::env::args_os(), ferry_assets::FILES) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("ferry: {error:#}");

@@ -33,7 +33,7 @@ pub const WALL_HEIGHT_M: f64 = 0.005;
 pub const MAX_SVG_BYTES: usize = 1 << 20;
 
 #[derive(rust_embed::RustEmbed)]
-#[folder = "assets/maps/"]
+#[folder = "../assets/maps/"]
 #[include = "*.svg"]
 struct Shipped;
 

@@ -1,8 +1,63 @@
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { brotliCompressSync, gzipSync } from 'node:zlib';
+import type { Plugin } from 'vite';
 import solid from 'vite-plugin-solid';
 import { defineConfig } from 'vitest/config';
 
+/** Writes each file also as gzip and as brotli, where that is smaller. The server sends what the browser accepts. */
+const compressed = (): Plugin => ({
+  name: 'compressed',
+  apply: 'build',
+  writeBundle({ dir = '' }) {
+    for (const entry of readdirSync(dir, { recursive: true, withFileTypes: true })) {
+      if (!entry.isFile()) continue;
+      const path = join(entry.parentPath, entry.name);
+      const content = readFileSync(path);
+      for (const [ending, pack] of [
+        ['gz', gzipSync] as const,
+        ['br', brotliCompressSync] as const,
+      ]) {
+        const packed = pack(content, ending === 'gz' ? { level: 9 } : {});
+        if (packed.length < content.length) writeFileSync(`${path}.${ending}`, packed);
+      }
+    }
+  },
+});
+
+/** Where `make dev` finds the server. */
+const SERVER = process.env.FERRY_SERVER ?? 'http://127.0.0.1:8080';
+/** What the server answers; the rest is the page. */
+const SERVED = ['/api', '/rerun', '/login', '/logout', '/healthz', '/metrics'];
+
+/** Requests a session's address from the server too, which opens the session. */
+const opensSessions = (): Plugin => ({
+  name: 'opens-sessions',
+  configureServer({ middlewares }) {
+    middlewares.use(({ url = '' }, _response, next) => {
+      if (!/^\/(s\/[^/]+|demo)?(\?|$)/.test(url)) {
+        next();
+        return;
+      }
+      fetch(SERVER + url).then(
+        () => next(),
+        () => next(new Error(`no server at ${SERVER}: start one with \`ferry serve\``)),
+      );
+    });
+  },
+});
+
 export default defineConfig({
-  plugins: [solid()],
+  plugins: [solid(), compressed(), opensSessions()],
+  server: {
+    // The server takes requests of its own page only.
+    proxy: Object.fromEntries(
+      SERVED.map((path) => [
+        path,
+        { target: SERVER, ws: true, changeOrigin: true, headers: { origin: SERVER } },
+      ]),
+    ),
+  },
   // For the names in src/styles/breakpoints.css.
   css: { transformer: 'lightningcss', lightningcss: { drafts: { customMedia: true } } },
   build: {

@@ -23,7 +23,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 /// Runs the command `ferry`; returns its exit status.
 #[pyfunction]
 fn run(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<i32> {
-    let ended = py.detach(|| ferry::cli::run(arguments.into_iter()));
+    let ended = py.detach(|| ferry::cli::run(arguments.into_iter(), ferry_assets::FILES));
     let code = ended.map_err(|error| PyRuntimeError::new_err(format!("{error:#}")))?;
     Ok(i32::from(code != std::process::ExitCode::SUCCESS))
 }

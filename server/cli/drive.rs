@@ -4,6 +4,7 @@ use std::net::IpAddr;
 use std::process::ExitCode;
 
 use super::serve;
+use crate::http::EmbeddedFile;
 use crate::ur::Twin;
 
 #[derive(clap::Args)]
@@ -19,10 +20,10 @@ pub struct Arguments {
     serve: serve::Arguments,
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+pub fn run(arguments: &Arguments, files: &'static [EmbeddedFile]) -> anyhow::Result<ExitCode> {
     let Arguments { robot, enable_motion, serve } = arguments;
     if *enable_motion {
         tracing::warn!(address = %robot, "Ferry may move the robot. It is not safety-rated and has never moved a real arm");
     }
-    serve::run(serve, Some(Twin::new(*robot, *enable_motion)))
+    serve::run(serve, files, Some(Twin::new(*robot, *enable_motion)))
 }

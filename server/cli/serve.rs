@@ -9,7 +9,7 @@ use std::time::Duration;
 use anyhow::Context;
 use tokio::sync::watch;
 
-use crate::http;
+use crate::http::{self, EmbeddedFile, Page};
 use crate::recording::Retention;
 use crate::robot_client;
 use crate::robot_server::{self, Ports};
@@ -103,13 +103,13 @@ fn opening(name_or_path: &str) -> anyhow::Result<Scenario> {
 }
 
 /// Serves; the arm of the session `main` is the twin of a robot, if there is one.
-pub fn run(arguments: &Arguments, twin: Option<Twin>) -> anyhow::Result<ExitCode> {
+pub fn run(arguments: &Arguments, files: &'static [EmbeddedFile], twin: Option<Twin>) -> anyhow::Result<ExitCode> {
     anyhow::ensure!(
         twin.is_none() || arguments.robot_server.is_none(),
         "--robot-server: it cannot be used with `ferry drive`, because the arm follows the robot"
     );
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    let served = runtime.block_on(serve(arguments, twin.map(Arc::new)));
+    let served = runtime.block_on(serve(arguments, Page::new(files), twin.map(Arc::new)));
     // Unfinished background work must not keep the process alive.
     runtime.shutdown_background();
     served?;
@@ -129,7 +129,7 @@ async fn robot_ports(arguments: &Arguments) -> anyhow::Result<Option<Ports>> {
     Ok(Some(Ports::open(address).await?))
 }
 
-async fn serve(arguments: &Arguments, twin: Option<Arc<Twin>>) -> anyhow::Result<()> {
+async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> anyhow::Result<()> {
     let token = token(arguments)?;
     let opening = opening(arguments.scenario.as_deref().unwrap_or("opening"))?;
     let listener = http::listen(arguments.bind).await?;
@@ -150,6 +150,7 @@ async fn serve(arguments: &Arguments, twin: Option<Arc<Twin>>) -> anyhow::Result
         opening,
         start_over: arguments.scenario.is_some(),
         twin: twin.clone(),
+        page,
     };
     let server = http::Server::new(gpu, settings, access, stopping.clone())?;
     if let Some(ports) = ports {

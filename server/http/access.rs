@@ -231,14 +231,14 @@ pub async fn guard(
             server.counters.refuse(problem.code());
             // A request for the page without a login gets the login page.
             if problem.code() == "no_token" && method == Method::GET && is_page(&path) {
-                super::assets::login_page(StatusCode::UNAUTHORIZED)
+                server.page.login(StatusCode::UNAUTHORIZED)
             } else {
                 problem.into_response()
             }
         }
     };
     if wants_page && let Some(problem) = response.extensions_mut().remove::<Problem>() {
-        super::assets::turn_into_page(&mut response, &problem);
+        server.page.show_refusal(&mut response, &problem);
     }
     server.counters.answer(response.status());
     tracing::debug!(%method, path, status = response.status().as_u16(), %address, took = ?began.elapsed(), "request");

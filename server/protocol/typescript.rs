@@ -248,7 +248,7 @@ fn imports(file: &str, text: &str, origins: &BTreeMap<String, String>) -> String
 
 /// Writes a generated file when `FERRY_GENERATE` is set, and compares it otherwise.
 fn keep(path: &str, generated: &str) {
-    let whole = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let whole = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(path);
     if std::env::var_os("FERRY_GENERATE").is_some() {
         std::fs::create_dir_all(whole.parent().unwrap()).unwrap();
         std::fs::write(&whole, generated).unwrap();

@@ -41,6 +41,7 @@ impl Laboratory {
         let address = listener.local_addr().unwrap();
         let access = http::Access::new(address, token.map(|token| token.parse().unwrap()), &[]).unwrap();
         let mut settings = Settings::in_folder(data.path().to_owned());
+        settings.page = http::Page::new(ferry_assets::FILES);
         change(&mut settings);
         let server = http::Server::new(gpu, settings, access, stopping).unwrap();
         let served = tokio::spawn(async move { http::serve(listener, server).await.unwrap() });

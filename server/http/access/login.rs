@@ -14,7 +14,6 @@ use utoipa::ToSchema;
 
 use super::Client;
 use crate::http::Server;
-use crate::http::assets::login_page;
 use crate::http::body::{WholeBody, parse};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, TooMany};
@@ -35,8 +34,8 @@ pub struct Login {
 /// The login page.
 #[utoipa::path(get, path = "/login", tag = "access",
     responses((status = 200, description = "The login page.", content_type = "text/html", body = String)))]
-pub async fn form() -> Response {
-    login_page(StatusCode::OK)
+pub async fn form(State(server): State<Arc<Server>>) -> Response {
+    server.page.login(StatusCode::OK)
 }
 
 /// Exchanges the token for a cookie.

@@ -20,7 +20,7 @@ impl Laboratory {
         let queue = Arc::new(Queue::start(gpu).unwrap());
         let policies = Arc::new(policy::Library::in_folder(folder.join("policies"), || ()));
         let catalog = Catalog { policies, ..Catalog::default() };
-        let sweeps = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/test-output/sweeps");
+        let sweeps = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("target/test-output/sweeps");
         let trainings = Trainings::in_folder(folder.join("trainings"), sweeps, queue.clone(), catalog.clone());
         Self { queue, catalog, trainings }
     }
