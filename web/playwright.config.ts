@@ -28,7 +28,11 @@ export default defineConfig({
     trace: { mode: 'retain-on-failure', screenshots: false, snapshots: false },
   },
   projects: [
-    { name: 'browser', testIgnore: '*soak.spec.ts' },
+    { name: 'browser', testIgnore: '*soak.spec.ts', grepInvert: /@long/ },
+    // `make test-long`; docs/tests.md says what it has.
+    ...(process.env.FERRY_LONG
+      ? [{ name: 'long', testIgnore: '*soak.spec.ts', grep: /@long/ }]
+      : []),
     // Forty minutes: `npm run soak`.
     ...(process.env.FERRY_SOAK ? [{ name: 'soak', testMatch: '*soak.spec.ts', timeout: 0 }] : []),
   ],

@@ -4,7 +4,7 @@
 import { fileURLToPath } from 'node:url';
 import type { Locator } from '@playwright/test';
 import { hasRow } from './controls/table';
-import { type Lab, expect, test } from './fixtures';
+import { LONG, type Lab, expect, longUnless, test } from './fixtures';
 import { violations } from './support/axe';
 import { DESKTOP, TABLET } from './support/browser';
 import { MIN_SIDE_PX, controls, faultsOf, unreached } from './support/inventory';
@@ -25,6 +25,7 @@ import {
 /** Colours are all that a theme changes, so the second one is only checked for contrast. */
 const RULES_BY_THEME = { dark: undefined, light: ['color-contrast', 'link-in-text-block'] };
 const DARK = ['dark'] as const;
+const LIGHT = ['light'] as const;
 const THEMES = [...DARK, 'light'] as const;
 const VIEWS = ['Laboratory', 'Draw', 'Train', 'Recordings', 'Evaluate'];
 const TAB_AREAS = ['lower', 'aside'];
@@ -61,6 +62,44 @@ async function savePictures(lab: Lab, place: Place, theme: string) {
   await lab.page.screenshot({ path: `${PICTURES}web-${slug(place.name)}-${theme}.png` });
 }
 
+interface Crawl {
+  readonly isTouch: boolean;
+  readonly isView: boolean;
+  readonly themes: readonly ('dark' | 'light')[];
+}
+
+async function crawl(lab: Lab, places: Places, { isTouch, isView, themes }: Crawl) {
+  const faults = new Set<string>();
+  const known = new Set<string>();
+  await prepare(lab);
+  // The test of the views checks the whole page, the other tests only controls that they open.
+  if (!isView) for (const { key } of await controls(lab.page)) known.add(key);
+  for await (const place of places(lab)) {
+    // A tablet has the same colours, and the same elements in each view.
+    for (const colorScheme of !isTouch ? themes : isView ? DARK : []) {
+      await lab.page.emulateMedia({ colorScheme });
+      for (const one of await violations(lab.page, RULES_BY_THEME[colorScheme]))
+        faults.add(`${place.name}, ${one}`);
+      // The panels of the views show the light colours.
+      if (!isTouch && (isView || colorScheme === 'dark'))
+        await savePictures(lab, place, colorScheme);
+    }
+    const all = await controls(lab.page);
+    for (const fault of faultsOf(all, isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse)) {
+      faults.add(fault);
+    }
+    const added = all.filter(({ key }) => !known.has(key));
+    for (const one of added) {
+      known.add(one.key);
+      if (!hasRow(one)) faults.add(`“${one.key}” has no row in e2e/controls`);
+    }
+    for (const fault of await unreached(lab.page, all, added, place.opener)) {
+      faults.add(fault);
+    }
+  }
+  expect([...faults]).toEqual([]);
+}
+
 for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLET })) {
   const isTouch = device === 'tablet';
 
@@ -68,41 +107,25 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
     test.use(options);
 
     for (const [where, places] of Object.entries(PLACES)) {
-      const isView = where === 'views';
+      // Every day the dark colours on a desktop, of what all visitors see.
+      const isDaily = !isTouch && (where === 'views' || where === 'tabs');
 
-      test(`${where}: names, sizes, Tab order and contrast are right on a ${device}`, async ({
-        lab,
-      }) => {
-        const faults = new Set<string>();
-        const known = new Set<string>();
-        await prepare(lab);
-        // The test of the views checks the whole page, the other tests only controls that they open.
-        if (!isView) for (const { key } of await controls(lab.page)) known.add(key);
-        for await (const place of places(lab)) {
-          // A tablet has the same colours, and the same elements in each view.
-          for (const colorScheme of !isTouch ? THEMES : isView ? DARK : []) {
-            await lab.page.emulateMedia({ colorScheme });
-            for (const one of await violations(lab.page, RULES_BY_THEME[colorScheme]))
-              faults.add(`${place.name}, ${one}`);
-            // The panels of the views show the light colours.
-            if (!isTouch && (isView || colorScheme === 'dark'))
-              await savePictures(lab, place, colorScheme);
-          }
-          const all = await controls(lab.page);
-          for (const fault of faultsOf(all, isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse)) {
-            faults.add(fault);
-          }
-          const added = all.filter(({ key }) => !known.has(key));
-          for (const one of added) {
-            known.add(one.key);
-            if (!hasRow(one)) faults.add(`“${one.key}” has no row in e2e/controls`);
-          }
-          for (const fault of await unreached(lab.page, all, added, place.opener)) {
-            faults.add(fault);
-          }
-        }
-        expect([...faults]).toEqual([]);
-      });
+      test(
+        `${where}: names, sizes, Tab order and contrast are right on a ${device}`,
+        longUnless(isDaily),
+        async ({ lab }) => {
+          await crawl(lab, places, {
+            isTouch,
+            isView: where === 'views',
+            themes: isDaily ? DARK : THEMES,
+          });
+        },
+      );
+      if (isDaily) {
+        test(`${where}: contrast is right in light colours`, LONG, async ({ lab }) => {
+          await crawl(lab, places, { isTouch, isView: where === 'views', themes: LIGHT });
+        });
+      }
     }
   });
 }
@@ -124,20 +147,24 @@ for (const [name, width, height] of [
   ['small', 1280, 800],
   ['tablet', 820, 1180],
 ] as const) {
-  test(`fits into a ${name} window, and saves its pictures`, async ({ lab }) => {
-    await lab.page.setViewportSize({ width, height });
-    await lab.reset({ speed: '8' });
-    await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.4)[0]);
-    await lab.run();
-    await lab.later(400);
-    await lab.pause();
-    for (const colorScheme of THEMES) {
-      await lab.page.emulateMedia({ colorScheme });
-      await lab.drawn();
-      await lab.page.screenshot({ path: `${PICTURES}web-${name}-${colorScheme}.png` });
-    }
-    const isWider = () =>
-      lab.page.evaluate(() => document.documentElement.scrollWidth > window.innerWidth);
-    expect(await isWider(), 'the page scrolls horizontally').toBe(false);
-  });
+  test(
+    `fits into a ${name} window, and saves its pictures`,
+    longUnless(name === 'small'),
+    async ({ lab }) => {
+      await lab.page.setViewportSize({ width, height });
+      await lab.reset({ speed: '8' });
+      await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.4)[0]);
+      await lab.run();
+      await lab.later(400);
+      await lab.pause();
+      for (const colorScheme of THEMES) {
+        await lab.page.emulateMedia({ colorScheme });
+        await lab.drawn();
+        await lab.page.screenshot({ path: `${PICTURES}web-${name}-${colorScheme}.png` });
+      }
+      const isWider = () =>
+        lab.page.evaluate(() => document.documentElement.scrollWidth > window.innerWidth);
+      expect(await isWider(), 'the page scrolls horizontally').toBe(false);
+    },
+  );
 }

@@ -1,7 +1,7 @@
 // The demonstration: its programme, the visitor who interrupts it, a second screen, an outage, and the return.
 
 import type { Page } from '@playwright/test';
-import { Lab, expect, test } from './fixtures';
+import { Lab, expect, test, LONG } from './fixtures';
 import { violations } from './support/axe';
 import { useSlowDisplay } from './support/display';
 import { endFirstSession } from './support/ended';
@@ -131,68 +131,71 @@ test('shows the ghosts of a challenge, and a visitor who touches the screen play
   await page.mouse.up();
 });
 
-test('goes to the plan view without WebGL 2, shows a refusal, and forgets a zoom', async ({
-  page,
-}) => {
-  await page.addInitScript(() => {
-    const { prototype } = HTMLCanvasElement;
-    // eslint-disable-next-line @typescript-eslint/unbound-method
-    const { getContext } = prototype;
-    prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
-      return kind === 'webgl2' ? null : (getContext.call(this, kind, ...rest) as unknown);
-    } as typeof getContext;
-  });
-  const lab = await show(page, `${server.url}/demo`);
-  await begun(lab);
-  await lab.canvas.waitFor();
-  const scaleOf = async () => Number(await lab.canvas.getAttribute('data-px-per-m'));
-  const whole = await scaleOf();
-  const { trial } = lab.scene;
-  await page.mouse.move(...(await lab.px(await lab.bead())));
-  await page.mouse.wheel(0, -600);
-  await expect.poll(scaleOf).toBeGreaterThan(1.5 * whole);
-  await expect(captionOf(page)).toHaveText(VISITED);
-  await jump(page, SILENCE_MS);
-  await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
-  await expect.poll(scaleOf).toBe(whole);
+test(
+  'goes to the plan view without WebGL 2, shows a refusal, and forgets a zoom',
+  LONG,
+  async ({ page }) => {
+    await page.addInitScript(() => {
+      const { prototype } = HTMLCanvasElement;
+      // eslint-disable-next-line @typescript-eslint/unbound-method
+      const { getContext } = prototype;
+      prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
+        return kind === 'webgl2' ? null : (getContext.call(this, kind, ...rest) as unknown);
+      } as typeof getContext;
+    });
+    const lab = await show(page, `${server.url}/demo`);
+    await begun(lab);
+    await lab.canvas.waitFor();
+    const scaleOf = async () => Number(await lab.canvas.getAttribute('data-px-per-m'));
+    const whole = await scaleOf();
+    const { trial } = lab.scene;
+    await page.mouse.move(...(await lab.px(await lab.bead())));
+    await page.mouse.wheel(0, -600);
+    await expect.poll(scaleOf).toBeGreaterThan(1.5 * whole);
+    await expect(captionOf(page)).toHaveText(VISITED);
+    await jump(page, SILENCE_MS);
+    await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
+    await expect.poll(scaleOf).toBe(whole);
 
-  await lab.click(lab.wallPoint());
-  await expect(lab.notice('workspace')).toBeVisible();
-  expect(await violations(page)).toEqual([]);
-  expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
-});
+    await lab.click(lab.wallPoint());
+    await expect(lab.notice('workspace')).toBeVisible();
+    expect(await violations(page)).toEqual([]);
+    expect(faultsOf(await controls(page), MIN_SIDE_PX.mouse)).toEqual([]);
+  },
+);
 
-test('watches on a second screen, and goes on there when the first one leaves', async ({
-  page,
-  browser,
-}) => {
-  const first = await show(page, `${server.url}/demo`);
-  await begun(first);
-  const context = await browser.newContext();
-  try {
-    const second = await show(await context.newPage(), `${server.url}/demo`);
-    await expect(second.page.getByText(WATCHING)).toBeVisible();
-    await expect(captionOf(second.page)).toHaveText(/\.$/);
-    expect(second.hello.role).toBe('viewer');
-    // A touch is ignored.
-    await second.page.mouse.click(300, 300);
-    await first.later(250);
-    await expect(second.page.getByText(WATCHING)).toBeVisible();
-    expect(second.sent).toEqual({});
-    expect(first.hello).toMatchObject({ role: 'operator', asked: false });
+test(
+  'watches on a second screen, and goes on there when the first one leaves',
+  LONG,
+  async ({ page, browser }) => {
+    const first = await show(page, `${server.url}/demo`);
+    await begun(first);
+    const context = await browser.newContext();
+    try {
+      const second = await show(await context.newPage(), `${server.url}/demo`);
+      await expect(second.page.getByText(WATCHING)).toBeVisible();
+      await expect(captionOf(second.page)).toHaveText(/\.$/);
+      expect(second.hello.role).toBe('viewer');
+      // A touch is ignored.
+      await second.page.mouse.click(300, 300);
+      await first.later(250);
+      await expect(second.page.getByText(WATCHING)).toBeVisible();
+      expect(second.sent).toEqual({});
+      expect(first.hello).toMatchObject({ role: 'operator', asked: false });
 
-    const { trial } = second.scene;
-    await page.goto('about:blank');
-    await expect(captionOf(second.page)).toHaveText(FIRST);
-    await until('the part again', () => second.scene.trial > trial && second.state.running);
-    expect(second.hello.role).toBe('operator');
-    await second.page.goto('about:blank');
-  } finally {
-    await context.close();
-  }
-});
+      const { trial } = second.scene;
+      await page.goto('about:blank');
+      await expect(captionOf(second.page)).toHaveText(FIRST);
+      await until('the part again', () => second.scene.trial > trial && second.state.running);
+      expect(second.hello.role).toBe('operator');
+      await second.page.goto('about:blank');
+    } finally {
+      await context.close();
+    }
+  },
+);
 
-test('waits for its server, and begins again', async ({ page, watch }) => {
+test('waits for its server, and begins again', LONG, async ({ page, watch }) => {
   watch.allow(CONNECTION_LOST);
   const lab = await show(page, `${server.url}/demo`);
   await begun(lab);
@@ -211,7 +214,7 @@ test('waits for its server, and begins again', async ({ page, watch }) => {
   await begun(lab);
 });
 
-test('loads itself again after its session has ended', async ({ page }) => {
+test('loads itself again after its session has ended', LONG, async ({ page }) => {
   const connections = await endFirstSession(page);
   await page.goto(`${server.url}/demo`);
   await expect(captionOf(page)).toHaveText(WAITING);

@@ -1,7 +1,7 @@
 // The view Evaluate: form by keyboard, progress, results, cancelling, setting up a failed episode.
 
 import type { Locator, Page } from '@playwright/test';
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 import { startEvaluation } from './support/evaluations';
 import { distance } from './support/table';
 import { must, until } from './support/wait';
@@ -159,7 +159,7 @@ test('runs an evaluation that is filled in by keyboard', async ({ lab }) => {
   await expect(page.getByTestId('comparison')).toContainText('ERRT − Attractor');
 });
 
-test('cancels an evaluation that a viewer watches', async ({ lab, openLab }) => {
+test('cancels an evaluation that a viewer watches', LONG, async ({ lab, openLab }) => {
   await lab.view('Evaluate').click();
   const form = await fillIn(lab.page, {
     controllers: ['RL', 'ERRT'],
@@ -191,7 +191,7 @@ test('cancels an evaluation that a viewer watches', async ({ lab, openLab }) => 
   await expect(rowsOf(lab).nth(3)).toContainText(NOT_STARTED);
 });
 
-test('sets up a failed episode again', async ({ lab }) => {
+test('sets up a failed episode again', LONG, async ({ lab }) => {
   const { page } = lab;
   await lab.view('Evaluate').click();
   const form = await fillIn(page, {
@@ -223,7 +223,7 @@ test('sets up a failed episode again', async ({ lab }) => {
   });
 });
 
-test('ignores a late answer for an evaluation that is no longer chosen', async ({ lab }) => {
+test('ignores a late answer for an evaluation that is no longer chosen', LONG, async ({ lab }) => {
   const { page } = lab;
   const { origin } = new URL(page.url());
   const query = {

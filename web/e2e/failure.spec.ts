@@ -1,6 +1,6 @@
 // The card that explains why a goal was not reached, and what it offers.
 
-import { type Lab, type Session, expect, test } from './fixtures';
+import { type Lab, type Session, expect, test, LONG } from './fixtures';
 import { violations } from './support/axe';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { until } from './support/wait';
@@ -42,7 +42,7 @@ test('explains a failure, and delivers by another controller', async ({ openLab,
   await expect(cardOf(lab)).toHaveCount(0);
 });
 
-test('goes on after a failure, and compares from the start', async ({ openLab, session }) => {
+test('goes on after a failure, and compares from the start', LONG, async ({ openLab, session }) => {
   const lab = await fail(openLab, session);
   const steps = lab.state.steps;
   await lab.button('Go on for 150 more steps').click();

@@ -10,6 +10,11 @@ import { Watch } from './support/watch';
 export { expect } from '@playwright/test';
 export { Lab } from './support/lab';
 
+/** Marks a test of the long suite (`make test-long`); docs/tests.md says which and why. */
+export const LONG = { tag: '@long' };
+/** The mark of one test of several that a loop makes. */
+export const longUnless = (isDaily: boolean) => ({ tag: isDaily ? [] : [LONG.tag] });
+
 export interface Session {
   readonly name: string;
   readonly url: string;

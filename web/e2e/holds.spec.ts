@@ -1,7 +1,7 @@
 // Holding the bead without moving it: the page reports the hand to the server each second.
 // Without these reports the server releases the bead.
 
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 import { openSceneView } from './support/preconditions';
 import { until } from './support/wait';
 
@@ -47,7 +47,7 @@ const HOLDS = {
 };
 
 for (const [how, { take, end }] of Object.entries(HOLDS)) {
-  test(`holds the bead by ${how} without moving it`, async ({ lab }) => {
+  test(`holds the bead by ${how} without moving it`, LONG, async ({ lab }) => {
     await lab.reset();
     await take(lab);
     // At speed 1 a tick is 8 ms.
@@ -61,7 +61,7 @@ for (const [how, { take, end }] of Object.entries(HOLDS)) {
   });
 }
 
-test('releases the bead when the page does not respond', async ({ lab }) => {
+test('releases the bead when the page does not respond', LONG, async ({ lab }) => {
   await lab.reset();
   await takeByMouse(lab);
   // Blocks the page's thread.

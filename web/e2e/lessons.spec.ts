@@ -1,6 +1,6 @@
 // Does every lesson to its end: its experiments must confirm its claim.
 
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG, longUnless } from './fixtures';
 import { TRAIN_MS, clearTrainings } from './support/trainings';
 import { until } from './support/wait';
 
@@ -44,6 +44,8 @@ const LESSONS: readonly Lesson[] = [
   },
   { title: 'The gut moves', choice: 'It delivers the bead about as fast as before', runs: 3 },
 ];
+/** The shortest, one with an action and one without. */
+const DAILY = ['Lose the bead', 'Why the attractor gets stuck'];
 const FIRST = {
   title: /^Meet the magnet/i,
   choices: [/^Right below/i, /^A little behind/i],
@@ -88,31 +90,35 @@ async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
 }
 
 for (const { title, choice, runs, action } of LESSONS) {
-  test(`the experiments of the lesson “${title}” confirm its claim`, async ({ lab }) => {
-    await lab.tab('Lessons').click();
-    await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
-    await lab.page.getByRole('radio', { name: choice }).check();
-    await next(lab);
-    for (let run = 0; run < runs; run += 1) {
-      await setUp(lab, () => lab.button('Set it up').click());
-      await lab.speed(run === 0 && action ? action.speed : '64');
-      await lab.run();
-      if (run === 0 && action) await act(lab, action);
-      await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
-      await lab.pause();
+  test(
+    `the experiments of the lesson “${title}” confirm its claim`,
+    longUnless(DAILY.includes(title)),
+    async ({ lab }) => {
+      await lab.tab('Lessons').click();
+      await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
+      await lab.page.getByRole('radio', { name: choice }).check();
       await next(lab);
-    }
-    await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
-    await lab.button('Finish').click();
-    await expect(lab.page.getByText('1 of 12 done')).toBeVisible();
-    await until('the settings before the lesson', () => {
-      const { parameters, defaults } = lab.scene;
-      return JSON.stringify(parameters) === JSON.stringify(defaults);
-    });
-    await expect(lab.label('Speed')).toHaveValue('1');
-    await lab.button('Start over').click();
-    await expect(lab.page.getByText('0 of 12 done')).toBeVisible();
-  });
+      for (let run = 0; run < runs; run += 1) {
+        await setUp(lab, () => lab.button('Set it up').click());
+        await lab.speed(run === 0 && action ? action.speed : '64');
+        await lab.run();
+        if (run === 0 && action) await act(lab, action);
+        await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
+        await lab.pause();
+        await next(lab);
+      }
+      await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
+      await lab.button('Finish').click();
+      await expect(lab.page.getByText('1 of 12 done')).toBeVisible();
+      await until('the settings before the lesson', () => {
+        const { parameters, defaults } = lab.scene;
+        return JSON.stringify(parameters) === JSON.stringify(defaults);
+      });
+      await expect(lab.label('Speed')).toHaveValue('1');
+      await lab.button('Start over').click();
+      await expect(lab.page.getByText('0 of 12 done')).toBeVisible();
+    },
+  );
 }
 
 const TRAINING_LESSONS = [
@@ -134,27 +140,31 @@ const TRAINING_LESSONS = [
 ];
 
 for (const { title, choice, policies } of TRAINING_LESSONS) {
-  test(`the trainings of the lesson “${title}” confirm its claim`, async ({ lab, server }) => {
-    test.setTimeout(policies.length * TRAIN_MS);
-    await lab.tab('Lessons').click();
-    await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
-    await lab.page.getByRole('radio', { name: choice }).check();
-    await next(lab);
-    for (const policy of policies) {
-      await expect(lab.button('Next')).toBeDisabled();
-      await lab.button(`Train ${policy}`).click();
-      await expect(lab.button('Next')).toBeEnabled({ timeout: TRAIN_MS });
-      await expect(
-        lab.page.getByText(/of 1000 episodes with random starts and goals/),
-      ).toBeVisible();
+  test(
+    `the trainings of the lesson “${title}” confirm its claim`,
+    LONG,
+    async ({ lab, server }) => {
+      test.setTimeout(policies.length * TRAIN_MS);
+      await lab.tab('Lessons').click();
+      await lab.page.getByRole('button', { name: new RegExp(`^${title}`) }).click();
+      await lab.page.getByRole('radio', { name: choice }).check();
       await next(lab);
-    }
-    await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
-    await lab.button('Finish').click();
-    await expect(lab.page.getByText('1 of 12 done')).toBeVisible();
-    await lab.button('Start over').click();
-    await clearTrainings(lab.page.request, server.url);
-  });
+      for (const policy of policies) {
+        await expect(lab.button('Next')).toBeDisabled();
+        await lab.button(`Train ${policy}`).click();
+        await expect(lab.button('Next')).toBeEnabled({ timeout: TRAIN_MS });
+        await expect(
+          lab.page.getByText(/of 1000 episodes with random starts and goals/),
+        ).toBeVisible();
+        await next(lab);
+      }
+      await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
+      await lab.button('Finish').click();
+      await expect(lab.page.getByText('1 of 12 done')).toBeVisible();
+      await lab.button('Start over').click();
+      await clearTrainings(lab.page.request, server.url);
+    },
+  );
 }
 
 test('does the first lesson by keyboard, and remembers it after a reload', async ({ lab }) => {

@@ -1,7 +1,7 @@
 // Recovery maps: from a live moment to a trial that is set up again, exactly.
 
 import type { RecoveryReport } from '../src/net/protocol.gen';
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 import { cells, makeMap, progress } from './support/recovery';
 import { type Point, distance } from './support/table';
 import { must, until } from './support/wait';
@@ -41,7 +41,7 @@ test('a recovery map of a live moment shows its cells, and a trial is set up', a
   await expect(lab.page.locator('.recovery-figure')).toHaveCount(1);
 });
 
-test('a drag by hand shows in which cell it ended', async ({ lab }) => {
+test('a drag by hand shows in which cell it ended', LONG, async ({ lab }) => {
   await makeMap(lab);
   const { mouse } = lab.page;
   // On a coarse map some places belong to no cell.

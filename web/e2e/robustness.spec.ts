@@ -1,6 +1,6 @@
 // Robustness: an evaluation over one varied parameter, and over two.
 
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 
 const RUN_MS = 90_000;
 
@@ -33,7 +33,7 @@ test('draws deliveries and errors over a parameter', async ({ lab }) => {
   await expect(lab.page.getByRole('columnheader', { name: 'Varied' })).toBeVisible();
 });
 
-test('shows deliveries over two parameters as a grid', async ({ lab }) => {
+test('shows deliveries over two parameters as a grid', LONG, async ({ lab }) => {
   await lab.view('Evaluate').click();
   await run(lab, 'friction', 'tracker_noise_m');
   const grids = lab.page.locator('.robustness-grid');

@@ -2,7 +2,7 @@
 
 import { setTimeout as delay } from 'node:timers/promises';
 import type { Page } from '@playwright/test';
-import { Lab, expect, test } from './fixtures';
+import { Lab, expect, test, LONG } from './fixtures';
 import { until } from './support/wait';
 
 const MAX_SHIFT = 0.01;
@@ -92,7 +92,7 @@ test('keeps the parameters in their place when the first decision comes', async 
   expect(await parameters.boundingBox()).toEqual(before);
 });
 
-test('does not move while a session runs', async ({ page, session, openLab }) => {
+test('does not move while a session runs', LONG, async ({ page, session, openLab }) => {
   test.setTimeout(TEN_MINUTES_MS + 140_000);
   await page.addInitScript(observeShifts);
   const lab = await Lab.attach(page, session.url);
@@ -128,7 +128,7 @@ async function runLink(lab: Lab, link: string, speed = '8') {
   await lab.run();
 }
 
-test('does not move when something happens', async ({ page, session, openLab }) => {
+test('does not move when something happens', LONG, async ({ page, session, openLab }) => {
   test.setTimeout(LEAST_MS + 180_000);
   await page.addInitScript(observeShifts);
   const end = Date.now() + LEAST_MS;

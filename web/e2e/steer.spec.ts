@@ -1,6 +1,6 @@
 // The controller You: a person steers the tool by mouse, touch, keys and gamepad, and sees what the controllers see.
 
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 import { TABLET } from './support/browser';
 import { HANDS, injectGamepad } from './support/steering';
 import { type Point, distance } from './support/table';
@@ -62,7 +62,7 @@ test('delivers by mouse, and the tool goes no further than the hand points', asy
   await mouse.up();
 });
 
-test('delivers by touch', async ({ openLab }) => {
+test('delivers by touch', LONG, async ({ openLab }) => {
   const lab = await openLab({ hasTouch: true, viewport: { width: 820, height: 1180 } });
   await lab.reset();
   const goal = await goalNear(lab);
@@ -92,7 +92,7 @@ test('delivers by arrow keys, and stops when they are released', async ({ lab })
   await hand.release();
 });
 
-test('delivers by gamepad', async ({ lab }) => {
+test('delivers by gamepad', LONG, async ({ lab }) => {
   const { page } = lab;
   const push = await injectGamepad(lab);
   await lab.reset();
@@ -121,45 +121,50 @@ test('delivers by gamepad', async ({ lab }) => {
 });
 
 for (const [name, take] of Object.entries(HANDS)) {
-  test(`delivers through the colon by ${name}, along the path that ERRT took`, async ({
-    openLab,
-  }) => {
-    test.setTimeout(3 * DELIVERY_MS);
-    const lab = await openLab(name === 'touch' ? TABLET : {});
-    await lab.reset({ speed: '8', map: 'colon' });
-    await lab.controller('ERRT');
-    const goal = must(lab.freePoints(await lab.bead(), 0.15, 0.25)[0], 'a goal');
-    await lab.setGoal(goal);
-    await lab.run();
-    const path: Point[] = [tool(lab)];
-    await until(
-      'a delivery',
-      () => {
-        const at = tool(lab);
-        if (distance(at, must(path.at(-1), 'a place')) > 0.004) path.push(at);
-        return lab.state.deliveries > 0;
-      },
-      DELIVERY_MS,
-    );
-    path.push(goal);
-    await lab.pause();
-    await begin(lab, goal, '2');
-    const hand = await take(lab);
-    let next = 0;
-    await until(
-      'a delivery by hand',
-      async () => {
-        while (next < path.length - 1 && distance(must(path[next], 'a place'), tool(lab)) < AHEAD_M)
-          next += 1;
-        await hand.toward(must(path[next], 'a place'));
-        return lab.state.deliveries > 0;
-      },
-      DELIVERY_MS,
-    );
-    await hand.release();
-    await lab.pause();
-    await lab.reset({ map: 'posts' });
-  });
+  test(
+    `delivers through the colon by ${name}, along the path that ERRT took`,
+    LONG,
+    async ({ openLab }) => {
+      test.setTimeout(3 * DELIVERY_MS);
+      const lab = await openLab(name === 'touch' ? TABLET : {});
+      await lab.reset({ speed: '8', map: 'colon' });
+      await lab.controller('ERRT');
+      const goal = must(lab.freePoints(await lab.bead(), 0.15, 0.25)[0], 'a goal');
+      await lab.setGoal(goal);
+      await lab.run();
+      const path: Point[] = [tool(lab)];
+      await until(
+        'a delivery',
+        () => {
+          const at = tool(lab);
+          if (distance(at, must(path.at(-1), 'a place')) > 0.004) path.push(at);
+          return lab.state.deliveries > 0;
+        },
+        DELIVERY_MS,
+      );
+      path.push(goal);
+      await lab.pause();
+      await begin(lab, goal, '2');
+      const hand = await take(lab);
+      let next = 0;
+      await until(
+        'a delivery by hand',
+        async () => {
+          while (
+            next < path.length - 1 &&
+            distance(must(path[next], 'a place'), tool(lab)) < AHEAD_M
+          )
+            next += 1;
+          await hand.toward(must(path[next], 'a place'));
+          return lab.state.deliveries > 0;
+        },
+        DELIVERY_MS,
+      );
+      await hand.release();
+      await lab.pause();
+      await lab.reset({ map: 'posts' });
+    },
+  );
 }
 
 test('in fog, the page shows nothing that the camera has not seen', async ({ lab }) => {

@@ -1,7 +1,7 @@
 // The view Train: a policy learns a map, the user watches it, and it carries the bead.
 
 import { readFile } from 'node:fs/promises';
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 import { check, drawAlong } from './support/drawing';
 import {
   FEW_UPDATES,
@@ -130,49 +130,53 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   );
 });
 
-test('draws a maze, trains on it, uses the policy, and it delivers', async ({ lab, server }) => {
-  const { page } = lab;
-  await lab.view('Draw').click();
-  // A small floor, so that the training takes a minute.
-  await lab.label('Begin with').selectOption('u-turn');
-  await lab.button('Mirror top and bottom').click();
-  await page.getByRole('slider', { name: 'Width' }).fill('20');
-  await drawAlong(page, [-110, 385], [-75, 385]);
-  await expect(check(lab)).toContainText('2 walls');
-  await expect(check(lab)).not.toContainText('regions');
-  await lab.label('Name').fill('Drawn by hand');
-  await lab.button('Save and use').click();
-  await until('the map', () => lab.scene.map === 'drawn-by-hand');
-  await lab.button('Train a policy on it').click();
-  await expect(lab.label('Map')).toHaveValue('drawn-by-hand');
-  await expect(lab.label('Policy name')).toHaveValue('my-drawn-by-hand');
-  await page.getByText('Settings', { exact: true }).click();
-  await lab.label('Updates').fill('2000');
-  await submit(lab).click();
-  const trained = entry(lab, 'my-drawn-by-hand');
-  await expect(trained).toContainText('done', { timeout: TRAIN_MS });
-  const reached = /(\d+) of 1000 episodes/.exec(await trained.innerText())?.[1];
-  expect(Number(reached), 'episodes that reached the goal').toBeGreaterThanOrEqual(970);
-  const order = Number(await page.getByTestId('train-correlation').innerText());
-  // So few updates teach the steps, but not yet all values.
-  expect(order, 'rank correlation').toBeGreaterThan(0.5);
-  // The table of policies has such a button, too.
-  await trained.getByRole('button', { name: /^Use it/ }).click();
-  await until('RL', () => lab.state.controller === 'rl');
-  await expect(page.locator('.about-controller')).toContainText('my-drawn-by-hand');
-  await lab.speed('8');
-  const bead = await lab.bead();
-  await lab.setGoal(must(lab.freePoints(bead, 0.1, 0.2).at(-1), 'a goal behind the wall'));
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
-  await lab.reset({ map: 'posts' });
-  await lab.restoreDefaults();
-  const map = `${server.url}/api/maps/drawn-by-hand`;
-  expect((await page.request.delete(map)).status()).toBe(204);
-});
+test(
+  'draws a maze, trains on it, uses the policy, and it delivers',
+  LONG,
+  async ({ lab, server }) => {
+    const { page } = lab;
+    await lab.view('Draw').click();
+    // A small floor, so that the training takes a minute.
+    await lab.label('Begin with').selectOption('u-turn');
+    await lab.button('Mirror top and bottom').click();
+    await page.getByRole('slider', { name: 'Width' }).fill('20');
+    await drawAlong(page, [-110, 385], [-75, 385]);
+    await expect(check(lab)).toContainText('2 walls');
+    await expect(check(lab)).not.toContainText('regions');
+    await lab.label('Name').fill('Drawn by hand');
+    await lab.button('Save and use').click();
+    await until('the map', () => lab.scene.map === 'drawn-by-hand');
+    await lab.button('Train a policy on it').click();
+    await expect(lab.label('Map')).toHaveValue('drawn-by-hand');
+    await expect(lab.label('Policy name')).toHaveValue('my-drawn-by-hand');
+    await page.getByText('Settings', { exact: true }).click();
+    await lab.label('Updates').fill('2000');
+    await submit(lab).click();
+    const trained = entry(lab, 'my-drawn-by-hand');
+    await expect(trained).toContainText('done', { timeout: TRAIN_MS });
+    const reached = /(\d+) of 1000 episodes/.exec(await trained.innerText())?.[1];
+    expect(Number(reached), 'episodes that reached the goal').toBeGreaterThanOrEqual(970);
+    const order = Number(await page.getByTestId('train-correlation').innerText());
+    // So few updates teach the steps, but not yet all values.
+    expect(order, 'rank correlation').toBeGreaterThan(0.5);
+    // The table of policies has such a button, too.
+    await trained.getByRole('button', { name: /^Use it/ }).click();
+    await until('RL', () => lab.state.controller === 'rl');
+    await expect(page.locator('.about-controller')).toContainText('my-drawn-by-hand');
+    await lab.speed('8');
+    const bead = await lab.bead();
+    await lab.setGoal(must(lab.freePoints(bead, 0.1, 0.2).at(-1), 'a goal behind the wall'));
+    await lab.run();
+    await lab.delivered(1);
+    await lab.pause();
+    await lab.reset({ map: 'posts' });
+    await lab.restoreDefaults();
+    const map = `${server.url}/api/maps/drawn-by-hand`;
+    expect((await page.request.delete(map)).status()).toBe(204);
+  },
+);
 
-test('pauses, resumes, cancels and removes a training', async ({ lab, server }) => {
+test('pauses, resumes, cancels and removes a training', LONG, async ({ lab, server }) => {
   const { page } = lab;
   for (const name of ['one', 'two']) {
     await startTraining(page.request, server.url, name, MORE_UPDATES);
@@ -194,7 +198,7 @@ test('pauses, resumes, cancels and removes a training', async ({ lab, server }) 
   await expect(entry(lab, 'one')).toHaveCount(1);
 });
 
-test('shows two trainings side by side', async ({ lab, server }) => {
+test('shows two trainings side by side', LONG, async ({ lab, server }) => {
   const { page } = lab;
   for (const name of ['left', 'right']) {
     const id = await startTraining(page.request, server.url, name);
@@ -212,7 +216,7 @@ test('shows two trainings side by side', async ({ lab, server }) => {
   await expect(page.locator('.train-pane')).toHaveCount(1);
 });
 
-test('downloads, uploads, renames and deletes a policy', async ({ lab, server }) => {
+test('downloads, uploads, renames and deletes a policy', LONG, async ({ lab, server }) => {
   const { page } = lab;
   const id = await startTraining(page.request, server.url, 'copied');
   await reachStage(page.request, server.url, id, 'done');

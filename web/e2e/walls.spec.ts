@@ -1,6 +1,6 @@
 // Walls that move: the plan view, the 3-D view and saved pictures show them where they are.
 
-import { type Lab, expect, test } from './fixtures';
+import { type Lab, expect, test, LONG } from './fixtures';
 import { colour, decode, isNear, RATIO, saved } from './support/pictures';
 import { ensurePaused, openSceneView } from './support/preconditions';
 import { gpuObjects, px, settled } from './support/scene';
@@ -137,7 +137,7 @@ test('draws the moving walls in the plan view', async ({ lab }) => {
   await expect(hint).toHaveCount(0);
 });
 
-test('draws the moving walls in the 3-D view, and frees them at rest', async ({ lab }) => {
+test('draws the moving walls in the 3-D view, and frees them at rest', LONG, async ({ lab }) => {
   test.setTimeout(240_000);
   const spot = await prepare(lab);
   await openSceneView(lab);
