@@ -1,4 +1,5 @@
-# `make run` serves the laboratory, `make test` runs every check, `make soak` keeps a page open for half an hour,
+# `make run` serves the laboratory, `make dev` shows an edited page at once, `make test` runs what decides whether a change
+# may land, `make test-long` what takes long by nature, `make soak` keeps a page open for half an hour,
 # `make fuzz` feeds damaged input to all loaders, `make audit` checks the crates for known weaknesses and licenses,
 # `make dist` writes an archive with the program, `make wheel` a package for Python, `make results` runs the evaluations of docs/evaluation.md,
 # `make ablations` trains the policies of docs/ablations.md, `make mazes` evaluates controllers on unseen mazes (docs/mazes.md).
@@ -7,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run test dist wheel test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test rust web browser
+.PHONY: run dev test test-long dist wheel test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test rust web browser
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -50,17 +51,43 @@ export XDG_RUNTIME_DIR ?= /tmp
 run: system-run
 	cargo run --release -- serve
 
-# One browser test alone: cd web && npx playwright test -g "name" (after cargo build --release).
+# The page by Vite, with what it asks for passed to a server that runs: `FERRY_SERVER`, http://127.0.0.1:8080 if not set.
+dev: system-run
+	cd web && { [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund; } && npm run --silent dev
+
+# Clippy checks what the compiler compiles, so that lints, tests, program and package for Python are one build.
+RUST_TESTS := cargo test --release --quiet -p ferry -p ferry-server --lib --test main --
+
+# docs/tests.md says what is in which suite. One browser test alone: CONTRIBUTING.md.
+test: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
+test: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
-	cargo clippy --release --workspace --all-targets --quiet -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --release --workspace --no-deps --quiet
-	cargo test --release --no-run --quiet
+	cargo build --release --workspace --all-targets --quiet
 	$(MAKE) test-python
 	cd web && npm run --silent check && npm run --silent test
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
-	cargo test --release --quiet --lib --test main
+	$(RUST_TESTS)
+
+# A part that has passed on this commit is skipped, so an interrupted run goes on. One part alone: make test-long PARTS=docs
+PARTS ?= docs rust browser python soak fuzz
+PASSED := target/test-long/$(shell git rev-parse HEAD)
+test-long: system-test $(TOOLS)
+	mkdir -p $(PASSED) test-output
+	for part in $(PARTS); do [ -e $(PASSED)/$$part ] || { $(MAKE) test-long-$$part && touch $(PASSED)/$$part; }; done
+
+test-long-docs:
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --workspace --no-deps --quiet
+test-long-rust:
+	cargo build --release --quiet
+	$(RUST_TESTS) --ignored
+test-long-browser:
+	cargo build --release --quiet
+	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e:long
+test-long-python: test-python-rl
+test-long-soak: soak
+test-long-fuzz: fuzz
 
 # A package for Python 3.10 or newer on Linux, with the command, the page, the maps and the policies.
 wheel: system-run $(MATURIN)

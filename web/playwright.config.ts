@@ -28,8 +28,9 @@ export default defineConfig({
     trace: { mode: 'retain-on-failure', screenshots: false, snapshots: false },
   },
   projects: [
+    // The daily suite: one test of every feature.
     { name: 'browser', testIgnore: '*soak.spec.ts', grepInvert: /@long/ },
-    // `make test-long`; docs/tests.md says what it has.
+    // Twenty minutes: `npm run e2e:long`.
     ...(process.env.FERRY_LONG
       ? [{ name: 'long', testIgnore: '*soak.spec.ts', grep: /@long/ }]
       : []),

@@ -3,7 +3,7 @@
 
 import { gzipSync } from 'node:zlib';
 import type { Response } from '@playwright/test';
-import { Lab, expect, test, LONG } from './fixtures';
+import { LONG, Lab, expect, test } from './fixtures';
 import { Meter, figuresOf, overruns, stepThrough, summaryOf } from './support/meter';
 import { must, until } from './support/wait';
 

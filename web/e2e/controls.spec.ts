@@ -2,28 +2,27 @@
 
 import { exercise, sectionsFor } from './controls/table';
 import type { Section } from './controls/row';
-import { type Lab, test, longUnless } from './fixtures';
+import { DAILY, LONG, type Lab, test } from './fixtures';
 import { DESKTOP, TABLET } from './support/browser';
 import { INPUT_METHODS, type InputMethod } from './support/inputMethods';
 
-/**
- * Native controls need one input method a day, and the mouse is the quickest. The others use what Ferry draws and
- * handles itself. What takes trainings or evaluations is in the long suite.
- */
-const DAILY: Record<string, readonly string[]> = {
-  mouse: [
-    'the laboratory',
-    'the layers and the link',
-    'plots, magnet and disturbances',
-    'the 3-D view',
-    'events and comparisons',
-    'challenges',
-    'the map editor',
-    'the parameters',
-  ],
-  keyboard: ['the map editor'],
-  touch: ['the laboratory'],
-};
+/** Costly by mouse. */
+const COSTLY = [
+  'trainings',
+  'recordings and evaluations',
+  'recovery maps',
+  'lessons',
+  'the parameters',
+];
+/** What the page draws itself; one parameter field of each kind. */
+const DAILY_BY_KEYBOARD = ['the laboratory', 'the map editor', 'the parameters'];
+const DAILY_BY_TOUCH = ['the laboratory', 'the map editor'];
+
+function suiteOf(inputMethod: string, title: string) {
+  if (inputMethod === 'mouse') return COSTLY.includes(title) ? LONG : DAILY;
+  const daily = inputMethod === 'keyboard' ? DAILY_BY_KEYBOARD : DAILY_BY_TOUCH;
+  return daily.includes(title) ? DAILY : LONG;
+}
 
 async function exerciseAll(lab: Lab, input: InputMethod, section: Section) {
   await section.ready?.(lab);
@@ -44,14 +43,10 @@ for (const [name, Method] of Object.entries(INPUT_METHODS)) {
     test.use(name === 'touch' ? TABLET : DESKTOP);
 
     for (const [title, sections] of Object.entries(sectionsFor(name))) {
-      test(
-        `each control of ${title} works by ${name}`,
-        longUnless(DAILY[name]?.includes(title) ?? false),
-        async ({ lab }) => {
-          const input = new Method(lab);
-          for (const section of sections) await exerciseAll(lab, input, section);
-        },
-      );
+      test(`each control of ${title} works by ${name}`, suiteOf(name, title), async ({ lab }) => {
+        const input = new Method(lab);
+        for (const section of sections) await exerciseAll(lab, input, section);
+      });
     }
   });
 }

@@ -1,7 +1,7 @@
 // The demonstration: its programme, the visitor who interrupts it, a second screen, an outage, and the return.
 
 import type { Page } from '@playwright/test';
-import { Lab, expect, test, LONG } from './fixtures';
+import { LONG, Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { useSlowDisplay } from './support/display';
 import { endFirstSession } from './support/ended';
@@ -102,34 +102,36 @@ test('runs its programme, gives way to a visitor, and returns', async ({ page })
   await page.getByRole('button', { name: 'Laboratory' }).waitFor();
 });
 
-test('shows the ghosts of a challenge, and a visitor who touches the screen plays it', async ({
-  page,
-}) => {
-  const lab = await show(page, `${server.url}/demo`);
-  await begun(lab);
-  // To the last part: each visitor who leaves lets the programme go on with the next one.
-  while (!lab.scene.challenge) {
+test(
+  'shows the ghosts of a challenge, and a visitor who touches the screen plays it',
+  LONG,
+  async ({ page }) => {
+    const lab = await show(page, `${server.url}/demo`);
+    await begun(lab);
+    // To the last part: each visitor who leaves lets the programme go on with the next one.
+    while (!lab.scene.challenge) {
+      const { trial } = lab.scene;
+      await page.mouse.click(200, 200);
+      await expect(captionOf(page)).toHaveText(VISITED);
+      await jump(page, SILENCE_MS);
+      await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
+    }
+    await expect(captionOf(page)).toHaveText(/ needs \d+\.\d s\. Touch the screen/, {
+      timeout: CAPTION_MS,
+    });
+    await until('some seconds of the ghosts', () => lab.state.tick > 250);
+    expect(lab.state.steer_m).toBeNull();
     const { trial } = lab.scene;
-    await page.mouse.click(200, 200);
-    await expect(captionOf(page)).toHaveText(VISITED);
-    await jump(page, SILENCE_MS);
-    await until('another experiment', () => lab.scene.trial > trial && lab.state.running);
-  }
-  await expect(captionOf(page)).toHaveText(/ needs \d+\.\d s\. Touch the screen/, {
-    timeout: CAPTION_MS,
-  });
-  await until('some seconds of the ghosts', () => lab.state.tick > 250);
-  expect(lab.state.steer_m).toBeNull();
-  const { trial } = lab.scene;
-  await page.mouse.move(500, 300);
-  await page.mouse.down();
-  await until('the start', () => lab.scene.trial > trial && lab.state.running);
-  await page.mouse.move(600, 350, { steps: 5 });
-  await until('the hand', () => lab.state.steer_m);
-  await expect(captionOf(page)).toHaveText(/green circle: \d/);
-  expect(lab.state.attempt?.void).toBeNull();
-  await page.mouse.up();
-});
+    await page.mouse.move(500, 300);
+    await page.mouse.down();
+    await until('the start', () => lab.scene.trial > trial && lab.state.running);
+    await page.mouse.move(600, 350, { steps: 5 });
+    await until('the hand', () => lab.state.steer_m);
+    await expect(captionOf(page)).toHaveText(/green circle: \d/);
+    expect(lab.state.attempt?.void).toBeNull();
+    await page.mouse.up();
+  },
+);
 
 test(
   'goes to the plan view without WebGL 2, shows a refusal, and forgets a zoom',
@@ -223,7 +225,7 @@ test('loads itself again after its session has ended', LONG, async ({ page }) =>
   expect(connections()).toBe(2);
 });
 
-test('returns to the session that it was opened from', async ({ page }) => {
+test('returns to the session that it was opened from', LONG, async ({ page }) => {
   const url = `${server.url}/s/anna`;
   const lab = await Lab.attach(page, url);
   for (const leave of [

@@ -1,7 +1,7 @@
 // The view Evaluate: form by keyboard, progress, results, cancelling, setting up a failed episode.
 
 import type { Locator, Page } from '@playwright/test';
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 import { startEvaluation } from './support/evaluations';
 import { distance } from './support/table';
 import { must, until } from './support/wait';

@@ -1,7 +1,7 @@
 // Pictures and videos of the plan view and of the 3-D view.
 
 import type { Page } from '@playwright/test';
-import { type Lab, expect, test, LONG, longUnless } from './fixtures';
+import { DAILY, LONG, type Lab, expect, test } from './fixtures';
 import { box, colour, decode, isNear, RATIO, saved } from './support/pictures';
 import { open, openSceneView } from './support/preconditions';
 import { beadPx, sceneOf, settled } from './support/scene';
@@ -94,7 +94,8 @@ async function startVideo(lab: Lab) {
 }
 
 for (const view of ['Plan', '3-D']) {
-  test(`records a video of the view ${view}`, longUnless(view === 'Plan'), async ({ lab }) => {
+  const suite = view === 'Plan' ? DAILY : LONG;
+  test(`records a video of the view ${view}`, suite, async ({ lab }) => {
     test.skip(!(await canRecord(lab)), 'This browser cannot record videos.');
     await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.2)[0]);
     if (view === '3-D') await openSceneView(lab);
@@ -112,7 +113,7 @@ for (const view of ['Plan', '3-D']) {
   });
 }
 
-test('saves a video when another view opens', LONG, async ({ lab }) => {
+test('saves a video when another view opens', async ({ lab }) => {
   test.skip(!(await canRecord(lab)), 'This browser cannot record videos.');
   await startVideo(lab);
   const downloading = lab.page.waitForEvent('download');

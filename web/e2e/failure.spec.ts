@@ -1,6 +1,6 @@
 // The card that explains why a goal was not reached, and what it offers.
 
-import { type Lab, type Session, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, type Session, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { until } from './support/wait';

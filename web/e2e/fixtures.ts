@@ -10,10 +10,10 @@ import { Watch } from './support/watch';
 export { expect } from '@playwright/test';
 export { Lab } from './support/lab';
 
-/** Marks a test of the long suite (`make test-long`); docs/tests.md says which and why. */
+/** Tests of the long suite: `npm run e2e:long`. */
 export const LONG = { tag: '@long' };
-/** The mark of one test of several that a loop makes. */
-export const longUnless = (isDaily: boolean) => ({ tag: isDaily ? [] : [LONG.tag] });
+/** Tests of the daily suite: `npm run e2e`. */
+export const DAILY = {};
 
 export interface Session {
   readonly name: string;

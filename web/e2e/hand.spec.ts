@@ -1,7 +1,7 @@
 // The latency of the hand: from the pointer to the picture, in one browser beside three sessions without one.
 // Other tests run at the same time, so the time may be LENIENCY times its budget; hand.soak.spec.ts has the budget.
 
-import { Lab, expect, test, LONG } from './fixtures';
+import { LONG, Lab, expect, test } from './fixtures';
 import { HAND_BUDGET_MS, attachHand, handWords, measureHand } from './support/hand';
 
 const LENIENCY = 3;

@@ -1,7 +1,7 @@
 // Holding the bead without moving it: the page reports the hand to the server each second.
 // Without these reports the server releases the bead.
 
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 import { openSceneView } from './support/preconditions';
 import { until } from './support/wait';
 

@@ -1,6 +1,6 @@
 // Uploaded maps: a valid drawing opens, other files are refused.
 
-import { expect, test, LONG } from './fixtures';
+import { expect, test } from './fixtures';
 import { dropFile } from './support/drop';
 import { DRAWING, openMap } from './support/maps';
 import { must } from './support/wait';
@@ -28,33 +28,32 @@ for (const [what, { text, words }] of Object.entries(REFUSED)) {
   });
 }
 
-test(
-  'RL delivers on an uploaded map, and the panel says what it was trained on',
-  LONG,
-  async ({ lab, server }) => {
-    const { page } = lab;
-    await openMap(page, () => lab.button('Open map…').click(), DRAWING, 'Own maze.svg');
-    await expect.poll(() => lab.scene.map).toBe('own-maze');
-    await lab.reset({ speed: '8', map: 'own-maze' });
-    await lab.controller('RL');
-    await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.2, 0.4).at(-1), 'a goal'));
-    await lab.run();
-    await expect(page.getByTestId('rl-policy')).toHaveText('explorer');
-    await expect(page.getByTestId('rl-trained-on')).toContainText('tubes');
-    await expect(page.getByTestId('rl-shortcut')).toBeVisible();
-    await expect(page.getByTestId('rl-memory')).toContainText('what the camera has seen');
-    await lab.delivered(1);
-    await lab.pause();
-    // The values are those of the observed area.
-    await lab.layer('Value');
-    const legend = page.getByRole('group', { name: 'Values' });
-    await expect(legend).toContainText('by what the camera has seen so far');
-    await expect(legend.getByTestId('value-greatest')).toBeVisible();
-    await lab.layer('Value', false);
-    expect((await page.request.delete(`${server.url}/api/maps/own-maze`)).status()).toBe(204);
-    await lab.reset();
-  },
-);
+test('RL delivers on an uploaded map, and the panel says what it was trained on', async ({
+  lab,
+  server,
+}) => {
+  const { page } = lab;
+  await openMap(page, () => lab.button('Open map…').click(), DRAWING, 'Own maze.svg');
+  await expect.poll(() => lab.scene.map).toBe('own-maze');
+  await lab.reset({ speed: '8', map: 'own-maze' });
+  await lab.controller('RL');
+  await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.2, 0.4).at(-1), 'a goal'));
+  await lab.run();
+  await expect(page.getByTestId('rl-policy')).toHaveText('explorer');
+  await expect(page.getByTestId('rl-trained-on')).toContainText('tubes');
+  await expect(page.getByTestId('rl-shortcut')).toBeVisible();
+  await expect(page.getByTestId('rl-memory')).toContainText('what the camera has seen');
+  await lab.delivered(1);
+  await lab.pause();
+  // The values are those of the observed area.
+  await lab.layer('Value');
+  const legend = page.getByRole('group', { name: 'Values' });
+  await expect(legend).toContainText('by what the camera has seen so far');
+  await expect(legend.getByTestId('value-greatest')).toBeVisible();
+  await lab.layer('Value', false);
+  expect((await page.request.delete(`${server.url}/api/maps/own-maze`)).status()).toBe(204);
+  await lab.reset();
+});
 
 test('opens an uploaded map, and delivers the bead on it', async ({ lab, server }) => {
   const { page } = lab;

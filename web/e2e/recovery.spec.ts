@@ -1,7 +1,7 @@
 // Recovery maps: from a live moment to a trial that is set up again, exactly.
 
 import type { RecoveryReport } from '../src/net/protocol.gen';
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 import { cells, makeMap, progress } from './support/recovery';
 import { type Point, distance } from './support/table';
 import { must, until } from './support/wait';

@@ -1,6 +1,6 @@
 // Robustness: an evaluation over one varied parameter, and over two.
 
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 
 const RUN_MS = 90_000;
 

@@ -1,7 +1,7 @@
 // The 3-D view supports every action of the plan view, by mouse and by keyboard.
 // Also: its viewpoints, its graphics memory, and browsers without WebGL 2.
 
-import { type Lab, expect, test, LONG } from './fixtures';
+import { type Lab, expect, test } from './fixtures';
 import { openSceneView } from './support/preconditions';
 import {
   beadPx,
@@ -134,7 +134,7 @@ test('places a goal, runs and drags the bead by keyboard in the 3-D view', async
   await until('no hand', () => !lab.state.hand_m);
 });
 
-test('frees the graphics memory of the 3-D view', LONG, async ({ lab }) => {
+test('frees the graphics memory of the 3-D view', async ({ lab }) => {
   // A reset may remove the hand and the trails a frame later. So only a growth is a leak.
   const grew = (now: readonly number[], before: readonly number[]) =>
     now.some((count, i) => count > (before[i] ?? 0));

@@ -2,7 +2,7 @@
 
 import { setTimeout as delay } from 'node:timers/promises';
 import type { Page } from '@playwright/test';
-import { Lab, expect, test, LONG } from './fixtures';
+import { LONG, Lab, expect, test } from './fixtures';
 import { until } from './support/wait';
 
 const MAX_SHIFT = 0.01;

@@ -1,6 +1,6 @@
 // The controller You: a person steers the tool by mouse, touch, keys and gamepad, and sees what the controllers see.
 
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 import { TABLET } from './support/browser';
 import { HANDS, injectGamepad } from './support/steering';
 import { type Point, distance } from './support/table';

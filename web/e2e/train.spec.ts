@@ -1,7 +1,7 @@
 // The view Train: a policy learns a map, the user watches it, and it carries the bead.
 
 import { readFile } from 'node:fs/promises';
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 import { check, drawAlong } from './support/drawing';
 import {
   FEW_UPDATES,

@@ -1,6 +1,6 @@
 // Walls that move: the plan view, the 3-D view and saved pictures show them where they are.
 
-import { type Lab, expect, test, LONG } from './fixtures';
+import { LONG, type Lab, expect, test } from './fixtures';
 import { colour, decode, isNear, RATIO, saved } from './support/pictures';
 import { ensurePaused, openSceneView } from './support/preconditions';
 import { gpuObjects, px, settled } from './support/scene';
@@ -208,7 +208,7 @@ test('says once that the walls cannot be drawn, and asks again after a rest', as
   await until('another request', () => requests === 2);
 });
 
-test('shows a viewer the moving walls', async ({ lab, openLab }) => {
+test('shows a viewer the moving walls', LONG, async ({ lab, openLab }) => {
   const spot = await prepare(lab);
   await amplitude(lab, '20');
   await cover(lab, spot);
