@@ -145,11 +145,9 @@ for (const [name, width, height] of [
   const suite = name === DAILY_WINDOW ? DAILY : LONG;
   test(`fits into a ${name} window, and saves its pictures`, suite, async ({ lab }) => {
     await lab.page.setViewportSize({ width, height });
-    await lab.reset({ speed: '8' });
+    await lab.reset();
     await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.4)[0]);
-    await lab.run();
-    await lab.later(400);
-    await lab.pause();
+    await lab.step(400);
     for (const colorScheme of THEMES) {
       await lab.page.emulateMedia({ colorScheme });
       await lab.drawn();

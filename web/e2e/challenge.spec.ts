@@ -4,10 +4,12 @@ import type { Ghosts } from '../src/net/protocol.gen';
 import { type Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
+import { SECOND_TICKS } from './support/stepper';
 import { type Point, distance } from './support/table';
 import { must, until } from './support/wait';
 
-const NAME = 'easy-browser-test';
+/** One with a short path. */
+const NAME = 'easy-e';
 const PLAY_MS = 60_000;
 /** Samples that the hand is ahead of the nearest one. */
 const AHEAD = 4;
@@ -25,8 +27,8 @@ async function errtWay(lab: Lab): Promise<readonly Point[]> {
   ).trace.tool_m;
 }
 
-/** Points along the way until the attempt is over, after a rest of some seconds. */
-async function play(lab: Lab, way: readonly Point[], restMs: number) {
+/** Points along the way until the attempt is over, with a rest in the middle. */
+async function play(lab: Lab, way: readonly Point[], restTicks: number) {
   const { mouse } = lab.page;
   // The first movement of the hand starts the clock.
   await mouse.move(...(await lab.px(tool(lab))));
@@ -44,7 +46,7 @@ async function play(lab: Lab, way: readonly Point[], restMs: number) {
       }
       if (!hasRested && nearest > way.length / 2) {
         hasRested = true;
-        await lab.page.waitForTimeout(restMs);
+        await lab.later(restTicks);
       }
       await mouse.move(...must(px[Math.min(nearest + AHEAD, way.length - 1)], 'a place'));
       return lab.state.attempt?.is_delivered;
@@ -66,7 +68,7 @@ test('a challenge from a link is played, explained and put on the board', async 
     'true',
   );
   const way = await errtWay(lab);
-  await play(lab, way, 4000);
+  await play(lab, way, 2 * SECOND_TICKS);
   expect(lab.state.running, 'the session pauses').toBe(false);
 
   const result = page.getByRole('region', { name: 'Result' });
@@ -125,7 +127,7 @@ test('a viewer gets a session of its own for the challenge of a link', async ({
   expect(viewer.scene.challenge, 'a viewer changes nothing').toBeNull();
   const link = page.getByRole('link', { name: 'Play in a session of your own' });
   const address = must(await link.getAttribute('href'), 'the address');
-  expect(address).toMatch(/^\/s\/play-[a-z0-9]{8}\?challenge=easy-browser-test$/);
+  expect(address).toMatch(/^\/s\/play-[a-z0-9]{8}\?challenge=easy-e$/);
   const own = await openLab({ url: new URL(address, page.url()).href });
   await own.isRole('operator');
   await until('the challenge', () => own.scene.challenge === NAME);

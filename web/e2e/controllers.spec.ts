@@ -1,6 +1,7 @@
 // What each controller shows: RL's value map and action values, ERRT's plan, the attractor flow.
 
 import { type Lab, expect, test } from './fixtures';
+import { CONTROL_STEP_TICKS } from './support/stepper';
 import type { PointLike } from './support/table';
 import { must, until } from './support/wait';
 
@@ -66,12 +67,10 @@ test('shows the value map of a policy', async ({ lab }) => {
 
 test('shows the action values of a policy and its decision', async ({ lab }) => {
   const { page } = lab;
-  await lab.reset({ map: 'colon', speed: '8' });
+  await lab.reset({ map: 'colon' });
   await lab.controller('RL');
   await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1), 'a goal'));
-  await lab.run();
-  await until('a judgement', () => lab.overlay?.judgement);
-  await lab.pause();
+  await lab.stepUntil('a judgement', () => lab.overlay?.judgement, CONTROL_STEP_TICKS);
   const names = ['plus-x', 'minus-x', 'plus-y', 'minus-y'];
   // The page may be a frame behind the last message.
   const { values, judgement } = await until('the last values on the page', async () => {
@@ -94,10 +93,7 @@ test('shows the action values of a policy and its decision', async ({ lab }) => 
   await expect(page.getByTestId('rl-trained-on')).toHaveText(trained_on.join(', '));
   await expect(page.getByTestId('rl-unseen')).toHaveCount(0);
 
-  await lab.speed('64');
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   await lab.controller('Attractor');
   await expect(page.getByTestId('rl-taken')).toHaveCount(0);
 });
@@ -108,21 +104,19 @@ test('reports that the policy plans with what it has seen on a map it was not tr
   await lab.map('attractor-example-arm');
   await lab.controller('RL');
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.06, 0.2)[0]);
-  await lab.run();
+  await lab.stepUntil('a judgement', () => lab.overlay?.judgement, CONTROL_STEP_TICKS);
   await expect(lab.page.getByTestId('rl-memory')).toContainText('not on this map');
-  await lab.pause();
   expect(lab.overlay?.judgement?.trained_on).not.toContain(lab.scene.map);
 });
 
 test('carries the bead along a planned path', async ({ lab }) => {
-  await lab.reset({ map: 'colon', speed: '4' });
+  await lab.reset({ map: 'colon' });
   await lab.controller('ERRT');
   await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1), 'a goal'));
-  await lab.run();
-  await until('a plan', async () => (await lab.number('plan-plans')) >= 1);
+  const wayOf = () => lab.overlay?.plan?.way.length ?? 0;
+  await lab.stepUntil('some of the path', () => wayOf() > 1, CONTROL_STEP_TICKS);
+  expect(await lab.number('plan-plans')).toBeGreaterThanOrEqual(1);
   await expect(lab.page.getByTestId('plan-way')).toHaveText(/cm$/);
-  await until('some of the path', () => (lab.overlay?.plan?.way.length ?? 0) > 1);
-  await lab.pause();
 
   const { way, obstacles } = must(lab.overlay?.plan, 'a plan');
   await expectLayer(lab, 'Plan', way.slice(0, 3));
@@ -139,10 +133,7 @@ test('carries the bead along a planned path', async ({ lab }) => {
     largest.map(({ at }) => at),
   );
   await lab.layer('Obstacles', false);
-  await lab.speed('64');
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   await lab.controller('Attractor');
   await expect(lab.page.getByTestId('plan-plans')).toHaveCount(0);
 });

@@ -1,6 +1,7 @@
 // Details that visitors stumbled over.
 
 import { type Lab, expect, test } from './fixtures';
+import { SECOND_TICKS } from './support/stepper';
 import { must, until } from './support/wait';
 
 const LARGEST_SEED = Number.MAX_SAFE_INTEGER;
@@ -12,10 +13,9 @@ const barOf = (lab: Lab) => lab.page.getByRole('region', { name: 'Playback' });
 
 /** Delivers to a goal near by. */
 async function deliver(lab: Lab) {
-  await lab.reset({ speed: '8' });
+  await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.15, 0.25)[0]);
-  await lab.run();
-  await lab.delivered(1);
+  await lab.deliver();
 }
 
 test('the scale of the gauge is fixed, so that T moves', async ({ lab }) => {
@@ -45,9 +45,7 @@ test('shows a long seed as a whole', async ({ lab }) => {
 test('draws the whole course long after the delivery', async ({ lab }) => {
   const start = await lab.bead();
   await deliver(lab);
-  await lab.speed('64');
-  await until('more than a minute', () => lab.state.sim_time_s > 80);
-  await lab.pause();
+  await lab.step(80 * SECOND_TICKS);
   const end = await lab.bead();
   // A point of the course, away from bead and goal.
   const middle: [number, number] = [(start[0] + end[0]) / 2, (start[1] + end[1]) / 2];
@@ -79,7 +77,6 @@ test('a machine at its limit is said quietly, with an explanation', async ({ lab
 
 test('the event list is one stop of the Tab key', async ({ lab }) => {
   await deliver(lab);
-  await lab.pause();
   const events = eventsOf(lab);
   const count = await events.count();
   expect(count).toBeGreaterThan(2);
@@ -96,7 +93,6 @@ test('the event list is one stop of the Tab key', async ({ lab }) => {
 
 test('the story of an event does not cover the bead', async ({ lab }) => {
   await deliver(lab);
-  await lab.pause();
   await eventsOf(lab).last().click();
   const card = must(await lab.page.getByRole('dialog').boundingBox(), 'the card');
   for (const point of [await lab.bead(), must(await lab.point('goal'), 'the goal')]) {

@@ -36,14 +36,12 @@ test('draws a maze, corrects what the check finds, and RL delivers on it', async
   await expect.poll(() => lab.scene.map).toBe('two-halves');
   await expect(page.locator('.map-report')).toContainText('2 walls');
   await lab.button('Dismiss the report').click();
-  await lab.reset({ speed: '8', map: 'two-halves' });
+  await lab.reset({ map: 'two-halves' });
   await lab.controller('RL');
   const bead = await lab.bead();
   const other = lab.freePoints(bead, 0.15, 0.5).filter(([x]) => x < -0.01 !== bead[0] < -0.01);
   await lab.setGoal(must(other.at(-1), 'a goal on the other side'));
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   await lab.reset({ map: 'posts' });
   expect((await page.request.delete(`${server.url}/api/maps/two-halves`)).status()).toBe(204);
 });

@@ -2,6 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { type Lab, expect, test } from './fixtures';
+import { CONTROL_STEP_TICKS } from './support/stepper';
 import { distance } from './support/table';
 import { must, until } from './support/wait';
 
@@ -10,22 +11,16 @@ const SWITCHED = /Sub-controller 1 takes over: bead lost: \d+ mm away, more than
 const FLIES = /Sub-controller 1 flies to the bead/i;
 const OVER_THE_LIMIT = /over the limit/i;
 
-/** Runs a transport, moves the bead away in the middle of it, and waits for the delivery. */
+/** Steps through a transport, moves the bead away in the middle of it, and steps to the delivery. */
 async function disturbedTransport(lab: Lab) {
-  await lab.reset({ speed: '4' });
+  await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.3, 0.5)[0]);
-  await lab.run();
-  await until('transport', () => lab.state.leg_steps > 4);
-  await lab.pause();
-  // While paused, a drag places the bead, so the speed of this machine does not matter.
+  await lab.stepUntil('transport', () => lab.state.leg_steps > 4, CONTROL_STEP_TICKS);
   const [away] = lab.freePoints(await lab.bead(), 0.15, 0.25);
   await lab.startDrag(away);
   await lab.page.mouse.up();
   await until('the bead at its new place', async () => distance(await lab.bead(), away) < 0.01);
-  await lab.speed('8');
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
 }
 
 /** Opens an event of a kind. *Next event* reaches an event that shares its button with others. */
@@ -151,9 +146,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
 
 test('closes an explanation on reset, and refuses a comparison without a goal', async ({ lab }) => {
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
-  await lab.run();
-  await lab.later(10);
-  await lab.pause();
+  await lab.step(10);
   const card = await openEvent(lab, 'Goal');
   await lab.reset();
   await expect(card).toHaveCount(0);

@@ -16,9 +16,8 @@ const cardOf = (lab: Lab) => lab.page.getByRole('status', { name: 'Not delivered
 async function fail(openLab: (options: { url: string }) => Promise<Lab>, session: Session) {
   const lab = await openLab({ url: session.url + STUCK });
   await until('the experiment', () => lab.scene.parameters.attractor_law === 'literal');
-  await lab.speed('64');
-  await lab.run();
-  await expect(cardOf(lab).locator('p')).toHaveText(CAUSE, { timeout: FAILED_MS });
+  await lab.stepUntil('the stop', () => lab.state.phase === 'stopped');
+  await expect(cardOf(lab).locator('p')).toHaveText(CAUSE);
   return lab;
 }
 

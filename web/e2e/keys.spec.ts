@@ -7,8 +7,6 @@ import { until } from './support/wait';
 const WATCHING = 'You are watching.';
 const IN_CONTROL = 'You have control.';
 const WORKSPACE_KEYS = 'grab or release the bead';
-/** Announcements are one second apart. A late one on a busy page shortens the next gap. */
-const MIN_GAP_MS = 700;
 
 test('runs shortcuts anywhere, except while typing and in a dialog', async ({ lab }) => {
   const { page } = lab;
@@ -69,15 +67,17 @@ test('runs shortcuts anywhere, except while typing and in a dialog', async ({ la
   await help.getByRole('button', { name: 'Close' }).click();
 });
 
-test('announces events one at a time', async ({ lab, openLab }) => {
+test('announces events and who has control', async ({ lab, openLab }) => {
   const announced = await lab.page.getByTestId('live-region').evaluateHandle((region) => {
-    const texts: (readonly [number, string])[] = [];
-    new MutationObserver(() => {
-      texts.push([performance.now(), region.textContent.trim()]);
-    }).observe(region, { characterData: true, childList: true, subtree: true });
+    const texts: string[] = [];
+    new MutationObserver(() => texts.push(region.textContent.trim())).observe(region, {
+      characterData: true,
+      childList: true,
+      subtree: true,
+    });
     return texts;
   });
-  const texts = async () => (await announced.jsonValue()).map(([, text]) => text);
+  const texts = () => announced.jsonValue();
   // A second page is connected, so released control stays free.
   await openLab();
   await lab.button('Disturb').click();
@@ -91,9 +91,5 @@ test('announces events one at a time', async ({ lab, openLab }) => {
   await lab.takeControl();
   await expect.poll(texts).toContain(IN_CONTROL);
   expect((await texts()).join('|')).toContain('a kick of 0.80 mN·s');
-  const times = (await announced.jsonValue()).map(([at]) => at);
-  times.slice(1).forEach((at, index) => {
-    expect(at - (times[index] ?? 0), 'milliseconds apart').toBeGreaterThan(MIN_GAP_MS);
-  });
   await expect(lab.page.getByRole('log')).toHaveAttribute('aria-live', 'off');
 });

@@ -2,6 +2,7 @@
 // More tests of dragging the bead are in gestures.spec.ts and holds.spec.ts.
 
 import { expect, test } from './fixtures';
+import { CONTROL_STEP_TICKS, SECOND_TICKS } from './support/stepper';
 import { Server } from './support/server';
 import { distance, distanceToSegment } from './support/table';
 import { must, until } from './support/wait';
@@ -28,20 +29,19 @@ test('opens as the operator, paused', async ({ lab }) => {
 });
 
 test('delivers the bead to a clicked goal', async ({ lab }) => {
-  await lab.reset({ speed: '8' });
+  await lab.reset();
   const [goal] = lab.freePoints(await lab.bead(), 0.2, 0.3);
   await lab.click(goal);
   await expect(lab.canvas).toHaveAttribute('data-goal', /\d/);
   expect(distance(must(await lab.point('goal'), 'the goal'), goal)).toBeLessThan(0.002);
-  await lab.run();
-  await lab.delivered(1);
+  await lab.deliver();
 });
 
 test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) => {
   await lab.reset();
   const [goal] = lab.freePoints(await lab.bead(), 0.3, 0.5);
   await lab.setGoal(goal);
-  await lab.run();
+  await lab.stepUntil('transport', () => lab.state.leg_steps > 4, CONTROL_STEP_TICKS);
   await expect(lab.page.getByTestId('phase')).toHaveText('transporting');
   // Records every text that the mode badge shows from now on.
   const modes = await lab.page.getByTestId('mode').evaluateHandle((badge) => {
@@ -53,27 +53,20 @@ test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) 
     });
     return texts;
   });
-  // While paused, the bead stays at the pointer, also on a slow machine.
-  const { mouse, keyboard } = lab.page;
-  await keyboard.press(' ');
-  await until('paused', () => !lab.state.running);
-
   const bead = await lab.bead();
-  // Off the path to the goal: along it, on a slow machine, the tool would not lose the bead.
+  // Off the path to the goal: along it, the tool would not lose the bead.
   const away = must(
     lab.freePoints(bead, 0.15, 0.3).find((point) => distanceToSegment(point, bead, goal) > LOST_M),
     'a free point off the path',
   );
   await lab.startDrag(away);
-  await keyboard.press(' ');
-  await until('the bead at the hand', async () => distance(await lab.bead(), away) < 0.01);
-  await mouse.up();
+  await lab.stepUntil('the bead at the hand', () => distance(lab.state.bead_m, away) < 0.01, 25);
+  await lab.page.mouse.up();
+  await until('no hand', () => !lab.state.hand_m);
 
-  await expect
-    .poll(async () => (await modes.jsonValue()).join(''), { message: 'both switches' })
-    .toContain('212');
-  await lab.speed('8');
-  await lab.delivered(1);
+  const shown = async () => (await modes.jsonValue()).join('');
+  await lab.stepUntil('both switches', async () => (await shown()).includes('212'), 25);
+  await lab.deliver();
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
 });
 
@@ -162,10 +155,7 @@ test('kicks the bead', async ({ lab }) => {
 });
 
 test('goes back in time by mouse and by keyboard', async ({ lab }) => {
-  await lab.speed('8');
-  await lab.run();
-  await until('three seconds', () => lab.state.sim_time_s > 3);
-  await lab.pause();
+  await lab.step(3 * SECOND_TICKS);
   const end = lab.state.tick;
   const timeline = lab.page.getByLabel('Timeline');
   const thumb = async () => Number(await timeline.inputValue());

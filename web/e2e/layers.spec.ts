@@ -1,6 +1,7 @@
 // Layers and panels of the magnet and the camera: capture, field, singularities, observed area.
 
 import { type Lab, expect, test } from './fixtures';
+import { SECOND_TICKS } from './support/stepper';
 import { until } from './support/wait';
 
 const summaryOf = (lab: Lab, name: string) =>
@@ -114,7 +115,7 @@ test('shows the layer Field and pull', async ({ lab }) => {
 
 test("shows the camera's blocks and the observed area", async ({ lab }) => {
   const { page } = lab;
-  await lab.reset({ map: 'colon', speed: '8' });
+  await lab.reset({ map: 'colon' });
   const blocks = page.getByTestId('blocks');
   const counts = async () => ((await blocks.textContent())?.match(/\d+/g) ?? []).map(Number);
   await expect(blocks).toContainText(/\d/);
@@ -132,9 +133,7 @@ test("shows the camera's blocks and the observed area", async ({ lab }) => {
   await page.getByLabel('Magnet in the picture').check();
   await until('another camera field', () => JSON.stringify(lab.scene.camera_sees_m) !== before);
   await lab.label('Blocks').selectOption('rectangles');
-  await lab.run();
-  await until('one second', () => lab.state.sim_time_s > 1);
-  await lab.pause();
+  await lab.step(SECOND_TICKS);
 
   const [x, y] = lab.state.tool_m;
   const pixels = () => lab.pixelsAround([x + 0.25 * (x > 0 ? -1 : 1), y]);

@@ -4,7 +4,6 @@ import { DAILY, LONG, type Lab, expect, test } from './fixtures';
 import { TRAIN_MS, clearTrainings } from './support/trainings';
 import { until } from './support/wait';
 
-const LESSON_MS = 90_000;
 /** The cheapest lessons. */
 const DAILY_LESSONS: readonly string[] = ['Lose the bead', 'What ERRT remembers'];
 
@@ -13,8 +12,8 @@ interface Lesson {
   /** The right prediction. */
   readonly choice: string;
   readonly runs: number;
-  /** The button to press in the first run, the task after which to press it, and the speed. */
-  readonly action?: { readonly button: string; readonly after: string; readonly speed: string };
+  /** The button to press in the first run, and the task after which to press it. */
+  readonly action?: { readonly button: string; readonly after: string };
 }
 
 const LESSONS: readonly Lesson[] = [
@@ -22,7 +21,7 @@ const LESSONS: readonly Lesson[] = [
     title: 'Lose the bead',
     choice: 'It flies straight to the bead',
     runs: 1,
-    action: { button: 'Take it away for me', after: 'The simulation runs', speed: '4' },
+    action: { button: 'Take it away for me', after: 'The simulation runs' },
   },
   {
     title: 'The threshold T',
@@ -35,14 +34,14 @@ const LESSONS: readonly Lesson[] = [
     title: 'What ERRT remembers',
     choice: 'Once',
     runs: 1,
-    action: { button: 'Send it back', after: 'Delivered to the goal', speed: '64' },
+    action: { button: 'Send it back', after: 'Delivered to the goal' },
   },
   { title: 'What the policy sees', choice: 'It loses its way', runs: 2 },
   {
     title: 'Lift-off',
     choice: 'Soon',
     runs: 2,
-    action: { button: 'Lower by 2 mm', after: 'The simulation runs', speed: '4' },
+    action: { button: 'Lower by 2 mm', after: 'The simulation runs' },
   },
   { title: 'The gut moves', choice: 'It delivers the bead about as fast as before', runs: 3 },
 ];
@@ -57,7 +56,6 @@ const WATCHING = /You are watching: take control/i;
 const tasksOf = (lab: Lab) => lab.page.locator('.lesson-tasks li.done');
 
 async function next(lab: Lab) {
-  await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
   await lab.button('Next').click();
 }
 
@@ -71,22 +69,17 @@ async function setUp(lab: Lab, press: () => Promise<unknown>) {
 
 /** Presses the button of a lesson: once, or for *Lower by 2 mm* until the task is done. */
 async function act(lab: Lab, { button, after }: NonNullable<Lesson['action']>) {
-  await tasksOf(lab).getByText(after).waitFor({ timeout: LESSON_MS });
+  const done = tasksOf(lab).getByText(after);
+  await lab.stepUntil(after, async () => (await done.count()) > 0);
   await lab.button(button).click();
   if (!button.startsWith('Lower')) return;
-  await until(
-    button,
-    async () => {
-      if (await lab.button('Next').isEnabled()) return true;
-      const height_m = lab.scene.parameters.tool_height_m;
-      await lab.button(button).click();
-      await until('a lower tool', () => lab.scene.parameters.tool_height_m !== height_m);
-      // Waits until the change has had an effect.
-      await lab.later(300);
-      return false;
-    },
-    LESSON_MS,
-  );
+  while (!(await lab.button('Next').isEnabled())) {
+    const height_m = lab.scene.parameters.tool_height_m;
+    await lab.button(button).click();
+    await until('a lower tool', () => lab.scene.parameters.tool_height_m !== height_m);
+    // The change must have an effect.
+    await lab.step(300);
+  }
 }
 
 for (const { title, choice, runs, action } of LESSONS) {
@@ -98,11 +91,8 @@ for (const { title, choice, runs, action } of LESSONS) {
     await next(lab);
     for (let run = 0; run < runs; run += 1) {
       await setUp(lab, () => lab.button('Set it up').click());
-      await lab.speed(run === 0 && action ? action.speed : '64');
-      await lab.run();
       if (run === 0 && action) await act(lab, action);
-      await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
-      await lab.pause();
+      await lab.stepUntil('the tasks', () => lab.button('Next').isEnabled());
       await next(lab);
     }
     await expect(lab.page.getByTestId('lesson-outcome')).toHaveText(new RegExp(`^${choice}`));
@@ -181,12 +171,8 @@ test('does the first lesson by keyboard, and remembers it after a reload', async
   await setUp(lab, () => lab.button('Set it up').press('Enter'));
   expect(lab.scene.map).toBe('open');
   await until('the goal of the lesson', () => lab.state.goal_m);
-  await lab.speed('8');
-  await lab.canvas.focus();
-  await keyboard.press(' ');
-  await tasksOf(lab).getByText(FIRST.task).waitFor({ timeout: LESSON_MS });
-  await expect(lab.button('Next')).toBeEnabled({ timeout: LESSON_MS });
-  await keyboard.press(' ');
+  await lab.stepUntil('the tasks', () => lab.button('Next').isEnabled());
+  await expect(tasksOf(lab).getByText(FIRST.task)).toBeVisible();
   await lab.button('Next').press('Enter');
   await expect(page.getByTestId('lesson-outcome')).toHaveText(second);
   await lab.button('Finish').press('Enter');

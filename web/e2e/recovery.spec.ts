@@ -27,8 +27,7 @@ test('a recovery map of a live moment shows its cells, and a trial is set up', a
   await lab.button('Set up trial 2').click();
   await until('the moment', () => lab.state.tick === tick && lab.state.controller === 'errt');
   await until('the disturbance', () => distance(lab.state.bead_m, before_m) > 0.01);
-  await lab.run();
-  await lab.delivered(1);
+  await lab.deliver();
 
   // Keys choose among the cells.
   const before = await lab.page.locator('.cell.chosen').first().getAttribute('data-cell');

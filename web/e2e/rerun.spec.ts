@@ -30,9 +30,7 @@ test('opens a recording in Rerun’s viewer', async ({ lab, session, server, wat
   // Two trials.
   for (const ticks of [100, 200]) {
     await lab.reset();
-    await lab.run();
-    await lab.later(ticks);
-    await lab.pause();
+    await lab.step(ticks);
   }
   // By keyboard only.
   await lab.view('Recordings').press('Enter');

@@ -5,11 +5,9 @@ import { must, until } from './support/wait';
 
 test('returns to what a rewind and a reset have left behind', async ({ lab }) => {
   const { page } = lab;
-  await lab.reset({ speed: '8' });
+  await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.2, 0.3)[0]);
-  await lab.run();
-  await lab.delivered(1);
-  await lab.pause();
+  await lab.deliver();
   const { tick, world_hash: hash } = lab.state;
   const kept = page.getByRole('button', { name: /^Kept runs/ });
   const before = lab.scene.kept_runs.length;

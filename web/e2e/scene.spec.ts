@@ -2,6 +2,7 @@
 // Also: its viewpoints, its graphics memory, and browsers without WebGL 2.
 
 import { type Lab, expect, test } from './fixtures';
+import { CONTROL_STEP_TICKS } from './support/stepper';
 import { openSceneView } from './support/preconditions';
 import {
   beadPx,
@@ -30,10 +31,11 @@ test('places a goal in the 3-D view', async ({ lab }) => {
   await lab.page.mouse.click(...(await px(lab, goal)));
   const set = await until('a goal', () => lab.state.goal_m);
   expect(distance(set, goal)).toBeLessThan(0.002);
-  await lab.speed('8');
-  await lab.run();
-  // At 8×, a short transport can be over before the next look.
-  await until('a carried bead', () => ['transporting', 'delivered'].includes(lab.state.phase));
+  await lab.stepUntil(
+    'a carried bead',
+    () => lab.state.phase === 'transporting',
+    CONTROL_STEP_TICKS,
+  );
 });
 
 test('drags the bead by mouse in the 3-D view', async ({ lab }) => {

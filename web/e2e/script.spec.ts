@@ -33,11 +33,7 @@ test('adds, applies, shows and removes a disturbance of the script', async ({ la
   const entry = page.getByRole('list', { name: 'Script' }).getByRole('listitem');
   await expect(entry).toHaveText(/^at 2\.0 s: move to/);
 
-  // Slow, so that the pause comes soon after the move, compared with the timeline's length.
-  await lab.speed('2');
-  await lab.run();
-  await until('the move', () => lab.state.disturbances === 1);
-  await lab.pause();
+  await lab.stepUntil('the move', () => lab.state.disturbances === 1, 25);
   const random = page.getByLabel('Number of random moves');
   await random.fill('3');
   // Before the move, its mark is hollow and ahead.

@@ -22,8 +22,7 @@ test('opens one session per address', async ({ lab, openLab, newSession }) => {
   await expect(page).toHaveTitle(`${second.name} – Ferry`);
   await other.isRole('operator');
   await lab.isRole('operator');
-  await other.run();
-  await until('50 ticks', () => other.state.tick > 50);
+  await other.step(50);
   expect(lab.state.running).toBe(false);
   expect(lab.state.tick, 'the tick of a paused session').toBe(0);
 
@@ -87,13 +86,9 @@ test('goes on where the server stopped, and says so', async ({ openLab, watch })
     await lab.controller('ERRT');
     await lab.tune('Threshold T', '8');
     await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
-    await lab.run();
-    await until('50 ticks', () => lab.state.tick > 50);
-    await lab.pause();
+    await lab.step(50);
     await lab.reset();
-    await lab.run();
-    await until('30 ticks', () => lab.state.tick > 30);
-    await lab.pause();
+    await lab.step(30);
     const { tick, goal_m, bead_m } = lab.state;
     const { port, data } = server;
     await server.end();
@@ -105,11 +100,9 @@ test('goes on where the server stopped, and says so', async ({ openLab, watch })
     expect(lab.state).toMatchObject({ tick, goal_m, bead_m, running: false, controller: 'errt' });
     expect(lab.scene.parameters.threshold_m).toBe(0.08);
     expect(lab.scene.kept_runs).toHaveLength(1);
-    await lab.run();
-    await until('more ticks', () => lab.state.tick > tick + 20);
+    await lab.step(20);
 
     // A chosen scenario comes first; what was saved is a kept run.
-    await lab.pause();
     await server.end();
     await expect(connection).not.toHaveText('live');
     server = await Server.start({ port, data });

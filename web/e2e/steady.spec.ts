@@ -3,6 +3,7 @@
 import { setTimeout as delay } from 'node:timers/promises';
 import type { Page } from '@playwright/test';
 import { LONG, Lab, expect, test } from './fixtures';
+import { CONTROL_STEP_TICKS } from './support/stepper';
 import { until } from './support/wait';
 
 const MAX_SHIFT = 0.01;
@@ -87,8 +88,7 @@ test('keeps the parameters in their place when the first decision comes', async 
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.25, 0.4).at(-1) ?? [0, 0]);
   await expect(decision).toHaveCount(0);
   const before = await parameters.boundingBox();
-  await lab.run();
-  await decision.waitFor();
+  await lab.stepUntil('a decision', async () => (await decision.count()) > 0, CONTROL_STEP_TICKS);
   expect(await parameters.boundingBox()).toEqual(before);
 });
 

@@ -2,6 +2,7 @@
 
 import { LONG, type Lab, expect, test } from './fixtures';
 import { TABLET } from './support/browser';
+import { CONTROL_STEP_TICKS, SECOND_TICKS } from './support/stepper';
 import { HANDS, injectGamepad } from './support/steering';
 import { type Point, distance } from './support/table';
 import { must, until } from './support/wait';
@@ -13,13 +14,19 @@ const AHEAD_M = 0.02;
 const tool = (lab: Lab): Point => [lab.state.tool_m[0], lab.state.tool_m[1]];
 
 /** A trial with the controller You and a goal that was chosen with the button. */
-async function begin(lab: Lab, goal: Point, speed = '4') {
-  await lab.reset({ speed, map: lab.scene.map });
+async function begin(lab: Lab, goal: Point) {
+  await lab.reset({ map: lab.scene.map });
   await lab.radio('You').check();
   await until('You', () => lab.state.controller === 'you');
   await lab.button('Set goal').click();
   await lab.click(goal);
   await until('the goal', () => lab.state.goal_m && distance(lab.state.goal_m, goal) < 0.005);
+}
+
+/** The same, running. */
+async function beginAtSpeed(lab: Lab, goal: Point, speed = '4') {
+  await begin(lab, goal);
+  await lab.speed(speed);
   await lab.run();
 }
 
@@ -43,7 +50,7 @@ test('delivers by mouse, and the tool goes no further than the hand points', asy
   const { mouse } = lab.page;
   await lab.reset();
   const goal = await goalNear(lab);
-  await begin(lab, goal, '1');
+  await begin(lab, goal);
   const start = tool(lab);
   // A press steers and sets no other goal, also on the bead.
   const near: Point = [start[0] + (goal[0] - start[0]) / 4, start[1] + (goal[1] - start[1]) / 4];
@@ -51,14 +58,14 @@ test('delivers by mouse, and the tool goes no further than the hand points', asy
   await mouse.down();
   await until('the hand', () => lab.state.steer_m && distance(lab.state.steer_m, near) < 0.003);
   await mouse.up();
-  await until('the place', () => distance(tool(lab), near) < 0.004);
-  await lab.later(125);
+  await lab.stepUntil('the place', () => distance(tool(lab), near) < 0.004);
+  await lab.step(SECOND_TICKS);
   expect(distance(tool(lab), near)).toBeLessThan(0.004);
   expect(lab.state.hand_m).toBeNull();
   await mouse.move(...(await lab.px(near)));
   await mouse.down();
   await mouse.move(...(await lab.px(goal)), { steps: 5 });
-  await lab.delivered(1);
+  await lab.deliver();
   await mouse.up();
 });
 
@@ -66,7 +73,7 @@ test('delivers by touch', LONG, async ({ openLab }) => {
   const lab = await openLab({ hasTouch: true, viewport: { width: 820, height: 1180 } });
   await lab.reset();
   const goal = await goalNear(lab);
-  await begin(lab, goal);
+  await beginAtSpeed(lab, goal);
   const hand = await HANDS.touch(lab);
   await hand.toward(goal);
   await lab.delivered(1);
@@ -76,19 +83,26 @@ test('delivers by touch', LONG, async ({ openLab }) => {
 test('delivers by arrow keys, and stops when they are released', async ({ lab }) => {
   await lab.reset();
   const goal = await goalNear(lab);
-  await begin(lab, goal, '1');
+  await begin(lab, goal);
   const hand = await HANDS.keys(lab);
   const start_m = Math.hypot(...toGo(lab, goal));
-  await until('half of the path', async () => {
-    await hand.toward(goal);
-    return Math.hypot(...toGo(lab, goal)) < start_m / 2;
-  });
+  /** A quarter of a second at a time: meanwhile the page points further ahead of the tool. */
+  const steer = (what: string, probe: () => boolean) =>
+    lab.stepUntil(
+      what,
+      async () => {
+        await hand.toward(goal);
+        return probe();
+      },
+      CONTROL_STEP_TICKS,
+    );
+  await steer('half of the path', () => Math.hypot(...toGo(lab, goal)) < start_m / 2);
   await hand.release();
-  await rests(lab);
-  await until('a delivery', async () => {
-    await hand.toward(goal);
-    return lab.state.deliveries > 0;
-  });
+  await lab.step(SECOND_TICKS);
+  const stopped = tool(lab);
+  await lab.step(SECOND_TICKS);
+  expect(distance(tool(lab), stopped)).toBeLessThan(0.002);
+  await steer('a delivery', () => lab.state.deliveries > 0);
   await hand.release();
 });
 
@@ -97,7 +111,7 @@ test('delivers by gamepad', LONG, async ({ lab }) => {
   const push = await injectGamepad(lab);
   await lab.reset();
   const goal = await goalNear(lab);
-  await begin(lab, goal, '1');
+  await beginAtSpeed(lab, goal, '1');
   await expect(page.getByTestId('gamepad')).toContainText('stick');
   const toward = (share: number): Point => {
     const [x, y] = toGo(lab, goal);
@@ -144,7 +158,7 @@ for (const [name, take] of Object.entries(HANDS)) {
       );
       path.push(goal);
       await lab.pause();
-      await begin(lab, goal, '2');
+      await beginAtSpeed(lab, goal, '2');
       const hand = await take(lab);
       let next = 0;
       await until(
@@ -172,13 +186,13 @@ test('in fog, the page shows nothing that the camera has not seen', async ({ lab
   await lab.reset({ map: 'colon' });
   const goal = lab.freePoints(await lab.bead(), 0.06, 0.12)[0];
   await begin(lab, goal);
+  await lab.step(SECOND_TICKS);
   await lab.label('What you see').selectOption('seen');
   await page.mouse.move(...(await lab.px(goal)));
   await page.mouse.down();
-  await lab.later(250);
+  await until('the hand', () => lab.state.steer_m);
+  await lab.step(2 * SECOND_TICKS);
   await page.mouse.up();
-  await lab.pause();
-  await lab.drawn();
   // The pixels of all cells that the obstacle map does not know have one colour, that of the fog.
   const { cells, columns, rows } = lab.obstacles;
   const { x_min_m, x_max_m, y_min_m, y_max_m } = lab.scene.workspace;
@@ -236,5 +250,4 @@ test('a viewer cannot steer, and a refused message changes nothing', async ({ la
   expect(viewer.sent.steer).toBeUndefined();
   await viewer.page.close();
   await lab.controller('RL');
-  await lab.pause();
 });

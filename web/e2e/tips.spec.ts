@@ -42,12 +42,12 @@ test('shows one tip at a time, and none twice', async ({ page, session }) => {
   // A later tip can be done first.
   await lab.controller('ERRT');
   await isTip(page, /^Drag the bead/);
-  await lab.delivered(1);
+  await lab.pause();
+  await lab.deliver();
   // As far as the magnet does not reach.
   await lab.startDrag(must(lab.freePoints(lab.state.bead_m, 0.2, 0.35)[0], 'a place far away'));
   await isTip(page, /^Choose 3-D/);
   await page.mouse.up();
-  await lab.pause();
   await page.reload();
   await lab.live();
   await isTip(page, /^Choose 3-D/);

@@ -2,7 +2,8 @@
 
 import { LONG, type Lab, expect, test } from './fixtures';
 import { colour, decode, isNear, RATIO, saved } from './support/pictures';
-import { ensurePaused, openSceneView } from './support/preconditions';
+import { CONTROL_STEP_TICKS, SECOND_TICKS } from './support/stepper';
+import { openSceneView } from './support/preconditions';
 import { gpuObjects, px, settled } from './support/scene';
 import { distance, type Point } from './support/table';
 import { until } from './support/wait';
@@ -12,7 +13,6 @@ import type { Lumen } from './support/wire';
 const MOVED_M = 0.006;
 /** Marks of the tool and the camera are nearer to the tool. */
 const APART_M = 0.2;
-const REST_MS = 60_000;
 
 interface Spot {
   /** On the free side of a wall at rest. */
@@ -58,22 +58,14 @@ async function amplitude(lab: Lab, millimetres: string) {
   });
 }
 
-/** Runs until the wall covers the spot, and pauses. */
-async function cover(lab: Lab, spot: Spot) {
-  await lab.speed('2');
-  await lab.run();
-  await until('a covered spot', () => closing(lab, spot) > MOVED_M + 0.002);
-  await lab.pause();
-  expect(closing(lab, spot), 'the wall has moved on').toBeGreaterThan(MOVED_M);
-}
+/** Steps until the wall covers the spot. */
+const cover = (lab: Lab, spot: Spot) =>
+  lab.stepUntil('a covered spot', () => closing(lab, spot) > MOVED_M + 0.002, CONTROL_STEP_TICKS);
 
-/** Lets the walls come to rest, and pauses. */
+/** Lets the walls come to rest. */
 async function rest(lab: Lab) {
   await amplitude(lab, '0');
-  await lab.speed('8');
-  await lab.run();
-  await until('walls at rest', () => lab.state.wave_m === undefined, REST_MS);
-  await lab.pause();
+  await lab.stepUntil('walls at rest', () => lab.state.wave_m === undefined);
 }
 
 /** The pixel of the plan view at a place. */
@@ -104,7 +96,6 @@ const groupOf = (lab: Lab) => lab.page.locator('summary').filter({ hasText: /^Wa
 async function prepare(lab: Lab) {
   await lab.reset({ map: 'colon' });
   await groupOf(lab).click();
-  // So slow that a pause is in time on a busy machine.
   await lab.tune('Period', '20');
   await until('the period', () => lab.scene.parameters.peristalsis_period_s === 20);
   return spotOf(lab);
@@ -142,9 +133,7 @@ test('draws the moving walls in the 3-D view, and frees them at rest', LONG, asy
   const spot = await prepare(lab);
   await openSceneView(lab);
   // Trails have objects, too.
-  await lab.run();
-  await lab.later(50);
-  await lab.pause();
+  for (let i = 0; i < 5; i++) await lab.step(10);
   const free = await scenePicture(lab, spot.at);
   const objects = await gpuObjects(lab);
   await amplitude(lab, '20');
@@ -170,12 +159,9 @@ test('keeps the actions of the workspace while the walls move', async ({ lab }) 
   await lab.reset({ map: 'colon' });
   await groupOf(lab).click();
   await amplitude(lab, '6');
-  await lab.run();
-  await until('moving walls', () => Math.max(...(lab.state.wave_m ?? [0])) > 0.004);
+  const isMoving = () => Math.max(...(lab.state.wave_m ?? [0])) > 0.004;
+  await lab.stepUntil('moving walls', isMoving, CONTROL_STEP_TICKS);
   const goal = await lab.setGoal(lab.freePoints(await lab.bead(), 0.05, 0.2)[0]);
-  await lab.canvas.focus();
-  await lab.page.keyboard.press(' ');
-  await until('paused', () => !lab.state.running);
   await lab.startDrag(goal);
   await lab.page.mouse.up();
   await until('no hand', () => !lab.state.hand_m);
@@ -192,19 +178,18 @@ test('says once that the walls cannot be drawn, and asks again after a rest', as
     requests += 1;
     await (isBroken ? route.fulfill({ status: 503, body: '' }) : route.continue());
   });
-  await lab.reset({ map: 'colon', speed: '2' });
+  await lab.reset({ map: 'colon' });
   await groupOf(lab).click();
   await amplitude(lab, '6');
-  await lab.run();
+  await lab.step(SECOND_TICKS);
   const notice = lab.notice('workspace').filter({ hasText: 'The moving walls cannot be drawn' });
   await notice.waitFor();
-  await lab.later(250);
+  for (let i = 0; i < 5; i++) await lab.step(50);
   expect(requests).toBe(1);
-  await ensurePaused(lab);
   await rest(lab);
   isBroken = false;
   await amplitude(lab, '6');
-  await lab.run();
+  await lab.step(SECOND_TICKS);
   await until('another request', () => requests === 2);
 });
 

@@ -2,13 +2,7 @@
 
 import { expect } from '@playwright/test';
 import type { Lab } from '../support/lab';
-import {
-  ensureGoal,
-  ensureNoGoal,
-  ensurePaused,
-  ensureRunning,
-  open,
-} from '../support/preconditions';
+import { ensureGoal, ensureNoGoal, ensurePaused, open } from '../support/preconditions';
 import { must, until } from '../support/wait';
 import { type Section, dialogs, downloads, isChecked, lastSent, tab } from './row';
 
@@ -121,11 +115,8 @@ export const EVENTS: Section = {
   ready: async (lab) => {
     // The explained event needs one before and one after it: a goal, its reaching and its delivery.
     await setNewGoal(lab);
-    await lab.speed('8');
-    await ensureRunning(lab);
-    await lab.delivered(1);
     await ensurePaused(lab);
-    await lab.speed('1');
+    await lab.deliver();
     await lab.tab('Events').click();
   },
   rows: {

@@ -1,21 +1,20 @@
 // Operates the page as an operator does. Reads only the page and the messages of its WebSocket.
 
 import { type Locator, type Page, expect } from '@playwright/test';
-import { Messages } from './messages';
+import { Stepper, keepSocket } from './stepper';
 import { type Point, type PointLike, distance, freePoints, wallPoint } from './table';
 import { must, until } from './wait';
 
 const GOAL_RADIUS_M = 0.02;
-const DELIVERY_MS = 60_000;
 const OPEN_MS = 30_000;
-
+const DELIVERY_MS = 60_000;
 export type ControllerLabel = 'RL' | 'ERRT' | 'Attractor' | 'You';
 
-export class Lab extends Messages {
+export class Lab extends Stepper {
   readonly canvas: Locator;
   downloads = 0;
 
-  constructor(readonly page: Page) {
+  constructor(page: Page) {
     super(page);
     this.canvas = page.getByLabel('Workspace', { exact: true });
     page.on('download', () => (this.downloads += 1));
@@ -23,29 +22,22 @@ export class Lab extends Messages {
 
   /** Opens a session's page and waits until it is connected. */
   static async attach(page: Page, url: string) {
-    const lab = new Lab(page);
-    await page.goto(url);
+    const lab = await Lab.watch(page, url);
     await lab.live();
+    return lab;
+  }
+
+  /** Opens a page and waits for nothing. */
+  static async watch(page: Page, url: string) {
+    const lab = new Lab(page);
+    await page.addInitScript(keepSocket);
+    await page.goto(url);
     return lab;
   }
 
   async live() {
     await until('the first messages', () => this.isComplete, OPEN_MS);
     await expect(this.page.getByTestId('connection')).toHaveText('live', { timeout: OPEN_MS });
-  }
-
-  /** Waits two frames. After that the page shows all messages that it has received. */
-  drawn() {
-    return this.page.evaluate(
-      () =>
-        new Promise<void>((done) => {
-          requestAnimationFrame(() =>
-            requestAnimationFrame(() => {
-              done();
-            }),
-          );
-        }),
-    );
   }
 
   async text(testid: string) {
@@ -207,6 +199,12 @@ export class Lab extends Messages {
   async controller(name: ControllerLabel) {
     await this.radio(name).check();
     await this.shown(name, () => this.state.controller === name.toLowerCase());
+  }
+
+  /** Advances a paused session to delivery number `count` since the reset. */
+  async deliver(count = 1) {
+    await this.stepUntil('a delivery', () => this.state.deliveries >= count);
+    await this.delivered(count);
   }
 
   /** Waits for delivery number `count` since the reset. */

@@ -6,7 +6,7 @@ import type { Lab } from './lab';
 import { openSceneView } from './preconditions';
 import { must, until } from './wait';
 
-/** Ticks to run, so that the timeline has a history. */
+/** So that the timeline has a history. */
 const HISTORY_TICKS = 250;
 
 export interface Place {
@@ -34,13 +34,11 @@ async function openDetails(page: Page) {
   });
 }
 
-/** Sets a goal, runs until there is a history, and pauses. */
+/** Sets a goal, and steps until there is a history. */
 export async function prepare(lab: Lab) {
-  await lab.reset({ speed: '8' });
+  await lab.reset();
   await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
-  await lab.run();
-  await until('a history', () => lab.state.newest_tick > HISTORY_TICKS);
-  await lab.pause();
+  await lab.step(HISTORY_TICKS);
   await openDetails(lab.page);
 }
 

@@ -31,11 +31,8 @@ export async function ensureNoGoal(lab: Lab) {
 }
 
 export async function ensureHistory(lab: Lab) {
-  await lab.speed('8');
-  await ensureRunning(lab);
-  await until('a history', () => lab.state.newest_tick - lab.state.oldest_tick > 100);
   await ensurePaused(lab);
-  await lab.speed('1');
+  await lab.step(120);
 }
 
 /** Presses the button `name`, unless what it opens is open. */
