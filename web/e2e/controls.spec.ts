@@ -15,8 +15,8 @@ const COSTLY = [
   'the parameters',
 ];
 /** What the page draws itself; one parameter field of each kind. */
-const DAILY_BY_KEYBOARD = ['the laboratory', 'the map editor', 'the parameters'];
-const DAILY_BY_TOUCH = ['the laboratory', 'the map editor'];
+const DAILY_BY_TOUCH = ['the workspace and the playback bar', 'the map editor'];
+const DAILY_BY_KEYBOARD = [...DAILY_BY_TOUCH, 'the parameters'];
 
 function suiteOf(inputMethod: string, title: string) {
   if (inputMethod === 'mouse') return COSTLY.includes(title) ? LONG : DAILY;

@@ -4,10 +4,10 @@ import { LONG, type Lab, expect, test } from './fixtures';
 
 const RUN_MS = 90_000;
 
-async function run({ page }: Lab, first: string, second: string) {
+async function run({ page }: Lab, controllers: readonly string[], first: string, second: string) {
   const form = page.getByRole('region', { name: 'New evaluation' });
   for (const box of await form.getByRole('checkbox').all()) await box.setChecked(false);
-  for (const name of ['ERRT', 'Attractor', 'open', '0']) {
+  for (const name of [...controllers, 'open', '0']) {
     await form.getByRole('checkbox', { name, exact: true }).check();
   }
   for (const [index, choice] of [first, second].entries()) {
@@ -23,19 +23,19 @@ async function run({ page }: Lab, first: string, second: string) {
 
 test('draws deliveries and errors over a parameter', async ({ lab }) => {
   await lab.view('Evaluate').click();
-  await run(lab, 'friction', '');
+  await run(lab, ['Attractor'], 'friction', '');
   const section = lab.page.getByRole('region', { name: 'Robustness on open, 0 disturbances' });
   const curve = section.getByRole('img', { name: /^Delivered over / });
-  await expect(curve).toHaveAccessibleName(/: ERRT \d+ \(\d+ to \d+\), Attractor \d+ \(/);
+  await expect(curve).toHaveAccessibleName(/: Attractor \d+ \(\d+ to \d+\)/);
   await expect(section.getByRole('img', { name: /^Mean tracking error over / })).toBeVisible();
   await expect(section.locator('canvas')).toHaveCount(2);
-  await expect(lab.page.getByTestId('evaluation-row')).toHaveCount(4);
+  await expect(lab.page.getByTestId('evaluation-row')).toHaveCount(2);
   await expect(lab.page.getByRole('columnheader', { name: 'Varied' })).toBeVisible();
 });
 
 test('shows deliveries over two parameters as a grid', LONG, async ({ lab }) => {
   await lab.view('Evaluate').click();
-  await run(lab, 'friction', 'tracker_noise_m');
+  await run(lab, ['ERRT', 'Attractor'], 'friction', 'tracker_noise_m');
   const grids = lab.page.locator('.robustness-grid');
   await expect(grids).toHaveCount(2);
   await expect(grids.first().locator('caption')).toHaveText('ERRT: delivered, %');

@@ -98,6 +98,7 @@ test('delivers by arrow keys, and stops when they are released', async ({ lab })
     );
   await steer('half of the path', () => Math.hypot(...toGo(lab, goal)) < start_m / 2);
   await hand.release();
+  await until('the stop', () => distance(must(lab.state.steer_m, 'a hand'), tool(lab)) < 0.002);
   await lab.step(SECOND_TICKS);
   const stopped = tool(lab);
   await lab.step(SECOND_TICKS);

@@ -5,6 +5,7 @@ import { Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { freePointNearBead } from './support/preconditions';
+import { CONTROL_STEP_TICKS } from './support/stepper';
 import { Server } from './support/server';
 import { must, until } from './support/wait';
 
@@ -46,6 +47,7 @@ test('shows one tip at a time, and none twice', async ({ page, session }) => {
   await lab.deliver();
   // As far as the magnet does not reach.
   await lab.startDrag(must(lab.freePoints(lab.state.bead_m, 0.2, 0.35)[0], 'a place far away'));
+  await lab.stepUntil('a lost bead', () => lab.state.mode === 1, CONTROL_STEP_TICKS);
   await isTip(page, /^Choose 3-D/);
   await page.mouse.up();
   await page.reload();

@@ -51,7 +51,7 @@ async function typeSeed(input: InputMethod, locator: Parameters<InputMethod['pre
   await keyboard.press('Enter');
 }
 
-const VIEWS: Section = {
+export const VIEWS: Section = {
   name: 'views, colours and control',
   rows: {
     'button Laboratory': { see: shownView, ready: view('Recordings') },
@@ -91,7 +91,7 @@ const VIEWS: Section = {
   },
 };
 
-const WORKSPACE: Section = {
+export const WORKSPACE: Section = {
   name: 'the workspace',
   rows: {
     'application Workspace': [
@@ -141,7 +141,7 @@ async function ensureKeptRun(lab: Lab) {
   await until('a kept run', () => lab.scene.trial !== before && lab.scene.kept_runs.length > 0);
 }
 
-const PLAYBACK: Section = {
+export const PLAYBACK: Section = {
   name: 'the playback bar',
   rows: {
     'button Run': { see: (lab) => lab.state.running, ready: ensurePaused },
@@ -169,7 +169,7 @@ const PLAYBACK: Section = {
   },
 };
 
-const EXPERIMENTS: Section = {
+export const EXPERIMENTS: Section = {
   name: 'maps and presets',
   rows: {
     'combobox Map': { see: (lab) => lab.scene.map, after: backToPosts },
@@ -243,5 +243,3 @@ export const LAYERS: Section = {
   rowReady: open('Layers'),
   rows: Object.fromEntries(LAYER_NAMES.map((name) => [`checkbox ${name}`, toggle(layers)])),
 };
-
-export const LABORATORY: readonly Section[] = [VIEWS, WORKSPACE, PLAYBACK, EXPERIMENTS];

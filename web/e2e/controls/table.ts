@@ -7,7 +7,7 @@ import { isChosen, setOf } from '../support/inputMethods';
 import { CHALLENGE } from './challenge';
 import { DRAW } from './draw';
 import { COMPARE, EVENTS, LESSONS, SHARE } from './events';
-import { LABORATORY, LAYERS } from './laboratory';
+import { EXPERIMENTS, LAYERS, PLAYBACK, VIEWS, WORKSPACE } from './laboratory';
 import { PARAMETERS, SOME_PARAMETERS } from './parameters';
 import { RECOVERY } from './recovery';
 import type { Row, Section } from './row';
@@ -22,7 +22,8 @@ type SectionsByTest = Readonly<Record<string, readonly Section[]>>;
 
 /** The sections of each test. Small sections share a test, because opening a page takes longer than they do. */
 const SECTIONS_BY_TEST: SectionsByTest = {
-  'the laboratory': [...LABORATORY, STEER],
+  'views, maps and presets': [VIEWS, EXPERIMENTS, STEER],
+  'the workspace and the playback bar': [WORKSPACE, PLAYBACK],
   'the layers and the link': [LAYERS, SHARE],
   'plots, magnet and disturbances': [PLOTS, MAGNET, DISTURB],
   'the 3-D view': [SCENE_VIEW],
