@@ -2,6 +2,7 @@
 
 import type { Page } from '@playwright/test';
 import { expect, test } from './fixtures';
+import { SECOND_TICKS } from './support/stepper';
 import { must, until } from './support/wait';
 
 /** Connects a program that goes straight to the goal; returns what disconnects it. */
@@ -45,9 +46,8 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await program.check();
   await until('the choice', () => lab.state.controller === 'program');
   expect(lab.state.program?.name).toBe('straight');
-  await lab.button('Run').click();
+  await lab.deliver();
   await expect(lab.page.getByTestId('program-standing')).toHaveText(/^straight answers in \d+ ms/);
-  await until('the delivery', () => lab.state.phase === 'delivered', 30_000);
 
   // Compared with the others from here, and evaluated beside them.
   await lab.page.getByRole('tab', { name: 'Compare' }).click();
@@ -74,11 +74,12 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await expect(lab.page.getByTestId('program-standing')).toHaveText(
     'straight is not connected: the arm holds until it is.',
   );
+  await lab.step(SECOND_TICKS);
   await until('the refusal', () => lab.state.refusal === 'the program: straight is not connected');
   // It stays in the list while it is selected.
   await expect(program).toBeChecked();
   await lab.page.getByRole('radio', { name: 'ERRT' }).check();
   await expect(program).toHaveCount(0);
-  await until('another delivery', () => lab.state.deliveries > 1, 30_000);
+  await lab.deliver(2);
   await other.close();
 });

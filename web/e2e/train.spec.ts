@@ -31,7 +31,8 @@ const submit = (lab: Lab) =>
   lab.page.locator('.train-form').getByRole('button', { name: /^Train / });
 
 async function fillIn(lab: Lab, name: string) {
-  await lab.label('Map').selectOption('open');
+  // The smallest map.
+  await lab.label('Map').selectOption('u-turn');
   await lab.label('Policy name').fill(name);
   await lab.page.getByText('Settings', { exact: true }).click();
   await lab.label('Updates').fill(String(FEW_UPDATES));
@@ -113,14 +114,14 @@ test('trains a policy, watches it and uses it', async ({ lab, openLab, server })
   await expect(page.locator('.policies')).toContainText(`updates ${FEW_UPDATES}`);
   await entry(lab, 'watched').getByRole('button', { name: 'Use it: watched' }).click();
   await until('the policy', () => lab.scene.parameters.rl_policy.startsWith('watched@'));
-  await until('the map', () => lab.scene.map === 'open' && lab.state.controller === 'rl');
+  await until('the map', () => lab.scene.map === 'u-turn' && lab.state.controller === 'rl');
   await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
   await expect(lab.notice('workspace')).toContainText('RL drives with the policy watched.');
   // Its evaluation is filled in.
   await lab.view('Train').click();
   await lab.button('Evaluate watched').click();
   await expect(lab.view('Evaluate')).toHaveAttribute('aria-current', 'page');
-  await expect(lab.page.getByRole('checkbox', { name: 'open', exact: true })).toBeChecked();
+  await expect(lab.page.getByRole('checkbox', { name: 'u-turn', exact: true })).toBeChecked();
   await expect(lab.label('Policy of RL')).toHaveValue(/^watched@/);
   await lab.view('Laboratory').click();
   await lab.reset({ map: 'posts' });
