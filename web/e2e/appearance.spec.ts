@@ -63,10 +63,11 @@ async function savePictures(lab: Lab, place: Place, theme: Theme) {
   await lab.page.screenshot({ path: `${PICTURES}web-${slug(place.name)}-${theme}.png` });
 }
 
-/** What axe finds in one theme. */
-async function inColours(lab: Lab, place: Place, theme: Theme) {
+/** What axe finds in one theme: in the whole page of a view, otherwise in the panel. */
+async function inColours(lab: Lab, place: Place, theme: Theme, isView: boolean) {
   await lab.page.emulateMedia({ colorScheme: theme });
-  const found = await violations(lab.page, RULES_BY_THEME[theme]);
+  const part = isView ? undefined : place.panel;
+  const found = await violations(lab.page, RULES_BY_THEME[theme], part);
   return found.map((one) => `${place.name}, ${one}`);
 }
 
@@ -91,7 +92,7 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
           for await (const place of places(lab)) {
             // A tablet has the same colours, and the same elements in each view.
             if (!isTouch || isView)
-              for (const one of await inColours(lab, place, 'dark')) faults.add(one);
+              for (const one of await inColours(lab, place, 'dark', isView)) faults.add(one);
             if (!isTouch) await savePictures(lab, place, 'dark');
             const all = await controls(lab.page);
             for (const fault of faultsOf(all, isTouch ? MIN_SIDE_PX.touch : MIN_SIDE_PX.mouse)) {
@@ -115,7 +116,7 @@ for (const [device, options] of Object.entries({ desktop: DESKTOP, tablet: TABLE
         const faults = new Set<string>();
         await prepare(lab);
         for await (const place of places(lab)) {
-          for (const one of await inColours(lab, place, 'light')) faults.add(one);
+          for (const one of await inColours(lab, place, 'light', isView)) faults.add(one);
           // The panels of the views show the light colours.
           if (isView) await savePictures(lab, place, 'light');
         }

@@ -45,6 +45,7 @@ test('explains a failure, and delivers by another controller', async ({ openLab,
 test('goes on after a failure, and compares from the start', LONG, async ({ openLab, session }) => {
   const lab = await fail(openLab, session);
   const steps = lab.state.steps;
+  await lab.speed('64');
   await lab.button('Go on for 150 more steps').click();
   await until('further steps', () => lab.state.steps > steps + 10);
   await expect(cardOf(lab)).toBeVisible({ timeout: FAILED_MS });

@@ -2,7 +2,7 @@
 // A test fails if the browser reports an error or sends a request to another host.
 
 import { type BrowserContextOptions, type Page, test as base, expect } from '@playwright/test';
-import { useSlowDisplay } from './support/display';
+import { useFastPictures, useSlowDisplay } from './support/display';
 import { Lab } from './support/lab';
 import { Server } from './support/server';
 import { Watch } from './support/watch';
@@ -56,6 +56,7 @@ const skipTips = (page: Page) =>
 
 async function open(page: Page, url: string) {
   await useSlowDisplay(page);
+  await useFastPictures(page);
   await skipTips(page);
   return Lab.attach(page, url);
 }

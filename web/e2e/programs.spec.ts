@@ -5,6 +5,9 @@ import { expect, test } from './fixtures';
 import { SECOND_TICKS } from './support/stepper';
 import { must, until } from './support/wait';
 
+/** Jobs have a low priority, and other tests run at the same time. */
+const RUN_MS = 90_000;
+
 /** Connects a program that goes straight to the goal; returns what disconnects it. */
 async function connect(page: Page, name: string): Promise<() => Promise<void>> {
   await page.evaluate(async (program) => {
@@ -55,7 +58,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await lab.page.getByLabel('Compare RL').uncheck();
   await lab.button('Start comparison').click();
   const compared = lab.page.getByRole('row', { name: /^straight/ });
-  await expect(compared).toContainText('delivered', { timeout: 30_000 });
+  await expect(compared).toContainText('delivered', { timeout: RUN_MS });
   await lab.button('Evaluate').click();
   const form = lab.page.getByRole('region', { name: 'New evaluation' });
   await form.getByLabel('straight', { exact: true }).check();
@@ -65,7 +68,7 @@ test('a program appears, carries the bead, and is missed when it is gone', async
   await expect(form.getByTestId('evaluation-scope')).toContainText('1 cell, 2 episodes');
   await form.getByRole('button', { name: 'Run' }).click();
   const row = lab.page.getByTestId('evaluation-row');
-  await expect(row).toContainText('straight', { timeout: 30_000 });
+  await expect(row).toContainText('straight', { timeout: RUN_MS });
   await expect(row).toContainText('2/2');
   await lab.button('Laboratory').click();
 

@@ -7,7 +7,7 @@ import type { AxeResults, RunOptions } from 'axe-core';
 
 declare global {
   interface Window {
-    axe: { run: (where: Document, options: RunOptions) => Promise<AxeResults> };
+    axe: { run: (where: Element, options: RunOptions) => Promise<AxeResults> };
   }
 }
 
@@ -19,13 +19,17 @@ const REPORTED_IMPACTS = ['serious', 'critical'];
 
 /**
  * One line per element with a serious or critical violation: the rule, the element, the reason.
- * Checks all rules, or only those of `rules`.
+ * Checks all rules, or only those of `rules`, in the whole page or in a part of it.
  */
-export async function violations(page: Page, rules?: readonly string[]) {
+export async function violations(
+  page: Page,
+  rules?: readonly string[],
+  part = page.locator('html'),
+) {
   // The content security policy forbids a script element. The debugger may evaluate the source.
   if (!(await page.evaluate('typeof axe === "object"'))) await page.evaluate(source);
-  const found = await page.evaluate(async (runOnly) => {
-    const { violations: all } = await window.axe.run(document, {
+  const found = await part.evaluate(async (root, runOnly: readonly string[] | undefined) => {
+    const { violations: all } = await window.axe.run(root, {
       resultTypes: ['violations'],
       iframes: false,
       preload: false,
