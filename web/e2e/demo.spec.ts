@@ -8,6 +8,7 @@ import { endFirstSession } from './support/ended';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
+import { CONNECTION_LOST } from './support/watch';
 import type { StateMessage } from './support/wire';
 
 const CAPTION_MS = 90_000;
@@ -15,7 +16,6 @@ const CAPTION_MS = 90_000;
 const READ_MS = 2500;
 const RECONNECT_MS = 30_000;
 const SILENCE_MS = 61_000;
-const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const FIRST = 'A magnet carries a bead through a maze.';
 /** The further captions of the first part, and what each follows. */
 const CAPTIONS: readonly (readonly [string, (state: StateMessage) => boolean])[] = [

@@ -6,6 +6,7 @@ import { CONTROL_STEP_TICKS, SECOND_TICKS } from './support/stepper';
 import { Server } from './support/server';
 import { distance, distanceToSegment } from './support/table';
 import { must, until } from './support/wait';
+import { CONNECTION_LOST } from './support/watch';
 
 /** More than the default threshold T of 10 cm. */
 const LOST_M = 0.14;
@@ -218,7 +219,7 @@ test('steps by one control step, and shows the achieved speed', async ({ lab }) 
 test('reports a lost connection when the server is killed', async ({ openLab, watch }) => {
   const server = await Server.start();
   watch.allowHost(server.url);
-  watch.allow(/ERR_CONNECTION_REFUSED|WebSocket/);
+  watch.allow(CONNECTION_LOST);
   const lab = await openLab({ url: server.url });
   await server.kill();
   await expect(lab.page.getByTestId('connection')).toHaveText(/^reconnecting/);

@@ -6,10 +6,10 @@ import { violations } from './support/axe';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
+import { CONNECTION_LOST } from './support/watch';
 
 /** The browser reports this for a page that needs a token. */
 const REFUSED = /status of 401 /i;
-const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const WRONG = 'the token is wrong';
 const LOGIN_ENDED = 'login has ended';
 

@@ -6,8 +6,8 @@ import { endFirstSession } from './support/ended';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
 import { until } from './support/wait';
+import { CONNECTION_LOST } from './support/watch';
 
-const CONNECTION_LOST = /ERR_CONNECTION_REFUSED|WebSocket connection/i;
 const ENDED = /The session has ended: the camera was lost/i;
 const RESTART = 'Restart';
 const GOES_ON = /This session was interrupted\. It goes on at/;

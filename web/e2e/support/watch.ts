@@ -3,6 +3,10 @@ import type { Browser, BrowserContext, ConsoleMessage, Page } from '@playwright/
 /** A software driver warns that a screenshot of the 3-D view takes time. */
 const SLOW_DRIVER = /GPU stall due to ReadPixels/;
 
+/** What the browser reports when a server has gone. A request may be under way. */
+export const CONNECTION_LOST =
+  /ERR_(CONNECTION_(REFUSED|RESET|CLOSED)|EMPTY_RESPONSE)|WebSocket connection/i;
+
 /** Records what no page, frame or worker may do: report errors, or send requests to other hosts. */
 export class Watch {
   private readonly texts: string[] = [];
