@@ -144,13 +144,12 @@ test('changes a parameter in the form, and restores the defaults', async ({ lab 
 
 test('kicks the bead', async ({ lab }) => {
   const bead = await lab.bead();
-  await lab.run();
   await lab.button('Disturb').click();
   await lab.page.getByLabel('Direction of kick and push').selectOption('right');
   const strength = lab.page.getByLabel('Strength of the kick in mN·s');
   await strength.fill('0.8');
   await strength.press('Enter');
-  await until('a moved bead', () => lab.state.bead_m[0] - bead[0] > 0.02);
+  await lab.stepUntil('a moved bead', () => lab.state.bead_m[0] - bead[0] > 0.02, 25);
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
   await expect(lab.page.getByRole('log').getByText(/a kick of 0\.80 mN·s/)).toBeVisible();
 });

@@ -44,7 +44,6 @@ test('drags the bead by mouse in the 3-D view', async ({ lab }) => {
   const camera = await projection(lab);
   const away = await freeInPicture(lab, 0.06, 0.12);
   const bead = lab.state.bead_m;
-  await lab.run();
   await mouse.move(...(await beadPx(lab)));
   await expect(sceneOf(lab)).toHaveAttribute('data-cursor', 'near-bead');
   await mouse.down();
@@ -53,7 +52,7 @@ test('drags the bead by mouse in the 3-D view', async ({ lab }) => {
     'the hand at the pointer',
     () => lab.state.hand_m && distance(lab.state.hand_m, away) < 0.003,
   );
-  await until('the bead at the hand', () => distance(lab.state.bead_m, away) < 0.01);
+  await lab.stepUntil('the bead at the hand', () => distance(lab.state.bead_m, away) < 0.01, 25);
   expect(distance(lab.state.bead_m, bead)).toBeGreaterThan(0.03);
   await expect(lab.page.locator('.spring-label')).toHaveText(/\d N · |mN · /);
   await mouse.up();
