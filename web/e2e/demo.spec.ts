@@ -3,7 +3,6 @@
 import type { Page } from '@playwright/test';
 import { LONG, Lab, expect, test } from './fixtures';
 import { violations } from './support/axe';
-import { useSlowDisplay } from './support/display';
 import { endFirstSession } from './support/ended';
 import { MIN_SIDE_PX, controls, faultsOf } from './support/inventory';
 import { Server } from './support/server';
@@ -59,12 +58,6 @@ const jump = (page: Page, ms: number) =>
     performance.now = () => now() + ahead_ms;
   }, ms);
 
-/** Opens the demonstration. */
-async function show(page: Page, url: string) {
-  await useSlowDisplay(page);
-  return Lab.watch(page, url);
-}
-
 /** Waits until the page has set up the first part. */
 const begun = (lab: Lab) =>
   until(
@@ -87,7 +80,7 @@ test('runs its programme, gives way to a visitor, and returns', async ({ page })
   // Small, because a software renderer draws the 3-D view slowly.
   await page.setViewportSize({ width: 480, height: 320 });
   await page.addInitScript(keepCaptions);
-  const lab = await show(page, `${server.url}/demo`);
+  const lab = await Lab.watch(page, `${server.url}/demo`);
   await begun(lab);
   await lab.send({ type: 'pause' });
   await until('paused', () => !lab.state.running);
@@ -115,7 +108,7 @@ test(
   'shows the ghosts of a challenge, and a visitor who touches the screen plays it',
   LONG,
   async ({ page }) => {
-    const lab = await show(page, `${server.url}/demo`);
+    const lab = await Lab.watch(page, `${server.url}/demo`);
     await begun(lab);
     // To the last part: each visitor who leaves lets the programme go on with the next one.
     while (!lab.scene.challenge) {
@@ -154,7 +147,7 @@ test(
         return kind === 'webgl2' ? null : (getContext.call(this, kind, ...rest) as unknown);
       } as typeof getContext;
     });
-    const lab = await show(page, `${server.url}/demo`);
+    const lab = await Lab.watch(page, `${server.url}/demo`);
     await begun(lab);
     await lab.canvas.waitFor();
     const scaleOf = async () => Number(await lab.canvas.getAttribute('data-px-per-m'));
@@ -179,11 +172,11 @@ test(
   'watches on a second screen, and goes on there when the first one leaves',
   LONG,
   async ({ page, browser }) => {
-    const first = await show(page, `${server.url}/demo`);
+    const first = await Lab.watch(page, `${server.url}/demo`);
     await begun(first);
     const context = await browser.newContext();
     try {
-      const second = await show(await context.newPage(), `${server.url}/demo`);
+      const second = await Lab.watch(await context.newPage(), `${server.url}/demo`);
       await expect(second.page.getByText(WATCHING)).toBeVisible();
       await expect(captionOf(second.page)).toHaveText(/\.$/);
       expect(second.hello.role).toBe('viewer');
@@ -208,7 +201,7 @@ test(
 
 test('waits for its server, and begins again', LONG, async ({ page, watch }) => {
   watch.allow(CONNECTION_LOST);
-  const lab = await show(page, `${server.url}/demo`);
+  const lab = await Lab.watch(page, `${server.url}/demo`);
   await begun(lab);
   const { opened } = lab.hello;
   const { port } = server;

@@ -2,7 +2,7 @@
 // A test fails if the browser reports an error or sends a request to another host.
 
 import { type BrowserContextOptions, type Page, test as base, expect } from '@playwright/test';
-import { useFastPictures, useSlowDisplay } from './support/display';
+import { useFastPictures } from './support/display';
 import { Lab } from './support/lab';
 import { Server } from './support/server';
 import { Watch } from './support/watch';
@@ -55,7 +55,6 @@ const skipTips = (page: Page) =>
   });
 
 async function open(page: Page, url: string) {
-  await useSlowDisplay(page);
   await useFastPictures(page);
   await skipTips(page);
   return Lab.attach(page, url);

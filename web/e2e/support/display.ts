@@ -1,9 +1,6 @@
-// A slower display, which the page of a test draws for.
+// A display that is slower, and pictures that are encoded at once.
 
 import type { Page } from '@playwright/test';
-
-/** 25 frames per second. */
-const FRAME_MS = 40;
 
 /** Runs in the page before its scripts. */
 function slowDown(frame_ms: number) {
@@ -52,5 +49,5 @@ function encodeAtOnce() {
 export const useFastPictures = (page: Page) => page.addInitScript(encodeAtOnce);
 
 /** Makes a page draw less often: without a graphics card, drawing is most of the work. */
-export const useSlowDisplay = (page: Page, frame_ms = FRAME_MS) =>
+export const useSlowDisplay = (page: Page, frame_ms: number) =>
   page.addInitScript(slowDown, frame_ms);
