@@ -89,6 +89,8 @@ test('compares controllers from a moment on', async ({ lab }) => {
   );
   await lab.drawn();
   await expect(panel).toHaveCount(0);
+  // Its last result must not be taken for one of the next request.
+  await until('its end', () => lab.comparison?.running === false, COMPUTED_MS);
 
   await openEvent(lab, 'Disturbance');
   lab.sent = {};
@@ -96,6 +98,7 @@ test('compares controllers from a moment on', async ({ lab }) => {
   await until('the request', () => lab.sent.fork);
   // The page shows the earlier results of this moment until new ones come: wait for the last one.
   await until('all results', () => lab.comparison?.running === false, COMPUTED_MS);
+  await lab.drawn();
   const rows = panel.getByRole('row');
   const column = (index: number) =>
     rows.evaluateAll(
