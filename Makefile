@@ -59,8 +59,8 @@ dev: system-run
 RUST_TESTS := cargo test --release --quiet -p ferry -p ferry-server --lib --test main --
 
 # docs/tests.md says what is in which suite. One browser test alone: CONTRIBUTING.md.
-test: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
-test: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
+test test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
+test test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --workspace --all-targets --quiet
@@ -82,6 +82,7 @@ test-long-docs:
 test-long-rust:
 	cargo build --release --quiet
 	$(RUST_TESTS) --ignored
+	FERRY_COMMANDS=600000 $(RUST_TESTS) command_tests
 test-long-browser:
 	cargo build --release --quiet
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e:long

@@ -38,6 +38,7 @@ fn auto_takes_the_policy_of_the_drawing_not_of_the_name() {
 }
 
 #[test]
+#[ignore = "long"]
 fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
     let venue = Venue::of(Arena::open("colon").unwrap());
     for (disturbances, least) in [(0, 39), (3, 38)] {
@@ -68,6 +69,7 @@ fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
 
 /// Training's images have no bead.
 #[test]
+#[ignore = "long"]
 fn the_bead_in_the_picture_changes_few_decisions() {
     const PLACES: usize = 300;
     for (map, name) in [("colon", "colon"), ("posts", "general")] {
@@ -106,6 +108,7 @@ const ROOM: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 250 
     <rect x="-10" y="250" width="20" height="60"/></svg>"#;
 
 #[test]
+#[ignore = "long"]
 fn training_writes_a_working_policy_and_can_be_resumed() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("room.svg"), ROOM).unwrap();

@@ -140,6 +140,7 @@ fn a_camera_above_the_magnet_admits_no_step() {
 
 /// `FERRY_TRIALS` trials per map and controller instead of a few.
 #[test]
+#[ignore = "long"]
 fn all_three_controllers_work_under_the_realistic_mount() {
     let trials: u64 = std::env::var("FERRY_TRIALS").map_or(6, |count| count.parse().unwrap());
     for map in ["posts", "colon"] {

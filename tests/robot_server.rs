@@ -80,6 +80,7 @@ fn other_addresses_than_loopback_must_be_meant() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
 async fn ur_rtde_commands_the_arm_within_the_limits_until_the_operator_takes_it() {
     const ADDRESS: &str = "127.0.28.101";
     let data = tempfile::tempdir().unwrap();
@@ -147,6 +148,7 @@ async fn a_program_for_a_ur5_delivers_the_bead_between_posts() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
 async fn a_program_for_a_ur5_delivers_the_bead_through_the_colon() {
     deliver("127.0.28.103", "colon", [0.19, -0.28], [-0.24, -0.27]).await;
 }

@@ -100,6 +100,7 @@ fn merged_shards_are_the_whole_evaluation() {
 }
 
 #[test]
+#[ignore = "long"]
 fn merged_shards_are_the_whole_recovery_map() {
     const QUERY: [&str; 11] = [
         "recovery",

@@ -114,11 +114,13 @@ fn lose(name: &str, parameters: &Parameters) {
 }
 
 #[test]
+#[ignore = "long"]
 fn a_lost_tracker_costs_only_time() {
     lose("ideal mount", &Parameters::default());
 }
 
 #[test]
+#[ignore = "long"]
 fn a_lost_tracker_costs_only_time_under_the_realistic_mount_when_the_arm_hides_the_bead() {
     let changes = ["preset=realistic", "tracker_is_hidden_by_arm=true"].map(str::to_owned);
     lose("realistic mount, hidden by the arm", &Parameters::default().with(&changes).unwrap());

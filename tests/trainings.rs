@@ -45,6 +45,7 @@ async fn points(mut live: Browser) -> Vec<u64> {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
 async fn a_training_becomes_a_policy_with_the_bits_of_the_command_line() {
     let lab = Laboratory::open().await;
     let mut browser = lab.browser().await;
@@ -183,6 +184,7 @@ async fn what_cannot_be_trained_is_refused_and_nothing_is_kept() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
 async fn a_training_waits_pauses_and_is_cancelled() {
     let lab = Laboratory::open().await;
     let long = query(json!({"settings": {"updates": 20_000}}));

@@ -103,7 +103,8 @@ fn packages_are_stale() -> bool {
 }
 
 fn npm(arguments: &[&str], out: &Path) {
-    let run = Command::new("npm").args(arguments).current_dir(Path::new(ROOT).join("web")).env("FERRY_WEB_OUT", out).output();
+    let run =
+        Command::new("npm").args(arguments).current_dir(Path::new(ROOT).join("web")).env("FERRY_WEB_OUT", out).output();
     match run {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => stop(
             "npm is missing, and the page is built with it: install Node.js 20 or newer (Debian: apt-get install nodejs npm)",

@@ -22,7 +22,7 @@ const SLACK: f64 = 1e-9;
 
 /// Number of commands, set by `FERRY_COMMANDS`.
 fn commands() -> u64 {
-    std::env::var("FERRY_COMMANDS").map_or(60_000, |count| count.parse().expect("FERRY_COMMANDS is a count"))
+    std::env::var("FERRY_COMMANDS").map_or(6_000, |count| count.parse().expect("FERRY_COMMANDS is a count"))
 }
 
 fn seed() -> u64 {

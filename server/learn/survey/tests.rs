@@ -109,6 +109,7 @@ fn rewards_are_those_of_the_true_distance() {
 }
 
 #[test]
+#[ignore = "long"]
 fn imitation_teaches_and_a_resumed_run_is_the_same() {
     let (mazes, recipe) = (drawn(3), small());
     let folder = tempfile::tempdir().unwrap();

@@ -126,6 +126,7 @@ fn refuses_a_recipe_out_of_range() {
 const EPISODES: u32 = 300;
 
 #[test]
+#[ignore = "long"]
 fn a_small_run_learns_the_path_between_two_rooms() {
     let terrains = [two_rooms()];
     // Frequent rewards: learning from distant ones needs thousands of updates.

@@ -70,6 +70,7 @@ fn copy(from: &Path, to: &Path) {
 }
 
 #[test]
+#[ignore = "long"]
 fn a_training_that_is_interrupted_ends_in_the_same_policy() {
     let (one, two, three) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let whole = Laboratory::in_folder(one.path());
@@ -130,6 +131,7 @@ fn a_cancelled_training_leaves_nothing_and_frees_its_name() {
 }
 
 #[test]
+#[ignore = "long"]
 fn a_training_that_cannot_be_saved_fails_and_goes_on_later() {
     let folder = tempfile::tempdir().unwrap();
     let laboratory = Laboratory::in_folder(folder.path());
@@ -171,6 +173,7 @@ fn refuses_what_cannot_be_trained_and_names_the_field() {
 }
 
 #[test]
+#[ignore = "long"]
 fn fine_tuning_begins_with_the_policys_weights() {
     let folder = tempfile::tempdir().unwrap();
     let laboratory = Laboratory::in_folder(folder.path());
