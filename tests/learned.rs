@@ -37,34 +37,42 @@ fn auto_takes_the_policy_of_the_drawing_not_of_the_name() {
     assert_eq!(auto(drawn("colon", "colon-folds")), shipped("explorer"));
 }
 
+/// Expects deliveries through the colon with the policy, from camera images.
+fn expect_deliveries(least: usize, episodes: u32, disturbances: u32) {
+    let experiment = Experiment {
+        cell: Cell {
+            controller: ControllerName::Rl,
+            map: "colon".to_owned(),
+            disturbances,
+            program: None,
+            varied: Vec::new(),
+        },
+        venue: Venue::of(Arena::open("colon").unwrap()),
+        map: "colon".to_owned(),
+        episodes,
+        seed: 7,
+        parameters: Parameters::default(),
+        manner: Manner::default(),
+        program: None,
+    };
+    let watch = Watch { stop: &AtomicBool::new(false), progress: &|_, _| (), recorders: &unrecorded };
+    let ended = run(&[experiment], &gpu(), &watch).unwrap().remove(0);
+    let delivered = ended.iter().filter(|episode| episode.delivered).count();
+    assert!(delivered >= least, "{delivered} of {episodes} with {disturbances} disturbances");
+    let struck: u32 = ended.iter().map(|episode| episode.disturbances).sum();
+    assert!(struck >= disturbances * episodes * 7 / 8, "{struck}");
+}
+
+#[test]
+fn the_policy_carries_the_bead_through_the_colon_despite_disturbances() {
+    expect_deliveries(7, 8, 3);
+}
+
 #[test]
 #[ignore = "long"]
 fn the_policy_carries_the_bead_through_the_colon_from_camera_images() {
-    let venue = Venue::of(Arena::open("colon").unwrap());
-    for (disturbances, least) in [(0, 39), (3, 38)] {
-        let experiment = Experiment {
-            cell: Cell {
-                controller: ControllerName::Rl,
-                map: "colon".to_owned(),
-                disturbances,
-                program: None,
-                varied: Vec::new(),
-            },
-            venue: venue.clone(),
-            map: "colon".to_owned(),
-            episodes: 40,
-            seed: 7,
-            parameters: Parameters::default(),
-            manner: Manner::default(),
-            program: None,
-        };
-        let watch = Watch { stop: &AtomicBool::new(false), progress: &|_, _| (), recorders: &unrecorded };
-        let episodes = run(&[experiment], &gpu(), &watch).unwrap().remove(0);
-        let delivered = episodes.iter().filter(|episode| episode.delivered).count();
-        assert!(delivered >= least, "{delivered} of 40 with {disturbances} disturbances");
-        let struck: u32 = episodes.iter().map(|episode| episode.disturbances).sum();
-        assert!(struck >= disturbances * 35, "{struck}");
-    }
+    expect_deliveries(39, 40, 0);
+    expect_deliveries(38, 40, 3);
 }
 
 /// Training's images have no bead.
