@@ -29,22 +29,27 @@ const OPERATOR_BUTTONS = [
   'Clear goal',
 ];
 
+const PANELS = ['camera', 'parameters', 'lower', 'aside'];
+
 const button = (name: string) => page.getByRole('button', { name, exact: true });
 const notice = (place: string) => document.querySelector(`[data-place=${place}] .notice`);
 const canvas = page.getByLabelText('Workspace', { exact: true });
 
-/** The page with all panels and without tips. */
-async function open(answers = {}): Promise<FakeServer> {
+/** The page without tips. */
+async function open(answers = {}, panels = PANELS): Promise<FakeServer> {
   localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
-  for (const panel of ['camera', 'parameters', 'lower', 'aside']) {
+  for (const panel of panels) {
     localStorage.setItem(`ferry.panel.${panel}`, 'open');
   }
   const server = fakeServer(answers);
   show(() => <Page />);
   await expect.element(page.getByTestId('connection')).toHaveTextContent('live');
-  await expect.element(button('Share')).toBeEnabled();
+  await expect.element(page.getByTestId('recording')).toBeVisible();
   return server;
 }
+
+const heightOf = (selector: string): number =>
+  document.querySelector(selector)?.getBoundingClientRect().height ?? NaN;
 
 function drop(name: string, text: string): void {
   const dataTransfer = new DataTransfer();
@@ -127,6 +132,7 @@ it('runs shortcuts anywhere', async () => {
   }
   await keyboard(' ');
   await expect.poll(() => server.command('run')).toBeDefined();
+  await expect.poll(() => notice('workspace')?.textContent).toContain('No goal is set');
   server.state({ running: true });
   await expect.element(button('Pause')).toBeVisible();
   await keyboard(' ');
@@ -219,4 +225,40 @@ it('has Run among the first ten stops of the Tab key', async () => {
     stops.push(document.activeElement?.textContent.trim());
   }
   expect(stops).toContain('Run');
+});
+
+it('shows the first visit on one screen', async () => {
+  await open({}, []);
+  for (const [width, height] of [
+    [1280, 800],
+    [1440, 900],
+    [2560, 1440],
+  ] as const) {
+    await page.viewport(width, height);
+    const { documentElement: whole } = document;
+    const beyond = () => [whole.scrollWidth - innerWidth, whole.scrollHeight - innerHeight];
+    await expect.poll(beyond, `px beyond ${width}×${height}`).toEqual([0, 0]);
+    await expect.poll(() => heightOf('.workspace')).toBeGreaterThan(0.6 * height);
+  }
+  await page.viewport(1280, 800);
+});
+
+it('has the playback bar in one row on a phone, until it is opened', async () => {
+  await page.viewport(390, 844);
+  await open();
+  const speed = page.getByLabelText('Speed', { exact: true });
+  expect(document.documentElement.scrollWidth).toBeLessThanOrEqual(390);
+  expect(heightOf('.transport')).toBeLessThan(110);
+  await expect.element(speed).not.toBeVisible();
+  await button('More').click();
+  await expect.element(speed).toBeVisible();
+  await button('More').click();
+  await expect.poll(() => heightOf('.transport')).toBeLessThan(110);
+  // No blank space below the panels.
+  scrollTo(0, document.documentElement.scrollHeight);
+  const last = [...document.querySelectorAll('main > .panel')].at(-1)?.getBoundingClientRect();
+  const bar = document.querySelector('.transport')?.getBoundingClientRect();
+  expect(bar?.bottom).toBeCloseTo(844, 0);
+  expect((bar?.top ?? NaN) - (last?.bottom ?? NaN)).toBeLessThan(24);
+  await page.viewport(1280, 800);
 });

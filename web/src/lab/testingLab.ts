@@ -80,6 +80,19 @@ export class FakeServer {
     this.states = { ...this.states, ...change };
     this.tell({ type: 'state', ...this.states });
   }
+  /** Carries out the newest `load_scenario`. */
+  load(): void {
+    const { scenario: before, trial, defaults } = this.scenes;
+    const sent = this.command('load_scenario');
+    if (!sent) throw new Error('no scenario was loaded');
+    const { map, controller = before.controller, parameters = defaults, script = [] } = sent;
+    const { start_m = null, goal_m = null, disturbances = 0, positioner = null } = sent;
+    const seed = Number(sent.seed ?? before.seed);
+    const rest = { seed, parameters, script, start_m, goal_m, disturbances, positioner };
+    const scenario = { ...before, map, controller, ...rest };
+    this.scene({ map, seed, parameters, scenario, trial: trial + 1 });
+    this.state({ tick: 0, newest_tick: 0, controller, goal_m });
+  }
   /** Refuses the newest command. */
   refuse(code: string, message: string): void {
     this.tell({ type: 'error', code, message });

@@ -16,11 +16,11 @@ async function open() {
     </>
   ));
   await expect.element(button('Run')).toBeEnabled();
-  return server;
+  return { lab, server };
 }
 
 it('shows a long seed as a whole', async () => {
-  const server = await open();
+  const { server } = await open();
   const seed = page.getByLabelText('Seed', { exact: true });
   await seed.fill(String(LARGEST_SEED));
   await userEvent.keyboard('{Enter}');
@@ -33,7 +33,7 @@ it('shows a long seed as a whole', async () => {
 });
 
 it('steps to the next control step', async () => {
-  const server = await open();
+  const { server } = await open();
   await button('Step ¼ s').click();
   await expect.poll(() => server.command('step')?.ticks).toBe(32);
   server.state({ tick: 32, newest_tick: 32 });
@@ -43,7 +43,7 @@ it('steps to the next control step', async () => {
 });
 
 it('says quietly that the machine is at its limit, below 85 % of the speed', async () => {
-  const server = await open();
+  const { server } = await open();
   const achieved = page.getByTestId('achieved');
   server.state({ running: true, speed_target: 64, speed_achieved: 55 });
   await expect.element(achieved).toHaveTextContent('achieved 55.0×');
@@ -62,12 +62,15 @@ it('says quietly that the machine is at its limit, below 85 % of the speed', asy
 });
 
 it('asks for a goal when it runs without one', async () => {
-  const server = await open();
+  const { lab, server } = await open();
   const notice = page.getByText('No goal is set');
   await button('Run').click();
   await expect.element(notice).toBeVisible();
-  await button('Dismiss').click();
+  lab.send({ type: 'set_goal', x_m: 0.1, y_m: -0.3 });
+  await expect.element(notice).not.toBeInTheDocument();
   server.state({ goal_m: [0.1, -0.3] });
-  await expect.element(page.getByTestId('tick')).toBeVisible();
-  await expect.poll(() => server.sent.length).toBe(1);
+  await expect.poll(() => lab.goal()).toBeDefined();
+  await button('Run').click();
+  await expect.poll(() => server.sent.at(-1)?.type).toBe('run');
+  expect(lab.notices().workspace).toBeUndefined();
 });
