@@ -1,9 +1,8 @@
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
-import type { Plugin } from 'vite';
+import { type Plugin, defineConfig } from 'vite';
 import solid from 'vite-plugin-solid';
-import { defineConfig } from 'vitest/config';
 
 /** Writes each file also as gzip and as brotli, where that is smaller. The server sends what the browser accepts. */
 const compressed = (): Plugin => ({
@@ -74,10 +73,5 @@ export default defineConfig({
     },
     // The renderer of the 3-D view, which is loaded when that is opened.
     chunkSizeWarningLimit: 700,
-  },
-  test: {
-    // Only pure modules are unit-tested; the page itself is tested in a browser (e2e).
-    environment: 'node',
-    include: ['src/**/*.test.ts'],
   },
 });

@@ -7,11 +7,10 @@ import './ui/text.css';
 import './ui/panel.css';
 import { render } from 'solid-js/web';
 import { keepFocus } from './app/focus';
-import { DemoPage } from './app/DemoPage';
 import { Page } from './app/Page';
 import { carriesToken, takeToken } from './net/loginToken';
 import { isBoard, isDemo } from './net/session';
-import { lazyPart } from './ui/lazyPart';
+import { lazyPart, lazyView } from './ui/lazyPart';
 
 // A login link in a browser that is already logged in: remove the token from the address.
 takeToken(window);
@@ -25,7 +24,8 @@ window.addEventListener('hashchange', (event) => {
 const root = document.getElementById('app');
 if (!root) throw new Error('index.html has no #app');
 keepFocus(document);
-/** Loaded when it is opened: most browsers never do. */
+/** Loaded when they are opened: most browsers never do. */
+const DemoPage = lazyView<object>(async () => (await import('./app/DemoPage')).DemoPage);
 const BoardPage = lazyPart<object>(
   async () => (await import('./features/board/BoardPage')).BoardPage,
   () => <main class="view" />,

@@ -15,12 +15,12 @@ import { ControllerPanel } from '../features/controller/ControllerPanel';
 import type { DrawProps } from '../features/draw/DrawView';
 import { LazyDrawView } from '../features/draw/LazyDrawView';
 import { fillIn } from '../features/evaluate/draft';
-import { EvaluateView } from '../features/evaluate/EvaluateView';
+import { LazyEvaluateView } from '../features/evaluate/LazyEvaluateView';
 import { Header } from './Header';
 import { MAP_LAYERS } from './layers';
 import { LiveRegion } from './LiveRegion';
 import { LowerPanel } from './LowerPanel';
-import { RecordingsView } from '../features/recordings/RecordingsView';
+import { LazyRecordingsView } from '../features/recordings/LazyRecordingsView';
 import { OpenMap } from '../features/maps/OpenMap';
 import { createMapOpener } from '../features/maps/opener';
 import { LazyTrainView } from '../features/train/LazyTrainView';
@@ -130,10 +130,10 @@ export function Page(): JSX.Element {
           />
         </Match>
         <Match when={view() === 'recordings'}>
-          <RecordingsView theme={theme} session={lab.session} />
+          <LazyRecordingsView theme={theme} session={lab.session} />
         </Match>
         <Match when={view() === 'evaluate'}>
-          <EvaluateView
+          <LazyEvaluateView
             lab={lab}
             theme={theme}
             onLaboratory={() => {

@@ -1,12 +1,12 @@
 // The panels of the tab areas, in tab order.
 
 import { CHALLENGE_TAB } from '../features/challenge/challengeTab';
-import { COMPARE_TAB } from '../features/compare/ComparePanel';
+import { COMPARE_TAB } from '../features/compare/compareTab';
 import { EVENTS_TAB } from '../features/events/EventsPanel';
 import { LESSONS_TAB } from '../features/lessons/lessonsTab';
-import { MAGNET_TAB } from '../features/magnet/MagnetPanel';
+import { MAGNET_TAB } from '../features/magnet/magnetTab';
 import { PLOTS_TAB } from '../features/plots/PlotsPanel';
-import { RECOVERY_TAB } from '../features/recovery/RecoveryPanel';
+import { RECOVERY_TAB } from '../features/recovery/recoveryTab';
 import type { TabPanel } from '../lab/panel';
 
 type TabList = readonly [TabPanel, ...TabPanel[]];

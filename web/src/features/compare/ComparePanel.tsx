@@ -11,7 +11,7 @@ import type { Branch, ComparisonMessage } from '../../net/protocol.gen';
 import type { CurveContext } from '../../ui/curve';
 import { CurvePlot } from '../../ui/CurvePlot';
 import { PlaceNotice } from '../../lab/PlaceNotice';
-import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { PanelProps } from '../../lab/panel';
 import type { Compared, Events, Notices, Session, Trial } from '../../lab/slices';
 import { CompareStart } from './CompareStart';
 import './compare.css';
@@ -195,7 +195,7 @@ function Errors(
   );
 }
 
-function ComparePanel(
+export function ComparePanel(
   props: PanelProps<Session & Trial & Events & Notices & Compared>,
 ): JSX.Element {
   const { lab } = props;
@@ -236,5 +236,3 @@ function ComparePanel(
     </div>
   );
 }
-
-export const COMPARE_TAB: TabPanel = { id: 'compare', title: 'Compare', panel: ComparePanel };

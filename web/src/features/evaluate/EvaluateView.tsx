@@ -39,11 +39,13 @@ function Entry(props: { summary: EvaluationSummary; current: boolean }): JSX.Ele
   );
 }
 
-export function EvaluateView(props: {
-  lab: Session & Trial;
-  theme: () => Theme;
-  onLaboratory: () => void;
-}): JSX.Element {
+export interface EvaluateProps {
+  readonly lab: Session & Trial;
+  readonly theme: () => Theme;
+  readonly onLaboratory: () => void;
+}
+
+export function EvaluateView(props: EvaluateProps): JSX.Element {
   const list = createEvaluationList();
   const all = (): readonly EvaluationSummary[] => list.all() ?? [];
   const ids = createMemo(() => all().map(({ id }) => id), [], {

@@ -30,7 +30,7 @@ import { CurvePlot } from '../../ui/CurvePlot';
 import type { CurveContext } from '../../ui/curve';
 import { MagnetControls } from './MagnetControls';
 import { MagnetFacts } from './MagnetFacts';
-import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { PanelProps } from '../../lab/panel';
 import type { Session, Trial } from '../../lab/slices';
 import './magnet.css';
 
@@ -224,7 +224,7 @@ function Magnet(props: {
   );
 }
 
-function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
+export function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
   return (
     <Show
       when={props.lab.tuning()}
@@ -234,5 +234,3 @@ function MagnetPanel(props: PanelProps<Session & Trial>): JSX.Element {
     </Show>
   );
 }
-
-export const MAGNET_TAB: TabPanel = { id: 'magnet', title: 'Magnet', panel: MagnetPanel };

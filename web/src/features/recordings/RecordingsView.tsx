@@ -9,11 +9,13 @@ import type { Theme } from '../../ui/theme';
 import { ViewerFrame } from './ViewerFrame';
 import './recordings.css';
 
-export function RecordingsView(props: {
-  theme: Accessor<Theme>;
+export interface RecordingsProps {
+  readonly theme: Accessor<Theme>;
   /** The session of the page. */
-  session: string;
-}): JSX.Element {
+  readonly session: string;
+}
+
+export function RecordingsView(props: RecordingsProps): JSX.Element {
   const { list, error, refresh, rename, discard } = createRecordings();
   const [open, setOpen] = createSignal<RecordingFile>();
   /** Why the last change was refused. */

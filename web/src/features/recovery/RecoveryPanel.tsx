@@ -2,7 +2,7 @@
 
 import { For, Show, createMemo, type JSX } from 'solid-js';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
-import type { PanelProps, TabPanel } from '../../lab/panel';
+import type { PanelProps } from '../../lab/panel';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import type { ByHand, Notices, Session, Trial } from '../../lab/slices';
 import type { RecoveryReport, RecoverySummary } from '../../net/protocol.gen';
@@ -173,7 +173,7 @@ function Earlier(props: { all: readonly RecoverySummary[]; shown: string }): JSX
   );
 }
 
-function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
+export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
   const { lab } = props;
   const list = createRecoveryList();
   const report = createMemo(() => {
@@ -241,5 +241,3 @@ function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): J
     </div>
   );
 }
-
-export const RECOVERY_TAB: TabPanel = { id: 'recovery', title: 'Recovery', panel: RecoveryPanel };

@@ -1,0 +1,264 @@
+// The whole page: roles, keys, announcements, dropped files.
+
+import { expect, it } from 'vitest';
+import { page, userEvent } from 'vitest/browser';
+import { fakeServer, show, type FakeServer } from '../lab/testingLab';
+import type { MapReport } from '../net/protocol.gen';
+import { Page } from './Page';
+
+const REPORT: MapReport = {
+  name: 'dropped',
+  width_m: 0.58,
+  height_m: 0.33,
+  walls: 2,
+  regions: 1,
+  free_m2: 0.18,
+  widest_m: 0.2,
+  narrowest: null,
+  reached_share: 1,
+  repairs: [],
+};
+const OPERATOR_BUTTONS = [
+  'Run',
+  'Step',
+  'Reset',
+  'Open map…',
+  'New seed',
+  'Restore defaults',
+  'Disturb',
+  'Clear goal',
+];
+
+const PANELS = ['camera', 'parameters', 'lower', 'aside'];
+
+const button = (name: string) => page.getByRole('button', { name, exact: true });
+const notice = (place: string) => document.querySelector(`[data-place=${place}] .notice`);
+const canvas = page.getByLabelText('Workspace', { exact: true });
+
+/** The page without tips. */
+async function open(answers = {}, panels = PANELS): Promise<FakeServer> {
+  localStorage.setItem('ferry.tips', 'run,drag,goal,controller,scene');
+  for (const panel of panels) {
+    localStorage.setItem(`ferry.panel.${panel}`, 'open');
+  }
+  const server = fakeServer(answers);
+  show(() => <Page />);
+  await expect.element(page.getByTestId('connection')).toHaveTextContent('live');
+  await expect.element(page.getByTestId('recording')).toBeVisible();
+  return server;
+}
+
+const heightOf = (selector: string): number =>
+  document.querySelector(selector)?.getBoundingClientRect().height ?? NaN;
+
+function drop(name: string, text: string): void {
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([text], name));
+  document
+    .querySelector('main')
+    ?.dispatchEvent(new DragEvent('drop', { bubbles: true, dataTransfer }));
+}
+
+it('opens as the operator, and every control has a name', async () => {
+  await open();
+  await expect.element(page.getByTestId('role')).toHaveTextContent('operator');
+  await expect.element(button('Run')).toBeEnabled();
+  await expect.element(page.getByText('Simulation, not safety-rated')).toBeVisible();
+  expect(document.querySelector('[data-testid=session-name]')).toBeNull();
+  const controls = document.querySelectorAll<HTMLInputElement>('button, input, select, canvas');
+  const unnamed = [...controls].filter((one) => {
+    const labels = one.labels as NodeListOf<Element> | null | undefined;
+    const label = one.getAttribute('aria-label') ?? labels?.[0]?.textContent;
+    // A plot is one picture; its parts have no name.
+    return !(label ?? one.textContent).trim() && !one.closest('[role=img]');
+  });
+  expect(controls.length).toBeGreaterThan(50);
+  expect(unnamed.map((one) => one.outerHTML)).toEqual([]);
+});
+
+it("disables the operator's controls for a viewer", async () => {
+  const server = await open();
+  for (const name of OPERATOR_BUTTONS.slice(0, -1)) {
+    await expect.element(button(name)).toBeEnabled();
+  }
+  server.hello({ role: 'viewer' });
+  for (const name of OPERATOR_BUTTONS) await expect.element(button(name)).toBeDisabled();
+  const fields = [...document.querySelectorAll('.parameters input, .parameters select')];
+  expect(fields.length).toBeGreaterThan(10);
+  expect(fields.filter((field) => !field.matches(':disabled'))).toEqual([]);
+  await canvas.click();
+  await expect.poll(() => notice('workspace')?.textContent).toContain('Take control');
+  expect(server.command('set_goal')).toBeUndefined();
+});
+
+it('shows why a goal is refused, and sends none beside the table', async () => {
+  const server = await open();
+  const { width, height } = canvas.element().getBoundingClientRect();
+  await canvas.click({ position: { x: width / 2, y: height / 2 } });
+  await expect.poll(() => server.command('set_goal')).toBeDefined();
+  server.refuse('in_wall', 'The goal is in a wall.');
+  await expect.poll(() => notice('workspace')?.textContent).toContain('The goal is in a wall.');
+  const before = server.sent.length;
+  await canvas.click({ position: { x: width / 2, y: 2 } });
+  expect(server.sent.length).toBe(before);
+});
+
+it('reports a lost connection', async () => {
+  const server = await open();
+  server.disconnect();
+  await expect.element(page.getByTestId('connection')).toHaveTextContent(/^reconnecting/);
+  await expect.element(button('Run')).toBeDisabled();
+});
+
+it('runs shortcuts anywhere', async () => {
+  const server = await open();
+  const { keyboard } = userEvent;
+  await keyboard('.');
+  await expect.poll(() => server.command('step')?.ticks).toBe(1);
+  await keyboard(',');
+  await expect.poll(() => server.command('step')?.ticks).toBe(32);
+  await keyboard(']');
+  await expect.poll(() => server.command('set_speed')?.factor).toBe(2);
+  server.state({ speed_target: 2 });
+  await expect.element(page.getByLabelText('Speed', { exact: true })).toHaveValue('2');
+  await keyboard('[[');
+  await expect.poll(() => server.command('set_speed')?.factor).toBe(1);
+  for (const [key, controller] of [
+    ['2', 'errt'],
+    ['3', 'attractor'],
+  ] as const) {
+    await keyboard(key);
+    await expect.poll(() => server.command('select_controller')?.controller).toBe(controller);
+  }
+  await keyboard(' ');
+  await expect.poll(() => server.command('run')).toBeDefined();
+  await expect.poll(() => notice('workspace')?.textContent).toContain('No goal is set');
+  server.state({ running: true });
+  await expect.element(button('Pause')).toBeVisible();
+  await keyboard(' ');
+  await expect.poll(() => server.command('pause')).toBeDefined();
+  await keyboard('g');
+  await expect.element(canvas).toHaveFocus();
+  await keyboard('r');
+  await expect.poll(() => server.command('reset')).toBeDefined();
+});
+
+it('runs no shortcut while typing, behind the help, or when they are off', async () => {
+  const server = await open();
+  const { keyboard } = userEvent;
+  const seed = page.getByLabelText('Seed', { exact: true });
+  await seed.click();
+  await keyboard('2rg');
+  await expect.element(seed).toHaveFocus();
+
+  const larger = button('Larger');
+  (larger.element() as HTMLElement).focus();
+  await keyboard('?');
+  const help = page.getByRole('dialog', { name: 'Help' });
+  await expect.element(help.getByText('grab or release the bead')).toBeVisible();
+  await keyboard('r');
+  await keyboard('{Escape}');
+  await expect.element(larger).toHaveFocus();
+
+  await button('Help').click();
+  await help.getByRole('checkbox').click();
+  await keyboard('{Escape}');
+  await keyboard('.');
+  expect(server.sent).toEqual([]);
+  await button('Step').click();
+  await expect.poll(() => server.command('step')?.ticks).toBe(1);
+  await button('Help').click();
+  await help.getByRole('checkbox').click();
+  await help.getByRole('button', { name: 'Close' }).click();
+  await keyboard(',');
+  await expect.poll(() => server.command('step')?.ticks).toBe(32);
+});
+
+it('announces events and roles one at a time', async () => {
+  const server = await open();
+  const said: [at_ms: number, text: string][] = [];
+  const region = page.getByTestId('live-region').element();
+  new MutationObserver(() => said.push([performance.now(), region.textContent])).observe(region, {
+    characterData: true,
+    childList: true,
+    subtree: true,
+  });
+  for (let tick = 1; tick <= 3; tick++) {
+    const text = 'a kick of 0.80 mN·s';
+    server.tell({ type: 'event', tick, sim_time_s: tick / 125, kind: 'disturbance', text });
+  }
+  await expect.poll(() => said.at(-1)?.[1]).toContain('a kick of 0.80 mN·s');
+  server.hello({ role: 'viewer' });
+  await expect.poll(() => said.at(-1)?.[1]).toBe('You are watching.');
+  server.hello();
+  await expect.poll(() => said.at(-1)?.[1]).toBe('You have control.');
+  said.slice(1).forEach(([at], index) => {
+    expect(at - (said[index]?.[0] ?? 0), 'milliseconds apart').toBeGreaterThan(700);
+  });
+  await expect.element(page.getByRole('log')).toHaveAttribute('aria-live', 'off');
+});
+
+it('takes a drawing that is dropped in another view', async () => {
+  const server = await open({ 'POST /api/maps': () => REPORT });
+  server.hello({ role: 'viewer' });
+  await expect.element(button('Run')).toBeDisabled();
+  await button('Recordings').click();
+  drop('Dropped.SVG', '<svg/>');
+  await expect
+    .poll(() => notice('transport')?.textContent)
+    .toContain('Take control to open a map.');
+  server.hello();
+  await expect.element(button('Run')).toBeEnabled();
+  await button('Recordings').click();
+  drop('Dropped.SVG', '<svg/>');
+  await expect.poll(() => server.command('load_scenario')?.map).toBe('dropped');
+  server.scene({ map: 'dropped' });
+  await expect.element(page.getByText('580 × 330 mm, 2 walls.')).toBeVisible();
+  await expect.element(button('Laboratory')).toHaveAttribute('aria-current', 'page');
+});
+
+it('has Run among the first ten stops of the Tab key', async () => {
+  await open();
+  const stops: (string | undefined)[] = [];
+  while (stops.length < 10 && stops.at(-1) !== 'Run') {
+    await userEvent.tab();
+    stops.push(document.activeElement?.textContent.trim());
+  }
+  expect(stops).toContain('Run');
+});
+
+it('shows the first visit on one screen', async () => {
+  await open({}, []);
+  for (const [width, height] of [
+    [1280, 800],
+    [1440, 900],
+    [2560, 1440],
+  ] as const) {
+    await page.viewport(width, height);
+    const { documentElement: whole } = document;
+    const beyond = () => [whole.scrollWidth - innerWidth, whole.scrollHeight - innerHeight];
+    await expect.poll(beyond, `px beyond ${width}×${height}`).toEqual([0, 0]);
+    await expect.poll(() => heightOf('.workspace')).toBeGreaterThan(0.6 * height);
+  }
+  await page.viewport(1280, 800);
+});
+
+it('has the playback bar in one row on a phone, until it is opened', async () => {
+  await page.viewport(390, 844);
+  await open();
+  const speed = page.getByLabelText('Speed', { exact: true });
+  expect(document.documentElement.scrollWidth).toBeLessThanOrEqual(390);
+  expect(heightOf('.transport')).toBeLessThan(110);
+  await expect.element(speed).not.toBeVisible();
+  await button('More').click();
+  await expect.element(speed).toBeVisible();
+  await button('More').click();
+  await expect.poll(() => heightOf('.transport')).toBeLessThan(110);
+  // No blank space below the panels.
+  scrollTo(0, document.documentElement.scrollHeight);
+  const last = [...document.querySelectorAll('main > .panel')].at(-1)?.getBoundingClientRect();
+  const bar = document.querySelector('.transport')?.getBoundingClientRect();
+  expect(bar?.bottom).toBeCloseTo(844, 0);
+  expect((bar?.top ?? NaN) - (last?.bottom ?? NaN)).toBeLessThan(24);
+  await page.viewport(1280, 800);
+});

@@ -1,0 +1,20 @@
+import { expect, it } from 'vitest';
+import { page } from 'vitest/browser';
+import { fakeLab, show } from '../../lab/testingLab';
+import { ComparePanel } from './ComparePanel';
+
+it('compares the chosen controllers, and shows why the server refuses it', async () => {
+  const { lab, server } = fakeLab();
+  show(() => <ComparePanel lab={lab} theme={() => 'dark'} tools={document.createElement('div')} />);
+  const start = page.getByRole('button', { name: 'Start comparison' });
+  await expect.element(start).toBeEnabled();
+  await page.getByLabelText('Compare RL').click();
+  await start.click();
+  await expect
+    .poll(() => server.command('fork'))
+    .toMatchObject({ tick: 0, controllers: ['errt', 'attractor'] });
+  server.refuse('no_goal', 'no goal is set');
+  await expect.element(page.getByText('no goal is set')).toBeVisible();
+  server.hello({ role: 'viewer' });
+  await expect.element(start).toBeDisabled();
+});

@@ -1,0 +1,111 @@
+import { expect, it } from 'vitest';
+import { page, userEvent } from 'vitest/browser';
+import { fakeServer, refusal, show } from '../../lab/testingLab';
+import type { RecordingFile, RecordingTitle } from '../../net/protocol.gen';
+import { RecordingsView } from './RecordingsView';
+
+const recordingOf = (session: string, change: Partial<RecordingFile> = {}): RecordingFile => ({
+  id: `1-${session}`,
+  session,
+  started: '2026-11-28T10:00:00Z',
+  bytes: 7000,
+  log_bytes: null,
+  live: false,
+  title: null,
+  content: { maps: [], controllers: [], delivered: 0, not_delivered: 0, duration_s: 0 },
+  ...change,
+});
+
+const row = (session: string) =>
+  page.getByRole('row').filter({ has: page.getByRole('button', { name: `Open ${session},` }) });
+
+/** The server keeps titles and deletes. */
+function open(...names: string[]) {
+  let files = names.map((name) => recordingOf(name, { live: name === 'live' }));
+  const answers = Object.fromEntries(
+    files.flatMap(({ id }) => [
+      [
+        `PATCH /api/recordings/${id}`,
+        (body: string) => {
+          const title = ((JSON.parse(body) as RecordingTitle).title ?? '').trim();
+          if (title.length > 80) return refusal('the title has 81 characters, the limit is 80');
+          files = files.map((one) => (one.id === id ? { ...one, title: title || null } : one));
+          return files.find((one) => one.id === id);
+        },
+      ],
+      [
+        `DELETE /api/recordings/${id}`,
+        () => {
+          files = files.filter((one) => one.id !== id);
+          return null;
+        },
+      ],
+    ]),
+  );
+  fakeServer({ 'GET /api/recordings': () => ({ recordings: files }), ...answers });
+  show(() => <RecordingsView theme={() => 'dark'} session="other" />);
+}
+
+it('names a recording, also on a phone', async () => {
+  await page.viewport(390, 844);
+  open('anna');
+  const head = row('anna').getByRole('rowheader');
+  await expect.element(head).toHaveTextContent('Not run');
+  const renamer = row('anna').getByRole('button', { name: /^Rename / });
+  const field = row('anna').getByRole('textbox', { name: 'Title of anna' });
+  const rename = async (title: string, key: string): Promise<void> => {
+    (renamer.element() as HTMLElement).focus();
+    await userEvent.keyboard('{Enter}');
+    await expect.element(field).toHaveFocus();
+    await field.fill(title);
+    await userEvent.keyboard(key);
+  };
+  await rename(' Second try ', '{Enter}');
+  await expect.element(renamer).toHaveFocus();
+  await expect.element(head).toHaveTextContent('Second try');
+  await expect.element(head).not.toHaveTextContent('Not run');
+  await rename('Third try', '{Escape}');
+  await expect.element(renamer).toHaveFocus();
+  await expect.element(head).toHaveTextContent('Second try');
+  // The server's reason is shown, and what was typed stays.
+  await rename('x'.repeat(81), '{Enter}');
+  await expect.element(page.getByRole('alert')).toHaveTextContent('the limit is 80');
+  await expect.element(field).toHaveValue('x'.repeat(81));
+  await row('anna').getByRole('button', { name: 'Cancel' }).click();
+  expect(document.documentElement.scrollWidth - window.innerWidth, 'px beside the window').toBe(0);
+  await rename('', '{Enter}');
+  await expect.element(head).toHaveTextContent('Not run');
+  await page.viewport(1280, 800);
+});
+
+it('deletes a recording after a question', async () => {
+  open('newest', 'deleted', 'kept', 'live');
+  const remover = row('deleted').getByRole('button', { name: /^Delete / });
+  const keep = row('deleted').getByRole('button', { name: /^Keep / });
+  await expect.element(remover).toBeVisible();
+  for (const key of ['{Enter}', '{Escape}']) {
+    (remover.element() as HTMLElement).focus();
+    await userEvent.keyboard('{Enter}');
+    await expect.element(keep).toHaveFocus();
+    await userEvent.keyboard(key);
+    await expect.element(keep).not.toBeInTheDocument();
+    await expect.element(remover).toHaveFocus();
+  }
+  await userEvent.keyboard('{Enter}');
+  (
+    row('deleted')
+      .getByRole('button', { name: /^Yes, / })
+      .element() as HTMLElement
+  ).focus();
+  await userEvent.keyboard('{Enter}');
+  await expect.element(row('deleted')).not.toBeInTheDocument();
+  await expect.element(row('kept').getByRole('button', { name: /^Open / })).toHaveFocus();
+  await expect.element(row('newest')).toBeVisible();
+  // What is being written cannot be deleted.
+  await expect.element(row('live').getByRole('button', { name: /^Rename / })).toBeVisible();
+  expect(
+    row('live')
+      .getByRole('button', { name: /^Delete / })
+      .elements(),
+  ).toEqual([]);
+});

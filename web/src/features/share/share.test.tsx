@@ -1,0 +1,100 @@
+// Experiment links and presets.
+
+import { afterEach, expect, it } from 'vitest';
+import { page } from 'vitest/browser';
+import { createPageExperiment } from '../../lab/pageExperiment';
+import { PlaceNotice } from '../../lab/PlaceNotice';
+import { sceneOf } from '../../lab/testing';
+import { fakeLab, show } from '../../lab/testingLab';
+import { ExperimentNotice } from './ExperimentNotice';
+import { PresetSelect } from './PresetSelect';
+import { ShareButton } from './ShareButton';
+
+const { parameters } = sceneOf('posts');
+const button = (name: string) => page.getByRole('button', { name, exact: true });
+const question = page.getByRole('alert', { name: 'Link' });
+
+/** The link of the last page. */
+let linkNow: () => string | undefined;
+
+async function open() {
+  const { lab, server } = fakeLab();
+  show(() => {
+    const links = createPageExperiment(lab, window);
+    linkNow = links.now;
+    return (
+      // The popover opens upwards.
+      <div style={{ 'padding-top': '500px' }}>
+        <ExperimentNotice lab={lab} links={links} />
+        <PresetSelect lab={lab} links={links} />
+        <ShareButton links={links} map={lab.scene()?.map}>
+          More
+        </ShareButton>
+        <PlaceNotice lab={lab} place="controller" />
+      </div>
+    );
+  });
+  await expect.element(button('Share')).toBeEnabled();
+  server.scene({ maps: ['posts', 'open', 'colon'] });
+  return server;
+}
+
+afterEach(() => {
+  window.location.hash = '';
+});
+
+it('has the experiment in its link, and copies it', async () => {
+  const server = await open();
+  server.scene({
+    map: 'colon',
+    parameters: { ...parameters, threshold_m: 0.08, fetch_radius_m: 0.015 },
+  });
+  server.state({ controller: 'errt', goal_m: [0.1, -0.3] });
+  await button('Share').click();
+  const field = page.getByLabelText('Link to this experiment');
+  const link = (): string => (field.element() as HTMLInputElement).value;
+  await expect.poll(link).toContain('controller=errt');
+  for (const part of ['map=colon', 'goal=0.1,-0.3', 'threshold_m=0.08', 'fetch_radius_m=0.015']) {
+    expect(link()).toContain(part);
+  }
+  await button('Copy').click();
+  await expect.element(page.getByText(/^(Copied\.|Selected: )/)).toBeVisible();
+});
+
+it('refuses a link to an unknown map', async () => {
+  const server = await open();
+  window.location.hash = '#v=1&map=liver&controller=errt&seed=1';
+  await expect.element(question).toHaveTextContent(/map is “liver”/);
+  await button('Dismiss the link').click();
+  await expect.element(question).toHaveTextContent('');
+  expect(server.sent).toEqual([]);
+});
+
+it("shows the server's refusal of a link at the controller", async () => {
+  const server = await open();
+  window.location.hash = '#v=1&map=posts&controller=errt&seed=1&friction=7';
+  await expect.poll(() => server.command('load_scenario')?.parameters?.friction).toBe(7);
+  server.tell({
+    type: 'error',
+    code: 'out_of_range',
+    message: 'friction is 7, it must be 0 to 1',
+    field: 'friction',
+  });
+  await expect.element(page.getByText('friction is 7, it must be 0 to 1')).toBeVisible();
+});
+
+it('loads a preset, and names it while it is unchanged', async () => {
+  const server = await open();
+  const preset = page.getByLabelText('Preset');
+  await expect.element(preset).toHaveDisplayValue('Preset…');
+  await preset.selectOptions('A shaken table, T = 3 cm');
+  await expect.poll(() => server.command('load_scenario')).toBeDefined();
+  const sent = server.command('load_scenario');
+  expect(sent).toMatchObject({ map: 'open', parameters: { threshold_m: 0.03 } });
+  expect(sent?.script?.length, 'kicks').toBe(4);
+  server.load();
+  await expect.poll(linkNow).toContain('map=open');
+  await expect.element(preset).toHaveDisplayValue('A shaken table, T = 3 cm');
+  server.scene({ parameters });
+  await expect.element(preset).toHaveDisplayValue('Preset…');
+});

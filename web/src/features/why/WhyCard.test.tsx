@@ -1,0 +1,18 @@
+import { expect, it } from 'vitest';
+import { page } from 'vitest/browser';
+import { fakeLab, show } from '../../lab/testingLab';
+import { WhyCard } from './WhyCard';
+
+it('closes when the trial restarts', async () => {
+  const { lab, server } = fakeLab();
+  show(() => <WhyCard lab={lab} />);
+  const card = page.getByRole('dialog');
+  await expect.poll(() => lab.scene()).toBeDefined();
+  server.tell({ type: 'event', tick: 1, sim_time_s: 0.008, kind: 'goal', text: 'goal placed' });
+  await expect.poll(() => lab.marks().length).toBe(1);
+  lab.inspect(lab.marks()[0]);
+  await expect.element(card).toHaveTextContent('Goal placed');
+  await expect.element(card).toHaveFocus();
+  server.scene({ trial: 1 });
+  await expect.element(card).not.toBeInTheDocument();
+});
