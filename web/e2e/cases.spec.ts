@@ -1,4 +1,4 @@
-// Test cases: a saved one opens and repeats its inputs, a damaged one is refused.
+// Test cases: a saved one opens and repeats its inputs.
 
 import { readFile } from 'node:fs/promises';
 import { Buffer } from 'node:buffer';
@@ -6,8 +6,6 @@ import { type Lab, expect, test } from './fixtures';
 import { dropFile } from './support/drop';
 import { distance } from './support/table';
 import { until } from './support/wait';
-
-const TOO_LARGE = 2 * 1024 * 1024;
 
 /** The parts of a case that the tests change. */
 interface Case {
@@ -92,40 +90,4 @@ test('opens a saved test case and repeats its inputs', async ({ lab }) => {
   await until('the start', () => lab.state.tick === 0);
   const { tick, world_hash } = await steps(lab, 4);
   expect({ tick, hash: world_hash }).toEqual({ tick: kept.tick, hash: kept.hash });
-});
-
-test('refuses a damaged test case, which changes nothing', async ({ lab, openLab }) => {
-  const { text, tick, hash } = await makeCase(lab);
-  const changed = (change: (copy: Case) => unknown) => {
-    const copy = JSON.parse(text) as Case;
-    change(copy);
-    return JSON.stringify(copy);
-  };
-  const { trial } = lab.scene;
-  const refused: [text: string, words: RegExp][] = [
-    ['no case at all', /test case: expected/],
-    [text.slice(0, text.length / 2), /test case: .*EOF while parsing/],
-    [changed((copy) => (copy.more = 1)), /test case: .*unknown field `more`/],
-    [changed((copy) => (copy.scenario.seed = -1)), /test case: scenario\.seed: .*-1/],
-    [changed((copy) => (copy.scenario.parameters.friction = 7)), /friction is 7/],
-    [changed((copy) => (copy.scenario.map = 'liver')), /there is no map named "liver"/],
-    [' '.repeat(TOO_LARGE), /too large: the limit is 2 MiB/],
-  ];
-  const refusal = lab.notice('transport');
-  for (const [content, words] of refused) {
-    await choose(lab, content);
-    await expect(refusal).toContainText(words);
-    await refusal.getByRole('button', { name: 'Dismiss' }).click();
-    await expect(refusal).toHaveCount(0);
-  }
-  expect(lab.scene.trial).toBe(trial);
-  expect({ tick: lab.state.tick, hash: lab.state.world_hash }).toEqual({ tick, hash });
-  expect(lab.scene.case).toBeNull();
-
-  const viewer = await openLab();
-  await viewer.isRole('viewer');
-  await viewer.tab('Events').click();
-  await expect(viewer.button('Open test case…')).toBeDisabled();
-  await drop(viewer, text);
-  await expect(viewer.notice('transport')).toContainText('Take control to open a test case.');
 });

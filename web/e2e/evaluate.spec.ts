@@ -107,22 +107,6 @@ const SMALL: FormValues = {
   seed: 1,
 };
 
-test('refuses an evaluation without episodes, and marks the field', async ({ lab, watch }) => {
-  // The browser reports each refused request; the test causes this one.
-  watch.allow(/422/);
-  await lab.view('Evaluate').click();
-  const form = await fillIn(lab.page, { ...SMALL, episodes: 0 });
-  const before = await count(lab);
-  await lab.page.keyboard.press('Enter');
-  const episodes = form.getByLabel('Episodes per cell', { exact: true });
-  await expect(episodes).toHaveAttribute('aria-invalid', 'true');
-  const described = must(await episodes.getAttribute('aria-describedby'), 'a description');
-  const words = lab.page.locator(`[id="${described}"]`);
-  await expect(words).toContainText('episodes is 0');
-  await expect(words).toContainText('1 to 1000');
-  expect(await count(lab)).toBe(before);
-});
-
 test('runs an evaluation that is filled in by keyboard', async ({ lab }) => {
   const { page } = lab;
   await lab.view('Evaluate').click();

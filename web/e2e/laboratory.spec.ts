@@ -1,33 +1,13 @@
-// The laboratory: goals, the bead by mouse and by keyboard, parameters, kicks, timeline and speed.
+// The laboratory: goals, the bead by mouse and by keyboard, kicks and the timeline.
 // More tests of dragging the bead are in gestures.spec.ts and holds.spec.ts.
 
 import { expect, test } from './fixtures';
 import { CONTROL_STEP_TICKS, SECOND_TICKS } from './support/stepper';
-import { Server } from './support/server';
 import { distance, distanceToSegment } from './support/table';
 import { must, until } from './support/wait';
-import { CONNECTION_LOST } from './support/watch';
 
 /** More than the default threshold T of 10 cm. */
 const LOST_M = 0.14;
-const SAFETY = /simulation, not safety-rated/i;
-
-test('opens as the operator, paused', async ({ lab }) => {
-  await lab.isRole('operator');
-  await expect(lab.button('Run')).toBeVisible();
-  await expect(lab.page.getByText(SAFETY)).toBeVisible();
-  const unnamed = await lab.page.locator('button, input, select, canvas').evaluateAll((all) =>
-    all
-      .filter((one) => {
-        const labels = (one as HTMLInputElement).labels as NodeListOf<Element> | null | undefined;
-        const label = one.getAttribute('aria-label') ?? labels?.[0]?.textContent;
-        // A plot is one picture; its parts have no name.
-        return !(label ?? one.textContent).trim() && !one.closest('[role=img]');
-      })
-      .map((one) => one.outerHTML),
-  );
-  expect(unnamed, 'without an accessible name').toEqual([]);
-});
 
 test('delivers the bead to a clicked goal', async ({ lab }) => {
   await lab.reset();
@@ -71,20 +51,6 @@ test('fetches the bead after a drag by mouse, and delivers it', async ({ lab }) 
   await expect(lab.page.getByTestId('disturbances')).toHaveText('1');
 });
 
-test('refuses a goal in a wall with a notice, and keeps the old goal', async ({ lab }) => {
-  await lab.setGoal(lab.freePoints(await lab.bead(), 0.1, 0.3)[0]);
-  const goal = await lab.point('goal');
-  await lab.click(lab.wallPoint());
-  await lab.notice('workspace').waitFor();
-  expect(await lab.point('goal')).toEqual(goal);
-
-  lab.sent = {};
-  const { x_min_m, y_min_m } = lab.scene.workspace;
-  await lab.click([x_min_m - 0.01, y_min_m + 0.1]);
-  await lab.drawn();
-  expect(lab.sent.set_goal, 'a click beside the table').toBeUndefined();
-});
-
 test('places a goal, runs, drags the bead and pauses by keyboard', async ({ lab }) => {
   await lab.canvas.focus();
   const { keyboard } = lab.page;
@@ -114,32 +80,6 @@ test('places a goal, runs, drags the bead and pauses by keyboard', async ({ lab 
   await until('no hand', () => !lab.state.hand_m);
   await keyboard.press(' ');
   await until('paused', () => !lab.state.running);
-});
-
-test('changes a parameter in the form, and restores the defaults', async ({ lab }) => {
-  const threshold = lab.spin('Threshold T');
-  await lab.tune('Threshold T', '8');
-  await until('T = 8 cm', () => lab.scene.parameters.threshold_m === 0.08);
-  // A slider that returns to its start leaves the value unchanged.
-  const slider = lab.page.getByRole('slider', { name: 'Threshold T slider' });
-  await expect(threshold).toHaveValue('8.0');
-  const box = await lab.boxOf(slider);
-  const { min, max } = await slider.evaluate((one: HTMLInputElement) => ({
-    min: Number(one.min),
-    max: Number(one.max),
-  }));
-  const at = box.x + 8 + ((8 - min) / (max - min)) * (box.width - 16);
-  const y = box.y + box.height / 2;
-  const { mouse } = lab.page;
-  await mouse.move(at, y);
-  await mouse.down();
-  await mouse.move(at + 40, y, { steps: 4 });
-  await expect(threshold).not.toHaveValue('8.0');
-  await mouse.move(at, y, { steps: 4 });
-  await mouse.up();
-  await expect(threshold).toHaveValue('8.0');
-  await lab.restoreDefaults();
-  await expect(threshold).toHaveValue('10.0');
 });
 
 test('kicks the bead', async ({ lab }) => {
@@ -197,30 +137,4 @@ test('goes back in time by mouse and by keyboard', async ({ lab }) => {
   await lab.button('Step').click();
   await until('one tick', () => lab.state.tick === tick + 1);
   await expect.poll(thumb).toBe(tick + 1);
-});
-
-test('steps by one control step, and shows the achieved speed', async ({ lab }) => {
-  await lab.button('Step ¼ s').click();
-  await expect(lab.page.getByTestId('tick')).toHaveText('tick 32');
-  await lab.button('Step ¼ s').click();
-  await until('the next control step', () => lab.state.tick === 63);
-  await lab.speed('64');
-  await lab.run();
-  const achieved = lab.page.locator('.achieved');
-  await until('the achieved speed', async () => {
-    const text = await achieved.innerText();
-    const [factor] = /[\d.]+/.exec(text) ?? [];
-    // The page names the limit only below 85 % of the requested speed.
-    return factor && text.includes('machine limit') === Number(factor) < 54.4;
-  });
-});
-
-test('reports a lost connection when the server is killed', async ({ openLab, watch }) => {
-  const server = await Server.start();
-  watch.allowHost(server.url);
-  watch.allow(CONNECTION_LOST);
-  const lab = await openLab({ url: server.url });
-  await server.kill();
-  await expect(lab.page.getByTestId('connection')).toHaveText(/^reconnecting/);
-  await expect(lab.button('Run')).toBeDisabled();
 });

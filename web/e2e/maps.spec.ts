@@ -1,33 +1,9 @@
-// Uploaded maps: a valid drawing opens, other files are refused.
+// Uploaded maps: a drawing opens, moves into reach, and the bead is delivered on it.
 
 import { expect, test } from './fixtures';
-import { dropFile } from './support/drop';
 import { SECOND_TICKS } from './support/stepper';
 import { DRAWING, openMap } from './support/maps';
 import { must } from './support/wait';
-
-const REFUSED: Record<string, { text: string; words: string }> = {
-  'a drawing without a view box': {
-    text: DRAWING.replace('viewBox', 'data-box'),
-    words: 'viewBox',
-  },
-  'a text file': { text: 'no drawing at all', words: 'this is not an SVG' },
-  'a drawing that is too large': {
-    text: DRAWING.replace('</svg>', `<!--${' '.repeat(1024 * 1024)}--></svg>`),
-    words: '1 MiB',
-  },
-};
-
-for (const [what, { text, words }] of Object.entries(REFUSED)) {
-  test(`refuses ${what} as a map`, async ({ lab, watch }) => {
-    watch.allow(/Failed to load resource: .* 4\d\d /);
-    await openMap(lab.page, () => lab.button('Open map…').click(), text);
-    const refusal = lab.notice('transport');
-    await expect(refusal.getByText(words)).toBeVisible();
-    await refusal.getByRole('button', { name: 'Dismiss' }).click();
-    expect(lab.sent.load_scenario).toBeUndefined();
-  });
-}
 
 test('RL delivers on an uploaded map, and the panel says what it was trained on', async ({
   lab,
@@ -87,25 +63,6 @@ test('opens an uploaded map, and delivers the bead on it', async ({ lab, server 
   const other = lab.scene.map;
   await lab.map('posts');
   await page.request.delete(`${server.url}/api/maps/${other}`);
-});
-
-test('takes a drawing that is dropped in another view', async ({ lab, openLab, server }) => {
-  const { page } = lab;
-  const drop = (onto: typeof page) => dropFile(onto, 'Dropped.SVG', 'image/svg+xml', DRAWING);
-  const viewer = await openLab();
-  await viewer.isRole('viewer');
-  await viewer.view('Evaluate').click();
-  await drop(viewer.page);
-  await expect(viewer.notice('transport')).toContainText('Take control to open a map.');
-
-  await lab.view('Recordings').click();
-  await drop(page);
-  await expect.poll(() => lab.scene.map).toBe('dropped');
-  await expect(page.locator('.map-report')).toContainText('580 × 330 mm, 2 walls.');
-  await expect(lab.view('Laboratory')).toHaveAttribute('aria-current', 'page');
-  await lab.button('Dismiss the report').click();
-  await lab.map('posts');
-  await page.request.delete(`${server.url}/api/maps/dropped`);
 });
 
 test('moves a drawing at the arm’s base into its reach', async ({ lab, server }) => {

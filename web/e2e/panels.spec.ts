@@ -12,9 +12,6 @@ const area_px = async (page: Page, selector: string) => {
   return box ? box.width * box.height : 0;
 };
 
-/** The name of the focused element. */
-const focused = (page: Page) => page.evaluate(() => document.activeElement?.textContent.trim());
-
 test('opens panels on demand, and keeps them', async ({ page, session }) => {
   const lab = await Lab.attach(page, session.url);
   for (const name of PANELS) {
@@ -52,35 +49,4 @@ test('opens panels on demand, and keeps them', async ({ page, session }) => {
     await fold(page, name).click();
   }
   await expect.poll(() => area_px(page, '.workspace')).toBe(before);
-});
-
-test('shows the first visit on one screen', async ({ page, session }) => {
-  await Lab.attach(page, session.url);
-  for (const [width, height] of [
-    [1280, 800],
-    [1440, 900],
-    [2560, 1440],
-  ] as const) {
-    await page.setViewportSize({ width, height });
-    const overflow = () =>
-      page.evaluate(() => ({
-        x: document.documentElement.scrollWidth - innerWidth,
-        y: document.documentElement.scrollHeight - innerHeight,
-      }));
-    await expect.poll(overflow).toEqual({ x: 0, y: 0 });
-    const plan = await page.locator('.workspace').boundingBox();
-    expect(plan?.height, `workspace at ${width}×${height}`).toBeGreaterThan(0.6 * height);
-  }
-});
-
-test('Run is among the first ten stops of the Tab key', async ({ lab }) => {
-  await lab.page.evaluate(() => {
-    (document.activeElement as HTMLElement | null)?.blur();
-  });
-  const stops: (string | undefined)[] = [];
-  for (let stop = 0; stop < 10 && stops.at(-1) !== 'Run'; stop += 1) {
-    await lab.page.keyboard.press('Tab');
-    stops.push(await focused(lab.page));
-  }
-  expect(stops).toContain('Run');
 });

@@ -55,15 +55,3 @@ test('a drag by hand shows in which cell it ended', LONG, async ({ lab }) => {
   ).toBeVisible();
   await expect(lab.page.locator('.cell.dropped')).toHaveCount(2);
 });
-
-test('what is impossible is refused in words', async ({ lab, watch }) => {
-  watch.allow(/status of 422/);
-  await lab.tab('Recovery').click();
-  await lab.page.getByRole('button', { name: /^Map recovery from/ }).click();
-  await expect(lab.page.getByRole('alert').filter({ hasText: 'no goal is set' })).toBeVisible();
-  await lab.label('Columns').fill('3');
-  await lab.page.getByRole('button', { name: /^Map recovery from/ }).click();
-  await expect(
-    lab.page.getByRole('alert').filter({ hasText: 'grid is 3, it must be 4 to 96' }),
-  ).toBeVisible();
-});

@@ -38,41 +38,6 @@ async function fillIn(lab: Lab, name: string) {
   await lab.label('Updates').fill(String(FEW_UPDATES));
 }
 
-test('explains itself, and refuses a wrong name at its field', async ({ lab, watch }) => {
-  const { page } = lab;
-  watch.allow(/422/);
-  await lab.view('Train').click();
-  await expect(page.getByRole('region', { name: 'What happens here' })).toContainText(
-    'Press Train',
-  );
-  const wrong = page.locator('.train-field .refusal');
-  await lab.label('Policy name').fill('My policy');
-  await submit(lab).click();
-  await expect(lab.label('Policy name')).toHaveAttribute('aria-invalid', 'true');
-  await expect(lab.label('Policy name')).toBeFocused();
-  await expect(wrong).toContainText('a to z');
-  await expect(page.locator('.train-submit')).toContainText('Policy name is wrong.');
-  await lab.label('Policy name').fill('general');
-  await submit(lab).click();
-  // The server knows the names that are taken.
-  await expect(wrong).toContainText('general');
-  // A wrong field in the closed settings is opened.
-  await lab.label('Policy name').fill('mine');
-  await page.getByText('Settings', { exact: true }).click();
-  await lab.label('Discount').fill('2');
-  await page.locator('.train-settings > summary').click();
-  await submit(lab).click();
-  await expect(lab.label('Discount')).toBeFocused();
-  await expect(page.locator('.train-submit')).toContainText('Discount is wrong.');
-  await lab.button('Reset the settings').click();
-  await expect(wrong).toHaveCount(0);
-  await lab.label('Policy name').fill('general');
-  // The form stays while another view is open.
-  await lab.view('Laboratory').click();
-  await lab.view('Train').click();
-  await expect(lab.label('Policy name')).toHaveValue('general');
-});
-
 test('trains a policy, watches it and uses it', async ({ lab, openLab, server }) => {
   const { page } = lab;
   await lab.view('Train').click();

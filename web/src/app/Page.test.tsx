@@ -237,7 +237,7 @@ it('shows the first visit on one screen', async () => {
     await page.viewport(width, height);
     const { documentElement: whole } = document;
     const beyond = () => [whole.scrollWidth - innerWidth, whole.scrollHeight - innerHeight];
-    await expect.poll(beyond, `px beyond ${width}×${height}`).toEqual([0, 0]);
+    await expect.poll(beyond, { message: `px beyond ${width}×${height}` }).toEqual([0, 0]);
     await expect.poll(() => heightOf('.workspace')).toBeGreaterThan(0.6 * height);
   }
   await page.viewport(1280, 800);

@@ -22,7 +22,7 @@ import type { Lab } from './slices';
 import { sceneOf, stateAt } from './testing';
 
 /** An answer is JSON, or a `Response`. */
-type Answers = Record<string, (body: string, path: string) => unknown>;
+export type Answers = Record<string, (body: string, path: string) => unknown>;
 
 const HELLO: Hello = {
   protocol: PROTOCOL_VERSION,
@@ -91,7 +91,7 @@ export class FakeServer {
     const rest = { seed, parameters, script, start_m, goal_m, disturbances, positioner };
     const scenario = { ...before, map, controller, ...rest };
     this.scene({ map, seed, parameters, scenario, trial: trial + 1 });
-    this.state({ tick: 0, newest_tick: 0, controller, goal_m });
+    this.state({ tick: 0, newest_tick: 0, controller, goal_m: goal_m && [...goal_m, 0] });
   }
   /** Refuses the newest command. */
   refuse(code: string, message: string): void {

@@ -26,9 +26,9 @@ it('shows a long seed as a whole', async () => {
   await userEvent.keyboard('{Enter}');
   await expect.poll(() => server.command('reset')?.seed).toBe(LARGEST_SEED);
   server.scene({ seed: LARGEST_SEED });
-  await seed.element().blur();
+  const input = seed.element() as HTMLInputElement;
+  input.blur();
   await expect.element(seed).toHaveValue(LARGEST_SEED);
-  const input = seed.element();
   await expect.poll(() => input.scrollWidth - input.clientWidth).toBeLessThanOrEqual(0);
 });
 
@@ -68,7 +68,7 @@ it('asks for a goal when it runs without one', async () => {
   await expect.element(notice).toBeVisible();
   lab.send({ type: 'set_goal', x_m: 0.1, y_m: -0.3 });
   await expect.element(notice).not.toBeInTheDocument();
-  server.state({ goal_m: [0.1, -0.3] });
+  server.state({ goal_m: [0.1, -0.3, 0] });
   await expect.poll(() => lab.goal()).toBeDefined();
   await button('Run').click();
   await expect.poll(() => server.sent.at(-1)?.type).toBe('run');

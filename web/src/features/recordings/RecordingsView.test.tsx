@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
-import { fakeServer, refusal, show } from '../../lab/testingLab';
+import { type Answers, fakeServer, refusal, show } from '../../lab/testingLab';
 import type { RecordingFile, RecordingTitle } from '../../net/protocol.gen';
 import { RecordingsView } from './RecordingsView';
 
@@ -22,27 +22,20 @@ const row = (session: string) =>
 /** The server keeps titles and deletes. */
 function open(...names: string[]) {
   let files = names.map((name) => recordingOf(name, { live: name === 'live' }));
-  const answers = Object.fromEntries(
-    files.flatMap(({ id }) => [
-      [
-        `PATCH /api/recordings/${id}`,
-        (body: string) => {
-          const title = ((JSON.parse(body) as RecordingTitle).title ?? '').trim();
-          if (title.length > 80) return refusal('the title has 81 characters, the limit is 80');
-          files = files.map((one) => (one.id === id ? { ...one, title: title || null } : one));
-          return files.find((one) => one.id === id);
-        },
-      ],
-      [
-        `DELETE /api/recordings/${id}`,
-        () => {
-          files = files.filter((one) => one.id !== id);
-          return null;
-        },
-      ],
-    ]),
-  );
-  fakeServer({ 'GET /api/recordings': () => ({ recordings: files }), ...answers });
+  const answers: Answers = { 'GET /api/recordings': () => ({ recordings: files }) };
+  for (const { id } of files) {
+    answers[`PATCH /api/recordings/${id}`] = (body) => {
+      const title = ((JSON.parse(body) as RecordingTitle).title ?? '').trim();
+      if (title.length > 80) return refusal('the title has 81 characters, the limit is 80');
+      files = files.map((one) => (one.id === id ? { ...one, title: title || null } : one));
+      return files.find((one) => one.id === id);
+    };
+    answers[`DELETE /api/recordings/${id}`] = () => {
+      files = files.filter((one) => one.id !== id);
+      return null;
+    };
+  }
+  fakeServer(answers);
   show(() => <RecordingsView theme={() => 'dark'} session="other" />);
 }
 

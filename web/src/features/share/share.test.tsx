@@ -49,7 +49,7 @@ it('has the experiment in its link, and copies it', async () => {
     map: 'colon',
     parameters: { ...parameters, threshold_m: 0.08, fetch_radius_m: 0.015 },
   });
-  server.state({ controller: 'errt', goal_m: [0.1, -0.3] });
+  server.state({ controller: 'errt', goal_m: [0.1, -0.3, 0] });
   await button('Share').click();
   const field = page.getByLabelText('Link to this experiment');
   const link = (): string => (field.element() as HTMLInputElement).value;

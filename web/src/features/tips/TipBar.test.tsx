@@ -17,7 +17,7 @@ it('shows one tip at a time, and none twice', async () => {
   const { server, setScene } = open();
   // Without a goal, nothing would move.
   await expect.element(tip).toHaveTextContent('Click a free place to set the goal.');
-  server.state({ goal_m: [0.1, -0.3] });
+  server.state({ goal_m: [0.1, -0.3, 0] });
   await expect.element(tip).toHaveTextContent('Press Run');
   server.state({ running: true });
   await expect.element(tip).toHaveTextContent('Drag the bead');
@@ -42,7 +42,7 @@ it('goes on with the next tip after a reload', async () => {
 it('does not ask for what is so already', async () => {
   const { server } = open();
   server.hello({ role: 'viewer' });
-  server.state({ goal_m: [0.1, -0.3], running: true });
+  server.state({ goal_m: [0.1, -0.3, 0], running: true });
   await expect.element(tip).not.toBeInTheDocument();
   server.hello();
   await expect.element(tip).toHaveTextContent('Drag the bead');
