@@ -56,7 +56,7 @@ dev: system-run
 	cd web && { [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund; } && npm run --silent dev
 
 # Clippy checks what the compiler compiles, so that lints, tests, program and package for Python are one build.
-RUST_TESTS := cargo test --release --quiet -p ferry -p ferry-server --lib --test main --
+RUST_TESTS := cargo test --release --quiet --lib --test main --
 
 # docs/tests.md says what is in which suite. One browser test alone: CONTRIBUTING.md.
 test test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
