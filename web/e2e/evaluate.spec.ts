@@ -35,6 +35,8 @@ async function tabTo(page: Page, control: Locator) {
 /** Fills in the form by keyboard only. */
 async function fillIn(page: Page, values: FormValues) {
   const form = page.getByRole('region', { name: 'New evaluation' });
+  // The view is loaded when it opens.
+  await expect(form.getByRole('checkbox', { name: 'posts', exact: true })).toBeVisible();
   await page.getByRole('button', { name: 'Evaluate', exact: true }).focus();
   for (const [legend, wanted] of [
     ['Controllers', values.controllers],
