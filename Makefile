@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test rust web browser
+.PHONY: run dev test test-long dist wheel test-rust test-page test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -59,16 +59,20 @@ dev: system-run
 RUST_TESTS := cargo test --release --quiet --lib --test main --
 
 # docs/tests.md says what is in which suite. One browser test alone: CONTRIBUTING.md.
-test test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
-test test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
+test test-rust test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
+test test-rust test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --workspace --all-targets --quiet
-	$(MAKE) test-python
-	cd web && npm run --silent check && npm run --silent test
+	$(MAKE) --jobs=2 --output-sync=target test-rust test-python test-page
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
-	$(RUST_TESTS)
+
+# The tests of programs wait more than they compute.
+test-rust:
+	$(RUST_TESTS) --test-threads=3
+test-page:
+	cd web && npm run --silent check && npm run --silent test
 
 # A part that has passed on this commit is skipped, so an interrupted run goes on. One part alone: make test-long PARTS=docs
 PARTS ?= docs rust browser python soak fuzz
