@@ -12,6 +12,7 @@ mod drawing;
 mod entities;
 mod part;
 mod samples;
+mod stream;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -75,12 +76,6 @@ pub enum RecordingError {
     LongTitle { chars: usize, max: usize },
     #[error("the title contains the control character {found:?}")]
     ControlInTitle { found: char },
-}
-
-impl From<re_sdk::RecordingStreamError> for RecordingError {
-    fn from(error: re_sdk::RecordingStreamError) -> Self {
-        trouble(error)
-    }
 }
 
 /// An error of Rerun or of an encoder.

@@ -56,7 +56,7 @@ async fn it_has_the_version_that_records() {
     let version = format!("{}.{}.{}", head[4], head[5], head[6]);
     assert!(viewer.windows(version.len()).any(|found| found == version.as_bytes()), "no {version} in the viewer");
     let lock = include_str!("../Cargo.lock").replace("\r\n", "\n");
-    for name in ["re_sdk", "re_sdk_types", "re_web_viewer_server"] {
+    for name in ["re_chunk", "re_log_encoding", "re_log_types", "re_sdk_types", "re_web_viewer_server"] {
         assert!(lock.contains(&format!("name = \"{name}\"\nversion = \"{version}\"\n")), "{name} is not {version}");
     }
 }

@@ -7,17 +7,16 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use re_sdk::log::ChunkBatcherConfig;
-use re_sdk::sink::SinkFlushError;
-use re_sdk::{AsComponents, RecordingStream};
+use re_log_types::TimeCell;
+use re_sdk_types::AsComponents;
 use re_sdk_types::archetypes::{
     BarChart, Boxes2D, Clear, EncodedImage, LineStrips2D, LineStrips3D, Points2D, Points3D, Scalars, SeriesLines,
     StateChange, TextLog,
 };
 
-use super::blueprint::blueprint;
 use super::drawing::{GOAL, TREE, WALL, color, plan_mm};
 use super::samples::{Samples, recording_time_s};
+use super::stream::Stream;
 use super::{Opening, RecordingError, Sample, trouble};
 use crate::control::switching::Mode;
 use crate::control::transport::Carrier;
@@ -30,10 +29,6 @@ use crate::robot::ur5::SERVO_PERIOD_S;
 use crate::trial::{Arena, Event, EventKind, GOAL_RADIUS_M, Moment, Phase, Sight};
 
 const JPEG_QUALITY: u8 = 85;
-/// Rerun's flush interval; a crash loses at most this much.
-const FLUSH_EVERY: Duration = Duration::from_millis(250);
-/// Time limit for Rerun's check of its file.
-const CHECK_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Position of a recording on its timelines. The next part continues from it.
 #[derive(Debug, Default)]
@@ -67,7 +62,7 @@ const EMPTY_AT_FIRST: [&str; 7] =
 
 /// Writes to one file.
 pub(super) struct Writer {
-    stream: RecordingStream,
+    stream: Stream,
     samples: Samples,
     image_every: Duration,
     imaged: Option<Instant>,
@@ -89,21 +84,15 @@ impl Writer {
         name: &str,
         image_every: Duration,
     ) -> Result<Self, RecordingError> {
-        let stream = re_sdk::RecordingStreamBuilder::new("ferry")
-            .recording_id(recording)
-            .batcher_config(ChunkBatcherConfig { flush_tick: FLUSH_EVERY, ..ChunkBatcherConfig::DEFAULT })
-            .with_blueprint(blueprint())
-            .save(path)
-            .map_err(|error| RecordingError::Rerun(format!("{}: {error}", path.display())))?;
-        // Without a name the viewer shows "unknown"; the builder's name is not written to files.
-        stream.send_recording_name(name)?;
+        let mut stream = Stream::create(path, recording, name)?;
+        let store = stream.store();
         let names = |names: &[&'static str]| SeriesLines::new().with_names(names.iter().copied());
-        stream.log_static("tracking_error_mm", &names(&["in x", "in y", "distance"]))?;
-        stream.log_static("action_values", &names(&["+x", "-x", "+y", "-y"]))?;
-        stream.log_static("forces", &names(&["lift ratio", "hand, N"]))?;
+        store.log_static("tracking_error_mm", &names(&["in x", "in y", "distance"]));
+        store.log_static("action_values", &names(&["+x", "-x", "+y", "-y"]));
+        store.log_static("forces", &names(&["lift ratio", "hand, N"]));
         let joints = ["shoulder pan", "shoulder lift", "elbow", "wrist 1", "wrist 2", "wrist 3"];
-        stream.log_static("joints_rad", &names(&joints))?;
-        Samples::introduce(&stream)?;
+        store.log_static("joints_rad", &names(&joints));
+        Samples::introduce(store);
         let samples = Samples::default();
         Ok(Self {
             stream,
@@ -119,25 +108,20 @@ impl Writer {
         })
     }
 
-    /// Passes collected samples to Rerun.
+    /// Passes what was collected to Rerun.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
-        self.samples.write(&self.stream)
+        self.samples.write(&mut self.stream)?;
+        self.stream.flush()
     }
 
-    /// Whether the file is still writable: Rerun itself only logs errors.
+    /// Whether the file is still writable.
     pub(super) fn check(&self) -> Result<(), RecordingError> {
-        match self.stream.flush_with_timeout(CHECK_TIMEOUT) {
-            // A slow disk is detected elsewhere.
-            Ok(()) | Err(SinkFlushError::Timeout) => Ok(()),
-            Err(error) => Err(trouble(error)),
-        }
+        self.stream.check()
     }
 
     pub(super) fn close(mut self) -> Result<(), RecordingError> {
         self.flush()?;
-        self.stream.flush_blocking().map_err(trouble)?;
-        self.stream.disconnect();
-        Ok(())
+        self.stream.close()
     }
 
     pub(super) fn begin(&mut self, opening: &Opening, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {
@@ -148,8 +132,8 @@ impl Writer {
         (self.mode, self.phase, self.plans) = (None, None, None);
         self.arena = Some(opening.arena.clone());
         if is_new && timeline.trials > 1 {
-            EMPTY_AT_FIRST.iter().try_for_each(|entity| self.log(entity, &Clear::flat()))?;
-            self.log("workspace/planner", &Clear::recursive())?;
+            EMPTY_AT_FIRST.iter().for_each(|entity| self.log(entity, &Clear::flat()));
+            self.log("workspace/planner", &Clear::recursive());
         }
         let map = &opening.arena.map;
         let rings = || map.walls().iter().chain(map.free()).flat_map(Polygon::rings);
@@ -160,66 +144,69 @@ impl Writer {
             })
         };
         let walls = LineStrips3D::new(at(0.0).chain(at(WALL_HEIGHT_M))).with_colors([color(WALL)]);
-        self.log("world/walls", &walls)?;
+        self.log("world/walls", &walls);
         let plan =
             rings().map(|ring| closed(ring).into_iter().map(|[x, y]| plan_mm(Point2::new(x, y))).collect::<Vec<_>>());
-        self.log("workspace/walls", &LineStrips2D::new(plan).with_colors([color(WALL)]))?;
-        self.goal(opening.goal_m)?;
+        self.log("workspace/walls", &LineStrips2D::new(plan).with_colors([color(WALL)]));
+        self.goal(opening.goal_m);
         let scenario = &opening.scenario;
         let number = timeline.trials;
         let controller = scenario.controller.as_str();
-        self.log("trial", &StateChange::new().with_state([format!("{number}: {}, {controller}", map.name())]))?;
+        self.log("trial", &StateChange::new().with_state([format!("{number}: {}, {controller}", map.name())]));
         let how = if opening.logged.state.is_none() { "begins" } else { "continues" };
         let text = format!("trial {number} {how}: map {}, controller {controller}, seed {}", map.name(), scenario.seed);
-        self.log("log", &TextLog::new(text).with_level("INFO"))?;
-        // Samples take a shorter path to the file. The viewer opens at the first time that it reads.
-        self.stream.flush_async().map_err(trouble)
+        self.log("log", &TextLog::new(text).with_level("INFO"));
+        Ok(())
     }
 
-    pub(super) fn event(&self, event: &Event) -> Result<(), RecordingError> {
-        self.log("log", &TextLog::new(event.text.as_str()).with_level(level(event.kind)))
+    pub(super) fn event(&mut self, event: &Event) {
+        self.log("log", &TextLog::new(event.text.as_str()).with_level(level(event.kind)));
     }
 
     pub(super) fn sample(&mut self, sample: &Sample, timeline: &mut TimelinePosition) -> Result<(), RecordingError> {
         let moment = &sample.moment;
         self.at(moment.tick, moment.sim_time_s(), timeline);
         self.samples.add(timeline.last, moment);
-        self.changes(moment)?;
+        self.changes(moment);
         if let Some(sight) = &sample.sight {
-            self.moved_walls(moment)?;
+            self.moved_walls(moment);
             self.images(sight)?;
-            self.evaluation(sight)?;
+            self.evaluation(sight);
         }
-        sample.events.iter().try_for_each(|event| self.event(event))
+        sample.events.iter().for_each(|event| self.event(event));
+        Ok(())
     }
 
     fn at(&self, tick: u64, sim_time_s: f64, timeline: &mut TimelinePosition) {
         let here = timeline.offset + tick as i64;
         timeline.last = timeline.last.max(here);
-        self.stream.set_time_sequence("tick", here);
-        self.stream.set_duration_secs("recording_time", recording_time_s(here));
-        self.stream.set_duration_secs("sim_time", sim_time_s);
+        let duration = |time_s: f64| TimeCell::from_duration_nanos((time_s * 1e9).round() as i64);
+        let store = self.stream.store();
+        store.set_time("tick", TimeCell::from_sequence(here));
+        store.set_time("recording_time", duration(recording_time_s(here)));
+        store.set_time("sim_time", duration(sim_time_s));
     }
 
-    fn log(&self, entity: &str, what: &impl AsComponents) -> Result<(), RecordingError> {
-        Ok(self.stream.log(entity, what)?)
+    fn log(&mut self, entity: &str, what: &impl AsComponents) {
+        self.stream.store().log(entity, what);
     }
 
-    fn goal(&mut self, goal_m: Option<Point2<f64>>) -> Result<(), RecordingError> {
+    fn goal(&mut self, goal_m: Option<Point2<f64>>) {
         self.goal_m = goal_m;
         let Some(goal) = goal_m else {
-            self.log("world/goal", &Clear::flat())?;
-            return self.log("workspace/goal", &Clear::flat());
+            self.log("world/goal", &Clear::flat());
+            self.log("workspace/goal", &Clear::flat());
+            return;
         };
-        self.log("world/goal", &point(nalgebra::Vector3::new(goal.x, goal.y, 0.0), GOAL_RADIUS_M, GOAL))?;
+        self.log("world/goal", &point(nalgebra::Vector3::new(goal.x, goal.y, 0.0), GOAL_RADIUS_M, GOAL));
         let radius_mm = (GOAL_RADIUS_M * 1e3) as f32;
-        self.log("workspace/goal", &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]))
+        self.log("workspace/goal", &Points2D::new([plan_mm(goal)]).with_radii([radius_mm]).with_colors([color(GOAL)]));
     }
 
     /// Logs data that changes rarely, if it has changed.
-    fn changes(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+    fn changes(&mut self, moment: &Moment) {
         if moment.goal_m != self.goal_m {
-            self.goal(moment.goal_m)?;
+            self.goal(moment.goal_m);
         }
         let mode = moment.switching.mode;
         if self.mode.replace(mode) != Some(mode) {
@@ -227,33 +214,32 @@ impl Writer {
                 Mode::Approach => "1: fetch",
                 Mode::Transport => "2: carry",
             };
-            self.log("mode", &StateChange::new().with_state([name]))?;
+            self.log("mode", &StateChange::new().with_state([name]));
         }
         if self.phase.replace(moment.phase) != Some(moment.phase) {
-            self.log("phase", &StateChange::new().with_state([moment.phase.to_string()]))?;
+            self.log("phase", &StateChange::new().with_state([moment.phase.to_string()]));
         }
-        Ok(())
     }
 
     /// Logs walls that are not at their drawn place.
-    fn moved_walls(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+    fn moved_walls(&mut self, moment: &Moment) {
         let around = self.arena.as_ref().map(|arena| arena.surroundings(0));
         let bands = around.and_then(|around| around.bands(moment.walls.as_ref(), moment.tick, moment.bead_m.xy()));
         let Some(bands) = bands else {
             if std::mem::take(&mut self.walls_are_moved) {
-                self.log("world/walls/moved", &Clear::flat())?;
-                self.log("workspace/walls/moved", &Clear::flat())?;
+                self.log("world/walls/moved", &Clear::flat());
+                self.log("workspace/walls/moved", &Clear::flat());
             }
-            return Ok(());
+            return;
         };
         self.walls_are_moved = true;
         let outlines = Band::outlines(&bands);
         let edges = || outlines.iter().map(|ring| ring.iter().chain(ring.first()));
         let height_m = WALL_HEIGHT_M as f32;
         let solid = edges().map(|edge| edge.map(|&[x, y]| [x as f32, y as f32, height_m]).collect::<Vec<_>>());
-        self.log("world/walls/moved", &LineStrips3D::new(solid).with_colors([color(WALL)]))?;
+        self.log("world/walls/moved", &LineStrips3D::new(solid).with_colors([color(WALL)]));
         let plan = edges().map(|edge| edge.map(|&place| plan_mm(place.into())).collect::<Vec<_>>());
-        self.log("workspace/walls/moved", &LineStrips2D::new(plan).with_colors([color(WALL)]))
+        self.log("workspace/walls/moved", &LineStrips2D::new(plan).with_colors([color(WALL)]));
     }
 
     fn images(&mut self, sight: &Sight) -> Result<(), RecordingError> {
@@ -262,47 +248,47 @@ impl Writer {
         }
         self.imaged = Some(Instant::now());
         let jpeg = sight.frame.picture.to_jpeg(JPEG_QUALITY).map_err(trouble)?;
-        self.log("camera", &EncodedImage::from_file_contents(jpeg))?;
+        self.log("camera", &EncodedImage::from_file_contents(jpeg));
         let png = sight.observation().side_by_side().to_png().map_err(trouble)?;
-        self.log("observation", &EncodedImage::from_file_contents(png))
+        self.log("observation", &EncodedImage::from_file_contents(png));
+        Ok(())
     }
 
     /// Logs the controller's evaluation of the image.
-    fn evaluation(&mut self, sight: &Sight) -> Result<(), RecordingError> {
+    fn evaluation(&mut self, sight: &Sight) {
         match &sight.carrier {
-            Carrier::Rl(rl) => match rl.decision() {
-                Some(decision) => self.judgement(&decision.judgement),
-                None => Ok(()),
-            },
-            Carrier::Errt(errt) if self.plans != Some(errt.plans()) => {
-                self.plans = Some(errt.plans());
-                self.plan(errt, &sight.known)
+            Carrier::Rl(rl) => {
+                if let Some(decision) = rl.decision() {
+                    self.judgement(&decision.judgement);
+                }
             }
-            Carrier::Errt(_) | Carrier::Replanner(_) | Carrier::You(_) | Carrier::Program(_) | Carrier::Robot(_) => {
-                Ok(())
+            Carrier::Errt(errt) => {
+                if self.plans.replace(errt.plans()) != Some(errt.plans()) {
+                    self.plan(errt, &sight.known);
+                }
             }
             Carrier::Attractor(_) => {
                 if self.plans.take().is_some() {
-                    self.log("workspace/planner", &Clear::recursive())?;
+                    self.log("workspace/planner", &Clear::recursive());
                 }
-                Ok(())
             }
+            Carrier::Replanner(_) | Carrier::You(_) | Carrier::Program(_) | Carrier::Robot(_) => {}
         }
     }
 
-    fn judgement(&self, judgement: &Judgement) -> Result<(), RecordingError> {
+    fn judgement(&mut self, judgement: &Judgement) {
         let quantiles: Vec<f32> = judgement.quantiles.concat();
-        self.log("quantiles", &BarChart::new(quantiles))?;
-        self.log("action_values", &Scalars::new(judgement.values().map(f64::from)))
+        self.log("quantiles", &BarChart::new(quantiles));
+        self.log("action_values", &Scalars::new(judgement.values().map(f64::from)));
     }
 
-    fn plan(&self, errt: &Errt, known: &ObstacleMap) -> Result<(), RecordingError> {
+    fn plan(&mut self, errt: &Errt, known: &ObstacleMap) {
         let edges = errt.planner().tree().into_iter().flat_map(Tree::edges);
         let edges: Vec<[[f32; 2]; 2]> = edges.map(|edge| edge.map(plan_mm)).collect();
-        self.log("workspace/planner/tree", &LineStrips2D::new(edges).with_colors([color(TREE)]))?;
+        self.log("workspace/planner/tree", &LineStrips2D::new(edges).with_colors([color(TREE)]));
         let path: Vec<[f32; 2]> =
             errt.path().map(|path| path.points.iter().map(|&p| plan_mm(p)).collect()).unwrap_or_default();
-        self.log("workspace/planner/way", &LineStrips2D::new([path]).with_colors([color(GOAL)]))?;
+        self.log("workspace/planner/way", &LineStrips2D::new([path]).with_colors([color(GOAL)]));
         let corners = known.rectangles().into_iter().map(|rect| {
             // y is reversed: the largest y is the minimum.
             let min = plan_mm(Point2::new(rect.x_min_m, rect.y_max_m));
@@ -311,7 +297,7 @@ impl Writer {
         });
         let (mins, sizes): (Vec<_>, Vec<_>) = corners.unzip();
         let seen = Boxes2D::from_mins_and_sizes(mins, sizes).with_colors([color(WALL)]);
-        self.log("workspace/planner/seen", &seen)
+        self.log("workspace/planner/seen", &seen);
     }
 }
 

@@ -211,7 +211,7 @@ impl Keeper {
                 }
                 self.push(Entry::Tick(tick.logged));
             }
-            (Message::Note(event), Some(part)) => part.writer.event(&event)?,
+            (Message::Note(event), Some(part)) => part.writer.event(&event),
         }
         if self.waiting.len() >= FRAME_ENTRIES || self.waiting_since.elapsed() >= FLUSH_EVERY {
             self.flush()?;
@@ -241,7 +241,7 @@ impl Keeper {
         self.waiting.push(entry);
     }
 
-    /// Writes waiting entries and what the part contains; Rerun writes its data by itself. Checks the files and the free
+    /// Writes waiting entries, Rerun's data and what the part contains. Checks the files and the free
     /// space of the disk.
     pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
         let Some(part) = &mut self.part else { return Ok(()) };

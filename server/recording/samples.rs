@@ -1,10 +1,10 @@
 //! Samples taken many times a second, collected and written in columns: this costs a tenth of writing row by row.
 
-use re_sdk::log::TimeColumn;
-use re_sdk::{RecordingStream, SerializedComponentColumn};
+use re_sdk_types::SerializedComponentColumn;
 use re_sdk_types::archetypes::{LineStrips3D, Points2D, Points3D, Scalars};
 
 use super::drawing::{ARM, BEAD, TOOL, color, plan_mm};
+use super::stream::{Store, Stream, TimeColumn};
 use super::{RecordingError, trouble};
 use crate::plant::BEAD_RADIUS_M;
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -34,17 +34,17 @@ pub(super) struct Samples {
 
 impl Samples {
     /// Writes the data that all samples share, once per file.
-    pub(super) fn introduce(stream: &RecordingStream) -> Result<(), RecordingError> {
+    pub(super) fn introduce(store: &mut Store) {
         let arm = LineStrips3D::update_fields().with_radii([0.02]).with_colors([color(ARM)]);
-        stream.log_static("world/arm", &arm)?;
+        store.log_static("world/arm", &arm);
         let dot =
             |radius_m: f64, rgb| Points3D::update_fields().with_radii([radius_m as f32]).with_colors([color(rgb)]);
-        stream.log_static("world/tool", &dot(0.006, TOOL))?;
-        stream.log_static("world/bead", &dot(BEAD_RADIUS_M, BEAD))?;
+        store.log_static("world/tool", &dot(0.006, TOOL));
+        store.log_static("world/bead", &dot(BEAD_RADIUS_M, BEAD));
         let plan = Points2D::update_fields()
             .with_radii([6.0, (BEAD_RADIUS_M * 1e3) as f32])
             .with_colors([color(TOOL), color(BEAD)]);
-        Ok(stream.log_static("workspace/tool_and_bead", &plan)?)
+        store.log_static("workspace/tool_and_bead", &plan);
     }
 
     /// Adds a moment at a tick of the recording.
@@ -67,7 +67,7 @@ impl Samples {
     }
 
     /// Writes and clears the samples.
-    pub(super) fn write(&mut self, stream: &RecordingStream) -> Result<(), RecordingError> {
+    pub(super) fn write(&mut self, stream: &mut Stream) -> Result<(), RecordingError> {
         let Self { ticks, times_s, arms, joints_rad, tools, beads, plans_mm, errors_mm, forces } = std::mem::take(self);
         if ticks.is_empty() {
             return Ok(());
@@ -77,9 +77,7 @@ impl Samples {
             TimeColumn::new_duration_secs("recording_time", ticks.iter().copied().map(recording_time_s)),
             TimeColumn::new_duration_secs("sim_time", times_s),
         ];
-        let send = |entity: &str, columns: Vec<SerializedComponentColumn>| {
-            stream.send_columns(entity, times.clone(), columns).map_err(RecordingError::from)
-        };
+        let mut send = |entity: &str, columns: Vec<SerializedComponentColumn>| stream.columns(entity, &times, columns);
         let count = ticks.len();
         let one = std::iter::repeat_n(1, count);
         let points = |points: Vec<[f32; 3]>| {
