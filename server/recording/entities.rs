@@ -177,7 +177,7 @@ impl Writer {
         Ok(())
     }
 
-    fn at(&self, tick: u64, sim_time_s: f64, timeline: &mut TimelinePosition) {
+    fn at(&mut self, tick: u64, sim_time_s: f64, timeline: &mut TimelinePosition) {
         let here = timeline.offset + tick as i64;
         timeline.last = timeline.last.max(here);
         let duration = |time_s: f64| TimeCell::from_duration_nanos((time_s * 1e9).round() as i64);
