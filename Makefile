@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-rust test-page test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
+.PHONY: run dev test test-long dist wheel test-browser test-rust test-page test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -64,13 +64,14 @@ test test-rust test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --workspace --all-targets --quiet
-	$(MAKE) --jobs=2 --output-sync=target test-rust test-python test-page
+	$(MAKE) --jobs=2 --output-sync=target test-browser test-rust test-python test-page
+
+# They run side by side in `make test`: each alone leaves processors idle.
+test-browser:
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
-
-# The tests of programs wait more than they compute.
 test-rust:
-	$(RUST_TESTS) --test-threads=3
+	$(RUST_TESTS)
 test-page:
 	cd web && npm run --silent check && npm run --silent test
 
