@@ -20,7 +20,7 @@ const FLOORS: [&[&str]; 13] = [
 ];
 
 /// Crates that only these modules may use.
-const CONFINED: [(&str, &[&str]); 7] = [
+const CONFINED: [(&str, &[&str]); 9] = [
     ("wgpu", &["camera"]),
     ("candle_core", &["policy", "learn"]),
     ("tokio", &["program", "ur", "session", "http", "robot_client", "robot_server", "cli", "main"]),
