@@ -53,7 +53,7 @@ async fn a_trial_of_a_live_moment_is_set_up_and_saved_exactly() {
     let lab = Laboratory::open().await;
     let mut browser = under_way(&lab).await;
     let query = json!({"session": "main", "grid": 6, "repeats": 2, "full": true, "controllers": ["errt", "attractor"]});
-    let report = lab.mapped(query).await;
+    let report = browser.during(lab.mapped(query)).await;
     assert_eq!((&report["stage"], &report["tick"]), (&json!("done"), &json!(250)), "{report}");
     assert_eq!((&report["session"], &report["trial"], &report["map"]), (&json!("main"), &json!(0), &json!("posts")));
     assert_eq!(report["done"], report["planned"]);

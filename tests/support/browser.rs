@@ -52,6 +52,17 @@ impl Browser {
         panic!("the server closed before: {what}");
     }
 
+    /// Awaits something else, and reads on meanwhile: the server disconnects a client that reads nothing.
+    pub async fn during<T>(&mut self, other: impl Future<Output = T>) -> T {
+        let mut other = std::pin::pin!(other);
+        loop {
+            tokio::select! {
+                done = &mut other => return done,
+                message = self.socket.next() => drop(message.expect("the server closed").unwrap()),
+            }
+        }
+    }
+
     pub async fn state(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
         self.until(what, |m| m["type"] == "state" && fits(m)).await
     }
