@@ -14,6 +14,7 @@ use re_sdk_types::archetypes::{
     StateChange, TextLog,
 };
 
+use super::blueprint::layout;
 use super::drawing::{GOAL, TREE, WALL, color, plan_mm};
 use super::samples::{Samples, recording_time_s};
 use super::stream::Stream;
@@ -84,7 +85,7 @@ impl Writer {
         name: &str,
         image_every: Duration,
     ) -> Result<Self, RecordingError> {
-        let mut stream = Stream::create(path, recording, name)?;
+        let mut stream = Stream::create(path, recording, name, layout().map_err(trouble)?)?;
         let store = stream.store();
         let names = |names: &[&'static str]| SeriesLines::new().with_names(names.iter().copied());
         store.log_static("tracking_error_mm", &names(&["in x", "in y", "distance"]));

@@ -11,7 +11,6 @@ use re_log_types::{EntityPath, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSo
 use re_sdk_types::archetypes::RecordingInfo;
 use re_sdk_types::{AsComponents, SerializedComponentColumn};
 
-use super::blueprint::layout;
 use super::{RecordingError, trouble};
 
 pub(super) use re_chunk::TimeColumn;
@@ -79,12 +78,17 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// Creates a file that opens with Ferry's layout. `recording` is the same for all parts, `name` is this part's.
-    pub(super) fn create(path: &Path, recording: &str, name: &str) -> Result<Self, RecordingError> {
+    /// Creates a file with the messages of a layout. `recording` is the same for all parts, `name` is this part's.
+    pub(super) fn create(
+        path: &Path,
+        recording: &str,
+        name: &str,
+        layout: Vec<LogMsg>,
+    ) -> Result<Self, RecordingError> {
         let file = FileSink::new(path).map_err(trouble)?;
         let mut store = Store::new(StoreId::recording(APPLICATION, recording));
         file.send(store.introduction());
-        layout().map_err(trouble)?.into_iter().for_each(|message| file.send(message));
+        layout.into_iter().for_each(|message| file.send(message));
         // Without a name the viewer shows "unknown".
         store.log_static(EntityPath::properties(), &RecordingInfo::update_fields().with_name(name));
         Ok(Self { file, store })
