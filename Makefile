@@ -87,7 +87,8 @@ test-long-docs:
 test-long-rust:
 	cargo build --release --quiet
 	$(RUST_TESTS) --ignored
-	FERRY_COMMANDS=600000 $(RUST_TESTS) command_tests
+	FERRY_COMMANDS=600000 FERRY_SESSIONS=100 FERRY_KILLS=20 FERRY_EXAMPLES=25 \
+		$(RUST_TESTS) command_tests contract crashes whatever_an_operator_does
 test-long-browser:
 	cargo build --release --quiet
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e:long

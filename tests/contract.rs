@@ -70,11 +70,17 @@ async fn fill(ferry: &Ferry) -> String {
     panic!("four trials take more than a minute");
 }
 
+/// Largest number of requests that are generated for one operation; `FERRY_EXAMPLES` changes it.
+fn examples() -> String {
+    std::env::var("FERRY_EXAMPLES").unwrap_or_else(|_| "8".to_owned())
+}
+
 /// Runs schemathesis in a folder, because it writes files into its working directory.
 fn schemathesis(ferry: &Ferry, recording: &str, folder: &Path, report: &Path) -> Output {
     Command::new(tool("schemathesis"))
         .args(["--no-color", "--config-file", concat!(env!("CARGO_MANIFEST_DIR"), "/tests/schemathesis.toml"), "run"])
         .arg(format!("http://{}/api/openapi.json", ferry.address))
+        .args(["--max-examples", &examples()])
         .args(["--report", "json", "--report-json-path"])
         .arg(report)
         .env("FERRY_RECORDING", recording)

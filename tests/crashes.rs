@@ -16,7 +16,7 @@ const LOST_TICKS: u64 = 62;
 
 /// How often the server is killed; the stated guarantee was tested with `FERRY_KILLS=50`.
 fn kills() -> u32 {
-    std::env::var("FERRY_KILLS").map_or(10, |count| count.parse().expect("FERRY_KILLS is a count"))
+    std::env::var("FERRY_KILLS").map_or(4, |count| count.parse().expect("FERRY_KILLS is a count"))
 }
 
 /// Runs a session and kills the server; returns the last tick that a browser saw.

@@ -16,9 +16,9 @@ use rayon::prelude::*;
 
 use crate::support::gpu;
 
-/// Number of sessions that the long test records; `FERRY_SESSIONS` changes it.
+/// Number of sessions that a test records; `FERRY_SESSIONS` changes it.
 fn sessions() -> u64 {
-    std::env::var("FERRY_SESSIONS").map_or(100, |count| count.parse().expect("FERRY_SESSIONS is a count"))
+    std::env::var("FERRY_SESSIONS").map_or(30, |count| count.parse().expect("FERRY_SESSIONS is a count"))
 }
 
 fn place(rng: &mut impl Rng) -> (f64, f64) {
