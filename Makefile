@@ -64,12 +64,13 @@ test test-rust test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --workspace --all-targets --quiet
-	$(MAKE) --jobs=2 --output-sync=target test-browser test-rust test-python test-page
+	$(MAKE) --jobs=2 --output-sync=target test-rust test-python test-page
+	$(MAKE) test-browser
 
-# They run side by side in `make test`: each alone leaves processors idle.
 test-browser:
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
+# It runs beside those of Python and of the page, which leave a processor idle.
 test-rust:
 	$(RUST_TESTS)
 test-page:
