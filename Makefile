@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-browser test-rust test-page test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
+.PHONY: run dev test test-long dist wheel test-browser test-library test-main test-page test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -56,23 +56,26 @@ dev: system-run
 	cd web && { [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund; } && npm run --silent dev
 
 # Clippy checks what the compiler compiles, so that lints, tests, program and package for Python are one build.
-RUST_TESTS := cargo test --release --quiet --lib --test main --
+LIBRARY_TESTS := cargo test --release --quiet --lib --
+MAIN_TESTS := cargo test --release --quiet --test main --
 
 # docs/tests.md says what is in which suite. One browser test alone: CONTRIBUTING.md.
-test test-rust test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
-test test-rust test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
+test test-library test-main test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__warnings
+test test-library test-main test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --workspace --all-targets --quiet
-	$(MAKE) --jobs=2 --output-sync=target test-rust test-python test-page
+	$(MAKE) --jobs=2 --output-sync=target test-main test-library test-python test-page
 	$(MAKE) test-browser
 
 test-browser:
 	mkdir -p test-output
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e
-# It runs beside those of Python and of the page, which leave a processor idle.
-test-rust:
-	$(RUST_TESTS)
+# Many of these wait for a server or a robot in real time, so the others run beside them.
+test-main:
+	$(MAIN_TESTS)
+test-library:
+	$(LIBRARY_TESTS)
 test-page:
 	cd web && npm run --silent check && npm run --silent test
 
@@ -87,9 +90,10 @@ test-long-docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --workspace --no-deps --quiet
 test-long-rust:
 	cargo build --release --quiet
-	$(RUST_TESTS) --ignored
-	FERRY_COMMANDS=600000 FERRY_SESSIONS=100 FERRY_KILLS=20 FERRY_EXAMPLES=25 \
-		$(RUST_TESTS) command_tests contract crashes whatever_an_operator_does
+	$(LIBRARY_TESTS) --ignored
+	$(MAIN_TESTS) --ignored
+	FERRY_COMMANDS=600000 $(LIBRARY_TESTS) command_tests
+	FERRY_SESSIONS=100 FERRY_KILLS=20 FERRY_EXAMPLES=25 $(MAIN_TESTS) contract crashes whatever_an_operator_does
 test-long-browser:
 	cargo build --release --quiet
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e:long

@@ -271,13 +271,15 @@ async fn the_robot_stops_when_the_cable_is_damaged() {
             let from = joints(&present(&mut robot).await);
             press(&mut page).await;
             let moves = async {
-                robot.state("it moves", |state| apart(&joints(state), &from) > 0.05).await;
+                robot.whenever("it moves", |m| m["type"] == "state" && apart(&joints(m), &from) > 0.05).await;
                 let before = present(&mut robot).await;
                 let at = robot.state("it goes on", |state| state["tick"].as_u64() > before["tick"].as_u64()).await;
                 cable.damage(fault);
                 (before, at)
             };
-            let stops = hold_until(&mut page, "it moves or stops", Duration::from_secs(60), stopping());
+            let stops = hold_until(&mut page, "it moves or stops", Duration::from_secs(60), |m| {
+                m["type"] == "state" && m["twin"]["is_driven"] == false
+            });
             tokio::select! {
                 moved = moves => break moved,
                 // A busy machine may be late.
