@@ -84,7 +84,7 @@ PARTS ?= docs rust browser python soak fuzz
 PASSED := target/test-long/$(shell git rev-parse HEAD)
 test-long: system-test $(TOOLS)
 	mkdir -p $(PASSED) test-output
-	for part in $(PARTS); do [ -e $(PASSED)/$$part ] || { $(MAKE) test-long-$$part && touch $(PASSED)/$$part; }; done
+	for part in $(PARTS); do [ -e $(PASSED)/$$part ] || $(MAKE) test-long-$$part; touch $(PASSED)/$$part; done
 
 test-long-docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --workspace --no-deps --quiet

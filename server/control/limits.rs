@@ -9,7 +9,7 @@ use crate::geometry::{Point2, Point3, Rect};
 use crate::perception::Percept;
 use crate::plant::{Positioner, TOOL_LENGTH_M, ToolOrientation};
 use crate::robot::ur5::SERVO_PERIOD_S;
-use crate::robot::{self, forward, jacobian};
+use crate::robot::{self, Joints, forward, inverse, jacobian};
 
 /// Poses with less manipulability are refused.
 pub const MIN_MANIPULABILITY_M3: f64 = 2e-3;
@@ -84,20 +84,31 @@ impl Limits {
         let rise_m = (wanted_m.z - from_m.z).clamp(-max_rise_m, max_rise_m);
         let next_m = Point3::new(place_m.x, place_m.y, from_m.z + rise_m);
         let next = self.position(next_m, seed)?;
-        Ok(self.turn_back(seed, &next).unwrap_or((next_m, next)))
-    }
-
-    /// A part of the way from a tilted tool, if it is tilted.
-    fn turn_back(&self, from: &Positioner, to: &Positioner) -> Option<(Point3<f64>, Positioner)> {
-        let (from_rad, to_rad) = (from.joints_rad()?, to.joints_rad()?);
+        let (Some(from_rad), Some(to_rad)) = (seed.joints_rad(), next.joints_rad()) else { return Ok((next_m, next)) };
         let upright = self.tool_orientation.base_from_flange();
         let tilt_rad = forward::flange(&from_rad).rotation.angle_to(&upright);
         if tilt_rad < LEAST_TILT_RAD {
-            return None;
+            return Ok((next_m, next));
         }
         let share = (TURN_SPEED_RAD_S * SERVO_PERIOD_S / tilt_rad).min(1.0);
-        let between = Positioner::Arm(std::array::from_fn(|i| from_rad[i] + share * (to_rad[i] - from_rad[i])));
-        Some((between.tool_m(), between))
+        self.keep_joints_in(std::array::from_fn(|i| from_rad[i] + share * (to_rad[i] - from_rad[i])))
+    }
+
+    /// The tool point of an arm and the arm. Between two poses inside the workspace the tool point makes a bow, which may
+    /// lead out: the arm then keeps its tilt at the nearest place inside.
+    fn keep_joints_in(&self, joints_rad: Joints) -> Result<(Point3<f64>, Positioner), Refusal> {
+        let arm = Positioner::Arm(joints_rad);
+        let tool_m = arm.tool_m();
+        let inside = self.keep_in(tool_m.xy());
+        if inside == tool_m.xy() {
+            return Ok((tool_m, arm));
+        }
+        let inside_m = Point3::new(inside.x, inside.y, tool_m.z);
+        let mut flange = forward::flange(&joints_rad);
+        flange.translation.vector += inside_m - tool_m;
+        let joints_rad =
+            inverse::nearest(&flange, &joints_rad).map_err(|error| Refusal::NoInverse(error.to_string()))?;
+        Ok((inside_m, Positioner::Arm(joints_rad)))
     }
 
     /// Checks a transport step: the position, the speed, and the camera's view of the whole step.
@@ -200,6 +211,33 @@ mod tests {
             assert!(ticks < 200, "{from_m}");
         }
         assert!(ticks > 30, "3.2 degrees in .28 s");
+    }
+
+    #[test]
+    fn a_tilted_tool_turns_back_inside_the_workspace() {
+        let paper = Limits { tool_orientation: ToolOrientation::Paper, ..limits() };
+        let (mut bows, workspace) = (0, limits().workspace);
+        for y_m in (-60..-25).map(|cm| f64::from(cm) / 100.0) {
+            for x_m in [workspace.x_min_m, workspace.x_max_m] {
+                let mut from_m = Point3::new(x_m, y_m, 0.1);
+                let Ok(mut reference) = paper.position(from_m, &HOME) else { continue };
+                let along_m = Point3::new(x_m, y_m - 0.05, 0.1);
+                for _ in 0..20 {
+                    let before = reference;
+                    let Ok(next) = limits().advance(from_m, along_m, &reference) else { break };
+                    (from_m, reference) = next;
+                    assert!(workspace.contains(from_m.xy()), "{from_m}");
+                    assert!((reference.tool_m() - from_m).norm() < 1e-9);
+                    let turned = std::iter::zip(before.joints_rad().unwrap(), reference.joints_rad().unwrap());
+                    let turned_rad = turned.map(|(a, b)| f64::abs(a - b)).fold(0.0, f64::max);
+                    assert!(turned_rad / SERVO_PERIOD_S < 3.0, "{turned_rad} at {from_m}");
+                    let flange = forward::flange(&reference.joints_rad().unwrap());
+                    let is_tilted = flange.rotation.angle_to(&ToolOrientation::Vertical.base_from_flange()) > 1e-4;
+                    bows += usize::from(is_tilted && from_m.x == x_m);
+                }
+            }
+        }
+        assert!(bows > 100, "{bows}");
     }
 
     #[test]

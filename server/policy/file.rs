@@ -193,8 +193,13 @@ impl Policy {
             let found = manifest.observation;
             return Err(PolicyError::Manifest(format!("observation is {found:?}, expected {observation:?}")));
         }
-        if !(0.001..=0.1).contains(&manifest.step_m) {
-            return Err(PolicyError::Manifest(format!("step_m is {}, it must be .001 to .1", manifest.step_m)));
+        for (name, value_m, [least_m, most_m]) in
+            [("step_m", manifest.step_m, [0.001, 0.1]), ("clearance_m", manifest.clearance_m, [0.0, 0.1])]
+        {
+            if !(least_m..=most_m).contains(&value_m) {
+                let reason = format!("{name} is {value_m}, it must be {least_m} to {most_m}");
+                return Err(PolicyError::Manifest(reason));
+            }
         }
         let specs = manifest.architecture.tensors();
         if let Some(name) = file.names().into_iter().find(|name| specs.iter().all(|spec| spec.name != **name)) {

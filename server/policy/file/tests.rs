@@ -169,7 +169,10 @@ fn refuses_a_manifest_that_does_not_fit_and_gives_the_reason() {
         (Manifest { observation: [channels + 1, height, width], ..plain() }, "observation is [3, 84, 84]"),
         (Manifest { observation: [channels, height, 96], ..plain() }, "observation is [2, 84, 96]"),
         (Manifest { step_m: 0.0, ..plain() }, "step_m is 0"),
-        (Manifest { step_m: 1.0, ..plain() }, "step_m is 1"),
+        (Manifest { step_m: 1.0, ..plain() }, "step_m is 1, it must be 0.001 to 0.1"),
+        (Manifest { clearance_m: -0.001, ..plain() }, "clearance_m is -0.001"),
+        // Each cell of the map would look at the whole map.
+        (Manifest { clearance_m: 5.008, ..plain() }, "clearance_m is 5.008, it must be 0 to 0.1"),
     ];
     for (manifest, reason) in cases {
         let text = refusal(&file_of(&manifest, &kept()));
