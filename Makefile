@@ -55,7 +55,8 @@ run: system-run
 dev: system-run
 	cd web && { [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund; } && npm run --silent dev
 
-# Clippy checks what the compiler compiles, so that lints, tests, program and package for Python are one build.
+# Clippy checks what the compiler compiles, so that lints, tests, program and package for Python share one build. `wheel`
+# compiles the package.
 LIBRARY_TESTS := cargo test --release --quiet --lib --
 MAIN_TESTS := cargo test --release --quiet --test main --
 
@@ -64,8 +65,8 @@ test test-library test-main test-long: export CLIPPY_ARGS = -D__CLIPPY_HACKERY__
 test test-library test-main test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: system-test $(TOOLS)
 	cargo fmt --all --check
-	cargo build --release --workspace --all-targets --quiet
-	$(MAKE) --jobs=2 --output-sync=target test-main test-library test-python test-page
+	cargo build --release --all-targets --quiet
+	$(MAKE) --jobs=2 --output-sync=target test-main test-python test-library test-page
 	$(MAKE) test-browser
 
 test-browser:
