@@ -59,9 +59,10 @@ const CAMERA_STREAMS: usize = 16;
 const WORK_WAITS: Duration = Duration::from_secs(10);
 /// Interval at which sessions are parked and inactive clients forgotten.
 const SWEEP_EVERY: Duration = Duration::from_secs(10);
-/// When the server stops: time for browsers to disconnect, and then for sessions to close their files.
+/// When the server stops: time for browsers to disconnect, and then for sessions to close their files. On a busy machine a
+/// file that is closed late is worth more than a server that ends early.
 const DISCONNECT_WITHIN: Duration = Duration::from_millis(500);
-const CLOSE_WITHIN: Duration = Duration::from_millis(1000);
+const CLOSE_WITHIN: Duration = Duration::from_secs(10);
 
 /// Why the server could not start or had to stop.
 #[derive(Debug, thiserror::Error)]
