@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-browser test-library test-main test-page test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
+.PHONY: run dev test test-long dist wheel test-browser test-library test-main test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -66,7 +66,8 @@ test test-library test-main test-long: export RUSTC_WORKSPACE_WRAPPER = clippy-d
 test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --all-targets --quiet
-	$(MAKE) --jobs=2 --output-sync=target test-main test-python test-library test-page
+	$(MAKE) wheel $(WHEEL_TOOLS)
+	$(MAKE) --jobs=2 --output-sync=target test-main test-package test-library test-page
 	$(MAKE) test-browser
 
 test-browser:
@@ -115,6 +116,9 @@ test-python-rl: wheel $(RL_TOOLS)
 	cd python/tests_rl && ../../$(RL_VENV)/bin/python -m pytest -q -p no:cacheprovider
 
 test-python: wheel $(WHEEL_TOOLS)
+	$(MAKE) test-package
+# With the wheel that was built last.
+test-package:
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check target/wheels/*.whl
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps target/wheels/*.whl
 	cd python && ../$(WHEEL_VENV)/bin/ruff format --quiet --check . && ../$(WHEEL_VENV)/bin/ruff check --quiet .
