@@ -62,7 +62,7 @@ const SWEEP_EVERY: Duration = Duration::from_secs(10);
 /// When the server stops: time for browsers to disconnect, and then for sessions to close their files. On a busy machine a
 /// file that is closed late is worth more than a server that ends early.
 const DISCONNECT_WITHIN: Duration = Duration::from_millis(500);
-const CLOSE_WITHIN: Duration = Duration::from_secs(10);
+const CLOSE_WITHIN: Duration = Duration::from_secs(9);
 
 /// Why the server could not start or had to stop.
 #[derive(Debug, thiserror::Error)]
