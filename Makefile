@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-browser test-library test-main test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
+.PHONY: run dev test test-long dist wheel test-browser test-library test-main check-page test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -67,7 +67,7 @@ test: system-test $(TOOLS)
 	cargo fmt --all --check
 	cargo build --release --all-targets --quiet
 	$(MAKE) wheel $(WHEEL_TOOLS)
-	$(MAKE) --jobs=2 --output-sync=target test-main test-package test-library test-page
+	$(MAKE) --jobs=2 --output-sync=target test-main test-package check-page test-library test-page
 	$(MAKE) test-browser
 
 test-browser:
@@ -78,8 +78,10 @@ test-main:
 	$(MAIN_TESTS)
 test-library:
 	$(LIBRARY_TESTS)
+check-page:
+	cd web && npm run --silent check
 test-page:
-	cd web && npm run --silent check && npm run --silent test
+	cd web && npm run --silent test
 
 # A part that has passed on this commit is skipped, so an interrupted run goes on. One part alone: make test-long PARTS=docs
 PARTS ?= docs rust browser python soak fuzz
@@ -168,21 +170,20 @@ soak: system-test
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent soak
 	cargo bench --quiet --bench load
 
-# Coverage-guided fuzzing: `FUZZ_SECONDS` for each of `FUZZ_TARGETS`. It stops at the first input that panics, takes five
-# seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with the same compiler.
-# The stack has the size of a server thread's.
+# Coverage-guided fuzzing: `FUZZ_SECONDS` for each of `FUZZ_TARGETS`, two at a time. It stops at the first input that
+# panics, takes five seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with
+# the same compiler. The stack has the size of a server thread's.
 FUZZ_SECONDS ?= 300
 FUZZ_TARGETS ?= message map case log entries policy rtde reports script dashboard
 fuzz: system-run
 	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
-	ulimit -s 2048; \
-	for target in $(FUZZ_TARGETS); do \
-		folder=target/fuzz/$$target; mkdir -p $$folder/{seeds,corpus,found}; echo "$$target, $(FUZZ_SECONDS) s"; \
-		FUZZ_TARGET=$$target FUZZ_SEEDS=$$folder/seeds target/release/examples/fuzz $$folder/{corpus,seeds} \
-			-artifact_prefix=$$folder/found/ -max_total_time=$(FUZZ_SECONDS) -timeout=5 -rss_limit_mb=2048 \
-			-max_len=65536 -print_final_stats=1 2> $$folder/log || { tail -n 40 $$folder/log; exit 1; }; \
-		grep -E '^#.*DONE|stat::(number|average|slowest|peak)' $$folder/log; \
-	done
+	$(MAKE) --jobs=2 $(FUZZ_TARGETS:%=fuzz-%)
+fuzz-%:
+	ulimit -s 2048; folder=target/fuzz/$*; mkdir -p $$folder/{seeds,corpus,found}; echo "$*, $(FUZZ_SECONDS) s"; \
+	FUZZ_TARGET=$* FUZZ_SEEDS=$$folder/seeds target/release/examples/fuzz $$folder/{corpus,seeds} \
+		-artifact_prefix=$$folder/found/ -max_total_time=$(FUZZ_SECONDS) -timeout=5 -rss_limit_mb=2048 \
+		-max_len=65536 -print_final_stats=1 2> $$folder/log || { tail -n 40 $$folder/log; exit 1; }; \
+	grep -E '^#.*DONE|stat::(number|average|slowest|peak)' $$folder/log
 
 # `deny.toml` lists what is allowed; cargo-audit gets the same exceptions. `OFFLINE=1` uses the advisories that the last
 # run downloaded.
