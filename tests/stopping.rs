@@ -35,7 +35,7 @@ fn terminate(mut ferry: Ferry, data: &Path) -> (Duration, String) {
     let status = ferry.child.wait().unwrap();
     let took = asked.elapsed();
     let log = std::fs::read_to_string(data.join("log")).unwrap();
-    assert!(status.success(), "{log}");
+    assert!(status.success(), "{status}\n{log}");
     (took, log)
 }
 
@@ -99,6 +99,38 @@ async fn whatever_goes_on_it_ends_soon_and_files_are_whole() {
     }
     for log in files(&recordings, "ferry") {
         assert!(InputLog::read(&std::fs::read(log).unwrap()).unwrap().entries.len() > 100);
+    }
+}
+
+/// A browser that does not read and an evaluation, both with the graphics device in hand.
+async fn stop_while_it_works() {
+    let data = tempfile::tempdir().unwrap();
+    let child = serve(data.path(), |_| ());
+    let address = child.address;
+    let mut browser = Browser::at(address).await;
+    browser.send(json!({"type": "set_speed", "factor": 64})).await;
+    browser.send(json!({"type": "run"})).await;
+    browser.state("running", |m| m["tick"].as_u64() > Some(50)).await;
+    let (stalled, _) = connect_async(format!("ws://{address}/api/sessions/main/live")).await.unwrap();
+    let ended = tokio::task::spawn_blocking(move || {
+        let body = json!({"maps": ["colon"], "controllers": ["rl"], "episodes": 500, "disturbances": [0], "seed": 1});
+        let body = body.to_string();
+        let length = body.len();
+        let head = format!("POST /api/evaluations HTTP/1.1\r\nHost: {address}\r\nContent-Length: {length}\r\n\r\n");
+        assert_eq!(exchange(address, (head + &body).as_bytes()).0, 201);
+        std::thread::sleep(Duration::from_millis(500));
+        terminate(child, data.path());
+    });
+    ended.await.unwrap();
+    drop((browser, stalled));
+}
+
+/// The process once ended by a signal in one of ten cases: its device was closed while the process ended.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
+async fn forty_servers_that_stop_while_they_work_end_well() {
+    for _ in 0..10 {
+        tokio::join!(stop_while_it_works(), stop_while_it_works(), stop_while_it_works(), stop_while_it_works());
     }
 }
 

@@ -17,6 +17,9 @@ use crate::scenario::Scenario;
 use crate::trial::Case;
 use crate::ur::Twin;
 
+/// When the server has stopped: time for background work to end.
+const END_WITHIN: Duration = Duration::from_secs(1);
+
 #[derive(clap::Args, Clone)]
 pub struct Arguments {
     /// Address to listen on; port 0 picks a free one
@@ -110,8 +113,8 @@ pub fn run(arguments: &Arguments, files: &'static [EmbeddedFile], twin: Option<T
     );
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(serve(arguments, Page::new(files), twin.map(Arc::new)));
-    // Unfinished background work must not keep the process alive.
-    runtime.shutdown_background();
+    // A graphics device that is closed while the process ends crashes it: background work ends before, or is left behind.
+    runtime.shutdown_timeout(END_WITHIN);
     served?;
     Ok(ExitCode::SUCCESS)
 }
