@@ -256,7 +256,7 @@ pub async fn listen(address: SocketAddr) -> Result<TcpListener, ServeError> {
 }
 
 /// Serves until `stopping` becomes true. Then pauses every session, disconnects the browsers, closes the recordings and
-/// interrupts the job in the background, all within two seconds.
+/// interrupts the job in the background, all within two seconds if the machine is not busy.
 pub async fn serve(listener: TcpListener, server: Arc<Server>) -> Result<(), ServeError> {
     accept::raise_file_limit();
     let sweeper = server.clone();
