@@ -1,5 +1,5 @@
-//! The connection with a robot outside of Ferry: RTDE for reports and targets, and URScript for the program that follows
-//! them.
+//! The connection with a robot outside of Ferry: RTDE for reports and targets, URScript for the program that follows them,
+//! and the dashboard for the robot's model.
 
 use std::io;
 use std::net::{IpAddr, SocketAddr};
@@ -11,19 +11,21 @@ use futures_util::{SinkExt, StreamExt};
 use tokio::io::AsyncWriteExt;
 use tokio::net::TcpStream;
 use tokio::sync::watch;
-use tokio_util::codec::Framed;
-use tokio_util::codec::LengthDelimitedCodec;
+use tokio_util::codec::{Framed, LengthDelimitedCodec, LinesCodec};
 
 use crate::ur::peer::Peer;
 use crate::ur::twin::Answer;
-use crate::ur::{Twin, drive_script, rtde};
+use crate::ur::{Twin, dashboard, drive_script, rtde};
 
+const DASHBOARD_PORT: u16 = 29_999;
 const RTDE_PORT: u16 = 30_004;
 const SCRIPT_PORT: u16 = 30_002;
 /// For a connection, and for each answer while it is set up.
 const ANSWER_WITHIN: Duration = Duration::from_secs(2);
 /// A robot that reports nothing for this long is connected again.
 const REPORT_WITHIN: Duration = Duration::from_secs(2);
+/// Characters of a model's name that are kept.
+const MODEL_MOST: usize = 40;
 /// Before the next attempt to connect.
 const RETRY_AFTER: Duration = Duration::from_secs(1);
 
@@ -57,6 +59,8 @@ async fn exchange(twin: &Arc<Twin>) -> io::Result<std::convert::Infallible> {
         frames.send(Bytes::from(peer.request(step))).await?;
         while !peer.accept(step, &next(&mut frames, ANSWER_WITHIN).await?).map_err(io::Error::other)? {}
     }
+    let asked = twin.clone();
+    tokio::spawn(async move { asked.found_model(model(asked.address()).await) });
     let mut answers = twin.answers();
     let mut programs = answers.borrow_and_update().programs;
     twin.connected(Ok(()));
@@ -95,6 +99,19 @@ async fn connect(address: IpAddr, port: u16) -> io::Result<TcpStream> {
     let connected = tokio::time::timeout(ANSWER_WITHIN, connecting).await;
     let late = |_| io::Error::other(format!("port {port} does not answer within {} s", ANSWER_WITHIN.as_secs()));
     connected.map_err(late)?.map_err(|error| io::Error::new(error.kind(), format!("port {port}: {error}")))
+}
+
+/// What the dashboard answers, if it does.
+async fn model(address: IpAddr) -> Option<String> {
+    let asking = async {
+        let socket = connect(address, DASHBOARD_PORT).await.ok()?;
+        let mut lines = Framed::new(socket, LinesCodec::new_with_max_length(dashboard::LINE_BYTES_MOST));
+        let _greeting = lines.next().await?.ok()?;
+        lines.send("get robot model").await.ok()?;
+        lines.next().await?.ok()
+    };
+    let answer = tokio::time::timeout(ANSWER_WITHIN, asking).await.ok()??;
+    Some(answer.trim().chars().take(MODEL_MOST).collect()).filter(|model: &String| !model.is_empty())
 }
 
 /// Sends the program. The robot's reports show whether it has begun.

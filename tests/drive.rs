@@ -1,10 +1,13 @@
 //! `ferry drive`: Ferry mirrors a robot and leads it, over the wire. The robot is the controller of another Ferry; between
 //! the two lies a cable that can be damaged.
 
+mod arms;
 mod cable;
 
 use std::cell::Cell;
+use std::ffi::OsStr;
 use std::ops::{Deref, DerefMut};
+use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
@@ -24,9 +27,13 @@ const TICK_S: f64 = 0.008;
 const HOLD_EVERY: Duration = Duration::from_millis(50);
 
 /// A Ferry that answers as a robot, and its page.
-async fn robot(address: &str, map: &str, start_m: [f64; 2], data: &std::path::Path) -> (Ferry, Browser) {
+async fn robot(address: &str, map: &str, start_m: [f64; 2], data: &Path) -> (Ferry, Browser) {
+    robot_of(address, map, start_m, data, &[]).await
+}
+
+async fn robot_of(address: &str, map: &str, start_m: [f64; 2], data: &Path, more: &[&OsStr]) -> (Ferry, Browser) {
     let mut command = ferry(&["serve", "--bind", "127.0.0.1:0", "--robot-server", address, "--data"]);
-    let server = Ferry::start(command.arg(data).stderr(Stdio::null()));
+    let server = Ferry::start(command.arg(data).args(more).stderr(Stdio::null()));
     let mut browser = Browser::at(server.address).await;
     browser.send(json!({"type": "load_scenario", "map": map, "start_m": start_m})).await;
     browser.state("the start", |state| (number(&state["tool_m"][0]) - start_m[0]).abs() < 1e-3).await;
@@ -55,7 +62,7 @@ impl DerefMut for Page {
 }
 
 /// A Ferry that mirrors a robot, and its page.
-async fn driver(address: &str, more: &[&str], data: &std::path::Path) -> (Ferry, Page) {
+async fn driver(address: &str, more: &[&str], data: &Path) -> (Ferry, Page) {
     let mut command = ferry(&["drive", "--robot", address, "--bind", "127.0.0.1:0", "--data"]);
     let server = Ferry::start(command.arg(data).args(more).stderr(Stdio::null()));
     let page = Page { browser: Browser::at(server.address).await, press: 1 };

@@ -9,7 +9,8 @@ use crate::ur::Twin;
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Address of the robot's controller. Its RTDE (port 30004) is read
+    /// Address of the robot's controller. Its RTDE (port 30004) is read, and
+    /// its dashboard (29999) is asked for the model
     #[arg(long, value_name = "ADDRESS")]
     robot: IpAddr,
     /// Let Ferry move the robot while a button on the page is held. Ferry has never moved a real arm: read docs/robot.md

@@ -15,7 +15,7 @@ use crate::robot_client;
 use crate::robot_server::{self, Ports};
 use crate::scenario::Scenario;
 use crate::trial::Case;
-use crate::ur::Twin;
+use crate::ur::{Twin, model::Model};
 
 /// When the server has stopped: time for background work to end.
 const END_WITHIN: Duration = Duration::from_secs(1);
@@ -62,6 +62,10 @@ pub struct Arguments {
     /// Let --robot-server listen on another address than loopback. It has no password, as a real one has none
     #[arg(long, requires = "robot_server")]
     robot_server_insecure: bool,
+    /// Report poses, and a name, of another arm than a UR5: a JSON file with `name`; `d_m`, `a_m` and `alpha_rad`, six numbers
+    /// each; and `tcp_m`, if its tool is not Ferry's. The joints move as before. For trying whether a client can tell arms apart
+    #[arg(long, value_name = "FILE", requires = "robot_server")]
+    robot_server_model: Option<PathBuf>,
     /// Open the page in the default browser
     #[arg(long)]
     open: bool,
@@ -119,6 +123,12 @@ pub fn run(arguments: &Arguments, files: &'static [EmbeddedFile], twin: Option<T
     Ok(ExitCode::SUCCESS)
 }
 
+/// The arm that the robot server reports.
+fn model(path: &Path) -> anyhow::Result<Model> {
+    let named = || format!("--robot-server-model {}", path.display());
+    Model::read(&std::fs::read_to_string(path).with_context(named)?).with_context(named)
+}
+
 /// Opens the ports of the robot's controller, if they are wanted.
 async fn robot_ports(arguments: &Arguments) -> anyhow::Result<Option<Ports>> {
     let Some(address) = arguments.robot_server else { return Ok(None) };
@@ -138,6 +148,7 @@ async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> an
     let listener = http::listen(arguments.bind).await?;
     let address = listener.local_addr()?;
     let access = http::Access::new(address, token, &arguments.origin)?;
+    let model = arguments.robot_server_model.as_deref().map(model).transpose()?;
     let ports = robot_ports(arguments).await?;
     // Only after the checks above, so that a refused start leaves no folder behind.
     check_folder(&arguments.data)?;
@@ -156,6 +167,9 @@ async fn serve(arguments: &Arguments, page: Page, twin: Option<Arc<Twin>>) -> an
         page,
     };
     let server = http::Server::new(gpu, settings, access, stopping.clone())?;
+    if let Some(model) = model {
+        server.robot().set_model(model);
+    }
     if let Some(ports) = ports {
         tokio::spawn(robot_server::serve(ports, server.robot().clone(), stopping.clone()));
     }

@@ -46,6 +46,10 @@ pub struct TwinStanding {
     pub allows_motion: bool,
     /// Why it is not connected; `null` if it is.
     pub trouble: Option<String>,
+    /// What its dashboard says that it is; `null` if it does not say.
+    pub model: Option<String>,
+    /// Why places on the table may be others than Ferry's; `null` if there is no reason to think so.
+    pub doubt: Option<String>,
     /// As it reports it: 7 while it runs.
     pub robot_mode: i32,
     /// As it reports it: 1 normal, 2 reduced, 3 protective stop.
@@ -64,6 +68,8 @@ impl From<&crate::ur::TwinStanding> for TwinStanding {
             address: standing.address.to_string(),
             allows_motion: standing.allows_motion,
             trouble: standing.trouble.clone(),
+            model: standing.model.clone(),
+            doubt: standing.doubt.clone(),
             robot_mode: standing.robot_mode,
             safety_mode: standing.safety_mode,
             is_held: standing.is_held,

@@ -1,5 +1,6 @@
 //! The arm at a moment, as a controller reports it.
 
+use super::model::Model;
 use crate::geometry::{Isometry3, Translation3, Vector3};
 use crate::plant::TOOL_LENGTH_M;
 use crate::robot::{Joints, forward, ur5::SERVO_PERIOD_S};
@@ -34,7 +35,7 @@ pub struct Arm {
 
 impl Arm {
     /// A tick later.
-    pub(super) fn after(&self, trial: &Trial) -> Self {
+    pub(super) fn after(&self, trial: &Trial, model: &Model) -> Self {
         let world = &trial.state().world;
         let (tick, time_s) = (world.tick, self.time_s + SERVO_PERIOD_S);
         let (Some(actual_q_rad), Some(target_q_rad)) =
@@ -47,8 +48,9 @@ impl Arm {
             std::array::from_fn(|i| if is_new { 0.0 } else { (now[i] - before[i]) / SERVO_PERIOD_S })
         };
         let target_qd_rad_s = rates(&target_q_rad, &self.target_q_rad);
-        let [actual, target] = [tool(&actual_q_rad), tool(&target_q_rad)];
-        let speed = |now: &Isometry3<f64>, before: &Joints| if is_new { [0.0; 6] } else { speed(now, &tool(before)) };
+        let [actual, target] = [model.tool(&actual_q_rad), model.tool(&target_q_rad)];
+        let speed =
+            |now: &Isometry3<f64>, before: &Joints| if is_new { [0.0; 6] } else { speed(now, &model.tool(before)) };
         let load = trial.load();
         Self {
             tick,

@@ -9,6 +9,7 @@ use super::command::Command;
 use super::control_script::{ControlScript, Next};
 use super::drive_script::DriveScript;
 use super::inputs::Input;
+use super::model::Model;
 use super::mover::Mover;
 use super::news::{Item, News};
 use super::registers::Registers;
@@ -87,6 +88,7 @@ struct Running {
 
 #[derive(Clone, Debug, Default)]
 pub struct Controller {
+    model: Model,
     clients: Vec<Connected>,
     clients_made: ClientId,
     inputs: Registers,
@@ -120,6 +122,14 @@ impl Controller {
         if self.claims.len() < had && self.running.as_ref().is_some_and(commands) {
             self.end("its client has disconnected");
         }
+    }
+
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    pub fn set_model(&mut self, model: Model) {
+        self.model = model;
     }
 
     pub fn standing(&self) -> Standing {
@@ -310,7 +320,8 @@ impl Controller {
                 self.carry_on(next);
             }
             Program::Drive(script) => {
-                let (next, begun) = script.cycle(&self.inputs, &mut self.outputs, &mut self.mover, here_rad);
+                let Self { model, inputs, outputs, mover, .. } = self;
+                let (next, begun) = script.cycle(model, inputs, outputs, mover, here_rad);
                 self.command = begun.or(self.command);
                 self.carry_on(next);
             }

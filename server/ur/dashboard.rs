@@ -20,7 +20,7 @@ pub fn answer(line: &str, arm: &Arm, robot: &mut Controller) -> String {
             let [major, minor, patch, _] = VERSION;
             format!("URSoftware {major}.{minor}.{patch}.106339 (simulated by Ferry)")
         }
-        "get robot model" => "UR5".to_owned(),
+        "get robot model" => robot.model().name.clone(),
         "robotmode" => format!("Robotmode: {}", if arm.has_joints { "RUNNING" } else { "DISCONNECTED" }),
         "safetymode" => format!("Safetymode: {}", safety(robot)),
         "safetystatus" => format!("Safetystatus: {}", safety(robot)),

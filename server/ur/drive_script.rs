@@ -1,15 +1,19 @@
 //! The program that Ferry sends to a robot that it drives, and what it does, for Ferry's own controller. The program has
 //! never run on a real robot.
 //!
+//! In each period it reports the pose of the flange, as the robot's controller computes it, and from which joints. Ferry sends
+//! no target before it has compared this with its own arm ([`super::twin`]): otherwise any arm would be taken for a UR5.
+//!
 //! It counts its periods of 8 ms and reports the number. Each target says which period it answers. If the newest target
 //! answers a period that is more than [`LATE_PERIODS`] ago, the program stops the arm and ends: whether the client is
 //! silent, the connection is cut or slow, or old messages are repeated. A message that was cut and put together wrongly
 //! does not end with the number that it begins with, and counts as none. A target that is far away ends the program, too. It
 //! also bounds the speed, so that targets that come in a burst do not jerk the arm.
 
-use super::arm::tool;
+use super::arm::pose;
 use super::command::Command;
 use super::control_script::Next;
+use super::model::Model;
 use super::mover::Mover;
 use super::registers::Registers;
 use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
@@ -20,6 +24,9 @@ pub const TEXT: &str = include_str!("drive.script");
 pub const REGISTER: usize = 24;
 /// The integer register of the same number with the other sign.
 pub const CHECK_REGISTER: usize = 25;
+/// The first of the double registers with the flange's pose, and with the joints that it was computed from.
+pub const FLANGE_REGISTER: usize = 24;
+pub const JOINTS_REGISTER: usize = 30;
 /// What the program reports when it is over.
 pub const OVER: i32 = -1;
 /// 0.096 s.
@@ -51,9 +58,10 @@ impl DriveScript {
         (text.trim_end() == TEXT.trim_end()).then(Self::default)
     }
 
-    /// One period. `arm_rad` is where the arm was sent last.
+    /// One period. `model` computes its forward kinematics; `arm_rad` is where the arm was sent last.
     pub fn cycle(
         &mut self,
+        model: &Model,
         inputs: &Registers,
         outputs: &mut Registers,
         mover: &mut Mover,
@@ -66,6 +74,8 @@ impl DriveScript {
             outputs.int[REGISTER] = OVER;
             return (next.clone(), None);
         }
+        outputs.set_six(FLANGE_REGISTER, pose(&model.flange(arm_rad)));
+        outputs.set_six(JOINTS_REGISTER, *arm_rad);
         self.period += 1;
         outputs.int[REGISTER] = self.period;
         let answered = inputs.int[REGISTER];
@@ -75,7 +85,7 @@ impl DriveScript {
         match (is_fresh, self.here_rad) {
             (true, here_rad) => {
                 let here_rad = here_rad.unwrap_or(*arm_rad);
-                match toward(&here_rad, &inputs.six(REGISTER)) {
+                match toward(model, &here_rad, &inputs.six(REGISTER)) {
                     Some(next_rad) => {
                         self.here_rad = Some(next_rad);
                         let command = Command::ServoJ { to: next_rad, lookahead_s: LOOKAHEAD_S };
@@ -103,7 +113,7 @@ impl DriveScript {
 }
 
 /// One period's way from `here_rad` to a target; `None` if that is far away, or not a number.
-fn toward(here_rad: &Joints, target_rad: &Joints) -> Option<Joints> {
+fn toward(model: &Model, here_rad: &Joints, target_rad: &Joints) -> Option<Joints> {
     let part = |share: f64| -> Joints { std::array::from_fn(|i| here_rad[i] + share * (target_rad[i] - here_rad[i])) };
     let is_near = |i: usize| (target_rad[i] - here_rad[i]).abs() <= FAR_RAD;
     if !(0..6).all(is_near) {
@@ -111,7 +121,7 @@ fn toward(here_rad: &Joints, target_rad: &Joints) -> Option<Joints> {
     }
     let largest_rad = (0..6).map(|i| (target_rad[i] - here_rad[i]).abs()).fold(1e-6, f64::max);
     let share = (JOINT_MOST_RAD_S * SERVO_PERIOD_S / largest_rad).min(1.0);
-    let place_m = |joints: &Joints| tool(joints).translation.vector;
+    let place_m = |joints: &Joints| model.tool(joints).translation.vector;
     let distance_m = (place_m(&part(share)) - place_m(here_rad)).norm();
     Some(part(share * (TOOL_MOST_M_S * SERVO_PERIOD_S / distance_m).min(1.0)))
 }
@@ -138,6 +148,8 @@ mod tests {
             format!("stopj({DECELERATION_RAD_S2})"),
             format!("write_output_integer_register({REGISTER}, {OVER})"),
             format!("tcp = p[0, 0, {}, 0, 0, 0]", crate::plant::TOOL_LENGTH_M),
+            format!("write_output_float_register({FLANGE_REGISTER} + i, flange[i])"),
+            format!("write_output_float_register({JOINTS_REGISTER} + i, joints[i])"),
         ] {
             assert!(TEXT.contains(&part), "{part}");
         }
@@ -146,12 +158,13 @@ mod tests {
     #[test]
     fn a_target_is_approached_slowly() {
         let target_rad: Joints = [-1.4, -1.4, -1.31, -1.4, 1.4, 0.2];
-        assert_eq!(toward(&HERE_RAD, &[-1.4, -1.4, -1.2, -1.4, 1.4, 0.2]), None);
-        assert_eq!(toward(&HERE_RAD, &[-1.4, f64::NAN, -1.31, -1.4, 1.4, 0.2]), None);
+        let arm = Model::default();
+        assert_eq!(toward(&arm, &HERE_RAD, &[-1.4, -1.4, -1.2, -1.4, 1.4, 0.2]), None);
+        assert_eq!(toward(&arm, &HERE_RAD, &[-1.4, f64::NAN, -1.31, -1.4, 1.4, 0.2]), None);
         let mut here_rad = HERE_RAD;
         for _ in 0..3000 {
-            let next_rad = toward(&here_rad, &target_rad).unwrap();
-            let travel_m = (tool(&next_rad).translation.vector - tool(&here_rad).translation.vector).norm();
+            let next_rad = toward(&arm, &here_rad, &target_rad).unwrap();
+            let travel_m = (arm.tool(&next_rad).translation.vector - arm.tool(&here_rad).translation.vector).norm();
             // The arc is a little shorter or longer than its share.
             assert!(travel_m <= 1.01 * TOOL_MOST_M_S * SERVO_PERIOD_S, "{travel_m}");
             assert!((0..6).all(|i| (next_rad[i] - here_rad[i]).abs() <= 1.5001 * SERVO_PERIOD_S));
@@ -170,7 +183,7 @@ mod tests {
         for period in 1..=periods {
             inputs.int[REGISTER] = answered(period);
             inputs.int[CHECK_REGISTER] = -answered(period);
-            let (next, _) = script.cycle(&inputs, &mut outputs, &mut mover, &here_rad);
+            let (next, _) = script.cycle(&Model::default(), &inputs, &mut outputs, &mut mover, &here_rad);
             if next != Next::Goes {
                 seen.push(next);
                 break;

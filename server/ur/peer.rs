@@ -2,21 +2,35 @@
 
 use bytes::Buf;
 
-use super::drive_script::{CHECK_REGISTER, REGISTER};
+use super::arm::Spatial;
+use super::drive_script::{CHECK_REGISTER, FLANGE_REGISTER, JOINTS_REGISTER, REGISTER};
 use super::rtde::{self, kind};
 use crate::robot::Joints;
 
-/// What the robot reports, and the types of it. The last two only if Ferry may move the arm.
-const OUTPUTS: [(&str, &str); 7] = [
+/// What the robot reports, and the types of it. Registers only if Ferry may move the arm.
+const OUTPUTS: [(&str, &str); 20] = [
     ("timestamp", "DOUBLE"),
     ("actual_q", "VECTOR6D"),
+    ("actual_TCP_pose", "VECTOR6D"),
     ("robot_mode", "INT32"),
     ("safety_mode", "INT32"),
     ("runtime_state", "UINT32"),
     ("output_int_register_24", "INT32"),
     ("input_int_register_24", "INT32"),
+    ("output_double_register_24", "DOUBLE"),
+    ("output_double_register_25", "DOUBLE"),
+    ("output_double_register_26", "DOUBLE"),
+    ("output_double_register_27", "DOUBLE"),
+    ("output_double_register_28", "DOUBLE"),
+    ("output_double_register_29", "DOUBLE"),
+    ("output_double_register_30", "DOUBLE"),
+    ("output_double_register_31", "DOUBLE"),
+    ("output_double_register_32", "DOUBLE"),
+    ("output_double_register_33", "DOUBLE"),
+    ("output_double_register_34", "DOUBLE"),
+    ("output_double_register_35", "DOUBLE"),
 ];
-const READ_ONLY: usize = 5;
+const READ_ONLY: usize = 6;
 /// A little more than a joint's limit.
 const ANGLE_MOST_RAD: f64 = 6.3;
 const INPUTS: &str = "input_int_register_24,input_double_register_24,input_double_register_25,\
@@ -52,6 +66,8 @@ pub enum PeerError {
 pub struct Report {
     pub timestamp_s: f64,
     pub joints_rad: Joints,
+    /// Where the robot says that its tool is, with the tool that is set on the robot.
+    pub tool: Spatial,
     /// 7 while it runs.
     pub robot_mode: i32,
     /// 1 normal, 2 reduced, 3 protective stop.
@@ -61,6 +77,9 @@ pub struct Report {
     /// Of [`super::drive_script`]: the period, as the program reports it, and as Ferry has answered.
     pub period: i32,
     pub answered: i32,
+    /// Of the program, too: the flange's pose, and the joints that it was computed from.
+    pub flange: Spatial,
+    pub flange_joints_rad: Joints,
 }
 
 /// A step of the setup: a request, and a check of its answer.
@@ -163,10 +182,12 @@ impl Peer {
                 return Err(PeerError::Angle { joint, angle_rad: *angle_rad });
             }
         }
+        report.tool = six(&mut payload);
         (report.robot_mode, report.safety_mode) = (payload.get_i32(), payload.get_i32());
         report.runtime_state = payload.get_u32();
         if self.writes {
             (report.period, report.answered) = (payload.get_i32(), payload.get_i32());
+            (report.flange, report.flange_joints_rad) = (six(&mut payload), six(&mut payload));
         }
         Ok(Some(report))
     }
@@ -179,7 +200,14 @@ impl Peer {
     }
 }
 
-const _: () = assert!(REGISTER == 24 && CHECK_REGISTER == 25, "the names above have these numbers");
+const _: () = assert!(
+    REGISTER == 24 && CHECK_REGISTER == 25 && FLANGE_REGISTER == 24 && JOINTS_REGISTER == 30,
+    "the names above have these numbers"
+);
+
+fn six(payload: &mut &[u8]) -> Spatial {
+    std::array::from_fn(|_| payload.get_f64())
+}
 
 fn bytes_of(kind: &str) -> usize {
     match kind {
@@ -234,10 +262,12 @@ mod tests {
                 assert_eq!(peer.accept(step, &answer), Ok(true), "{step:?}");
             }
             let actual_q_rad = [1.0, -2.0, 3.0, -4.0, 5.0, -6.0];
-            let arm = Arm { time_s: 2.5, has_joints: true, actual_q_rad, ..Arm::default() };
+            let actual_tool = [0.1, -0.35, 0.28, 2.2, -2.2, 0.0];
+            let arm = Arm { time_s: 2.5, has_joints: true, actual_q_rad, actual_tool, ..Arm::default() };
             let mut expected = Report {
                 timestamp_s: 2.5,
                 joints_rad: actual_q_rad,
+                tool: actual_tool,
                 robot_mode: 7,
                 safety_mode: 1,
                 runtime_state: 1,
@@ -257,11 +287,12 @@ mod tests {
     fn a_robot_that_cannot_do_it_is_refused_by_name() {
         assert_eq!(answer(Step::Version, &[0]), Err(PeerError::Version));
         let types = |types: &str| answer(Step::Outputs, &[&[1], types.as_bytes()].concat());
-        assert_eq!(types("DOUBLE,VECTOR6D,INT32,INT32,UINT32,INT32,INT32"), Ok(true));
-        let old = types("DOUBLE,VECTOR6D,INT32,INT32,UINT32,NOT_FOUND,NOT_FOUND");
+        let registers = ",DOUBLE".repeat(12);
+        assert_eq!(types(&format!("DOUBLE,VECTOR6D,VECTOR6D,INT32,INT32,UINT32,INT32,INT32{registers}")), Ok(true));
+        let old = types("DOUBLE,VECTOR6D,VECTOR6D,INT32,INT32,UINT32,NOT_FOUND,NOT_FOUND");
         assert_eq!(old, Err(PeerError::Unknown { name: "output_int_register_24".to_owned() }));
-        assert_eq!(types("DOUBLE,VECTOR6D"), Err(PeerError::Count { found: 2, expected: 7 }));
-        let other = types("DOUBLE,VECTOR3D,INT32,INT32,UINT32,INT32,INT32").unwrap_err();
+        assert_eq!(types("DOUBLE,VECTOR6D"), Err(PeerError::Count { found: 2, expected: 20 }));
+        let other = types("DOUBLE,VECTOR3D,VECTOR6D,INT32,INT32,UINT32,INT32,INT32").unwrap_err();
         assert_eq!(other.to_string(), "actual_q has the type VECTOR3D, not VECTOR6D");
         let taken = answer(Step::Inputs, &[&[0], "IN_USE".as_bytes()].concat());
         assert_eq!(taken, Err(PeerError::InUse { name: "input_int_register_24".to_owned() }));
@@ -281,7 +312,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_bytes_are_understood_or_refused(frame in prop::collection::vec(any::<u8>(), 0..120), cut in 0..90_usize) {
+        fn any_bytes_are_understood_or_refused(frame in prop::collection::vec(any::<u8>(), 0..300), cut in 0..300_usize) {
             for writes in [true, false] {
                 let mut peer = Peer::new(writes);
                 for &step in peer.steps() {

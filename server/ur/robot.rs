@@ -6,6 +6,7 @@ use tokio::sync::watch;
 
 use super::Arm;
 use super::controller::{Controller, LoadError, Standing};
+use super::model::Model;
 use crate::robot::Joints;
 use crate::scenario::ControllerName;
 use crate::trial::{Input, InputError, Trial};
@@ -36,6 +37,11 @@ impl Robot {
         self.controller().standing()
     }
 
+    /// The arm that its controller takes its own for; a UR5 at first.
+    pub fn set_model(&self, model: Model) {
+        self.controller().set_model(model);
+    }
+
     /// Begins a program; the one before ends. The session must then give it the arm.
     ///
     /// # Errors
@@ -53,7 +59,7 @@ impl Robot {
             let q_rad = world.plant.positioner.joints_rad().unwrap_or_default();
             let is_new = world.tick != arm.tick || q_rad != arm.actual_q_rad;
             if is_new {
-                *arm = arm.after(trial);
+                *arm = arm.after(trial, self.controller().model());
             }
             is_new
         });

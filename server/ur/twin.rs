@@ -1,6 +1,8 @@
 //! A robot outside of Ferry and its twin, the simulated arm: what the robot reports, and whether it follows Ferry's
 //! controllers. Shared by the session, the page's connections and the robot's. Nothing here reads a clock.
 
+mod doubt;
+mod state;
 #[cfg(test)]
 mod tests;
 
@@ -16,6 +18,8 @@ use super::peer::Report;
 use crate::plant::PositionerKind;
 use crate::robot::Joints;
 use crate::trial::{Input, Trial};
+use doubt::{Apart, Doubt};
+use state::{Drive, State, check_modes};
 
 /// A robot that reports nothing for this long no longer follows, nor does one whose program does not go on.
 pub const SILENCE: Duration = Duration::from_millis(100);
@@ -46,6 +50,8 @@ pub enum DriveError {
     Busy,
     #[error("the arm is not where Ferry may move it: {0}")]
     Place(String),
+    #[error("it is not a UR5: its flange is at {0}; the limits are 20 mm and 4°")]
+    OtherArm(Box<Apart>),
     #[error("the map has a planar stage and no arm")]
     NoArm,
     #[error("the robot has not begun Ferry's program within {} s", START_WITHIN.as_secs())]
@@ -85,6 +91,10 @@ pub struct TwinStanding {
     pub allows_motion: bool,
     /// Why the robot is not connected; `None` if it is.
     pub trouble: Option<String>,
+    /// What its dashboard says that it is, if it says so.
+    pub model: Option<String>,
+    /// Why its poses may not be Ferry's.
+    pub doubt: Option<String>,
     pub robot_mode: i32,
     pub safety_mode: i32,
     /// Whether the button is held and the robot begins or follows.
@@ -93,43 +103,6 @@ pub struct TwinStanding {
     pub is_driven: bool,
     /// Why it does not follow, or no longer.
     pub stopped: Option<String>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Drive {
-    Rests,
-    /// Waits until the session has checked where the arm is, and the robot's register is 0: no old number counts.
-    Clears {
-        since: Instant,
-        is_checked: bool,
-    },
-    /// The program was sent. The robot reports the period `before` until it begins.
-    Begins {
-        since: Instant,
-        before: i32,
-    },
-    Follows {
-        sent_rad: Joints,
-        period: i32,
-        period_at: Instant,
-    },
-}
-
-#[derive(Debug)]
-struct State {
-    /// Why there is no connection.
-    trouble: Option<String>,
-    heard: Option<(Report, Instant)>,
-    /// Until when the page's button counts as held.
-    held_until: Option<Instant>,
-    /// The press of the button that is held, and the last one whose motion has ended.
-    press: Option<u32>,
-    spent: Option<u32>,
-    drive: Drive,
-    stopped: Option<DriveError>,
-    /// A connection has begun, and the session may not run yet.
-    is_new: bool,
-    news: News,
 }
 
 #[derive(Debug)]
@@ -144,7 +117,10 @@ impl Twin {
     pub fn new(address: IpAddr, allows_motion: bool) -> Self {
         let state = State {
             trouble: Some("not connected yet".to_owned()),
+            model: None,
             heard: None,
+            is_proven: false,
+            doubt: None,
             held_until: None,
             press: None,
             spent: None,
@@ -180,6 +156,8 @@ impl Twin {
             address: self.address,
             allows_motion: self.allows_motion,
             trouble: state.trouble.clone(),
+            model: state.model.clone(),
+            doubt: state.doubt.map(|doubt| doubt.to_string()),
             robot_mode: report.robot_mode,
             safety_mode: report.safety_mode,
             is_held: state.drive != Drive::Rests,
@@ -203,10 +181,16 @@ impl Twin {
             Some(why) => state.news.refuse(format!("{} is not connected: {why}", self.address)),
         }
         state.is_new = trouble.is_none();
+        (state.is_proven, state.doubt) = (false, None);
         state.trouble = trouble;
         if state.trouble.is_some() {
             self.stop(&mut state, DriveError::NotConnected);
         }
+    }
+
+    /// What the dashboard says that the robot is.
+    pub fn found_model(&self, model: Option<String>) {
+        self.state().model = model;
     }
 
     /// The robot has reported.
@@ -220,12 +204,28 @@ impl Twin {
                 self.answer.send_modify(|answer| answer.programs += 1);
             }
             Drive::Begins { before, .. } if report.period > 0 && report.period != before => {
+                if let Err(why) = state.compare(&report) {
+                    return self.stop(&mut state, why);
+                }
                 let (sent_rad, period) = (report.joints_rad, report.period);
                 state.drive = Drive::Follows { sent_rad, period, period_at: now };
                 state.news.tell("the arm follows Ferry's controllers".to_owned());
             }
             Drive::Follows { sent_rad, period, .. } if report.period != period => {
+                if report.period != OVER
+                    && let Err(why) = state.compare(&report)
+                {
+                    return self.stop(&mut state, why);
+                }
                 state.drive = Drive::Follows { sent_rad, period: report.period, period_at: now };
+            }
+            Drive::Rests if !state.is_proven => {
+                // What is set now counts.
+                let doubt = Doubt::of_tool(&report);
+                if doubt.is_none() {
+                    state.doubt = None;
+                }
+                state.note(doubt);
             }
             _ => {}
         }
@@ -358,40 +358,5 @@ impl Twin {
         }
         state.drive = Drive::Follows { sent_rad: target_rad, period, period_at };
         self.answer.send_modify(|answer| (answer.period, answer.joints_rad) = (period, target_rad));
-    }
-}
-
-fn check_modes(report: &Report) -> Result<(), DriveError> {
-    if report.robot_mode != RUNNING {
-        return Err(DriveError::Mode(report.robot_mode));
-    }
-    match report.safety_mode {
-        NORMAL | REDUCED => Ok(()),
-        mode => Err(DriveError::Safety(mode)),
-    }
-}
-
-impl State {
-    fn check_drive(&self, now: Instant) -> Result<(), DriveError> {
-        if self.drive == Drive::Rests {
-            return Ok(());
-        }
-        let Some((report, at)) = self.heard else { return Err(DriveError::NotConnected) };
-        if now.saturating_duration_since(at) > SILENCE {
-            return Err(DriveError::Silent);
-        }
-        check_modes(&report)?;
-        match self.drive {
-            Drive::Clears { since, .. } | Drive::Begins { since, .. }
-                if now.saturating_duration_since(since) > START_WITHIN =>
-            {
-                Err(DriveError::NotBegun)
-            }
-            Drive::Follows { .. } if report.period == OVER || report.runtime_state != PLAYING => Err(DriveError::Over),
-            Drive::Follows { period_at, .. } if now.saturating_duration_since(period_at) > SILENCE => {
-                Err(DriveError::Silent)
-            }
-            _ => Ok(()),
-        }
     }
 }

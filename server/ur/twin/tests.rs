@@ -4,6 +4,7 @@ use crate::geometry::{Point2, Point3};
 use crate::plant::{Positioner, ToolOrientation};
 use crate::scenario::{ControllerName, Scenario};
 use crate::trial::{Arena, Source};
+use crate::ur::{arm::pose, model::Model};
 use proptest::prelude::*;
 
 const TICK: Duration = Duration::from_millis(8);
@@ -13,6 +14,8 @@ struct Bench {
     trial: Trial,
     camera: Camera,
     twin: Twin,
+    /// The arm that the robot takes its own for.
+    arm: Model,
     report: Report,
     now: Instant,
     press: u32,
@@ -28,12 +31,15 @@ impl Bench {
         let twin = Twin::new([127, 0, 0, 1].into(), allows_motion);
         twin.connected(Ok(()));
         let camera = trial.arena().camera(&Gpu::open(AdapterChoice::default()).unwrap()).unwrap();
-        Self { trial, camera, twin, report, now: Instant::now(), press: 1 }
+        Self { trial, camera, twin, arm: Model::default(), report, now: Instant::now(), press: 1 }
     }
 
     /// The robot reports, and the session makes a tick.
     fn tick(&mut self) -> Answer {
         self.now += TICK;
+        let joints_rad = self.report.joints_rad;
+        self.report.tool = pose(&self.arm.tool(&joints_rad));
+        (self.report.flange, self.report.flange_joints_rad) = (pose(&self.arm.flange(&joints_rad)), joints_rad);
         self.twin.hear(self.report, self.now);
         self.silent_tick()
     }
@@ -58,13 +64,18 @@ impl Bench {
 
     /// Until the robot follows.
     fn begin(&mut self) {
+        self.press();
+        self.tick();
+        assert!(self.twin.standing().is_driven);
+    }
+
+    /// Until the robot has begun the program, which it has not yet reported.
+    fn press(&mut self) {
         self.tick();
         self.hold().unwrap();
         self.tick();
         assert_eq!((self.tick().programs, self.twin.standing().is_driven), (1, false));
         (self.report.period, self.report.runtime_state) = (1, PLAYING);
-        self.tick();
-        assert!(self.twin.standing().is_driven);
     }
 
     /// One more period of the robot's program, with the button held.
@@ -224,6 +235,68 @@ fn a_robot_that_cannot_follow_is_not_asked_to() {
     bench.tick();
     bench.now += SILENCE + TICK;
     assert_eq!(bench.hold(), Err(DriveError::Silent));
+}
+
+/// An arm whose table differs from the UR5's in one number.
+fn arm(change: &str) -> Model {
+    let text = r#"{"name": "an arm", "d_m": [0.089159, 0, 0, 0.10915, 0.09465, 0.0823],
+        "a_m": [0, -0.425, -0.39225, 0, 0, 0], "alpha_rad": [1.5707963, 0, 0, 1.5707963, -1.5707963, 0], "tcp_m": 0.18}"#;
+    let (from, to) = change.split_once(" → ").unwrap();
+    assert!(text.contains(from));
+    Model::read(&text.replace(from, to)).unwrap()
+}
+
+#[test]
+fn another_arm_never_gets_a_target() {
+    // The base of a UR5e, a longer forearm, a mount that is turned by 5°.
+    for change in ["0.089159 → 0.1625", "-0.39225 → -0.42", "-1.5707963 → -1.6580628"] {
+        let mut bench = Bench::new(true);
+        bench.arm = arm(change);
+        bench.press();
+        bench.tick();
+        let stopped = bench.stopped();
+        assert!(stopped.contains("it is not a UR5") && stopped.matches("p[").count() == 2, "{change}: {stopped}");
+        assert_eq!(bench.go_on().period, 0, "{change}");
+    }
+    // A program that tells nothing of the flange: its registers are 0.
+    let mut bench = Bench::new(true);
+    bench.press();
+    let report = Report { flange: [0.0; 6], flange_joints_rad: [0.0; 6], ..bench.report };
+    bench.twin.hear(report, bench.now + TICK);
+    assert!(bench.stopped().contains("it is not a UR5"));
+}
+
+#[test]
+fn an_arm_that_becomes_another_is_stopped_and_a_doubtful_one_is_told_of() {
+    let mut bench = Bench::new(true);
+    bench.begin();
+    assert_eq!(bench.twin.standing().doubt, None);
+    assert!(bench.go_on().period > 0);
+    bench.arm = arm("0.089159 → 0.1625");
+    assert_eq!(bench.go_on().period, 0);
+    assert!(bench.stopped().contains("it is not a UR5"), "{}", bench.stopped());
+
+    // 10 mm: as much as a bad calibration.
+    let mut bench = Bench::new(true);
+    bench.arm = arm("0.089159 → 0.099159");
+    bench.tick();
+    let doubt = bench.twin.standing().doubt.unwrap();
+    assert!(doubt.contains("either its TCP is not Ferry's") && doubt.contains("10.0 mm"), "{doubt}");
+    bench.begin();
+    assert!(bench.go_on().period > 0);
+    let doubt = bench.twin.standing().doubt.unwrap();
+    assert!(doubt.contains("calibration") && doubt.contains("10.0 mm"), "{doubt}");
+    let told = bench.twin.take_news().iter().filter(|item| item.text.contains("10.0 mm")).count();
+    assert_eq!(told, 2, "once each");
+
+    // Another tool is set on the robot: the flange is a UR5's.
+    let mut bench = Bench::new(true);
+    bench.arm = arm("0.18 → 0");
+    bench.tick();
+    assert!(bench.twin.standing().doubt.unwrap().contains("180.0 mm"));
+    bench.begin();
+    assert!(bench.go_on().period > 0);
+    assert_eq!(bench.twin.standing().doubt, None);
 }
 
 #[test]

@@ -7,6 +7,8 @@ export function twinOf(change: Partial<TwinStanding> = {}): TwinStanding {
     address: '192.168.0.5',
     allows_motion: true,
     trouble: null,
+    model: null,
+    doubt: null,
     robot_mode: 7,
     safety_mode: 1,
     is_held: false,

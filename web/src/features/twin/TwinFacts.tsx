@@ -4,7 +4,7 @@ import { Show, createEffect, on, onCleanup, onMount, type JSX } from 'solid-js';
 import type { Session, Trial } from '../../lab/slices';
 import type { TwinStanding } from '../../net/protocol.gen';
 import { createHold } from './hold';
-import { connectionWords, motionWords } from './words';
+import { connectionWords, doubtWords, motionWords } from './words';
 import './twin.css';
 
 const isKey = ({ key }: KeyboardEvent): boolean => key === ' ' || key === 'Enter';
@@ -74,6 +74,13 @@ function Facts(props: { lab: Session; twin: TwinStanding }): JSX.Element {
       <p data-testid="twin-connection" classList={{ stopped: props.twin.trouble !== null }}>
         {connectionWords(props.twin)}
       </p>
+      <Show when={props.twin.doubt}>
+        {(doubt) => (
+          <p data-testid="twin-doubt" class="doubt">
+            {doubtWords(doubt())}
+          </p>
+        )}
+      </Show>
       <p
         id="twin-motion"
         data-testid="twin-motion"

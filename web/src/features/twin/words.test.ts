@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { twinOf } from '../../lab/testingTwin';
-import { connectionWords, motionWords } from './words';
+import { connectionWords, doubtWords, motionWords } from './words';
 
 const twin = twinOf();
 
@@ -9,6 +9,10 @@ describe('the words about a mirrored robot', () => {
     expect(connectionWords(twin)).toBe('Robot 192.168.0.5: running, safety: normal.');
     expect(connectionWords({ ...twin, robot_mode: 3, safety_mode: 12 })).toBe(
       'Robot 192.168.0.5: power off, safety: safety mode 12.',
+    );
+    expect(connectionWords({ ...twin, model: 'UR3' })).toContain('192.168.0.5 (UR3): running');
+    expect(doubtWords('its tool is elsewhere')).toBe(
+      'Ferry’s places may not be the robot’s: its tool is elsewhere.',
     );
     expect(connectionWords({ ...twin, trouble: 'port 30004: refused' })).toBe(
       'Robot 192.168.0.5 is not connected: port 30004: refused.',

@@ -31,7 +31,13 @@ export function connectionWords(twin: TwinStanding): string {
   if (twin.trouble !== null) return `Robot ${twin.address} is not connected: ${twin.trouble}.`;
   const mode = MODES.get(twin.robot_mode) ?? `mode ${String(twin.robot_mode)}`;
   const safety = SAFETY.get(twin.safety_mode) ?? `safety mode ${String(twin.safety_mode)}`;
-  return `Robot ${twin.address}: ${mode}, safety: ${safety}.`;
+  const model = twin.model === null ? '' : ` (${twin.model})`;
+  return `Robot ${twin.address}${model}: ${mode}, safety: ${safety}.`;
+}
+
+/** Why places may be others than the page shows. */
+export function doubtWords(doubt: string): string {
+  return `Ferry’s places may not be the robot’s: ${doubt}.`;
 }
 
 /** Who moves the robot. */

@@ -52,6 +52,14 @@ allows_motion: boolean,
  */
 trouble: string | null, 
 /**
+ * What its dashboard says that it is; `null` if it does not say.
+ */
+model: string | null, 
+/**
+ * Why places on the table may be others than Ferry's; `null` if there is no reason to think so.
+ */
+doubt: string | null, 
+/**
  * As it reports it: 7 while it runs.
  */
 robot_mode: number, 
