@@ -322,7 +322,7 @@ class _Trials:
                 raise ValueError(f'action is {action!r}, it must be "discrete" or "box"')
         if not 0.0 <= progress_reward <= 1.0:
             raise ValueError(f"progress_reward is {progress_reward}, it must be 0 to 1")
-        self.native = Mazes(map, lanes, changes(parameters), disturbances, 0)
+        self.native = Mazes(map, lanes, changes(parameters), disturbances)
         self._action = action
         self._progress_reward = progress_reward
         self._corner_m: NDArray[np.float64] = np.array(self.native.corner_m())

@@ -20,7 +20,7 @@ use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::{bad, failed, open_gpu};
+use crate::{bad, failed, open_gpu, threads};
 
 /// A controller written in Python.
 struct Own {
@@ -42,6 +42,14 @@ pub struct Job {
     work: Work,
     gpu: Arc<Gpu>,
     own: Vec<Own>,
+}
+
+impl Drop for Job {
+    fn drop(&mut self) {
+        if threads::are_lost() {
+            std::mem::forget(self.gpu.clone());
+        }
+    }
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
@@ -229,6 +237,7 @@ impl Job {
     }
 
     fn run_shard(&self, shard: Shard, threads: usize) -> PyResult<Vec<u8>> {
+        threads::claim()?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(failed)?;
         let adapter = self.gpu.adapter_name();
         match &self.work {

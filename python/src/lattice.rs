@@ -29,9 +29,12 @@ impl Lattice {
             let recipe: Recipe = serde_json::from_str(settings).map_err(bad)?;
             recipe.check().map_err(bad)?;
             let arena = Arena::open(map).map_err(bad)?;
-            let gpu = open_gpu()?;
-            let sweep =
-                Sweep::open(&arena, &gpu, &sweeps, STEP_M, &[], &|| ControlFlow::Continue(())).map_err(failed)?;
+            // Without a camera there are no threads, so that processes can be forked.
+            let sweep = match Sweep::kept(&arena, &sweeps, STEP_M, &[]) {
+                Some(kept) => kept,
+                None => Sweep::open(&arena, &open_gpu()?, &sweeps, STEP_M, &[], &|| ControlFlow::Continue(()))
+                    .map_err(failed)?,
+            };
             let workspace = arena.map.workspace();
             let terrain = Terrain::new(arena.map.name(), workspace, &sweep, recipe.clearance_m).map_err(bad)?;
             Ok(Self { lanes: Lanes::new(terrain, recipe, lanes, seed).map_err(bad)? })

@@ -3,6 +3,7 @@
 mod job;
 mod lattice;
 mod maze;
+mod threads;
 
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -23,6 +24,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 /// Runs the command `ferry`; returns its exit status.
 #[pyfunction]
 fn run(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<i32> {
+    threads::claim()?;
     let ended = py.detach(|| ferry::cli::run(arguments.into_iter(), ferry_assets::FILES));
     let code = ended.map_err(|error| PyRuntimeError::new_err(format!("{error:#}")))?;
     Ok(i32::from(code != std::process::ExitCode::SUCCESS))
@@ -54,6 +56,7 @@ fn observation<'py>(
 /// The graphics adapter. With Vulkan, Mesa keeps its LLVM to itself; with OpenGL it does not, and torch's Triton, which has
 /// another LLVM, crashes if it is loaded later.
 fn open_gpu() -> PyResult<Arc<Gpu>> {
+    threads::claim()?;
     Gpu::open(AdapterChoice::Vulkan).or_else(|_| Gpu::open(AdapterChoice::Auto)).map_err(failed)
 }
 

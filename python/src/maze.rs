@@ -11,7 +11,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::{Array, array, bad, failed, open_gpu};
+use crate::{Array, array, bad, failed, open_gpu, threads};
 
 /// One trial that waits for an answer.
 struct Lane {
@@ -28,50 +28,62 @@ pub struct Mazes {
     map: String,
     parameters: Parameters,
     disturbances: u32,
+    count: usize,
+    /// Empty until the first start. Their cameras have threads, so that a process with an environment that never began can
+    /// be forked, as Gymnasium does.
     lanes: Vec<Lane>,
+}
+
+impl Drop for Mazes {
+    fn drop(&mut self) {
+        if threads::are_lost() {
+            std::mem::forget(std::mem::take(&mut self.lanes));
+        }
+    }
 }
 
 #[pymethods]
 impl Mazes {
     /// `changes`: parameters as `NAME=VALUE`.
     #[new]
-    fn new(
-        py: Python<'_>,
-        map: String,
-        lanes: usize,
-        changes: Vec<String>,
-        disturbances: u32,
-        seed: u64,
-    ) -> PyResult<Self> {
+    fn new(py: Python<'_>, map: String, lanes: usize, changes: Vec<String>, disturbances: u32) -> PyResult<Self> {
         py.detach(|| {
             if !(1..=256).contains(&lanes) {
                 return Err(bad(format!("lanes is {lanes}, it must be 1 to 256")));
             }
             let parameters = Parameters::default().with(&changes).map_err(bad)?;
             let arena = Arena::open(&map).map_err(bad)?;
-            let gpu = open_gpu()?;
-            let mut mazes = Self { arena, map, parameters, disturbances, lanes: Vec::new() };
-            for lane in 0..lanes {
-                let mut camera = mazes.arena.camera(&gpu).map_err(failed)?;
-                let trial = mazes.trial(seed.wrapping_add(lane as u64))?;
-                let (seen, question) = look(&trial, &mut camera)?;
-                mazes.lanes.push(Lane { trial, camera, seen, question });
-            }
+            let mazes = Self { arena, map, parameters, disturbances, count: lanes, lanes: Vec::new() };
+            mazes.trial(0)?;
             Ok(mazes)
         })
     }
 
-    /// Begins a trial in each lane that has a seed.
+    /// Begins a trial in each lane that has a seed; the first time, in all lanes.
     fn start(&mut self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<()> {
         self.check_length("seed", seeds.len())?;
-        for (index, seed) in seeds.into_iter().enumerate() {
-            let Some(seed) = seed else { continue };
-            let trial = self.trial(seed)?;
-            let lane = &mut self.lanes[index];
-            (lane.seen, lane.question) = py.detach(|| look(&trial, &mut lane.camera))?;
-            lane.trial = trial;
-        }
-        Ok(())
+        threads::claim()?;
+        py.detach(|| {
+            if self.lanes.is_empty() {
+                let gpu = open_gpu()?;
+                let begin = |(index, seed): (usize, &Option<u64>)| {
+                    let trial = self.trial(seed.unwrap_or(index as u64))?;
+                    let mut camera = self.arena.camera(&gpu).map_err(failed)?;
+                    let (seen, question) = look(&trial, &mut camera)?;
+                    Ok(Lane { trial, camera, seen, question })
+                };
+                self.lanes = seeds.iter().enumerate().map(begin).collect::<PyResult<_>>()?;
+                return Ok(());
+            }
+            for (index, seed) in seeds.into_iter().enumerate() {
+                let Some(seed) = seed else { continue };
+                let trial = self.trial(seed)?;
+                let lane = &mut self.lanes[index];
+                (lane.seen, lane.question) = look(&trial, &mut lane.camera)?;
+                lane.trial = trial;
+            }
+            Ok(())
+        })
     }
 
     /// One control step of each lane of `mask`, straight toward its row of `targets_m`; a row with NaN holds.
@@ -81,6 +93,8 @@ impl Mazes {
         targets_m: PyReadonlyArray2<'_, f64>,
         mask: PyReadonlyArray1<'_, bool>,
     ) -> PyResult<()> {
+        threads::claim()?;
+        self.check_begun()?;
         if targets_m.shape() != [self.lanes.len(), 2] {
             return Err(bad(format!(
                 "target_m has the shape {:?}, it must be [{}, 2]",
@@ -191,6 +205,8 @@ impl Mazes {
         width_px: u32,
         height_px: u32,
     ) -> PyResult<Array<'py, u8>> {
+        threads::claim()?;
+        self.check_begun()?;
         let count = self.lanes.len();
         let lane =
             self.lanes.get_mut(lane).ok_or_else(|| bad(format!("lane is {lane}, it must be 0 to {}", count - 1)))?;
@@ -209,8 +225,12 @@ impl Mazes {
         Trial::new(scenario, arena.clone()).map_err(bad)
     }
 
+    fn check_begun(&self) -> PyResult<()> {
+        if self.lanes.is_empty() { Err(failed("no trial has begun: call reset first")) } else { Ok(()) }
+    }
+
     fn check_length(&self, field: &str, found: usize) -> PyResult<()> {
-        let lanes = self.lanes.len();
+        let lanes = self.count;
         if found == lanes { Ok(()) } else { Err(bad(format!("{field} has {found} entries, it must have {lanes}"))) }
     }
 }
