@@ -17,6 +17,7 @@ mod routes;
 mod saved_sessions;
 mod sessions;
 mod site;
+mod socket;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -42,6 +43,7 @@ use crate::ur::{Robot, Twin};
 
 pub use access::{Access, AccessError, Origin, OriginError, Token, TokenError};
 pub use assets::{EmbeddedFile, Page};
+use body::Bodies;
 use metrics::Counters;
 use problem::Problem;
 use programs::Programs;
@@ -148,6 +150,9 @@ pub struct Server {
     judge: Arc<Semaphore>,
     /// Permits for camera streams.
     camera_streams: Arc<Semaphore>,
+    bodies: Bodies,
+    /// Permits for browsers that may send large messages.
+    large_seats: Arc<Semaphore>,
     /// Open WebSockets.
     sockets: TaskTracker,
     /// Becomes true when the server stops; every WebSocket and camera stream watches it.
@@ -195,6 +200,8 @@ impl Server {
             painter: Arc::new(Semaphore::new(1)),
             judge: Arc::new(Semaphore::new(1)),
             camera_streams: Arc::new(Semaphore::new(CAMERA_STREAMS)),
+            bodies: Bodies::default(),
+            large_seats: Arc::new(Semaphore::new(live::LARGE_SEATS)),
             sockets: TaskTracker::new(),
             stopping,
         }))

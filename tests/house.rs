@@ -32,6 +32,16 @@ const CONFINED: [(&str, &[&str]); 9] = [
     ("ts_rs", &["protocol"]),
 ];
 
+/// Code that only one file may have: what a client sends is limited there.
+const IN_ONE_FILE: [(&str, &str); 4] = [
+    ("WebSocketUpgrade", "http/socket.rs"),
+    ("into_limited_body", "http/body.rs"),
+    ("into_data_stream", "http/body.rs"),
+    ("http_body_util", "http/body.rs"),
+];
+/// What a handler must not ask for, because it would read the body itself.
+const READS_BODY: [&str; 8] = ["Bytes", "String", "Json", "Form", "RawForm", "Multipart", "Body", "Request"];
+
 /// Maximum number of lines of a file.
 const LINES_MOST: usize = 400;
 
@@ -117,6 +127,34 @@ fn confined_crates_stay_in_their_modules() {
             assert!(!used || homes.contains(&module.as_str()), "{path:?} uses {name}");
         }
     }
+}
+
+#[test]
+fn sockets_and_bodies_of_clients_are_read_in_one_place() {
+    let (mut homes, mut handlers) = (0, 0);
+    for (path, _, text) in sources().into_iter().filter(|(_, module, _)| module == "http") {
+        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+        let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+        for (part, home) in IN_ONE_FILE {
+            let has = code.iter().any(|line| line.contains(part));
+            assert!(!has || path.ends_with(home), "{path:?} has `{part}`, which belongs to {home}");
+            homes += usize::from(has);
+        }
+        let joined = code.join(" ");
+        for handler in joined.split("pub async fn ").skip(1) {
+            let (name, arguments) = handler.split_once('(').unwrap();
+            let arguments = arguments.split(") ->").next().unwrap().replace("Path<String>", "");
+            // The guard passes the request on.
+            if !arguments.contains("State(") || name == "guard" {
+                continue;
+            }
+            let mut words = arguments.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            let read = words.find(|word| READS_BODY.contains(word));
+            assert!(read.is_none(), "{path:?}: {name} takes {read:?}; take WholeBody");
+            handlers += 1;
+        }
+    }
+    assert!(homes == IN_ONE_FILE.len() && handlers > 40, "the walk found {homes} places and {handlers} handlers");
 }
 
 #[test]

@@ -5,19 +5,15 @@ mod hand;
 mod hub;
 mod seats;
 
-use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::body::Bytes;
 use axum::extract::State;
-use axum::extract::ws::{CloseFrame, Message, WebSocket, WebSocketUpgrade};
+use axum::extract::ws::Message;
 use axum::http::StatusCode;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
+use futures_util::StreamExt;
 use futures_util::stream::FuturesUnordered;
-use futures_util::{SinkExt, StreamExt};
-use governor::clock::{Clock, DefaultClock};
-use governor::{DefaultDirectRateLimiter, Quota, RateLimiter};
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::{oneshot, watch};
 use tokio::time::Instant;
@@ -30,23 +26,17 @@ use super::Server;
 use super::path::{Path, SessionPath};
 use super::problem::Problem;
 use super::refusals::{Malformed, NotFound, NotUpgraded, Unavailable};
+use super::socket::{Incoming, Limits, Socket, Upgrade};
 use crate::protocol::{ClientMessage, ErrorMessage, EventMessage, MAX_MESSAGE_BYTES, ServerMessage};
 use crate::scenario::ControllerName;
 use crate::session::{Command, CommandError};
 use crate::trial::Case;
 
-/// Maximum size of pending messages for a browser; a set of the newest messages is smaller.
-const WRITE_LIMIT: usize = 4 << 20;
-/// Message rate of one browser; further messages are read later, so that nothing is lost.
-const MESSAGES_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
-const MESSAGES_BURST: NonZeroU32 = NonZeroU32::new(1000).unwrap();
-/// Close code 1001 of RFC 6455: the server is going away.
-const GOING_AWAY: u16 = 1001;
-/// Interval of checks for silent connections.
-const BEAT: Duration = Duration::from_secs(1);
-/// Interval of pings, and the silence after which a browser is disconnected.
-const PING_EVERY: Duration = Duration::from_secs(15);
-const SILENCE: Duration = Duration::from_secs(45);
+const LIMITS: Limits = Limits { message_bytes: MAX_MESSAGE_BYTES, ping_every: Duration::from_secs(15) };
+/// Of a browser that joins when [`LARGE_SEATS`] are taken: room for everything but test cases.
+const SMALL: Limits = Limits { message_bytes: 64 << 10, ..LIMITS };
+/// Browsers that may send test cases.
+pub const LARGE_SEATS: usize = 8;
 
 /// The WebSocket of a session.
 ///
@@ -58,26 +48,22 @@ const SILENCE: Duration = Duration::from_secs(45);
 pub async fn live(
     State(server): State<Arc<Server>>,
     Path(SessionPath { id }): Path<SessionPath>,
-    upgrade: Result<WebSocketUpgrade, axum::extract::ws::rejection::WebSocketUpgradeRejection>,
-) -> Response {
-    let Some(hub) = server.sessions.find(&id) else { return Problem::not_found("session", &id).into_response() };
-    let upgrade = match upgrade {
-        Ok(upgrade) => upgrade.max_message_size(MAX_MESSAGE_BYTES).max_frame_size(MAX_MESSAGE_BYTES),
-        Err(rejection) => {
-            return Problem::new(rejection.status(), "websocket", rejection.body_text()).into_response();
-        }
-    };
-    let Some(seat) = Seat::take(&hub) else {
+    upgrade: Result<Upgrade, Problem>,
+) -> Result<Response, Problem> {
+    let hub = server.sessions.find(&id).ok_or_else(|| Problem::not_found("session", &id))?;
+    let upgrade = upgrade?;
+    let seat = Seat::take(&hub).ok_or_else(|| {
         let detail = format!("session {id:?} has {} browsers already", hub.viewers());
-        return Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail).into_response();
-    };
-    upgrade.max_write_buffer_size(WRITE_LIMIT).on_upgrade(move |socket| {
-        let sockets = server.sockets.clone();
-        sockets.track_future(async move {
-            let stopping = server.stopping.clone();
-            Connection::new(seat, hub, server, socket).serve(stopping).await;
-        })
-    })
+        Problem::new(StatusCode::SERVICE_UNAVAILABLE, "too_many_viewers", detail)
+    })?;
+    let large = server.large_seats.clone().try_acquire_owned();
+    let limits = if large.is_ok() { LIMITS } else { SMALL };
+    let serving = server.clone();
+    Ok(upgrade.serve(&server, limits, move |socket| async move {
+        let served = Connection::new(seat, hub, serving, socket, limits.message_bytes).serve().await;
+        drop(large);
+        served
+    }))
 }
 
 /// A place among a session's browsers. Dropping it frees the place, also if the upgrade fails.
@@ -102,14 +88,10 @@ struct Connection {
     seat: Seat,
     hub: Arc<Hub>,
     server: Arc<Server>,
-    socket: WebSocket,
+    socket: Socket,
+    /// Largest message from the browser.
+    message_bytes: usize,
     hand: Arc<Hand>,
-    /// Times of its last message and of our last ping.
-    received: Instant,
-    pinged: Instant,
-    messages: DefaultDirectRateLimiter,
-    /// When a browser sends too much, nothing is read before this time.
-    read_after: Instant,
     /// Answers of `step` commands. The connection does not wait for them: it goes on sending states, and reads `pause`.
     stepping: FuturesUnordered<oneshot::Receiver<Result<(), CommandError>>>,
 }
@@ -124,34 +106,30 @@ struct Sent {
 }
 
 impl Connection {
-    fn new(seat: Seat, hub: Arc<Hub>, server: Arc<Server>, socket: WebSocket) -> Self {
-        let now = Instant::now();
-        let messages = RateLimiter::direct(Quota::per_second(MESSAGES_PER_S).allow_burst(MESSAGES_BURST));
+    fn new(seat: Seat, hub: Arc<Hub>, server: Arc<Server>, socket: Socket, message_bytes: usize) -> Self {
         let hand = Hand::new(seat.own, hub.clone());
-        let stepping = FuturesUnordered::new();
-        Self { seat, hub, server, socket, hand, received: now, pinged: now, messages, read_after: now, stepping }
+        Self { seat, hub, server, socket, message_bytes, hand, stepping: FuturesUnordered::new() }
     }
 
-    async fn serve(mut self, stopping: watch::Receiver<bool>) {
-        // The browser may disconnect at any await; the reason does not matter.
+    async fn serve(mut self) -> Result<(), axum::Error> {
         let watching = tokio::spawn(self.hand.clone().watch());
-        let _ = self.run(stopping).await;
+        let ended = self.run().await;
         watching.abort();
         self.hand.release().await;
+        ended
     }
 
-    async fn run(&mut self, mut stopping: watch::Receiver<bool>) -> Result<(), axum::Error> {
+    async fn run(&mut self) -> Result<(), axum::Error> {
         let mut encoded = self.hub.encoded();
         let mut seats = self.hub.seats();
         let mut events = self.hub.session.events();
         let mut comparison = self.hub.comparison();
         let mut closing = self.hub.closing();
-        let mut beat = tokio::time::interval(BEAT);
         let mut sent = Sent::default();
         let mut goes_on = true;
         let hand = self.hand.clone();
         let now = *seats.borrow_and_update();
-        self.send_message(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
+        self.greet(&now).await?;
         let first = encoded.borrow_and_update().clone();
         sent.past_version = first.past_version;
         self.send_newest(&first, &mut sent).await?;
@@ -168,31 +146,30 @@ impl Connection {
                     Ok(event) => self.send_message(&ServerMessage::Event(EventMessage::from(&event))).await?,
                     // The browser is too slow for every message; the newest ones follow.
                     Err(RecvError::Lagged(_)) => {}
-                    Err(RecvError::Closed) => return self.close("the session has ended").await,
+                    Err(RecvError::Closed) => return self.socket.close("the session has ended").await,
                 },
                 changed = comparison.changed() => {
                     if changed.is_err() {
-                        return self.close("the session has ended").await;
+                        return self.socket.close("the session has ended").await;
                     }
                     let newest = comparison.borrow_and_update().clone();
                     self.socket.send(Message::Text(newest)).await?;
                 }
                 changed = seats.changed() => {
                     if changed.is_err() {
-                        return self.close("the session has ended").await;
+                        return self.socket.close("the session has ended").await;
                     }
                     let now = *seats.borrow_and_update();
                     if now.operator != Some(self.seat.own) {
                         self.hand.release().await;
                     }
-                    self.send_message(&ServerMessage::Hello(self.hub.hello(self.seat.own, &now))).await?;
+                    self.greet(&now).await?;
                 }
-                message = receive(&mut self.socket, self.read_after) => {
-                    let Some(Ok(message)) = message else { return Ok(()) };
-                    if !self.receive(message).await? {
-                        return Ok(());
-                    }
-                }
+                message = self.socket.next() => match message? {
+                    Some(Incoming::Text(text)) => self.handle(&text).await?,
+                    Some(Incoming::Binary) => self.refuse("malformed", "binary messages are not understood", None).await?,
+                    None => return Ok(()),
+                },
                 Some(Ok(Err(error))) = self.stepping.next() => {
                     self.send_message(&ServerMessage::Error(ErrorMessage::from(&error))).await?;
                 }
@@ -200,41 +177,14 @@ impl Connection {
                     let message = format!("no message from the page that holds the bead for {} s: the bead was released and the session paused", hand::SILENCE.as_secs());
                     self.refuse("hand_silent", &message, None).await?;
                 }
-                _ = beat.tick() => {
-                    if self.received.elapsed() > SILENCE {
-                        return self.close("no message from this browser").await;
-                    }
-                    self.beat().await?;
-                }
-                () = async { drop(stopping.wait_for(|&stop| stop).await) } => return self.close("the server stops").await,
-                () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.close("the session was closed").await,
+                () = async { drop(closing.wait_for(|&closed| closed).await) } => return self.socket.close("the session was closed").await,
             }
         }
     }
 
-    /// Returns whether the connection stays open.
-    async fn receive(&mut self, message: Message) -> Result<bool, axum::Error> {
-        self.received = Instant::now();
-        if let Err(until) = self.messages.check() {
-            self.read_after = self.received + until.wait_time_from(DefaultClock::default().now());
-        }
-        match message {
-            Message::Text(text) => self.handle(&text).await?,
-            Message::Binary(_) => {
-                self.refuse("malformed", "binary messages are not understood", None).await?;
-            }
-            Message::Ping(_) | Message::Pong(_) => {}
-            Message::Close(_) => return Ok(false),
-        }
-        Ok(true)
-    }
-
-    async fn beat(&mut self) -> Result<(), axum::Error> {
-        if self.pinged.elapsed() > PING_EVERY {
-            self.pinged = Instant::now();
-            self.socket.send(Message::Ping(Bytes::new())).await?;
-        }
-        Ok(())
+    async fn greet(&mut self, seats: &Seats) -> Result<(), axum::Error> {
+        let hello = self.hub.hello(self.seat.own, seats, self.message_bytes);
+        self.send_message(&ServerMessage::Hello(hello)).await
     }
 
     async fn send_newest(&mut self, newest: &Encoded, sent: &mut Sent) -> Result<(), axum::Error> {
@@ -364,14 +314,4 @@ impl Connection {
     async fn send_message(&mut self, message: &ServerMessage) -> Result<(), axum::Error> {
         self.socket.send(Message::Text(json(message))).await
     }
-
-    async fn close(&mut self, reason: &'static str) -> Result<(), axum::Error> {
-        self.socket.send(Message::Close(Some(CloseFrame { code: GOING_AWAY, reason: reason.into() }))).await
-    }
-}
-
-/// The next message, read not before a given time.
-pub async fn receive(socket: &mut WebSocket, not_before: Instant) -> Option<Result<Message, axum::Error>> {
-    tokio::time::sleep_until(not_before).await;
-    socket.recv().await
 }

@@ -11,7 +11,7 @@ use utoipa::openapi::{OpenApi, PathItem, RefOr};
 use utoipa::{IntoResponses, OpenApi as _};
 
 use super::problem::Problem;
-use super::refusals::{ForeignHost, ForeignOrigin, Malformed, TooLarge, TooMany, TooSlow, Unauthorized};
+use super::refusals::{ForeignHost, ForeignOrigin, Malformed, TooLarge, TooMany, TooSlow, Unauthorized, Unavailable};
 use crate::protocol::{ClientMessage, ProgramAnswer, ProgramMessage, ServerMessage};
 
 /// The parts of the description that routes do not generate.
@@ -97,6 +97,7 @@ fn complete_operation(path: &str, operation: &mut Operation) {
     if operation.request_body.is_some() {
         shared.push(TooLarge::responses());
         shared.push(TooSlow::responses());
+        shared.push(Unavailable::responses());
     }
     for (status, response) in shared.into_iter().flatten() {
         operation.responses.responses.entry(status).or_insert(response);

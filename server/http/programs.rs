@@ -1,38 +1,23 @@
 //! The programs of a server, by name, and their connections.
 
 use std::collections::BTreeMap;
-use std::num::NonZeroU32;
 use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Duration;
 
 use axum::body::Bytes;
-use axum::extract::ws::{CloseFrame, Message, WebSocket};
+use axum::extract::ws::Message;
 use axum::http::StatusCode;
-use governor::clock::{Clock, DefaultClock};
-use governor::{Quota, RateLimiter};
-use tokio::sync::watch;
-use tokio::time::Instant;
 
-use super::live::receive;
 use super::problem::Problem;
 use super::sessions::is_name;
+use super::socket::{Incoming, Limits, Socket};
 use crate::program::{Connection, Program};
 use crate::protocol::{Conversation, Outgoing};
 use crate::scenario::ControllerName;
 
-/// Largest message of a program.
-pub const MESSAGE_BYTES_MOST: usize = 16 << 10;
+pub const LIMITS: Limits = Limits { message_bytes: 16 << 10, ping_every: Duration::from_secs(5) };
 /// Programs whose names are kept; those that have disconnected make room for others.
 const PROGRAMS_MOST: usize = 32;
-/// Further messages are read later.
-const MESSAGES_PER_S: NonZeroU32 = NonZeroU32::new(500).unwrap();
-const MESSAGES_BURST: NonZeroU32 = NonZeroU32::new(1000).unwrap();
-/// Interval of pings, and the silence after which a program is disconnected.
-const PING_EVERY: Duration = Duration::from_secs(5);
-const SILENCE: Duration = Duration::from_secs(15);
-/// Close code 1001 of RFC 6455: the server is going away.
-const GOING_AWAY: u16 = 1001;
-
 #[derive(Default)]
 pub struct Programs {
     all: RwLock<BTreeMap<String, Arc<Program>>>,
@@ -87,14 +72,7 @@ impl Drop for Link {
 }
 
 /// Asks and takes answers until the program disconnects or the server stops.
-pub async fn serve(
-    mut link: Link,
-    mut socket: WebSocket,
-    mut stopping: watch::Receiver<bool>,
-) -> Result<(), axum::Error> {
-    let messages = RateLimiter::direct(Quota::per_second(MESSAGES_PER_S).allow_burst(MESSAGES_BURST));
-    let mut ping = tokio::time::interval(PING_EVERY);
-    let (mut received, mut read_after) = (Instant::now(), Instant::now());
+pub async fn serve(mut link: Link, mut socket: Socket) -> Result<(), axum::Error> {
     let mut conversation = Conversation::new(&link.program.name);
     send(&mut socket, conversation.hello()).await?;
     loop {
@@ -105,37 +83,21 @@ pub async fn serve(
                     send(&mut socket, message).await?;
                 }
             }
-            message = receive(&mut socket, read_after) => {
-                let Some(Ok(message)) = message else { return Ok(()) };
-                received = Instant::now();
-                if let Err(until) = messages.check() {
-                    read_after = received + until.wait_time_from(DefaultClock::default().now());
-                }
-                let refused = match message {
-                    Message::Text(text) => conversation.take(&text).err(),
-                    Message::Binary(_) => Some(Conversation::malformed("binary messages are not understood")),
-                    Message::Ping(_) | Message::Pong(_) => None,
-                    Message::Close(_) => return Ok(()),
+            message = socket.next() => {
+                let refused = match message? {
+                    Some(Incoming::Text(text)) => conversation.take(&text).err(),
+                    Some(Incoming::Binary) => Some(Conversation::malformed("binary messages are not understood")),
+                    None => return Ok(()),
                 };
                 if let Some(error) = refused {
                     send(&mut socket, Outgoing::error(error)).await?;
                 }
             }
-            _ = ping.tick() => {
-                if received.elapsed() > SILENCE {
-                    return Ok(());
-                }
-                socket.send(Message::Ping(Bytes::new())).await?;
-            }
-            () = async { drop(stopping.wait_for(|&stop| stop).await) } => {
-                let reason = "the server stops".into();
-                return socket.send(Message::Close(Some(CloseFrame { code: GOING_AWAY, reason }))).await;
-            }
         }
     }
 }
 
-async fn send(socket: &mut WebSocket, message: Outgoing) -> Result<(), axum::Error> {
+async fn send(socket: &mut Socket, message: Outgoing) -> Result<(), axum::Error> {
     socket
         .send(match message {
             Outgoing::Text(text) => Message::text(text),

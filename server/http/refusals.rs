@@ -33,5 +33,5 @@ refusals! {
     OutOfRange = 422 "A field has a value that is not allowed.";
     NotUpgraded = 426 "The connection cannot become a WebSocket.";
     TooMany = 429 "Too many exist already, or this client sends too many requests.";
-    Unavailable = 503 "The session is busy or has ended, or the server is stopping.";
+    Unavailable = 503 "The server or the session is busy, or the session has ended.";
 }

@@ -5,7 +5,7 @@ mod tests;
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::Duration;
 
 use axum::http::StatusCode;
@@ -59,8 +59,11 @@ pub struct Sessions {
     /// The robot outside of Ferry that the arm of [`MAIN`] mirrors.
     twin: Option<Arc<Twin>>,
     hubs: RwLock<BTreeMap<String, Arc<Hub>>>,
-    /// Held while a session opens, so that two requests for one name get the same session.
-    opening: tokio::sync::Mutex<()>,
+    /// The names that are being opened. A lock is held meanwhile, so that two requests for one name get the same session, and
+    /// a slow one keeps no other from its own.
+    opening: Mutex<BTreeMap<String, Arc<tokio::sync::Mutex<()>>>>,
+    /// Names of the sessions that have a place and begin.
+    placed: Mutex<Vec<String>>,
     /// Number of sessions created so far, for their names.
     made: AtomicU64,
 }
@@ -69,6 +72,21 @@ pub struct Sessions {
 pub fn is_name(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     (1..=NAME_LENGTH).contains(&name.len()) && name.chars().all(fits) && !name.starts_with('-')
+}
+
+/// A place among the sessions while one begins.
+struct Place {
+    sessions: Arc<Sessions>,
+    name: String,
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let mut placed = self.sessions.placed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(own) = placed.iter().position(|name| *name == self.name) {
+            placed.swap_remove(own);
+        }
+    }
 }
 
 impl Sessions {
@@ -91,7 +109,8 @@ impl Sessions {
             robot: Arc::default(),
             twin,
             hubs: RwLock::default(),
-            opening: tokio::sync::Mutex::default(),
+            opening: Mutex::default(),
+            placed: Mutex::default(),
             made: AtomicU64::new(0),
         };
         let main = sessions.start(MAIN, sessions.settings.opening.clone(), false)?;
@@ -144,7 +163,8 @@ impl Sessions {
             );
             return Err(Problem::new(StatusCode::NOT_FOUND, "bad_name", detail).field("name"));
         }
-        let _one_at_a_time = self.opening.lock().await;
+        let lock = self.lock_of(name);
+        let _one_at_a_time = lock.lock().await;
         match self.find(name) {
             Some(hub) if !hub.has_ended() => {
                 hub.touch();
@@ -164,24 +184,37 @@ impl Sessions {
     pub async fn create(self: &Arc<Self>, scenario: Scenario) -> Result<Arc<Hub>, Problem> {
         let sessions = self.clone();
         to_its_end(async move {
-            let _one_at_a_time = sessions.opening.lock().await;
             let number = sessions.made.fetch_add(1, Ordering::Relaxed) + 1;
             sessions.make(format!("{NUMBERED}{number}"), scenario, false).await
         })
         .await
     }
 
+    /// The lock of a name. Free locks are dropped.
+    fn lock_of(&self, name: &str) -> Arc<tokio::sync::Mutex<()>> {
+        let mut opening = self.opening.lock().unwrap_or_else(PoisonError::into_inner);
+        opening.retain(|_, lock| Arc::strong_count(lock) > 1);
+        opening.entry(name.to_owned()).or_default().clone()
+    }
+
     async fn make(self: &Arc<Self>, name: String, scenario: Scenario, after_fault: bool) -> Result<Arc<Hub>, Problem> {
-        self.make_room().await?;
+        let place = self.make_room(&name).await?;
         let (sessions, id) = (self.clone(), name.clone());
-        // This creates a file, a camera and a thread.
-        let starting = tokio::task::spawn_blocking(move || sessions.start(&id, scenario, after_fault));
-        let Ok(started) = tokio::time::timeout(BEGIN_WITHIN, starting).await else {
+        // This creates a file, a camera and a thread. The place is taken until it has ended, however late.
+        let mut starting = tokio::task::spawn_blocking(move || (sessions.start(&id, scenario, after_fault), place));
+        let Ok(started) = tokio::time::timeout(BEGIN_WITHIN, &mut starting).await else {
             tracing::error!(session = name, "session does not begin: it is left behind");
             let detail = format!("session {name:?} did not begin within {} s", BEGIN_WITHIN.as_secs());
+            let sessions = self.clone();
+            tokio::spawn(async move {
+                if let Ok((Ok(late), _place)) = starting.await {
+                    sessions.end(late).await;
+                }
+            });
             return Err(Problem::new(StatusCode::SERVICE_UNAVAILABLE, "not_begun", detail));
         };
-        let hub = started.map_err(Problem::internal)?.map_err(not_opened)?;
+        let (hub, _place) = started.map_err(Problem::internal)?;
+        let hub = hub.map_err(not_opened)?;
         self.insert(&hub);
         Ok(hub)
     }
@@ -190,20 +223,35 @@ impl Sessions {
         self.hubs.write().unwrap_or_else(PoisonError::into_inner).insert(hub.id.clone(), hub.clone());
     }
 
-    /// If all places are taken, closes the session that has been parked longest; its recordings stay.
-    async fn make_room(&self) -> Result<(), Problem> {
-        let all = self.all();
-        if all.len() < self.settings.most {
-            return Ok(());
+    /// Takes a place, if one is free.
+    fn free_place(self: &Arc<Self>, name: &str) -> Option<Place> {
+        let mut placed = self.placed.lock().unwrap_or_else(PoisonError::into_inner);
+        let open = self.all();
+        let begin = placed.iter().filter(|name| open.iter().all(|hub| hub.id != **name)).count();
+        (open.len() + begin < self.settings.most).then(|| {
+            placed.push(name.to_owned());
+            Place { sessions: self.clone(), name: name.to_owned() }
+        })
+    }
+
+    /// Takes a place. If all are taken, closes the session that has been parked longest; its recordings stay.
+    async fn make_room(self: &Arc<Self>, name: &str) -> Result<Place, Problem> {
+        if let Some(place) = self.free_place(name) {
+            return Ok(place);
         }
-        let mut parked: Vec<_> = all.into_iter().filter(|hub| hub.id != MAIN && hub.is_parked()).collect();
+        let mut parked: Vec<_> = self.all().into_iter().filter(|hub| hub.id != MAIN && hub.is_parked()).collect();
         parked.sort_by_key(|hub| std::cmp::Reverse(hub.unwatched_for()));
         for hub in parked {
-            // It goes on when it is opened again, so it must be on the disk.
-            if self.saved.save([hub.clone()]).await.is_ok() {
-                tracing::info!(session = hub.id, "parked session makes way for another");
-                self.end(hub).await;
-                return Ok(());
+            let lock = self.lock_of(&hub.id);
+            let Ok(_it_is_not_opening) = lock.try_lock() else { continue };
+            // It goes on when it is opened again, so it must be on the disk. A browser may have come meanwhile.
+            if self.saved.save([hub.clone()]).await.is_err() || !hub.is_parked() {
+                continue;
+            }
+            tracing::info!(session = hub.id, "parked session makes way for another");
+            self.end(hub).await;
+            if let Some(place) = self.free_place(name) {
+                return Ok(place);
             }
         }
         let detail =
@@ -262,7 +310,7 @@ impl Sessions {
     pub async fn end(&self, hub: Arc<Hub>) {
         let id = hub.id.clone();
         self.saved.closed(&id);
-        self.hubs.write().unwrap_or_else(PoisonError::into_inner).remove(&id);
+        self.hubs.write().unwrap_or_else(PoisonError::into_inner).retain(|_, one| !Arc::ptr_eq(one, &hub));
         // Joining the session's thread and closing its file blocks.
         let closing = tokio::task::spawn_blocking(move || hub.shut());
         match tokio::time::timeout(END_WITHIN, closing).await {

@@ -58,6 +58,8 @@ pub enum ServerMessage {
 pub struct Hello {
     /// `PROTOCOL_VERSION`.
     pub protocol: u32,
+    /// Largest message that this browser may send.
+    pub message_bytes: u32,
     /// Name of the session.
     pub session: String,
     /// Ferry's version.

@@ -40,7 +40,6 @@ fn declaration<T: TS>(config: &Config) -> String {
 fn constants() -> String {
     [
         constant("PROTOCOL_VERSION", PROTOCOL_VERSION, "Version of the messages."),
-        constant("MAX_MESSAGE_BYTES", MAX_MESSAGE_BYTES, "Largest message to the server."),
         constant("BINARY_CAMERA_JPEG", BINARY_CAMERA_JPEG, "First byte of a binary message with a camera image."),
         constant("BINARY_OBSERVATION", BINARY_OBSERVATION, "First byte of a binary message with an observation."),
         constant("CONTROL_PERIOD_S", CONTROL_PERIOD_S, "Simulated time between control steps."),

@@ -1,14 +1,49 @@
 //! The program in a separate process.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Seek};
 use std::net::SocketAddr;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
 pub fn ferry(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ferry"));
     command.args(arguments);
     command
+}
+
+/// A value of `/proc/PID/status`, such as `VmRSS`; `None` when the process has ended.
+pub fn memory_mb(child: &Child, name: &str) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+    let value = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':')?.strip_suffix(" kB"))?;
+    Some(value.trim().parse::<u64>().ok()? / 1000)
+}
+
+/// What a command says when it refuses, which takes less than a second and 200 MB.
+pub fn refused_at_once(arguments: &[&str]) -> String {
+    let said = tempfile::tempfile().unwrap();
+    let begun = Instant::now();
+    let mut child = ferry(arguments).stdout(Stdio::null()).stderr(said.try_clone().unwrap()).spawn().unwrap();
+    let (mut most_mb, mut status) = (0, None);
+    while status.is_none() && begun.elapsed() < Duration::from_secs(1) && most_mb < 200 {
+        std::thread::sleep(Duration::from_millis(2));
+        most_mb = memory_mb(&child, "VmHWM").unwrap_or(0).max(most_mb);
+        status = child.try_wait().unwrap();
+    }
+    let took = begun.elapsed();
+    let _ = child.kill();
+    child.wait().unwrap();
+    let text = std::io::read_to_string({
+        let mut said = said;
+        said.rewind().unwrap();
+        said
+    });
+    let text = text.unwrap();
+    assert!(
+        status.is_some_and(|status| !status.success()),
+        "{arguments:?}: {status:?}, {took:?}, {most_mb} MB: {text}"
+    );
+    text
 }
 
 /// A server that is killed at the end of its test.

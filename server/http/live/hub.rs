@@ -219,10 +219,11 @@ impl Hub {
         done.expect("the change was made")
     }
 
-    pub fn hello(&self, connection: u64, seats: &Seats) -> Hello {
+    pub fn hello(&self, connection: u64, seats: &Seats, message_bytes: usize) -> Hello {
         let operates = seats.operator == Some(connection);
         Hello {
             protocol: PROTOCOL_VERSION,
+            message_bytes: message_bytes as u32,
             session: self.id.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             role: if operates { Role::Operator } else { Role::Viewer },

@@ -4,8 +4,6 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::State;
-use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::http::StatusCode;
 use axum::response::Response;
 use serde::Deserialize;
@@ -14,8 +12,9 @@ use utoipa::IntoParams;
 use crate::http::Server;
 use crate::http::path::{Path, ProgramPath, Query};
 use crate::http::problem::Problem;
-use crate::http::programs::{MESSAGE_BYTES_MOST, serve};
+use crate::http::programs::{LIMITS, serve};
 use crate::http::refusals::{Conflict, Malformed, NotUpgraded, OutOfRange, TooMany};
+use crate::http::socket::Upgrade;
 use crate::protocol::{PROGRAM_PROTOCOL_VERSION, ProgramStanding, Programs};
 
 /// The programs that are or were connected.
@@ -44,20 +43,13 @@ pub async fn connect(
     State(server): State<Arc<Server>>,
     Path(ProgramPath { name }): Path<ProgramPath>,
     Query(ProgramQuery { protocol }): Query<ProgramQuery>,
-    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+    upgrade: Result<Upgrade, Problem>,
 ) -> Result<Response, Problem> {
     if protocol != PROGRAM_PROTOCOL_VERSION {
         let detail = format!("protocol is {protocol}, this server has {PROGRAM_PROTOCOL_VERSION}");
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "other_protocol", detail).field("protocol"));
     }
-    let upgrade = upgrade.map_err(|refused| Problem::new(refused.status(), "websocket", refused.body_text()))?;
+    let upgrade = upgrade?;
     let link = server.programs.connect(&name)?;
-    let upgrade = upgrade.max_message_size(MESSAGE_BYTES_MOST).max_frame_size(MESSAGE_BYTES_MOST);
-    Ok(upgrade.on_upgrade(move |socket| {
-        let sockets = server.sockets.clone();
-        sockets.track_future(async move {
-            // The program may disconnect at any await; the reason does not matter.
-            let _ = serve(link, socket, server.stopping.clone()).await;
-        })
-    }))
+    Ok(upgrade.serve(&server, LIMITS, |socket| serve(link, socket)))
 }

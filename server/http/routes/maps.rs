@@ -1,12 +1,11 @@
 //! `/api/maps`: shipped maps and uploaded ones, which are kept in the data folder.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, Write};
 use std::path::{Path as FilePath, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::Json;
-use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -20,7 +19,7 @@ use crate::http::body::{WholeBody, attachment};
 use crate::http::path::{MapPath, Path, Query};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, NotFound, OutOfRange, TooMany, Unavailable};
-use crate::map::{Library, MAX_SVG_BYTES, Map, MapError, Summary, is_added};
+use crate::map::{Library, MAX_SVG_BYTES, Map, MapError, READER, Summary, decoded, first_reader, is_added};
 use crate::plant::BEAD_RADIUS_M;
 use crate::protocol::{MapCheck, MapFacts, MapReport};
 use crate::trial::Arena;
@@ -34,6 +33,9 @@ fn example() -> serde_json::Value {
 
 /// File with the names of removed maps, one per line.
 const REMOVED: &str = "removed-names";
+
+/// File with the readers of maps, one per line, such as `two-rooms 2`. A map without a line was read by the first one.
+const READERS: &str = "readers";
 
 /// The folder of uploaded maps.
 pub struct Maps {
@@ -58,6 +60,14 @@ fn removed_names(path: &FilePath) -> BTreeSet<String> {
     }
 }
 
+/// The readers of maps.
+fn readers(path: &FilePath) -> BTreeMap<String, u32> {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let one =
+        |line: &str| line.split_once(' ').and_then(|(name, reader)| Some((name.to_owned(), reader.parse().ok()?)));
+    text.lines().filter_map(one).collect()
+}
+
 impl Maps {
     /// The library with the maps of the folder. A file that is not a valid map is left out with a warning; its name is
     /// reserved, so that no other drawing replaces it.
@@ -71,6 +81,7 @@ impl Maps {
         paths.sort();
         let removed = removed_names(&folder.join(REMOVED));
         removed.iter().for_each(|name| library.reserve(name));
+        let readers = readers(&folder.join(READERS));
         for (_, path) in paths {
             let small = std::fs::metadata(&path).is_ok_and(|data| data.is_file() && data.len() <= MAX_SVG_BYTES as u64);
             let Some(name) = path.file_name().and_then(|name| name.to_str()?.strip_suffix(".svg")) else { continue };
@@ -81,7 +92,8 @@ impl Maps {
             }
             library.reserve(name);
             let text = small.then(|| std::fs::read_to_string(&path).ok()).flatten();
-            let restored = text.map(|text| library.restore(name, &text));
+            let reader = readers.get(name).copied().unwrap_or_else(first_reader);
+            let restored = text.map(|text| library.restore(name, &text, reader));
             if !matches!(restored, Some(Ok(()))) {
                 tracing::warn!(path = %path.display(), ?restored, "uploaded map left out");
             }
@@ -100,11 +112,14 @@ impl Maps {
 
     fn add(&self, Wish { name: wished, fit }: Wish, svg: String) -> Result<MapReport, Problem> {
         let svg = if fit { crate::map::fit(&svg)? } else { svg };
+        let map = Map::from_svg("", &svg)?;
         let map = {
             let _one_at_a_time = self.changing();
-            let map = self.all.add(wished.as_deref(), &svg)?;
-            let kept =
-                std::fs::create_dir_all(&self.folder).and_then(|()| replace(&self.path(map.name()), svg.as_bytes()));
+            let map = self.all.add(wished.as_deref(), map)?;
+            // First the reader: a drawing without one would be an old one.
+            let kept = std::fs::create_dir_all(&self.folder)
+                .and_then(|()| self.append(READERS, &format!("{} {READER}", map.name())))
+                .and_then(|()| replace(&self.path(map.name()), svg.as_bytes()));
             kept.map_err(|error| {
                 self.all.remove(map.name());
                 let detail = format!("the map could not be stored: {error}");
@@ -151,8 +166,13 @@ impl Maps {
     }
 
     fn note_removed(&self, name: &str) -> std::io::Result<()> {
-        let mut file = std::fs::OpenOptions::new().create(true).append(true).open(self.folder.join(REMOVED))?;
-        file.write_all(format!("{name}\n").as_bytes())
+        self.append(REMOVED, name)
+    }
+
+    /// Appends a line to a file of the folder.
+    fn append(&self, file: &str, line: &str) -> std::io::Result<()> {
+        let mut file = std::fs::OpenOptions::new().create(true).append(true).open(self.folder.join(file))?;
+        file.write_all(format!("{line}\n").as_bytes())
     }
 }
 
@@ -199,17 +219,11 @@ pub async fn add(
     Query(wish): Query<Wish>,
     WholeBody(body): WholeBody,
 ) -> Result<Response, Problem> {
-    let svg = text(body)?;
+    let svg = decoded(&body)?;
     let adding = server.work(move |server| server.maps.add(wish, svg)).await?;
     let report = adding?;
     let location = format!("/api/maps/{}", report.name);
     Ok((StatusCode::CREATED, [(header::LOCATION, location)], Json(report)).into_response())
-}
-
-fn text(body: Bytes) -> Result<String, Problem> {
-    String::from_utf8(body.into()).map_err(|error| {
-        Problem::new(StatusCode::BAD_REQUEST, "malformed", format!("the drawing is not UTF-8: {error}")).field("map")
-    })
 }
 
 /// Tells what the drawing in the body would be as a map, without adding it.
@@ -217,7 +231,7 @@ fn text(body: Bytes) -> Result<String, Problem> {
     request_body(content = String, content_type = "image/svg+xml", description = "SVG in millimetres.", example = example),
     responses((status = 200, body = MapCheck), OutOfRange, Unavailable))]
 pub async fn check(State(server): State<Arc<Server>>, WholeBody(body): WholeBody) -> Result<Json<MapCheck>, Problem> {
-    let svg = text(body)?;
+    let svg = decoded(&body)?;
     let checking = server.work(move |_| {
         let map = Map::from_svg("drawing", &svg)?;
         let (summary, arena) = (Summary::of(&map, BEAD_RADIUS_M), Arena::of(map.clone()));

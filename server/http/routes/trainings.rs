@@ -5,8 +5,7 @@ use std::time::Duration;
 
 use axum::Json;
 use axum::extract::State;
-use axum::extract::ws::rejection::WebSocketUpgradeRejection;
-use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
+use axum::extract::ws::Message;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
@@ -15,6 +14,7 @@ use crate::http::body::{WholeBody, parse};
 use crate::http::path::{FramePath, Path, TrainingPath};
 use crate::http::problem::Problem;
 use crate::http::refusals::{Conflict, Malformed, NotFound, NotUpgraded, OutOfRange, TooMany, Unavailable};
+use crate::http::socket::{Limits, Socket, Upgrade};
 use crate::learn::{QueryError, SubmitTrainingError, Training};
 use crate::policy::LibraryError;
 use crate::protocol::{
@@ -23,8 +23,8 @@ use crate::protocol::{
 
 /// Interval at which a change is looked for.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
-/// Interval of pings, so that a connection that is gone is noticed.
-const PING_EVERY: Duration = Duration::from_secs(15);
+/// A page sends nothing but answers to pings.
+const LIMITS: Limits = Limits { message_bytes: 1 << 10, ping_every: Duration::from_secs(15) };
 
 /// The trainings: running, waiting, paused, and the last ended ones.
 #[utoipa::path(get, path = "/api/trainings", tag = "trainings", operation_id = "trainings",
@@ -146,27 +146,16 @@ pub async fn frame(
 pub async fn live(
     State(server): State<Arc<Server>>,
     Path(TrainingPath { id }): Path<TrainingPath>,
-    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+    upgrade: Result<Upgrade, Problem>,
 ) -> Result<Response, Problem> {
     let training = find(&server, &id)?;
-    let upgrade = upgrade.map_err(|refused| Problem::new(refused.status(), "websocket", refused.body_text()))?;
-    Ok(upgrade.on_upgrade(move |socket| {
-        let sockets = server.sockets.clone();
-        sockets.track_future(async move {
-            let mut stopping = server.stopping.clone();
-            tokio::select! {
-                // The browser may disconnect at any time; the reason does not matter.
-                _ = watch(&server, &training, socket) => {}
-                _ = stopping.wait_for(|&stop| stop) => {}
-            }
-        })
-    }))
+    let watching = server.clone();
+    Ok(upgrade?.serve(&server, LIMITS, async move |socket| watch(&watching, &training, socket).await))
 }
 
 /// Sends until the browser disconnects or the training is removed.
-async fn watch(server: &Server, training: &Training, mut socket: WebSocket) -> Result<(), axum::Error> {
+async fn watch(server: &Server, training: &Training, mut socket: Socket) -> Result<(), axum::Error> {
     let mut look = tokio::time::interval(LOOK_EVERY);
-    let mut ping = tokio::time::interval(PING_EVERY);
     let (mut sent, mut points) = (None, 0);
     loop {
         tokio::select! {
@@ -183,11 +172,7 @@ async fn watch(server: &Server, training: &Training, mut socket: WebSocket) -> R
                     return Ok(());
                 }
             }
-            _ = ping.tick() => socket.send(Message::Ping(Vec::new().into())).await?,
-            message = socket.recv() => match message {
-                Some(Ok(Message::Close(_)) | Err(_)) | None => return Ok(()),
-                Some(Ok(_)) => {}
-            },
+            message = socket.next() => if message?.is_none() { return Ok(()) },
         }
     }
 }

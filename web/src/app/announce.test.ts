@@ -28,6 +28,7 @@ describe('announcements', () => {
   it('report a change of role, but not the first role', () => {
     const as = (role: Hello['role']): Hello => ({
       protocol: 1,
+      message_bytes: 65536,
       session: 'main',
       version: '',
       role,

@@ -32,6 +32,7 @@ describe('messages', () => {
   it('of another protocol stop the page', () => {
     const hello = {
       protocol: 99,
+      message_bytes: 65536,
       session: 'main',
       version: '9',
       role: 'operator',

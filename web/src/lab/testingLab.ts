@@ -26,6 +26,7 @@ export type Answers = Record<string, (body: string, path: string) => unknown>;
 
 const HELLO: Hello = {
   protocol: PROTOCOL_VERSION,
+  message_bytes: 65536,
   session: 'main',
   version: '0',
   role: 'operator',

@@ -23,9 +23,6 @@ export * from './protocol/policies.gen';
 /** Version of the messages. */
 export const PROTOCOL_VERSION = 6;
 
-/** Largest message to the server. */
-export const MAX_MESSAGE_BYTES = 2097152;
-
 /** First byte of a binary message with a camera image. */
 export const BINARY_CAMERA_JPEG = 1;
 

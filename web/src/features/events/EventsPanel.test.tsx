@@ -4,7 +4,6 @@ import { expect, it } from 'vitest';
 import { page, userEvent } from 'vitest/browser';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { fakeLab, show } from '../../lab/testingLab';
-import { MAX_MESSAGE_BYTES } from '../../net/protocol.gen';
 import { openCase } from './cases';
 import { EVENTS_TAB } from './EventsPanel';
 
@@ -56,8 +55,8 @@ it('sends a test case, and shows why the server refuses it', async () => {
   const notice = page.getByRole('alert');
   await expect.element(notice).toHaveTextContent('test case: expected a value');
   await page.getByRole('button', { name: 'Dismiss' }).click();
-  await userEvent.upload(field, new File([' '.repeat(MAX_MESSAGE_BYTES)], 'a.json'));
-  await expect.element(notice).toHaveTextContent('too large: the limit is 2 MiB');
+  await userEvent.upload(field, new File([' '.repeat(65537)], 'a.json'));
+  await expect.element(notice).toHaveTextContent('too large: the limit is 64 KiB');
   expect(server.sent.length).toBe(1);
 });
 

@@ -1,22 +1,16 @@
 // Test cases: opens a saved one, and says what the opened one contains.
 
-import {
-  type CaseSummary,
-  type EventMessage,
-  MAX_MESSAGE_BYTES,
-  type StateMessage,
-} from '../../net/protocol.gen';
+import type { CaseSummary, EventMessage, StateMessage } from '../../net/protocol.gen';
 import { clock, counted } from '../../ui/format';
 import type { Notices, OpenTab, Session } from '../../lab/slices';
 
 /** For the rest of the message. */
 const SPARE_BYTES = 1024;
-const TOO_LARGE = `This test case is too large: the limit is ${MAX_MESSAGE_BYTES >> 20} MiB.`;
 
-/** Whether the text fits into a message. */
-export function fits(text: string): boolean {
+/** Whether the text fits into a message of so many bytes. */
+export function fits(text: string, bytes: number): boolean {
   const { length } = new TextEncoder().encode(JSON.stringify(text));
-  return length + SPARE_BYTES <= MAX_MESSAGE_BYTES;
+  return length + SPARE_BYTES <= bytes;
 }
 
 /** Sends the file to the server, which reads it. */
@@ -24,12 +18,14 @@ export async function openCase(lab: Session & Notices & OpenTab, file: File): Pr
   const say = (text: string): void => {
     lab.notify('playback', text);
   };
-  if (!lab.canOperate()) {
+  const bytes = lab.hello()?.message_bytes;
+  if (!lab.canOperate() || bytes === undefined) {
     say('Take control to open a test case.');
     return;
   }
-  if (file.size > MAX_MESSAGE_BYTES) {
-    say(TOO_LARGE);
+  const tooLarge = `This test case is too large: the limit is ${bytes >> 10} KiB. It is lower while many pages are open.`;
+  if (file.size > bytes) {
+    say(tooLarge);
     return;
   }
   let text;
@@ -39,11 +35,11 @@ export async function openCase(lab: Session & Notices & OpenTab, file: File): Pr
     say('The browser could not read this file.');
     return;
   }
-  if (fits(text)) {
+  if (fits(text, bytes)) {
     lab.send({ type: 'open_case', case: text });
     lab.openTab('events');
   } else {
-    say(TOO_LARGE);
+    say(tooLarge);
   }
 }
 

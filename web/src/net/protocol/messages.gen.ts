@@ -50,6 +50,10 @@ export type Hello = {
  */
 protocol: number, 
 /**
+ * Largest message that this browser may send.
+ */
+message_bytes: number, 
+/**
  * Name of the session.
  */
 session: string, 
