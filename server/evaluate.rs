@@ -35,7 +35,7 @@ pub use plan::{Contender, Plan, PlanError};
 pub use query::{CELL_LIMIT, Cell, DISTURBANCES, EvaluationQuery, QueryError};
 pub use regression::{Baseline, BaselineError, Change, ERROR_RATE, Trials};
 pub use report::{Report, ReportError, html_document};
-pub use shard::{Machine, MergeError, PartError, Piece, Shard, ShardError, check_all};
+pub use shard::{Machine, MergeError, PartError, Piece, Shard, ShardError, check_all, read_part};
 pub use statistics::{LEVEL, PairedCounts, corrected_level, wilson, wilson95};
 pub use summary::{Failure, Row};
 pub use variation::{Setting, VARIED_MOST, Variation, VariationError};

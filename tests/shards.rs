@@ -5,7 +5,7 @@ use std::process::Output;
 
 use serde_json::Value;
 
-use crate::support;
+use crate::support::{self, refused_at_once};
 
 const QUERY: [&str; 11] = [
     "evaluate",
@@ -92,6 +92,15 @@ fn merged_shards_are_the_whole_evaluation() {
     assert!(refusal(&[one, &build, three, four]).contains("build.json: machine.build is \"0\", but"));
     let short = changed("short.json", &|part| drop(part["episodes"].as_array_mut().unwrap().pop()));
     assert!(refusal(&[one, &short, three, four]).contains("short.json: it does not have the trials of shard 2/4"));
+    // A file may claim anything.
+    let many = changed("many.json", &|part| part["subjects"][0]["episodes"] = u32::MAX.into());
+    assert!(refused_at_once(&["merge", &many]).contains("many.json: it does not have the trials of shard 2/4"));
+    let none = changed("none.json", &|part| part["shard"]["count"] = 0.into());
+    assert!(refused_at_once(&["merge", &none]).contains("\"2/0\" is not a shard"));
+    let all = changed("all.json", &|part| part["shard"]["count"] = u32::MAX.into());
+    assert!(refused_at_once(&["merge", &all]).contains("is not a shard"));
+    let far = changed("far.json", &|part| part["episodes"][0][1]["decision_s"][0] = 1.7e308.into());
+    assert!(refused_at_once(&["merge", &far]).contains("decision_s[0] is 1.7e308"));
     let later = changed("later.json", &|part| part["ferry_part"] = 2.into());
     assert!(refusal(&[one, &later]).contains("ferry_part is 2, this Ferry reads 1"));
     let torn = folder.path().join("torn.json");
@@ -148,6 +157,8 @@ fn merged_shards_are_the_whole_recovery_map() {
         assert!(refusal(&[one, &seed, three]).contains("seed.json: subject.query.seed is 4, but 3 in"));
         let twice = changed("twice.json", &|part| part["trials"][1] = part["trials"][0].clone());
         assert!(refusal(&[one, &twice, three]).contains("twice.json: it does not have the trials of shard 2/3"));
+        let many = changed("many.json", &|part| part["subject"]["query"]["repeats"] = u32::MAX.into());
+        assert!(refused_at_once(&["merge", &many]).contains("many.json: repeats is 4294967295"));
         let later = changed("later.json", &|part| part["ferry_recovery_part"] = 2.into());
         assert!(refusal(&[one, &later, three]).contains("ferry_recovery_part is 2, this Ferry reads 1"));
     }

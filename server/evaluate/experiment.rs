@@ -132,7 +132,7 @@ impl Episode {
 
     /// Control steps that its transports may take: one after the start, and one after each disturbance.
     fn limit(&self) -> u32 {
-        self.scenario.parameters.step_limit * (self.scenario.disturbances + 1).min(LEGS_PER_GOAL)
+        self.scenario.parameters.step_limit * self.scenario.disturbances.saturating_add(1).min(LEGS_PER_GOAL)
     }
 
     /// Whether no transport of `step_limit` steps can reach the goal from the start, even on the shortest path.

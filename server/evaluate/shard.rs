@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xxhash_rust::xxh3::Xxh3Default;
@@ -16,10 +17,26 @@ const SHARDS_MOST: u32 = 10_000;
 
 /// One of several parts, `I/N`: every N-th trial, beginning with the I-th.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Shard {
     /// From 1.
     pub number: u32,
     pub count: u32,
+}
+
+#[derive(Deserialize)]
+struct Unchecked {
+    number: u32,
+    count: u32,
+}
+
+impl TryFrom<Unchecked> for Shard {
+    type Error = ShardError;
+
+    fn try_from(Unchecked { number, count }: Unchecked) -> Result<Self, ShardError> {
+        let is_one = (1..=count).contains(&number) && count <= SHARDS_MOST;
+        is_one.then_some(Self { number, count }).ok_or_else(|| ShardError(format!("{number}/{count}")))
+    }
 }
 
 /// A text that does not name a shard.
@@ -33,8 +50,7 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, ShardError> {
         let parse = || {
             let (number, count) = text.split_once('/')?;
-            let (number, count) = (number.parse().ok()?, count.parse().ok()?);
-            ((1..=count).contains(&number) && count <= SHARDS_MOST).then_some(Self { number, count })
+            Self::try_from(Unchecked { number: number.parse().ok()?, count: count.parse().ok()? }).ok()
         };
         parse().ok_or_else(|| ShardError(text.to_owned()))
     }
@@ -49,17 +65,21 @@ impl std::fmt::Display for Shard {
 impl Shard {
     /// Its trials: the number of the experiment, and the index of the trial.
     pub fn trials(self, experiments: &[Experiment]) -> Vec<(usize, u32)> {
-        self.of(&experiments.iter().map(|one| one.episodes).collect::<Vec<u32>>())
+        self.of(experiments.iter().map(|one| one.episodes)).collect()
     }
 
-    pub(super) fn of(self, episodes: &[u32]) -> Vec<(usize, u32)> {
-        let all = episodes.iter().enumerate().flat_map(|(number, &count)| (0..count).map(move |index| (number, index)));
-        self.among(all).collect()
+    pub(super) fn of(self, episodes: impl Iterator<Item = u32>) -> impl Iterator<Item = (usize, u32)> {
+        self.among(episodes.enumerate().flat_map(|(number, count)| (0..count).map(move |index| (number, index))))
     }
 
     /// Its share of all trials.
     pub fn among<T>(self, all: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
         all.skip(self.number as usize - 1).step_by(self.count as usize)
+    }
+
+    /// The number of its trials among `all`.
+    pub fn share(self, all: usize) -> usize {
+        all.saturating_sub(self.number as usize - 1).div_ceil(self.count as usize)
     }
 }
 
@@ -149,13 +169,54 @@ pub fn check_all<P: Piece>(pieces: &[(String, P)]) -> Result<&P, MergeError> {
 #[derive(Debug, thiserror::Error)]
 pub enum PartError {
     #[error("not a shard: {0}")]
-    Foreign(#[from] serde_json::Error),
+    Foreign(String),
     #[error("{field} is {found}, this Ferry reads {reads}")]
     Format { field: &'static str, found: u32, reads: u32 },
+    /// A setting that no evaluation or recovery map has.
+    #[error("{0}")]
+    Setting(String),
     #[error("the program could not be read: {0}")]
     Build(#[from] std::io::Error),
     #[error(transparent)]
     Trial(#[from] TrialError),
+}
+
+impl From<serde_json::Error> for PartError {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Foreign(error.to_string())
+    }
+}
+
+/// Largest real number in the file of a shard, in SI units: figures are drawn of what is read.
+const REAL_MOST: f64 = 1e6;
+
+/// Reads the file of a shard, if each number in it is one that a trial can give.
+///
+/// # Errors
+/// [`PartError::Foreign`], [`PartError::Setting`].
+pub fn read_part<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, PartError> {
+    let value: Value = serde_json::from_slice(bytes)?;
+    if let Some((path, number)) = too_large(&value, "") {
+        return Err(PartError::Setting(format!("{path} is {number:e}, it must be within ±{REAL_MOST:e}")));
+    }
+    drop(value);
+    // From the text, so that an error has its line.
+    Ok(serde_json::from_slice(bytes)?)
+}
+
+/// The path of the first real number that is too large.
+fn too_large(value: &Value, path: &str) -> Option<(String, f64)> {
+    match value {
+        Value::Object(fields) => fields.iter().find_map(|(name, value)| too_large(value, &format!("{path}.{name}"))),
+        Value::Array(values) => {
+            values.iter().enumerate().find_map(|(index, value)| too_large(value, &format!("{path}[{index}]")))
+        }
+        Value::Number(number) if number.is_f64() => {
+            let number = number.as_f64().filter(|number| number.abs() > REAL_MOST)?;
+            Some((path.trim_start_matches('.').to_owned(), number))
+        }
+        _ => None,
+    }
 }
 
 /// The path of the first difference, and both values.
@@ -233,9 +294,10 @@ mod tests {
     #[test]
     fn shards_share_the_trials() {
         let shards: Vec<Shard> = (1..=3).map(|number| Shard { number, count: 3 }).collect();
-        let mut all: Vec<(usize, u32)> = shards.iter().flat_map(|shard| shard.of(&[4, 3])).collect();
+        let mut all: Vec<(usize, u32)> = shards.iter().flat_map(|shard| shard.of([4, 3].into_iter())).collect();
         all.sort_unstable();
         assert_eq!(all, [(0, 0), (0, 1), (0, 2), (0, 3), (1, 0), (1, 1), (1, 2)]);
+        assert_eq!([0, 1, 2, 3, 7].map(|all| shards[1].share(all)), [0, 0, 1, 1, 2]);
         assert_eq!("2/8".parse::<Shard>().unwrap().to_string(), "2/8");
         for text in ["0/3", "4/3", "1/10001", "1", "a/b", "1/0", "-1/3", ""] {
             assert!(text.parse::<Shard>().is_err(), "{text}");

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::findings::Cell;
 use super::{Findings, Recovery, Spot, Subject, Tried};
-use crate::evaluate::{Machine, MergeError, PartError, Piece, Shard, check_all};
+use crate::evaluate::{Machine, MergeError, PartError, Piece, Shard, check_all, read_part};
 
 /// Format of a shard's file.
 const FORMAT: u32 = 1;
@@ -56,13 +56,20 @@ impl RecoveryPart {
     }
 
     /// # Errors
-    /// [`PartError::Foreign`], [`PartError::Format`].
+    /// [`PartError::Foreign`], [`PartError::Format`], [`PartError::Setting`].
     pub fn read(bytes: &[u8]) -> Result<Self, PartError> {
         let Head { ferry_recovery_part: found } = serde_json::from_slice(bytes)?;
         if found != FORMAT {
             return Err(PartError::Format { field: "ferry_recovery_part", found, reads: FORMAT });
         }
-        Ok(serde_json::from_slice(bytes)?)
+        let part: Self = read_part(bytes)?;
+        let (named, asked) = (part.subject.controllers.len(), part.subject.query.controllers.len());
+        if named != asked {
+            let reason = format!("subject.controllers has {named} entries, but subject.query.controllers {asked}");
+            return Err(PartError::Setting(reason));
+        }
+        part.subject.query.check(true).map_err(|error| PartError::Setting(error.to_string()))?;
+        Ok(part)
     }
 
     /// Whether these bytes say that they are the file of a shard of a recovery map.
@@ -72,7 +79,8 @@ impl RecoveryPart {
 
     /// Number of trials of the whole map.
     fn whole(&self) -> usize {
-        self.cells.len() * self.subject.query.controllers.len() * self.subject.query.repeats as usize
+        let cells = self.cells.len().saturating_mul(self.subject.query.controllers.len());
+        cells.saturating_mul(self.subject.query.repeats as usize)
     }
 }
 
@@ -86,7 +94,7 @@ impl Piece for RecoveryPart {
     }
 
     fn is_whole(&self) -> bool {
-        self.trials.len() == self.shard.among(0..self.whole()).count()
+        self.trials.len() == self.shard.share(self.whole())
     }
 }
 

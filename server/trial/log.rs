@@ -7,7 +7,10 @@
 //! truncated file from an edited one, and detects a missing frame. A seal does not depend on the frames before it: when a
 //! part of the file is missing, the seals after the gap still tell where they should be.
 
-use std::io::{Read, Write};
+#[cfg(test)]
+mod tests;
+
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 
 use flate2::Compression;
@@ -26,8 +29,13 @@ const FRAME_HEAD: usize = 8;
 const SEAL: usize = 16;
 /// Maximum file size. A session starts a new file every ten minutes; at 64× speed it reaches a third of this.
 const BYTES_MOST: u64 = 1 << 30;
-/// Maximum unpacked size of all frames together, as protection against compressed bombs.
-const UNPACKED_MOST: u64 = 2 << 30;
+/// Maximum unpacked size of frames: so much, and a multiple of their packed size. Logs of sessions unpack to four times
+/// their size; a frame that would unpack to more than this multiple is not packed.
+const UNPACKED_FREE: u64 = 4 << 20;
+const UNPACKED_RATIO: u64 = 8;
+/// The same for the memory of the entries.
+const HELD_FREE: u64 = 32 << 20;
+const HELD_RATIO: u64 = 32;
 
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
@@ -60,7 +68,9 @@ pub enum LogError {
     #[error("log: {0}")]
     Unread(#[from] ReadError),
     /// The unpacked content is too large.
-    #[error("log: the frame at byte {byte} and those before it unpack to more than the limit of {most} bytes")]
+    #[error(
+        "log: the frame at byte {byte} and those before it need more than {most} bytes of memory, as no log of a session does"
+    )]
     TooLong {
         /// Where the frame begins.
         byte: usize,
@@ -92,19 +102,26 @@ impl<W: Write> LogWriter<W> {
 
     /// Writes entries as one frame, with a single write.
     pub fn append(&mut self, entries: Vec<Entry>) -> Result<(), LogError> {
-        let mut payload = DeflateEncoder::new(Vec::new(), Compression::fast());
+        let mut plain = Vec::new();
         for mut entry in entries {
             if let Entry::Begin(beginning) = &mut entry {
                 self.leave_out_known_map(beginning);
             }
-            ciborium::into_writer(&entry, &mut payload).map_err(|error| LogError::Encode(error.to_string()))?;
+            ciborium::into_writer(&entry, &mut plain).map_err(|error| LogError::Encode(error.to_string()))?;
         }
-        let payload = payload.finish()?;
+        let mut payload = packed(&plain, Compression::fast())?;
+        if plain.len() as u64 > UNPACKED_RATIO * payload.len() as u64 {
+            payload = packed(&plain, Compression::none())?;
+        }
+        self.write(&payload)
+    }
+
+    fn write(&mut self, payload: &[u8]) -> Result<(), LogError> {
         let length = (payload.len() as u32).to_le_bytes();
         let mut frame = Vec::with_capacity(FRAME_HEAD + payload.len() + size_of::<u64>() + SEAL);
         frame.extend(length);
         frame.extend(length_check(length, self.hash));
-        self.hash = xxh3_64_with_seed(&payload, self.hash);
+        self.hash = xxh3_64_with_seed(payload, self.hash);
         frame.extend(payload);
         frame.extend(self.hash.to_le_bytes());
         self.length += (frame.len() + SEAL) as u64;
@@ -163,10 +180,6 @@ impl InputLog {
 
     /// Reads a log to its end, or to its last complete frame if it is truncated.
     pub fn read(bytes: &[u8]) -> Result<Self, LogError> {
-        Self::read_at_most(bytes, UNPACKED_MOST)
-    }
-
-    fn read_at_most(bytes: &[u8], most: u64) -> Result<Self, LogError> {
         let start = &bytes[..bytes.len().min(MAGIC.len())];
         if !MAGIC.starts_with(start) {
             return Err(LogError::Foreign(String::from_utf8_lossy(start).into_owned()));
@@ -179,14 +192,28 @@ impl InputLog {
             return Err(LogError::Version { found });
         }
         let (mut entries, mut hash) = (Vec::new(), u64::from(VERSION));
-        let mut left = most;
+        let (mut unpacked, mut held) = (0, 0);
         loop {
             let byte = bytes.len() - rest.len();
             let frame = whole_frame(rest, hash, byte).map_err(|what| damaged(byte, &entries, what))?;
             let Some((payload, next_hash, after)) = frame else { break };
-            let unpacked = unpack(payload, left).map_err(|error| damaged(byte, &entries, &error.to_string()))?;
-            left = left.checked_sub(unpacked.len() as u64).ok_or(LogError::TooLong { byte, most })?;
-            read_entries(&unpacked, &mut entries).map_err(|what| damaged(byte, &entries, &what))?;
+            let so_far = (bytes.len() - after.len()) as u64;
+            let most = UNPACKED_FREE + UNPACKED_RATIO * so_far;
+            let held_most = HELD_FREE + HELD_RATIO * so_far;
+            let mut reader = BufReader::new(DeflateDecoder::new(payload).take(most.saturating_sub(unpacked)));
+            let read = read_entries(&mut reader, &mut entries, |entry| {
+                held += entry.bytes();
+                held <= held_most
+            });
+            let reader = reader.into_inner();
+            if reader.limit() == 0 {
+                return Err(LogError::TooLong { byte, most });
+            }
+            if held > held_most {
+                return Err(LogError::TooLong { byte, most: held_most });
+            }
+            read.map_err(|what| damaged(byte, &entries, &what))?;
+            unpacked = most - reader.limit();
             (hash, rest) = (next_hash, after);
         }
         // An incomplete frame at the end has no seal. One that has, ended elsewhere when it was written.
@@ -229,156 +256,27 @@ fn whole_frame(bytes: &[u8], hash: u64, at: usize) -> Result<Option<Frame<'_>>, 
     Ok(Some((payload, hash, rest)))
 }
 
-/// Unpacks at most `most` + 1 bytes.
-fn unpack(payload: &[u8], most: u64) -> std::io::Result<Vec<u8>> {
-    let mut unpacked = Vec::new();
-    DeflateDecoder::new(payload).take(most + 1).read_to_end(&mut unpacked)?;
-    Ok(unpacked)
+fn packed(plain: &[u8], how: Compression) -> std::io::Result<Vec<u8>> {
+    let mut encoder = DeflateEncoder::new(Vec::new(), how);
+    encoder.write_all(plain)?;
+    encoder.finish()
 }
 
-fn read_entries(mut rest: &[u8], entries: &mut Vec<Entry>) -> Result<(), String> {
-    while !rest.is_empty() {
-        let entry: Entry = ciborium::from_reader(&mut rest).map_err(|error| error.to_string())?;
+/// Reads entries while they are unpacked, so that the first wrong one ends it, and the first that is too much.
+fn read_entries(
+    reader: &mut impl BufRead,
+    entries: &mut Vec<Entry>,
+    mut has_room: impl FnMut(&Entry) -> bool,
+) -> Result<(), String> {
+    while !reader.fill_buf().map_err(|error| error.to_string())?.is_empty() {
+        let entry: Entry = ciborium::from_reader(&mut *reader).map_err(|error| error.to_string())?;
         if entries.is_empty() && !matches!(&entry, Entry::Begin(beginning) if beginning.map.is_some()) {
             return Err("it does not begin with a trial".to_owned());
+        }
+        if !has_room(&entry) {
+            return Ok(());
         }
         entries.push(entry);
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::map::Map;
-    use crate::scenario::Scenario;
-    use crate::trial::{Input, LoggedTick};
-
-    fn tick(tick: u64) -> Entry {
-        Entry::Tick(LoggedTick {
-            tick,
-            inputs: vec![Input::SetGoal { x_m: 0.1, y_m: -0.3 + tick as f64 * 1e-3 }],
-            decision: None,
-            world_hash: 7 + tick,
-            fields: vec![1, 2, 3],
-            controller_hash: 9,
-        })
-    }
-
-    fn beginning() -> Entry {
-        let map = Some(LoggedMap::from(&Map::shipped("open").unwrap()));
-        Entry::Begin(Box::new(LoggedBeginning {
-            scenario: Scenario::idle("open", 3),
-            map,
-            policy_hash: None,
-            state: None,
-        }))
-    }
-
-    fn written() -> (Vec<u8>, Vec<usize>, Vec<Entry>) {
-        let (mut bytes, mut ends, mut entries) = (Vec::new(), Vec::new(), Vec::new());
-        let mut writer = LogWriter::new(&mut bytes).unwrap();
-        for frame in [vec![beginning(), tick(1)], vec![tick(2), tick(3)], vec![beginning(), tick(1)]] {
-            entries.extend(frame.clone());
-            writer.append(frame).unwrap();
-            ends.push(writer.out.len());
-        }
-        // The second time the map is already known.
-        if let Entry::Begin(beginning) = &mut entries[4] {
-            beginning.map = None;
-        }
-        (bytes, ends, entries)
-    }
-
-    #[test]
-    fn a_truncated_log_reads_to_its_last_complete_frame() {
-        let (bytes, ends, entries) = written();
-        assert_eq!(InputLog::read(&bytes).unwrap(), InputLog { entries: entries.clone(), torn_bytes: 0 });
-        for cut in 0..bytes.len() {
-            let whole = ends.iter().filter(|&&end| end <= cut).count();
-            match InputLog::read(&bytes[..cut]) {
-                Ok(log) => {
-                    assert_eq!(log.entries, entries[..2 * whole], "cut at {cut}");
-                    assert_eq!(log.torn_bytes, cut - ends[whole - 1]);
-                }
-                Err(LogError::Empty) => assert_eq!(whole, 0, "cut at {cut}"),
-                Err(error) => panic!("cut at {cut}: {error}"),
-            }
-        }
-    }
-
-    #[test]
-    #[ignore = "long"]
-    fn a_log_that_was_cut_in_its_middle_and_glued_is_told_from_one_that_ends_early() {
-        let (bytes, ends, _) = written();
-        let (mut misread, mut read) = (Vec::new(), 0);
-        for from in 12..bytes.len() {
-            // Every frame's end, its seal, its payload, and the next frame's head are met.
-            for to in from + 1..=bytes.len() - SEAL {
-                let glued = [&bytes[..from], &bytes[to..]].concat();
-                if !matches!(InputLog::read(&glued), Err(LogError::Damaged { .. })) {
-                    misread.push((from, to));
-                }
-                read += 1;
-            }
-        }
-        assert!(misread.is_empty() && read > 10_000, "{misread:?} of {read}; frames end at {ends:?}");
-    }
-
-    #[test]
-    fn rejects_any_edited_bit_with_its_offset() {
-        let (bytes, ends, _) = written();
-        for at in 0..bytes.len() {
-            for bit in 0..8 {
-                let mut edited = bytes.clone();
-                edited[at] ^= 1 << bit;
-                let error = InputLog::read(&edited).expect_err("an edited log");
-                match error {
-                    LogError::Foreign(_) => assert!(at < 8),
-                    LogError::Version { .. } => assert!((8..12).contains(&at)),
-                    LogError::Damaged { byte, ticks, .. } => {
-                        let before = ends.iter().filter(|&&end| end <= at).count();
-                        let begin = if before == 0 { 12 } else { ends[before - 1] };
-                        assert_eq!((byte, ticks), (begin, [0, 1, 3][before]));
-                    }
-                    error => panic!("byte {at}: {error}"),
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn rejects_a_small_file_that_unpacks_to_a_huge_one() {
-        let (bytes, ends, _) = written();
-        let whole = unpack(&bytes[12 + FRAME_HEAD..ends[0] - SEAL - 8], 1 << 20).unwrap().len() as u64;
-        let error = InputLog::read_at_most(&bytes, whole).unwrap_err();
-        assert!(matches!(error, LogError::TooLong { byte, most } if (byte, most) == (ends[0], whole)), "{error}");
-        // Unpacking stops one byte above the limit.
-        let mut packed = DeflateEncoder::new(Vec::new(), Compression::best());
-        packed.write_all(&[0; 1 << 20]).unwrap();
-        let packed = packed.finish().unwrap();
-        assert!(packed.len() < 2000 && unpack(&packed, 100).unwrap().len() == 101);
-    }
-
-    #[test]
-    fn rejects_a_too_large_file_without_reading_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("large.ferry");
-        std::fs::File::create(&path).unwrap().set_len(BYTES_MOST + 1).unwrap();
-        let error = InputLog::open(&path).unwrap_err();
-        assert!(matches!(error, LogError::Unread(ReadError::TooLarge { .. })), "{error}");
-    }
-
-    #[test]
-    fn rejects_a_missing_or_foreign_frame() {
-        let (bytes, ends, _) = written();
-        let without = [&bytes[..ends[0]], &bytes[ends[1]..]].concat();
-        assert!(matches!(InputLog::read(&without), Err(LogError::Damaged { ticks: 1, .. })));
-        let mut newer = bytes.clone();
-        newer[8] += 1;
-        let error = InputLog::read(&newer).unwrap_err().to_string();
-        assert!(error.contains(&format!("version {}, this Ferry reads version {VERSION}", VERSION + 1)), "{error}");
-        let error = InputLog::read(b"RRF2 and so on").unwrap_err().to_string();
-        assert!(error.contains("RRF2"), "{error}");
-    }
 }
