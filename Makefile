@@ -174,7 +174,7 @@ soak: system-test
 # panics, takes five seconds or two gigabytes, and keeps that input in target/fuzz. Only Ferry's own code is rebuilt, with
 # the same compiler. The stack has the size of a server thread's.
 FUZZ_SECONDS ?= 300
-FUZZ_TARGETS ?= message map case log entries policy rtde reports script dashboard
+FUZZ_TARGETS ?= message map drawing case log entries policy rtde reports script dashboard
 fuzz: system-run
 	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/rustc.sh cargo build --release --features fuzz --example fuzz
 	$(MAKE) --jobs=2 $(FUZZ_TARGETS:%=fuzz-%)

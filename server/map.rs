@@ -25,12 +25,21 @@ pub use maze::{Maze, MazeError, MazeFamily};
 pub use report::{MapError, Place, Repair, RepairKind};
 pub use space::FreeSpace;
 pub use summary::{Narrow, Summary};
-pub use svg::fit;
+pub use svg::{decoded, fit};
 
 /// Height of every wall above the table.
 pub const WALL_HEIGHT_M: f64 = 0.005;
 
 pub const MAX_SVG_BYTES: usize = 1 << 20;
+
+/// Version of the reader of drawings. A kept drawing has that of the reader that made walls of it.
+///
+/// 2: reads CSS and invisible shapes as browsers do, and absolute lengths as millimetres of the table.
+pub const READER: u32 = 2;
+/// The reader of drawings with which none is noted.
+pub const fn first_reader() -> u32 {
+    1
+}
 
 #[derive(rust_embed::RustEmbed)]
 #[folder = "../assets/maps/"]
@@ -46,6 +55,8 @@ pub struct Map {
     free: Vec<Polygon>,
     #[serde(skip)]
     repairs: Vec<Repair>,
+    #[serde(skip)]
+    newer: Option<(Place, &'static str)>,
     #[serde(skip)]
     outline: Outline,
     #[serde(skip)]
@@ -75,17 +86,20 @@ impl Map {
         Self::from_svg(name, text)
     }
 
-    /// A shipped map by name, or a file if `name_or_path` ends in `.svg`.
+    /// A shipped map by name, or a file: its path ends in `.svg` or `.svgz`, or is that of a file.
     pub fn open(name_or_path: &str) -> Result<Self, MapError> {
-        if !name_or_path.ends_with(".svg") {
-            return Self::shipped(name_or_path);
-        }
         let path = std::path::Path::new(name_or_path);
+        let is_drawing =
+            path.extension().is_some_and(|one| ["svg", "svgz"].iter().any(|name| one.eq_ignore_ascii_case(name)));
+        let shipped = Self::shipped(name_or_path);
+        if shipped.is_ok() || !(is_drawing || path.is_file()) {
+            return shipped;
+        }
         let bytes = read_at_most(path, MAX_SVG_BYTES as u64).map_err(|error| match error {
             ReadError::Io(error) => MapError::Io { path: name_or_path.to_owned(), error },
             ReadError::TooLarge { bytes, .. } => MapError::TooLarge { bytes: bytes as usize },
         })?;
-        let text = String::from_utf8(bytes).map_err(|error| MapError::Svg(error.to_string()))?;
+        let text = decoded(&bytes)?;
         let name = path.file_stem().map_or("map".into(), |stem| stem.to_string_lossy());
         Self::from_svg(&name, &text)
     }
@@ -102,9 +116,24 @@ impl Map {
             outline: Outline::of(&drawing.free),
             free: drawing.free,
             repairs: drawing.repairs,
+            newer: drawing.newer,
             for_stage: drawing.for_stage,
             svg: text.to_owned(),
         })
+    }
+
+    /// This map, if an older reader has made the same walls of its drawing.
+    ///
+    /// # Errors
+    /// [`MapError::Older`]: that reader no longer exists. [`MapError::Reader`]: it never existed here.
+    pub fn as_read_by(self, reader: u32) -> Result<Self, MapError> {
+        if !(first_reader()..=READER).contains(&reader) {
+            return Err(MapError::Reader { found: reader });
+        }
+        match self.newer {
+            Some((place, what)) if reader < READER => Err(MapError::Older { place, what }),
+            _ => Ok(self),
+        }
     }
 
     /// Display name.

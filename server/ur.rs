@@ -3,6 +3,7 @@
 //! - [`arm`]: the arm at a moment, as the controller reports it.
 //! - [`command`], [`mover`]: motions, and the joints that they lead to, tick by tick.
 //! - [`script`], [`control_script`]: programs that are sent to the robot.
+//! - [`model`]: the arm that the controller takes its own for.
 //! - [`controller`], [`robot`]: who is connected, what runs, the protective stop; shared by the session and the sockets.
 //! - [`news`]: what the session reports of them.
 //! - [`rtde`]: frames of the Real-Time Data Exchange; recipes.
@@ -22,6 +23,7 @@ pub mod controller;
 pub mod dashboard;
 pub mod drive_script;
 pub mod inputs;
+pub mod model;
 pub mod mover;
 pub mod news;
 pub mod peer;

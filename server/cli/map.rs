@@ -7,8 +7,8 @@ use crate::plant::BEAD_RADIUS_M;
 use crate::scenario::CLEARANCE_M;
 use crate::trial::Arena;
 
-/// Limit of printed repairs: one mistake is often repeated everywhere in a drawing.
-const SHOWN_REPAIRS: usize = 20;
+/// Limit of printed notes: one mistake is often repeated everywhere in a drawing.
+const SHOWN_NOTES: usize = 20;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -48,11 +48,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let (width_mm, at) = (narrow.width_m * 1e3, narrow.at);
         println!("narrowest  {width_mm:.0} mm between two rooms, at x {:.3} y {:.3} m", at.x, at.y);
     }
-    for repair in map.repairs().iter().take(SHOWN_REPAIRS) {
-        println!("repaired   {repair}");
+    for repair in map.repairs().iter().take(SHOWN_NOTES) {
+        println!("noted      {repair}");
     }
-    if let Some(more) = map.repairs().len().checked_sub(SHOWN_REPAIRS).filter(|&more| more > 0) {
-        println!("repaired   {more} more");
+    if let Some(more) = map.repairs().len().checked_sub(SHOWN_NOTES).filter(|&more| more > 0) {
+        println!("noted      {more} more");
     }
     Ok(ExitCode::SUCCESS)
 }

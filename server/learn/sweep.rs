@@ -14,6 +14,7 @@ use crate::camera::{Camera, CameraError, Gpu, Subject, VIEW_PX};
 use crate::control::TargetStep;
 use crate::geometry::{Band, Point2, Point3, Rect};
 use crate::image::CameraMount;
+use crate::map::READER;
 use crate::perception::{OBSERVATION_SIZE_PX, Observation, Percept};
 use crate::plant::{BEAD_RADIUS_M, Positioner, PositionerKind};
 use crate::policy::Action;
@@ -142,17 +143,22 @@ impl Sweep {
         wave_m: &[f64],
         progress: Progress<'_>,
     ) -> Result<Self, SweepError> {
-        let path = folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m, wave_m)));
-        if let Some(kept) = read(&path, cells(arena, spacing_m)) {
+        if let Some(kept) = Self::kept(arena, folder, spacing_m, wave_m) {
             return Ok(kept);
         }
         let sweep = Self::take(arena, gpu, spacing_m, wave_m, progress)?;
         prune(folder);
+        let path = path_of(arena, folder, spacing_m, wave_m);
         // The sweep is usable even if it cannot be kept.
         if let Err(error) = sweep.write(folder, &path) {
             tracing::warn!(%error, path = %path.display(), "sweep not kept");
         }
         Ok(sweep)
+    }
+
+    /// The images of a map, if the folder has them.
+    pub fn kept(arena: &Arena, folder: &Path, spacing_m: f64, wave_m: &[f64]) -> Option<Self> {
+        read(&path_of(arena, folder, spacing_m, wave_m), cells(arena, spacing_m))
     }
 
     /// The image above a cell.
@@ -177,6 +183,10 @@ impl Sweep {
         file.into_inner()?.sync_all()?;
         std::fs::rename(part, path)
     }
+}
+
+fn path_of(arena: &Arena, folder: &Path, spacing_m: f64, wave_m: &[f64]) -> PathBuf {
+    folder.join(format!("{:016x}.sweep", content_hash(arena, spacing_m, wave_m)))
 }
 
 /// Makes room for one more sweep by removing the oldest. Does nothing if the folder cannot be read.
@@ -208,7 +218,7 @@ fn read(path: &Path, (columns, rows): (usize, usize)) -> Option<Sweep> {
     (fits && (sweep.columns, sweep.rows) == (columns, rows)).then_some(sweep)
 }
 
-/// Hash of the map's drawing, its walls, the camera, the places and this module's version. Equal hashes mean equal images.
+/// Hash of the map's drawing, its reader, the motion of walls, the camera, the places and this module's version. Equal hashes mean equal images.
 fn content_hash(arena: &Arena, spacing_m: f64, wave_m: &[f64]) -> u64 {
     let CameraMount {
         height_m,
@@ -218,7 +228,7 @@ fn content_hash(arena: &Arena, spacing_m: f64, wave_m: &[f64]) -> u64 {
         sees_magnet,
     } = CameraMount::default();
     let mount = [height_m, x_m, y_m, tilt_x_rad, tilt_y_rad, field_of_view_rad, f64::from(u8::from(sees_magnet))];
-    let numbers = mount.into_iter().chain([f64::from(VIEW_PX), spacing_m, f64::from(VERSION)]);
+    let numbers = mount.into_iter().chain([f64::from(VIEW_PX), spacing_m, f64::from(VERSION), f64::from(READER)]);
     let numbers = numbers.chain(wave_m.iter().copied());
     let mut hash = xxhash_rust::xxh3::Xxh3::new();
     for number in numbers {

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::sweep::{STEP_M, cells};
 use crate::jobs::{Queue, QueueError};
-use crate::map::Map;
+use crate::map::{Map, READER};
 use crate::policy::Policy;
 use crate::trial::{Arena, Catalog};
 use folder::Record;
@@ -89,7 +89,8 @@ impl Trainings {
         let folder = self.folder.join(&id);
         let read = Record::read(&folder).map_err(|error| error.to_string()).and_then(|record| {
             let svg = folder::map(&folder).map_err(|error| error.to_string())?;
-            let map = Map::from_svg(&record.query.map, &svg).map_err(|error| error.to_string())?;
+            let map = Map::from_svg(&record.query.map, &svg).and_then(|map| map.as_read_by(record.reader));
+            let map = map.map_err(|error| error.to_string())?;
             Ok((record, map))
         });
         match read {
@@ -130,6 +131,7 @@ impl Trainings {
             points: Vec::new(),
             examined: None,
             policy: None,
+            reader: READER,
         };
         let number = kept.last + 1;
         let id = format!("{NUMBERED}{number}");

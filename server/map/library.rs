@@ -69,9 +69,7 @@ impl Library {
     ///
     /// # Errors
     /// If it is not a valid map (see [`Map::from_svg`]), or if there are already [`ADDED_MAPS`].
-    pub fn add(&self, wished: Option<&str>, svg: &str) -> Result<Map, MapError> {
-        // Parsed before the lock is taken; the name is set last.
-        let mut map = Map::from_svg("", svg)?;
+    pub fn add(&self, wished: Option<&str>, mut map: Map) -> Result<Map, MapError> {
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         if added.maps.len() >= ADDED_MAPS {
             return Err(MapError::TooMany { max: ADDED_MAPS });
@@ -82,15 +80,15 @@ impl Library {
         Ok(map)
     }
 
-    /// Restores an added map under its old name.
+    /// Restores an added map under its old name, as this reader has read it.
     ///
     /// # Errors
     /// Those of [`Self::add`], and if the name is not that of an added map.
-    pub fn restore(&self, name: &str, svg: &str) -> Result<(), MapError> {
+    pub fn restore(&self, name: &str, svg: &str, reader: u32) -> Result<(), MapError> {
         if !is_added(name) {
             return Err(MapError::Unknown { name: name.to_owned() });
         }
-        let map = Map::from_svg(name, svg)?;
+        let map = Map::from_svg(name, svg)?.as_read_by(reader)?;
         let mut added = self.added.write().unwrap_or_else(PoisonError::into_inner);
         if added.maps.len() >= ADDED_MAPS {
             return Err(MapError::TooMany { max: ADDED_MAPS });
@@ -130,40 +128,52 @@ mod tests {
         Map::shipped("posts").unwrap().svg().to_owned()
     }
 
+    fn map(drawing: &str) -> Map {
+        Map::from_svg("", drawing).unwrap()
+    }
+
     #[test]
     fn adds_finds_and_removes_maps_under_generated_names() {
         let library = Library::default();
         let drawing = drawing();
-        let first = library.add(None, &drawing).unwrap();
+        let first = library.add(None, map(&drawing)).unwrap();
         assert_eq!((first.name(), library.find("map-1").unwrap().name()), ("map-1", "map-1"));
         assert_eq!(first.walls(), Map::shipped("posts").unwrap().walls());
-        library.restore("map-7", &drawing).unwrap();
-        assert_eq!(library.add(None, &drawing).unwrap().name(), "map-8");
+        library.restore("map-7", &drawing, 1).unwrap();
+        assert_eq!(library.add(None, map(&drawing)).unwrap().name(), "map-8");
         assert!(library.names().ends_with(&["map-1".into(), "map-7".into(), "map-8".into()]));
         assert!(library.remove("map-7").is_some() && library.remove("map-7").is_none());
         assert!(library.remove("posts").is_none() && library.find("posts").is_ok());
         for name in ["map-7", "map-07", "map-", "map-+1", "../map-1", "map-1.svg"] {
             assert!(matches!(library.find(name), Err(MapError::Unknown { .. })), "{name}");
         }
-        assert!(library.restore("../x", &drawing).is_err());
+        assert!(library.restore("../x", &drawing, 1).is_err());
         assert!(library.remove("map-8").is_some());
-        assert_eq!(library.add(None, &drawing).unwrap().name(), "map-9", "a link to map-8 must not open another map");
+        assert_eq!(
+            library.add(None, map(&drawing)).unwrap().name(),
+            "map-9",
+            "a link to map-8 must not open another map"
+        );
     }
 
     #[test]
     fn a_map_gets_the_wished_name_if_it_is_valid_and_new() {
         let library = Library::default();
         let drawing = drawing();
-        assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "two-rooms");
+        assert_eq!(library.add(Some("two-rooms"), map(&drawing)).unwrap().name(), "two-rooms");
         assert_eq!(library.find("two-rooms").unwrap().name(), "two-rooms");
         let refused = ["two-rooms", "colon", "Two rooms", "", "-a", "../x", "a.svg", "map-4294967295", &"x".repeat(41)];
         for (wished, number) in refused.into_iter().zip(1..) {
-            assert_eq!(library.add(Some(wished), &drawing).unwrap().name(), format!("map-{number}"), "{wished:?}");
+            assert_eq!(library.add(Some(wished), map(&drawing)).unwrap().name(), format!("map-{number}"), "{wished:?}");
         }
         library.remove("two-rooms").unwrap();
-        assert_eq!(library.add(Some("two-rooms"), &drawing).unwrap().name(), "map-10", "a deleted name is not reused");
+        assert_eq!(
+            library.add(Some("two-rooms"), map(&drawing)).unwrap().name(),
+            "map-10",
+            "a deleted name is not reused"
+        );
         library.reserve("old");
-        assert_eq!(library.add(Some("old"), &drawing).unwrap().name(), "map-11");
+        assert_eq!(library.add(Some("old"), map(&drawing)).unwrap().name(), "map-11");
     }
 
     #[test]
@@ -171,9 +181,8 @@ mod tests {
         let library = Library::default();
         let drawing = Map::shipped("open").unwrap().svg().to_owned();
         for _ in 0..ADDED_MAPS {
-            library.add(None, &drawing).unwrap();
+            library.add(None, map(&drawing)).unwrap();
         }
-        assert!(matches!(library.add(None, &drawing), Err(MapError::TooMany { max: ADDED_MAPS })));
-        assert!(matches!(library.add(None, "<svg/>"), Err(error) if !matches!(error, MapError::TooMany { .. })));
+        assert!(matches!(library.add(None, map(&drawing)), Err(MapError::TooMany { max: ADDED_MAPS })));
     }
 }

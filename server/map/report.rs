@@ -35,7 +35,8 @@ impl std::fmt::Display for Repair {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+/// What was changed, or may not be what was meant.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum RepairKind {
     /// Two edges of a filled outline cross.
     #[error("its outline crosses itself; the fill rule decides what is wall")]
@@ -49,6 +50,27 @@ pub enum RepairKind {
     /// A visible shape has no area and no stroke.
     #[error("it draws nothing, having neither area nor stroke; left out")]
     Nothing,
+    /// Nothing of a wall is in the workspace.
+    #[error("it lies wholly outside the workspace; left out")]
+    Outside,
+    /// A wall is hardly wider than nothing.
+    #[error("it is thinner than 0.1 mm")]
+    Hairline,
+    /// An absolute length.
+    #[error("{name}={value:?} is taken as millimetres of the table, whatever the drawing's scale")]
+    Absolute { name: String, value: String },
+    /// A value that browsers ignore, too.
+    #[error("{name}={value:?} is no value; ignored, as in browsers")]
+    Invalid { name: String, value: String },
+    /// A gradient or pattern that does not exist.
+    #[error("there is no gradient or pattern \"{id}\" to paint it with")]
+    NoPaint { id: String },
+    /// The page has another size than the workspace.
+    #[error(
+        "{name} of the page is {page_mm} mm, but {own_mm} in viewBox, which counts: one unit is 1 mm; scale the drawing \
+         if it was drawn in other units"
+    )]
+    Page { name: &'static str, page_mm: u32, own_mm: u32 },
 }
 
 /// Why a map was refused.
@@ -77,7 +99,7 @@ pub enum MapError {
     ViewBox {
         /// The attribute as written.
         value: String,
-        reason: &'static str,
+        reason: String,
     },
     /// The root names an unknown positioner.
     #[error("map: data-positioner {value:?}: it must be \"arm\" or \"planar-stage\"")]
@@ -93,6 +115,20 @@ pub enum MapError {
         reason: String,
     },
     /// The walls leave no space for the bead.
-    #[error("map: the walls leave no free space in the workspace")]
-    NoFreeSpace,
+    #[error(
+        "map: the walls leave no free space in the workspace{}",
+        .cause.as_ref().map(|cause| format!(": {cause} covers all of it; remove it if it is a background")).unwrap_or_default()
+    )]
+    NoFreeSpace {
+        /// The element that covers it alone.
+        cause: Option<Place>,
+    },
+    /// An older reader has read the drawing otherwise.
+    #[error(
+        "map: {place}: this drawing was kept by an older Ferry, which read it otherwise: {what}; open the drawing anew"
+    )]
+    Older { place: Place, what: &'static str },
+    /// A reader of another Ferry.
+    #[error("map: its reader is {found}, this Ferry has 1 to {}; a newer Ferry has kept it", super::READER)]
+    Reader { found: u32 },
 }

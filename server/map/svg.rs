@@ -1,26 +1,31 @@
-//! From SVG to polygons: usvg resolves shapes, groups, transforms and units; kurbo flattens curves; i_overlay unites
-//! overlapping outlines.
+//! From SVG to polygons: `plain` computes styles as a browser does and refuses what it does not understand; usvg makes paths
+//! of shapes and transforms; kurbo flattens curves; i_overlay unites overlapping outlines.
 //!
-//! A drawing is untrusted input, so each step has a bound on its work that does not depend on a clock: `screen` before
-//! usvg, `sketch` after it, `contacts` before each union.
+//! A drawing is untrusted input, so each step has a bound on its work that does not depend on a clock: `plain` before usvg,
+//! `sketch` after it, `contacts` before each union.
 
-mod attributes;
 mod contacts;
+mod css;
+mod encoding;
 mod fit;
 #[cfg(test)]
 mod fuzz_tests;
-mod screen;
+mod plain;
 mod sketch;
+mod style;
 #[cfg(test)]
 mod tests;
+
+use std::collections::HashSet;
 
 use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
 use i_overlay::float::single::SingleFloatOverlay;
 use usvg::roxmltree;
 use usvg::tiny_skia_path::Transform;
 
-use super::{MAX_SVG_BYTES, MapError, Repair};
+use super::{MAX_SVG_BYTES, MapError, Place, Repair, RepairKind};
 use crate::geometry::{Polygon, Rect};
+pub use encoding::decoded;
 pub use fit::fit;
 
 type Ring = Vec<[f64; 2]>;
@@ -28,6 +33,10 @@ type Ring = Vec<[f64; 2]>;
 /// roxmltree compares each attribute of a tag with all others, and each namespace with all others.
 const MAX_ATTRIBUTES: usize = 1000;
 const MAX_NAMESPACES: usize = 100;
+/// Each costs the camera time that grows with their number; so many cost half a second.
+const MAX_ENCLOSED: usize = 10_000;
+/// Each is sought in the whole text.
+const MAX_ENTITIES: usize = 100;
 
 /// The content of a drawing.
 pub(super) struct Drawing {
@@ -35,38 +44,55 @@ pub(super) struct Drawing {
     pub walls: Vec<Polygon>,
     pub free: Vec<Polygon>,
     pub repairs: Vec<Repair>,
+    /// What the reader of version 1 read otherwise; the first element.
+    pub newer: Option<(Place, &'static str)>,
     /// Whether the map is for the planar stage instead of the arm.
     pub for_stage: bool,
 }
 
 pub(super) fn read(text: &str) -> Result<Drawing, MapError> {
     let xml = parse(text)?;
+    let root = xml.root_element();
+    if root.tag_name().name() != "svg" {
+        return Err(MapError::Svg(format!("its root is <{}>, it must be <svg>", short(root.tag_name().name()))));
+    }
     let view_box = ViewBox::of(&xml)?;
-    let for_stage = match xml.root_element().attribute("data-positioner") {
+    let for_stage = match own(root, "data-positioner") {
         None | Some("arm") => false,
         Some("planar-stage") => true,
-        Some(value) => return Err(MapError::Positioner { value: attributes::short(value) }),
+        Some(value) => return Err(MapError::Positioner { value: short(value) }),
     };
-    let screened = screen::screen(&xml, &view_box.attribute())?;
-    let tree = usvg::Tree::from_str(&screened.text, &usvg::Options::default()).map_err(unreadable)?;
-    let sketch = sketch::sketch(&tree, view_box.user_from_pixels(), view_box.diagonal_mm(), &screened)?;
+    let plain = plain::plain(&xml, &view_box.attribute())?;
+    let tree = usvg::Tree::from_str(&plain.text, &usvg::Options::default()).map_err(unreadable)?;
+    let mut sketch = sketch::sketch(&tree, &view_box, &plain)?;
+    if let Some(kind) = view_box.disagreement(root) {
+        sketch.repairs.insert(0, Repair { place: plain.root.clone(), kind });
+    }
+    sketch.repairs.sort_by_key(|repair| repair.place.line);
 
     let border = vec![view_box.ring_m()];
     let walls = border.overlay_as::<i64>(&sketch.rings, OverlayRule::Intersect, FillRule::NonZero);
     let free = border.overlay_as::<i64>(&sketch.rings, OverlayRule::Difference, FillRule::NonZero);
     if free.is_empty() {
-        return Err(MapError::NoFreeSpace);
+        return Err(MapError::NoFreeSpace { cause: sketch.covers(&view_box) });
+    }
+    let walls = polygons(walls);
+    if let Some(wall) = walls.iter().find(|wall| wall.holes.len() > MAX_ENCLOSED) {
+        let count = wall.holes.len();
+        let reason = format!("a wall encloses {count} separate places, the limit is {MAX_ENCLOSED}; draw fewer lines");
+        return Err(MapError::Element { place: plain.root, reason });
     }
     Ok(Drawing {
         workspace: view_box.rect_m(),
-        walls: polygons(walls),
+        walls,
         free: polygons(free),
         repairs: sketch.repairs,
+        newer: plain.newer,
         for_stage,
     })
 }
 
-/// Accepts a DOCTYPE, because drawing programs write one, but no entities, because they can multiply.
+/// Accepts a DOCTYPE, because drawing programs write one, and entities that cannot multiply.
 fn parse(text: &str) -> Result<roxmltree::Document<'_>, MapError> {
     if text.len() > MAX_SVG_BYTES {
         return Err(MapError::TooLarge { bytes: text.len() });
@@ -75,25 +101,93 @@ fn parse(text: &str) -> Result<roxmltree::Document<'_>, MapError> {
         return Err(MapError::NotSvg);
     }
     let refused = |reason: String| Err(MapError::Svg(reason));
-    if text.contains("<!ENTITY") {
-        return refused("it declares entities; replace them by their content".into());
+    if !entities_are_short(text) {
+        return refused("it declares entities that contain others or are long; save it as plain SVG".into());
     }
-    if text.matches("xmlns:").count() > MAX_NAMESPACES {
+    if namespaces(text) > MAX_NAMESPACES {
         return refused(format!("it declares more than {MAX_NAMESPACES} namespaces"));
     }
-    let mut line = 1;
-    for tag in text.split('<') {
-        if tag.matches('=').count() > MAX_ATTRIBUTES {
-            return refused(format!("the tag at line {line} has more than {MAX_ATTRIBUTES} attributes"));
-        }
-        line += tag.matches('\n').count();
+    if let Some(at) = tag_with_many_attributes(text) {
+        let line = 1 + text[..at].matches('\n').count();
+        return refused(format!("the tag at line {line} has more than {MAX_ATTRIBUTES} attributes"));
     }
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
     roxmltree::Document::parse_with_options(text, options).map_err(unreadable)
 }
 
+/// An attribute without a prefix.
+fn own<'a>(node: roxmltree::Node<'a, '_>, name: &str) -> Option<&'a str> {
+    node.attributes().find(|one| one.name() == name && one.namespace().is_none()).map(|one| one.value())
+}
+
+/// Whether the entities of a drawing are few, with short texts without markup, as those of Illustrator.
+fn entities_are_short(text: &str) -> bool {
+    let mut expanded = 0_usize;
+    text.matches("<!ENTITY").count() <= MAX_ENTITIES
+        && text.split("<!ENTITY").skip(1).all(|declaration| {
+            let name = declaration.split_ascii_whitespace().next().unwrap_or_default();
+            let quoted = declaration.find(['"', '\'']).and_then(|at| {
+                let rest = &declaration[at..];
+                rest[1..].split(&rest[..1]).next()
+            });
+            let value = quoted.unwrap_or(declaration);
+            expanded += value.len() * text.matches(&format!("&{name};")).count();
+            !value.contains(['&', '%', '<']) && !name.starts_with('%') && expanded <= MAX_SVG_BYTES
+        })
+}
+
+/// The number of different declarations of namespaces.
+fn namespaces(text: &str) -> usize {
+    let declarations = text.split("xmlns:").skip(1).filter_map(|rest| {
+        let quote = rest.find(['"', '\''])?;
+        let end = quote + 1 + rest[quote + 1..].find(&rest[quote..=quote])?;
+        Some(&rest[..end])
+    });
+    declarations.collect::<HashSet<&str>>().len()
+}
+
+/// The first tag that has too many attributes.
+fn tag_with_many_attributes(text: &str) -> Option<usize> {
+    let mut at = 0;
+    while let Some(start) = text[at..].find('<').map(|found| at + found) {
+        let ends = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+        if let Some((_, end)) = ends.into_iter().find(|(begin, _)| text[start..].starts_with(begin)) {
+            at = start + text[start..].find(end)? + end.len();
+            continue;
+        }
+        let (mut quote, mut attributes) = (None, 0);
+        at = text.len();
+        for (offset, byte) in text.as_bytes()[start..].iter().enumerate() {
+            match (quote, byte) {
+                (None, b'>') => {
+                    at = start + offset + 1;
+                    break;
+                }
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (None, b'=') => attributes += 1,
+                (Some(open), _) if open == byte => quote = None,
+                _ => {}
+            }
+        }
+        if attributes > MAX_ATTRIBUTES {
+            return Some(start);
+        }
+    }
+    None
+}
+
 fn unreadable(error: impl std::fmt::Display) -> MapError {
-    MapError::Svg(attributes::short(&error.to_string()))
+    MapError::Svg(short(&error.to_string()))
+}
+
+/// A value shortened for an error message.
+fn short(value: &str) -> String {
+    const SHOWN: usize = 80;
+    let mut short: String = value.chars().take(SHOWN).collect();
+    if short.len() < value.len() {
+        short.push('…');
+    }
+    short
 }
 
 fn polygons(shapes: Vec<Vec<Ring>>) -> Vec<Polygon> {
@@ -119,17 +213,25 @@ struct ViewBox {
 impl ViewBox {
     fn of(xml: &roxmltree::Document<'_>) -> Result<Self, MapError> {
         let root = xml.root_element();
-        let value = root.attribute("viewBox").unwrap_or_default();
-        let refused = |reason| MapError::ViewBox { value: value.chars().take(80).collect(), reason };
+        let value = own(root, "viewBox").unwrap_or_default();
+        let refused = |reason: &str| MapError::ViewBox { value: short(value), reason: reason.to_owned() };
         if value.is_empty() {
-            return Err(refused(
-                "it is missing; it defines the workspace in millimetres, for example \"-300 210 580 330\"",
-            ));
+            let size = |name| own(root, name).and_then(|value| style::size(value, style::Origin::Attribute).ok());
+            let sizes = size("width")
+                .zip(size("height"))
+                .filter(|(width, height)| !width.ends_with('%') && !height.ends_with('%'));
+            let proposed =
+                sizes.map_or("-300 210 580 330".to_owned(), |(width, height)| format!("0 0 {width} {height}"));
+            let spelled = if own(root, "viewbox").is_some() { ", with a capital B" } else { "" };
+            let reason = format!(
+                "it is missing; it defines the workspace in millimetres, for example viewBox=\"{proposed}\"{spelled}"
+            );
+            return Err(refused(&reason));
         }
         let numbers: Vec<f64> = value
             .split([' ', ',', '\t', '\n', '\r'])
             .filter(|part| !part.is_empty())
-            .map(|part| part.parse().unwrap_or(f64::NAN))
+            .map(|part| part.parse().ok().filter(|_| !style::has_bare_dot(part)).unwrap_or(f64::NAN))
             .collect();
         let &[x, y, width, height] = numbers.as_slice() else {
             return Err(refused("it needs four numbers"));
@@ -143,10 +245,27 @@ impl ViewBox {
         if x.abs() > 4000.0 || y.abs() > 4000.0 {
             return Err(refused("x and y must be within ±4000 mm"));
         }
-        if root.attribute("preserveAspectRatio").is_some_and(|v| v.trim() != "xMidYMid meet") {
-            return Err(refused("preserveAspectRatio must be removed, because it would distort millimetres"));
+        let is_harmless = |value: &str| {
+            let ratio = value.trim().parse::<svgtypes::AspectRatio>();
+            ratio.is_ok_and(|ratio| ratio.align != svgtypes::Align::None && !ratio.slice)
+        };
+        if !own(root, "preserveAspectRatio").is_none_or(is_harmless) {
+            return Err(refused("preserveAspectRatio must be removed, because it may distort or cut the drawing"));
         }
         Ok(Self { x, y, width, height })
+    }
+
+    /// A size of the page in absolute units that is not that of the viewBox: the drawing may be in other units.
+    fn disagreement(&self, root: roxmltree::Node<'_, '_>) -> Option<RepairKind> {
+        let page_mm = |name| {
+            let value = own(root, name).filter(|value| style::is_absolute(value))?;
+            style::size(value, style::Origin::Attribute).ok()?.parse::<f64>().ok()
+        };
+        let is_other = |(name, own_mm): (&'static str, f64)| {
+            let page_mm = page_mm(name).filter(|page_mm| (page_mm / own_mm - 1.0).abs() > 0.01)?;
+            Some(RepairKind::Page { name, page_mm: page_mm.round() as u32, own_mm: own_mm.round() as u32 })
+        };
+        [("width", self.width), ("height", self.height)].into_iter().find_map(is_other)
     }
 
     fn attribute(&self) -> String {

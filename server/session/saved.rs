@@ -190,7 +190,7 @@ fn caught<T>(work: impl FnOnce() -> Result<T, TrialError>) -> Result<T, RestoreE
 /// The library's map if it is the same drawing; it may have been deleted or changed since.
 fn known(library: &Library, logged: &LoggedMap) -> Result<Map, TrialError> {
     match library.find(&logged.name) {
-        Ok(map) if map.svg() == logged.svg => Ok(map),
+        Ok(map) if map.svg() == logged.svg => Ok(map.as_read_by(logged.reader)?),
         _ => {
             // No other drawing gets the name from now on.
             library.reserve(&logged.name);

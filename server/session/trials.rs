@@ -183,7 +183,7 @@ impl<E: ImageSource> Worker<E> {
         let arena = match &case.map {
             None => catalog.arena(&case.scenario.map)?,
             Some(own) => match catalog.maps.find(&own.name) {
-                Ok(map) if map.svg() == own.svg => catalog.arena_of(map),
+                Ok(map) if map.svg() == own.svg => catalog.arena_of(map.as_read_by(own.reader)?),
                 // The experiment's link would open the other drawing.
                 Ok(_) => return Err(CommandError::OtherDrawing { name: own.name.clone() }),
                 Err(error) if !is_added(&own.name) => return Err(error.into()),

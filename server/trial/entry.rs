@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::de::{SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{Arena, Beginning, Decision, Input, TickRecord, Trial, TrialState};
-use crate::map::{Map, MapError};
-use crate::scenario::Scenario;
+use crate::map::{Map, MapError, READER, first_reader};
+use crate::scenario::{Parameters, Scenario};
 
 /// An entry of a log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,11 +53,14 @@ pub struct LoggedMap {
     pub name: String,
     /// The drawing.
     pub svg: String,
+    /// Version of the reader that made walls of it ([`crate::map::READER`]).
+    #[serde(default = "first_reader")]
+    pub reader: u32,
 }
 
 impl From<&Map> for LoggedMap {
     fn from(map: &Map) -> Self {
-        Self { name: map.name().to_owned(), svg: map.svg().to_owned() }
+        Self { name: map.name().to_owned(), svg: map.svg().to_owned(), reader: READER }
     }
 }
 
@@ -72,7 +76,7 @@ impl LoggedMap {
     /// # Errors
     /// The drawing is not a map.
     pub fn map(&self) -> Result<Map, MapError> {
-        Map::from_svg(&self.name, &self.svg)
+        Map::from_svg(&self.name, &self.svg)?.as_read_by(self.reader)
     }
 
     /// The map, prepared for trials.
@@ -90,7 +94,7 @@ pub struct LoggedTick {
     /// Ticks since the start, this one included.
     pub tick: u64,
     /// Inputs applied before the tick.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "few_inputs")]
     pub inputs: Vec<Input>,
     /// Decision of the control step, if one was due.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -103,6 +107,48 @@ pub struct LoggedTick {
     /// Controller hash after the tick.
     #[serde(rename = "mind_hash")]
     pub controller_hash: u64,
+}
+
+/// Largest number of inputs of one tick; a session takes fewer.
+const INPUTS_MOST: usize = 100_000;
+
+/// Reads inputs, and stops when there are too many.
+fn few_inputs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Input>, D::Error> {
+    struct Few;
+    impl<'de> Visitor<'de> for Few {
+        type Value = Vec<Input>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            write!(f, "at most {INPUTS_MOST} inputs")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut all: A) -> Result<Vec<Input>, A::Error> {
+            let mut inputs = Vec::new();
+            while let Some(input) = all.next_element()? {
+                if inputs.len() == INPUTS_MOST {
+                    return Err(serde::de::Error::invalid_length(INPUTS_MOST + 1, &self));
+                }
+                inputs.push(input);
+            }
+            Ok(inputs)
+        }
+    }
+    deserializer.deserialize_seq(Few)
+}
+
+impl Entry {
+    /// Memory that it needs, about.
+    pub(super) fn bytes(&self) -> u64 {
+        let of_input = |input: &Input| match input {
+            Input::Configure(_) => size_of::<Input>() + size_of::<Parameters>(),
+            _ => size_of::<Input>(),
+        };
+        let inside = match self {
+            Self::Begin(beginning) => beginning.map.as_ref().map_or(0, |map| map.svg.len()),
+            Self::Tick(tick) => tick.fields.len() + tick.inputs.iter().map(of_input).sum::<usize>(),
+        };
+        (size_of::<Self>() + inside) as u64
+    }
 }
 
 impl From<&TickRecord> for LoggedTick {

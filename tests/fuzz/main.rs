@@ -3,6 +3,8 @@
 
 #![no_main]
 
+#[path = "drawing.rs"]
+mod drawing;
 #[path = "mutate.rs"]
 mod mutate;
 #[path = "seeds.rs"]

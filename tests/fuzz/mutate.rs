@@ -97,7 +97,7 @@ fn in_form(target: Target, bytes: &[u8], rng: &mut impl Rng) -> Option<Vec<u8>> 
             Some(changed)
         }
         Target::Map => Some(in_text(std::str::from_utf8(bytes).ok()?, rng).into_bytes()),
-        Target::Log | Target::Rtde | Target::Reports | Target::Script | Target::Dashboard => None,
+        Target::Log | Target::Drawing | Target::Rtde | Target::Reports | Target::Script | Target::Dashboard => None,
     }
 }
 

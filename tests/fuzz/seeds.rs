@@ -23,7 +23,7 @@ const SMALL_MAP: &str = r#"<svg viewBox="-60 300 120 100"><rect x="-10" y="340" 
 
 impl Target {
     pub fn seeds(self) -> &'static [Vec<u8>] {
-        static SEEDS: LazyLock<[Vec<Vec<u8>>; 10]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
+        static SEEDS: LazyLock<[Vec<Vec<u8>>; 11]> = LazyLock::new(|| Target::ALL.map(Target::make_seeds));
         &SEEDS[self as usize]
     }
 
@@ -31,6 +31,7 @@ impl Target {
         match self {
             Self::Message => messages().iter().map(|message| written(message).into_bytes()).collect(),
             Self::Map => maps().into_iter().map(String::into_bytes).collect(),
+            Self::Drawing => (0..8_u32).map(|number| (0..60).map(|i| (i * 7 + number * 31) as u8).collect()).collect(),
             Self::Case => cases(),
             Self::Log => ControllerName::ALL.map(|name| log(&trial(name))).into(),
             Self::Entries => ControllerName::ALL.map(|name| payload(&trial(name))).into(),

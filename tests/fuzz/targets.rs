@@ -21,6 +21,8 @@ use ferry::ur::peer::{Peer, PeerError, Report};
 use ferry::ur::{Arm, Twin, dashboard, rtde, script};
 use tokio_util::codec::{Decoder, Encoder};
 
+use super::drawing;
+
 /// Ticks that what was read is run on for: the first has a control step.
 const TICKS: usize = 34;
 
@@ -31,6 +33,8 @@ pub enum Target {
     Message,
     /// Drawings.
     Map,
+    /// Small drawings that bytes choose: Ferry's walls are where usvg draws.
+    Drawing,
     /// Cases, the scenarios in them, and links.
     Case,
     /// Input logs as they lie on disk.
@@ -50,9 +54,10 @@ pub enum Target {
 }
 
 impl Target {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Message,
         Self::Map,
+        Self::Drawing,
         Self::Case,
         Self::Log,
         Self::Entries,
@@ -67,6 +72,7 @@ impl Target {
         match self {
             Self::Message => "message",
             Self::Map => "map",
+            Self::Drawing => "drawing",
             Self::Case => "case",
             Self::Log => "log",
             Self::Entries => "entries",
@@ -83,6 +89,7 @@ impl Target {
         match self {
             Self::Message => std::str::from_utf8(bytes).is_ok_and(message),
             Self::Map => std::str::from_utf8(bytes).is_ok_and(map),
+            Self::Drawing => drawing::agrees(bytes),
             Self::Case => case(bytes),
             Self::Log => InputLog::read(bytes).is_ok_and(|log| run(&log)),
             Self::Entries => InputLog::read(&framed(bytes)).is_ok_and(|log| run(&log)),

@@ -34,6 +34,9 @@ pub struct Record {
     pub points: Vec<Point>,
     pub examined: Option<Marks>,
     pub policy: Option<String>,
+    /// Version of the reader of its map ([`crate::map::READER`]).
+    #[serde(default = "crate::map::first_reader")]
+    pub reader: u32,
 }
 
 impl Record {

@@ -22,7 +22,7 @@ use crate::learn::run::{Run, Saving, drive};
 use crate::learn::sweep::{STEP_M, Sweep, SweepError};
 use crate::learn::terrain::Terrain;
 use crate::learn::training::State;
-use crate::map::Map;
+use crate::map::{Map, READER};
 use crate::policy::{Library, LibraryError, Policy};
 use crate::trial::Arena;
 
@@ -97,7 +97,7 @@ impl Training {
         policies: Arc<Library>,
         (cells, frames): (Option<Cells>, Vec<Frame>),
     ) -> Arc<Self> {
-        let Record { query, updates_total, stage, elapsed_s, points, examined, policy } = record;
+        let Record { query, updates_total, stage, elapsed_s, points, examined, policy, reader: _ } = record;
         let status = Status {
             stage,
             version: 0,
@@ -197,6 +197,7 @@ impl Training {
             points: status.points.clone(),
             examined: status.examined,
             policy: status.policy.clone(),
+            reader: READER,
         }
     }
 

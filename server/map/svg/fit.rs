@@ -18,22 +18,30 @@ pub fn fit(text: &str) -> Result<String, MapError> {
         ViewBox { x: ROOM.x + (ROOM.width - width) / 2.0, y: ROOM.y + (ROOM.height - height) / 2.0, width, height };
 
     let root = xml.root_element();
-    let (Some(first), Some(last), Some(view_box)) =
-        (root.first_child(), root.last_child(), root.attribute_node("viewBox"))
-    else {
+    let (Some(first), Some(last), Some(view_box)) = (
+        root.first_child(),
+        root.last_child(),
+        root.attributes().find(|one| one.name() == "viewBox" && one.namespace().is_none()),
+    ) else {
         // Without content there is nothing to move; without a viewBox the drawing was refused above.
         return Ok(text.to_owned());
     };
     let (attribute, content) = (view_box.range_value(), first.range().start..last.range().end);
-    let (dx, dy) = (to.x - from.x * scale, to.y - from.y * scale);
+    if text.contains(":root") {
+        let reason = "a style sheet refers to :root, so that the drawing cannot be moved; use svg instead";
+        return Err(MapError::Svg(reason.to_owned()));
+    }
     Ok(format!(
-        "{}{} {} {} {}{}<g transform=\"translate({dx} {dy}) scale({scale})\">{}</g>{}",
+        "{}{} {} {} {}{}<svg x=\"{}\" y=\"{}\" width=\"{width}\" height=\"{height}\" {}>{}</svg>{}",
         &text[..attribute.start],
         to.x,
         to.y,
         to.width,
         to.height,
         &text[attribute.end..content.start],
+        to.x,
+        to.y,
+        from.attribute(),
         &text[content.clone()],
         &text[content.end..],
     ))

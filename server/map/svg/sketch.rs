@@ -3,15 +3,18 @@
 use std::cell::Cell;
 use std::collections::HashSet;
 
-use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
 use i_overlay::float::simplify::SimplifyShape;
+use i_overlay::float::single::SingleFloatOverlay;
 use kurbo::{BezPath, PathEl};
 use usvg::tiny_skia_path::{Path, PathSegment, PathStroker, Point, Transform};
 
 use super::super::{MapError, Place, Repair, RepairKind};
 use super::Ring;
+use super::ViewBox;
 use super::contacts::Budget;
-use super::screen::Screened;
+use super::plain::Plain;
+use crate::geometry::Rect;
 
 /// Largest distance between a curve and the chords that replace it.
 const FLATNESS_MM: f64 = 0.05;
@@ -25,49 +28,67 @@ pub(super) const MAX_VERTICES: usize = 50_000;
 /// gigabyte, and each query for the nearest wall would visit most of them.
 const MAX_DIAGONALS: f64 = 1000.0;
 
+/// Thinner strokes are told of.
+const HAIRLINE_MM: f32 = 0.1;
+/// A clip may cut off as much, because of rounding: 0.1 mm².
+const CUT_MOST_M2: f64 = 1e-7;
+
 /// Larger coordinates would reduce the precision of the others.
 const MAX_EXTENT_MM: f64 = 1e5;
 
 /// The outlines of a drawing.
-pub(super) struct Sketch {
+pub(super) struct Sketch<'a> {
     /// Outlines in order. Walls are their union by the non-zero rule.
     pub rings: Vec<Ring>,
+    /// The element of each ring.
+    places: Vec<&'a Place>,
     pub repairs: Vec<Repair>,
 }
 
-pub(super) fn sketch(
-    tree: &usvg::Tree,
-    to_mm: Transform,
-    diagonal_mm: f64,
-    screened: &Screened,
-) -> Result<Sketch, MapError> {
+impl Sketch<'_> {
+    /// The first element that covers the whole workspace.
+    pub fn covers(&self, view_box: &ViewBox) -> Option<Place> {
+        let border = vec![view_box.ring_m()];
+        let leaves_nothing = |ring: &&Ring| {
+            border.overlay_as::<i64>(&vec![(*ring).clone()], OverlayRule::Difference, FillRule::NonZero).is_empty()
+        };
+        let ring = self.rings.iter().position(|ring| leaves_nothing(&ring))?;
+        Some(self.places[ring].clone())
+    }
+}
+
+pub(super) fn sketch<'a>(tree: &'a usvg::Tree, view_box: &ViewBox, plain: &'a Plain) -> Result<Sketch<'a>, MapError> {
     let mut pen = Pen {
-        screened,
-        to_mm,
+        plain,
+        to_mm: view_box.user_from_pixels(),
+        workspace: view_box.rect_m(),
+        border_m: view_box.ring_m(),
         budget: Budget::new(),
         vertices: 0,
-        diagonal_mm,
+        diagonal_mm: view_box.diagonal_mm(),
         diagonals: 0.0,
         rings: Vec::new(),
         places: Vec::new(),
         drawn: HashSet::new(),
-        repairs: Vec::new(),
+        repairs: plain.notes.clone(),
         reported: HashSet::new(),
     };
     pen.group(tree.root(), "")?;
-    for id in &screened.shown {
+    for id in &plain.shown {
         if !pen.drawn.contains(id.as_str()) {
-            pen.repair(&screened.places[id], RepairKind::Nothing);
+            pen.repair(&plain.places[id], RepairKind::Nothing);
         }
     }
     // Outlines of different elements meet in the union of all.
     pen.budget.spend(&pen.rings).map_err(|ring| tangled(pen.places[ring]))?;
-    Ok(Sketch { rings: pen.rings, repairs: pen.repairs })
+    Ok(Sketch { rings: pen.rings, places: pen.places, repairs: pen.repairs })
 }
 
 struct Pen<'a> {
-    screened: &'a Screened,
+    plain: &'a Plain,
     to_mm: Transform,
+    workspace: Rect,
+    border_m: Ring,
     budget: Budget,
     vertices: usize,
     diagonal_mm: f64,
@@ -87,13 +108,7 @@ impl<'a> Pen<'a> {
     /// `id` is that of the nearest element with an id: copies by `<use>` have lost theirs.
     fn group(&mut self, group: &'a usvg::Group, id: &'a str) -> Result<(), MapError> {
         let id = if group.id().is_empty() { id } else { group.id() };
-        if group.clip_path().is_some_and(|clip| cuts(clip, group.stroke_bounding_box())) {
-            let reason = "its viewport cuts off a part of it; draw only the visible part, or add overflow=\"visible\"";
-            return Err(refused(self.place(id), reason));
-        }
-        if group.mask().is_some() || !group.filters().is_empty() {
-            return Err(refused(self.place(id), "filters are not applied; draw the shape itself"));
-        }
+        let before = self.rings.len();
         for node in group.children() {
             match node {
                 usvg::Node::Group(inner) => self.group(inner, id)?,
@@ -107,11 +122,53 @@ impl<'a> Pen<'a> {
                 usvg::Node::Image(_) | usvg::Node::Text(_) => {}
             }
         }
+        let mut clip = group.clip_path();
+        while let Some(one) = clip {
+            if self.is_cut(one, group, before, id)? {
+                let reason = "its clip or viewport cuts off a part of it; draw only the visible part";
+                return Err(refused(self.place(id), reason));
+            }
+            clip = one.clip_path();
+        }
         Ok(())
     }
 
+    /// Whether a clip cuts anything off the rings of a group.
+    fn is_cut(
+        &mut self,
+        clip: &'a usvg::ClipPath,
+        group: &usvg::Group,
+        first: usize,
+        id: &str,
+    ) -> Result<bool, MapError> {
+        let place = self.place(id);
+        let transform = self.to_mm.pre_concat(group.abs_transform()).pre_concat(clip.transform());
+        let mut window: Vec<Ring> = Vec::new();
+        let mut parts: Vec<&usvg::Group> = vec![clip.root()];
+        while let Some(part) = parts.pop() {
+            for node in part.children() {
+                match node {
+                    usvg::Node::Group(inner) => parts.push(inner),
+                    usvg::Node::Path(path) => {
+                        let rule = path.fill().map_or(FillRule::NonZero, |fill| rule_of(fill.rule()));
+                        let outline = self.flatten(path.data(), transform.pre_concat(path.abs_transform()), place)?;
+                        window.extend(outline.simple_m(rule));
+                    }
+                    usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+                }
+            }
+        }
+        let content = self.rings[first..].to_vec();
+        let all = [content.clone(), window.clone()].concat();
+        self.budget.spend(&all).map_err(|_| tangled(place))?;
+        let rest = content.overlay_as::<i64>(&window, OverlayRule::Difference, FillRule::NonZero);
+        // What lies outside of the workspace is no wall anyway.
+        let rest = rest.overlay_as::<i64>(&vec![self.border_m.clone()], OverlayRule::Intersect, FillRule::NonZero);
+        Ok(rest.iter().flatten().any(|ring| area_m2(ring).abs() > CUT_MOST_M2))
+    }
+
     fn place(&self, id: &str) -> &'a Place {
-        self.screened.places.get(id).unwrap_or(&self.screened.root)
+        self.plain.places.get(id).unwrap_or(&self.plain.root)
     }
 
     fn repair(&mut self, place: &Place, kind: RepairKind) {
@@ -125,10 +182,7 @@ impl<'a> Pen<'a> {
         let transform = self.to_mm.pre_concat(path.abs_transform());
         let rings_before = self.rings.len();
         if let Some(fill) = path.fill() {
-            let rule = match fill.rule() {
-                usvg::FillRule::NonZero => FillRule::NonZero,
-                usvg::FillRule::EvenOdd => FillRule::EvenOdd,
-            };
+            let rule = rule_of(fill.rule());
             let outline = self.flatten(path.data(), transform, place)?;
             let contacts = self.budget.spend(&outline.rings_mm).map_err(|_| tangled(place))?;
             let kinds = [
@@ -146,25 +200,35 @@ impl<'a> Pen<'a> {
             // The outline is computed in the path's own units, and finer than the required flatness.
             let scale = PathStroker::compute_resolution_scale(&transform);
             check_reach(scale * stroke.width().get(), "its stroke is too wide", place)?;
+            if scale * stroke.width().get() < HAIRLINE_MM && path.fill().is_none() {
+                self.repair(place, RepairKind::Hairline);
+            }
             placed(path.data(), transform, place)?;
+            let is_flat = path.data().bounds().width() == 0.0 || path.data().bounds().height() == 0.0;
+            if is_flat && self.plain.boxed.contains(path.id()) {
+                let reason = "its gradient or pattern needs a box, which a straight line has not; use a colour";
+                return Err(refused(place, reason));
+            }
             if let Some(outline) = path.data().stroke(&stroke.to_tiny_skia(), 8.0 * scale.max(1.0)) {
                 let outline = self.flatten(&outline, transform, place)?;
                 self.budget.spend(&outline.rings_mm).map_err(|_| tangled(place))?;
                 self.append(&outline, FillRule::NonZero, place);
             }
         }
-        if self.rings.len() == rings_before {
+        let drawn = &self.rings[rings_before..];
+        let is_outside = |ring: &Ring| is_beside(ring, &self.workspace);
+        if drawn.is_empty() {
             self.repair(place, RepairKind::Nothing);
+        } else if drawn.iter().all(is_outside) {
+            self.repair(place, RepairKind::Outside);
         }
         Ok(())
     }
 
     /// Returns whether there was anything to append.
     fn append(&mut self, outline: &Flat, rule: FillRule, place: &'a Place) -> bool {
-        let metres = |ring: &Ring| ring.iter().map(|[x, y]| [x / 1000.0, -y / 1000.0]).collect();
-        let contours: Vec<Ring> = outline.rings_mm.iter().map(metres).collect();
         let before = self.rings.len();
-        self.rings.extend(contours.simplify_shape_as::<i64>(rule).into_iter().flatten());
+        self.rings.extend(outline.simple_m(rule));
         self.places.resize(self.rings.len(), place);
         self.rings.len() > before
     }
@@ -215,20 +279,38 @@ struct Flat {
 }
 
 impl Flat {
+    /// Rings that do not cross, in metres, y up.
+    fn simple_m(&self, rule: FillRule) -> impl Iterator<Item = Ring> {
+        let metres = |ring: &Ring| ring.iter().map(|[x, y]| [x / 1000.0, -y / 1000.0]).collect();
+        let contours: Vec<Ring> = self.rings_mm.iter().map(metres).collect();
+        contours.simplify_shape_as::<i64>(rule).into_iter().flatten()
+    }
+
     fn last_is_open(&self) -> bool {
         let Some([first, _, .., last]) = self.rings_mm.last().map(Vec::as_slice) else { return false };
         (first[0] - last[0]).hypot(first[1] - last[1]) > FLATNESS_MM
     }
 }
 
-/// Whether a viewport (the only supported clip) cuts anything off.
-fn cuts(clip: &usvg::ClipPath, content: usvg::Rect) -> bool {
-    let window = clip.root().bounding_box();
-    let slack = 1e-4 * window.width().max(window.height());
-    content.left() < window.left() - slack
-        || content.top() < window.top() - slack
-        || content.right() > window.right() + slack
-        || content.bottom() > window.bottom() + slack
+fn rule_of(rule: usvg::FillRule) -> FillRule {
+    match rule {
+        usvg::FillRule::NonZero => FillRule::NonZero,
+        usvg::FillRule::EvenOdd => FillRule::EvenOdd,
+    }
+}
+
+/// Whether a ring lies at one side of a rectangle.
+fn is_beside(ring: &Ring, of: &Rect) -> bool {
+    let all = |is_there: &dyn Fn(f64, f64) -> bool| ring.iter().all(|&[x, y]| is_there(x, y));
+    all(&|x, _| x <= of.x_min_m)
+        || all(&|x, _| x >= of.x_max_m)
+        || all(&|_, y| y <= of.y_min_m)
+        || all(&|_, y| y >= of.y_max_m)
+}
+
+fn area_m2(ring: &Ring) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|([ax, ay], [bx, by])| 0.5 * (ax * by - bx * ay)).sum()
 }
 
 /// A path in millimetres, if its coordinates are within the limit.

@@ -70,6 +70,44 @@ fn circles_strokes_groups_and_transforms_have_their_true_area() {
             r#"<rect y="300" width="20" height="10" display="none"/><rect y="300" width="5" height="5" visibility="hidden"/>"#,
             0.0,
         ),
+        // Styles.
+        (r#"<rect width="20" height="10" style="transform: translate(-10px, 300px) rotate(.25turn)"/>"#, 0.02 * 0.01),
+        (r#"<rect style="x: 5px; y: 300px; width: 20px; height: 10px"/>"#, 0.02 * 0.01),
+        (r#"<path d="" style="d: path('M0 300h20v10h-20z')"/>"#, 0.02 * 0.01),
+        (
+            r#"<style>rect:nth-child(2) { display: none } rect { fill: red !important }</style><rect y="300" width="20" height="10" style="fill: none"/>"#,
+            0.0,
+        ),
+        (
+            r#"<rect y="300" width="20" height="10" style="transform: scale(2); transform-origin: 0px 300px"/>"#,
+            0.04 * 0.02,
+        ),
+        // What cannot be seen.
+        (r#"<g opacity="0"><rect y="300" width="20" height="10"/></g>"#, 0.0),
+        (r#"<rect y="300" width="20" height="10" fill="transparent"/>"#, 0.0),
+        (r#"<rect y="300" width="20" height="10" fill="rgba(0, 0, 0, 0)" style="stroke: #1230"/>"#, 0.0),
+        (r#"<rect y="300" width="20" height="10" fill-opacity="0%"/>"#, 0.0),
+        (r##"<g color="#0000"><rect y="300" width="20" height="10" fill="currentColor"/></g>"##, 0.0),
+        (r#"<rect y="300" width="20" height="10" fill="url(#none) red"/>"#, 0.02 * 0.01),
+        // What is not drawn is not judged.
+        (
+            r##"<g style="display:none"><image href="a.png"/><text>no</text></g><clipPath id="c"><text>no</text></clipPath>
+            <text> <tspan/></text><mask id="m"/><marker id="k"/><rect y="300" width="20" height="10" stroke-dasharray="3"/>"##,
+            0.02 * 0.01,
+        ),
+        (
+            r#"<switch><foreignObject requiredExtensions="x"/><g><rect y="300" width="20" height="10"/></g><text>no</text></switch>"#,
+            0.02 * 0.01,
+        ),
+        // A clip that cuts nothing.
+        (
+            r##"<clipPath id="c"><rect x="-5" y="295" width="50" height="50"/></clipPath>
+            <g clip-path="url(#c)"><rect y="300" width="20" height="10" clip-path="url(#no)"/></g>"##,
+            0.02 * 0.01,
+        ),
+        // Texts as programs write them.
+        (r#"<rect y="300" width="20" height="10" content="&lt;mxfile&gt;" data-a="b"/>"#, 0.02 * 0.01),
+        (r#"<path d="M0 300a10 10 0 1120 0 10 10 0 01-20 0z"/>"#, std::f64::consts::PI * 0.01 * 0.01),
     ];
     for (body, expected) in cases {
         let map = draw(body).unwrap();
@@ -82,10 +120,10 @@ fn circles_strokes_groups_and_transforms_have_their_true_area() {
 #[test]
 fn the_fill_of_a_shape_does_not_matter() {
     for paint in [
-        r##"<linearGradient id="a" href="#b"/><linearGradient id="b" href="#c"/><linearGradient id="c" href="#b"/>"##,
-        r#"<radialGradient id="a"/>"#,
-        r##"<pattern id="a"><rect fill="url(#b)"/></pattern><pattern id="b"><rect fill="url(#a)"/></pattern>"##,
-        r#"<pattern id="a"><image/></pattern>"#,
+        r##"<linearGradient id="a" href="#b"/><linearGradient id="b" href="#c"/><linearGradient id="c"><stop/></linearGradient>"##,
+        r#"<radialGradient id="a"><stop/></radialGradient>"#,
+        r##"<pattern id="a" width="1" height="1"><rect fill="url(#b)"/></pattern><pattern id="b"><rect fill="url(#a)"/></pattern>"##,
+        r#"<pattern id="a" width="5" height="50%"><image/></pattern>"#,
     ] {
         let body = format!(r#"{paint}<rect y="300" width="20" height="10" fill="url(#a)"/>"#);
         assert!((area_m2(&draw(&body).unwrap()) - 0.02 * 0.01).abs() < 1e-6, "{paint}");
@@ -121,12 +159,29 @@ fn repairs_name_the_element_its_line_and_what_was_done() {
             r#"<rect id="flat" y="300" width="0" height="9"/>"#,
             r#"<rect> id="flat" at line 2: it draws nothing, having neither area nor stroke; left out"#,
         ),
-        (r#"<line id="ferry-1" x2="50" y1="300" y2="300"/>"#, r#"<line> id="ferry-1" at line 2: it draws nothing"#),
+        (r#"<line id="a" x2="50" y1="300" y2="300"/>"#, r#"<line> id="a" at line 2: it draws nothing"#),
         (r#"<circle cy="300" transform="scale(0)" r="9"/>"#, "<circle> at line 2: it draws nothing"),
         (
             r##"<defs><path d="M0 300H50V350" id="p"/></defs>
             <use href="#p"/><use href="#p" x="-50"/>"##,
-            "<use> at line 3: its outline is open",
+            "<path> id=\"p\" at line 2: its outline is open",
+        ),
+        (
+            r#"<rect y="300" width="1cm" height="10"/>"#,
+            r#"<rect> at line 2: width="1cm" is taken as millimetres of the table"#,
+        ),
+        (
+            r#"<path d="M0 300h20" stroke="red" stroke-width="null"/>"#,
+            r#"<path> at line 2: stroke-width="null" is no value; ignored, as in browsers"#,
+        ),
+        (
+            r#"<rect y="300" width="9" height="9" fill="url(#x)"/>"#,
+            r#"<rect> at line 2: there is no gradient or pattern "x""#,
+        ),
+        (r#"<rect y="500" width="9" height="9"/>"#, "<rect> at line 2: it lies wholly outside the workspace"),
+        (
+            r#"<path fill="none" d="M0 300h20" stroke="red" stroke-width=".01"/>"#,
+            "<path> at line 2: it is thinner than 0.1 mm",
         ),
     ];
     for (body, expected) in cases {
@@ -150,12 +205,36 @@ fn refuses_elements_that_cannot_be_walls_and_names_them() {
     assert_refused(&[
         (r#"<text id="label" x="0" y="300">hi</text>"#, "<text> id=\"label\" at line 1"),
         (r#"<image href="x.png"/>"#, "<image>"),
-        (r#"<mask id="m"/>"#, r#"<mask> id="m" at line 1"#),
+        (
+            r##"<mask id="m"/><g id="g" mask="url(#m)"><rect width="9" height="9"/></g>"##,
+            r#"<g> id="g" at line 1: mask="#,
+        ),
         (r#"<script>alert()</script>"#, "<script>"),
-        (r#"<rect y="300" width="9" height="9" filter="blur(3)"/>"#, "filters are not applied"),
+        (r#"<rect y="300" width="9" height="9" filter="blur(3)"/>"#, "filter=\"blur(3)\" is not applied"),
         (r#"<line x2="50" stroke="red" stroke-dasharray="3 1"/>"#, r#"stroke-dasharray="3 1" is not drawn"#),
         (r#"<line x2="50" style="stroke:red; vector-effect: non-scaling-stroke"/>"#, "vector-effect"),
-        (r#"<svg width="9" height="9"><rect width="20" height="9"/></svg>"#, "<svg> at line 1: its viewport cuts off"),
+        (
+            r#"<svg y="300" width="9" height="9"><rect width="20" height="9"/></svg>"#,
+            "<svg> at line 1: its clip or viewport cuts off",
+        ),
+        (
+            r##"<clipPath id="c"><circle cy="300" r="5"/></clipPath><rect id="r" y="300" width="9" height="9" clip-path="url(#c)"/>"##,
+            "cuts off a part of it",
+        ),
+        (
+            r#"<rect id="a" width="9" height="9" style="transform: rotate(90deg); transform-origin: center"/>"#,
+            "transform-origin",
+        ),
+        (
+            r#"<rect id="a" width="9" height="9" style="transform: translate(50%)"/>"#,
+            r#"<rect> id="a" at line 1: transform="#,
+        ),
+        (r#"<rect id="a" width="9" height="9" style="translate: 5px"/>"#, r#"translate="5px" is not applied"#),
+        (r#"<rect id="a" width="9" height="9" style="rx: calc(2px + 1px)"/>"#, "is computed"),
+        ("<style>@media print { rect { display: none } }</style>", "<style> at line 1: \"@media print"),
+        ("<style>@import url(a.css);</style>", "<style> at line 1: it refers to another file"),
+        (r##"<marker id="k"/><path id="p" d="M0 300h9v9z" style="marker: url(#k)"/>"##, "markers are not drawn"),
+        (r#"<rect width="9" height="9"><set attributeName="x" to="5"/></rect>"#, "<set> at line 1: animations"),
         (r#"<rect x="-100" y="200" width="200" height="200"/>"#, "no free space"),
     ]);
     for (text, part) in [
@@ -166,7 +245,13 @@ fn refuses_elements_that_cannot_be_walls_and_names_them() {
         (r#"<svg xmlns="http://www.w3.org/2000/svg"/>"#, "viewBox"),
         (r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 nan 5"/>"#, "finite"),
         (r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 5 5"/>"#, "20 to 4000"),
-        (r#"<!DOCTYPE svg [<!ENTITY a "b">]><svg viewBox="0 0 50 50"/>"#, "entities"),
+        (r#"<!DOCTYPE svg [<!ENTITY a "&b;"><!ENTITY b "">]><svg viewBox="0 0 50 50"/>"#, "entities"),
+        (r#"<svg width="580mm" height="330mm" viewbox="0 0 9 9"/>"#, r#"viewBox="0 0 580 330", with a capital B"#),
+        ("<?xml-stylesheet href='walls.css'?>\n<svg viewBox='0 0 50 50'/>", "another file"),
+        (
+            r#"<svg viewBox="0 0 50 50"><rect id="page" width="50" height="50" fill="white"/><g/></svg>"#,
+            r#"<rect> id="page" at line 1 covers all of it"#,
+        ),
     ] {
         let message = Map::from_svg("case", text).unwrap_err().to_string();
         assert!(message.contains(part), "{message}");
@@ -185,7 +270,12 @@ fn refuses_values_out_of_range_and_names_element_and_value() {
         (r#"<path d="M0 300L1e30 0V9Z"/>"#, "d has the number 1e30"),
         (r#"<path d="M0 300A1e300 1e300 0 0 1 9 9Z"/>"#, "d has the number 1e300"),
         (r#"<path d="M0 300 l9 9 q5 Z"/>"#, "is broken"),
-        (r#"<path d="M0 300 9 9;L9 9"/>"#, "';', which is not allowed in a path"),
+        (r#"<path d="M0 300 9 9;L9 9"/>"#, "is broken"),
+        (r#"<path d="M0 300 9 9 7z"/>"#, "is broken"),
+        (r#"<path d="M0 300 9 9 z 5 5"/>"#, "is broken"),
+        (r#"<path d="M0 300 9,,9 z"/>"#, "is broken"),
+        (r#"<polygon points="0,0 9,NaN 0,9"/>"#, "points=\"0,0 9,NaN 0,9\" is broken"),
+        (r#"<polygon points="0,0 9,9 0"/>"#, "which is odd"),
         (r#"<polygon points="0,0 1e9,0 0,9"/>"#, "points has the number 1e9"),
         (r#"<line x2="9" stroke="red" stroke-width="1e30"/>"#, r#"stroke-width="1e30""#),
         (r#"<line x2="9" stroke="red" stroke-width="9e5"/>"#, "its stroke is too wide: 9e5 mm"),
@@ -195,9 +285,10 @@ fn refuses_values_out_of_range_and_names_element_and_value() {
         ),
         (r##"<use id="u" href="#nowhere"/>"##, r##"<use> id="u" at line 1: href="#nowhere""##),
     ]);
-    for width in ["0", "-1"] {
+    // What is negative is no value, so that the stroke has its usual width.
+    for (width, area) in [("0", 0.0), ("-1", 9e-6)] {
         let line = format!(r#"<path fill="none" d="M0 300H9" stroke="red" stroke-width="{width}"/>"#);
-        assert!(draw(&line).unwrap().walls().is_empty());
+        assert!((area_m2(&draw(&line).unwrap()) - area).abs() < 1e-9, "{width}");
     }
 }
 
@@ -238,15 +329,19 @@ fn refuses_drawings_with_excessive_cost() {
         ),
         (&path(&format!("M0 300{}", "C9 9 90000 9 0 300".repeat(9000))), "more than 50000 vertices"),
         (&nested(65), "<g> at line 1: it is nested more than 64 elements deep"),
-        (&nested(60_000), "more than 20000 elements"),
+        (&nested(60_000), "nested more than 64"),
+        (&"<g/>".repeat(30_000), "more than 20000 elements"),
         (r##"<g id="a"><use id="u" href="#b"/></g><g id="b"><use href="#a"/></g>"##, "or refers to itself"),
         (&uses, "each <use> resolved"),
         (&format!("<g{attributes}/>"), "more than 1000 attributes"),
         (&format!("<g{namespaces}/>"), "more than 100 namespaces"),
+        (&format!("<style>{}</style>{}", "g,".repeat(9000) + "a{fill:red}", "<g/>".repeat(9000)), "too many rules"),
+        (&format!("<style>{}</style>{}", "z ~ g{fill:red}".repeat(200), "<g/>".repeat(9000)), "too many rules"),
         (
-            &format!("<style>{}{{fill:red}}</style>{}", "g ".repeat(20), "<g>".repeat(50) + &"</g>".repeat(50)),
-            "<style>",
+            &format!("<g id=\"a\" transform=\"{}\"/>{}", "rotate(1)".repeat(60_000), "<use href=\"#a\"/>".repeat(9000)),
+            "bytes, each <use> resolved",
         ),
+        (&format!("<rect fill=\"{}\"/>", "url(#a)".repeat(90_000)), "is a colour that Ferry does not know"),
         (&format!("<title>{}</title>", " ".repeat(1 << 20)), "the limit is 1048576"),
     ]);
     assert!(draw(&nested(60)).is_ok());

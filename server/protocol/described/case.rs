@@ -62,6 +62,9 @@ pub struct LoggedMap {
     pub name: String,
     /// The drawing.
     pub svg: String,
+    /// Version of the reader that made walls of it; 1 if it is not given.
+    #[serde(default = "crate::map::first_reader")]
+    pub reader: u32,
 }
 
 /// An input of a trial; it is logged with the tick that follows it.
