@@ -59,7 +59,7 @@ for (const [number, way] of (['mouse', 'touch', 'keyboard'] as const).entries())
       const connection = lab.page.getByTestId('twin-connection');
       const motion = lab.page.getByTestId('twin-motion');
       const button = lab.button('Hold to move the robot');
-      await expect(connection).toHaveText(`Robot ${address}: running, safety: normal.`);
+      await expect(connection).toHaveText(`Robot ${address} (UR5): running, safety: normal.`);
       await expect(motion).toHaveText('The robot rests, or something else moves it.');
       await until('a robot that is connected is shown where it is', () => lab.state.running);
       await lab.map('open');
