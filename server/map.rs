@@ -19,6 +19,7 @@ use serde::Serialize;
 use crate::files::{ReadError, read_at_most};
 use crate::geometry::{Point2, Polygon, Rect, Vector2};
 use outline::Outline;
+use report::Newer;
 
 pub use library::{ADDED_MAPS, Library, is_added};
 pub use maze::{Maze, MazeError, MazeFamily};
@@ -35,7 +36,8 @@ pub const MAX_SVG_BYTES: usize = 1 << 20;
 /// Version of the reader of drawings. A kept drawing has that of the reader that made walls of it.
 ///
 /// 2: reads CSS and invisible shapes as browsers do, and absolute lengths as millimetres of the table.
-pub const READER: u32 = 2;
+/// 3: draws a stroke whose first point is given twice as browsers do.
+pub const READER: u32 = 3;
 /// The reader of drawings with which none is noted.
 pub const fn first_reader() -> u32 {
     1
@@ -56,7 +58,7 @@ pub struct Map {
     #[serde(skip)]
     repairs: Vec<Repair>,
     #[serde(skip)]
-    newer: Option<(Place, &'static str)>,
+    newer: Vec<Newer>,
     #[serde(skip)]
     outline: Outline,
     #[serde(skip)]
@@ -95,6 +97,9 @@ impl Map {
         if shipped.is_ok() || !(is_drawing || path.is_file()) {
             return shipped;
         }
+        if path.is_file() {
+            svg::check_format_of(path)?;
+        }
         let bytes = read_at_most(path, MAX_SVG_BYTES as u64).map_err(|error| match error {
             ReadError::Io(error) => MapError::Io { path: name_or_path.to_owned(), error },
             ReadError::TooLarge { bytes, .. } => MapError::TooLarge { bytes: bytes as usize },
@@ -130,9 +135,9 @@ impl Map {
         if !(first_reader()..=READER).contains(&reader) {
             return Err(MapError::Reader { found: reader });
         }
-        match self.newer {
-            Some((place, what)) if reader < READER => Err(MapError::Older { place, what }),
-            _ => Ok(self),
+        match self.newer.iter().find(|newer| newer.since > reader) {
+            Some(Newer { place, what, .. }) => Err(MapError::Older { place: place.clone(), what }),
+            None => Ok(self),
         }
     }
 

@@ -109,7 +109,8 @@ fn play(archive: &Arc<Archive>, seed: u64, options: Options) {
     assert_eq!(ended, None, "seed {seed}");
 }
 
-fn logs(folder: &Path) -> Vec<Vec<u8>> {
+/// The input logs of a folder, in order.
+pub fn logs(folder: &Path) -> Vec<Vec<u8>> {
     let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "ferry"));
     paths.sort();

@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use ferry::camera::{AdapterChoice, Gpu};
 
 pub use browser::Browser;
-pub use child::{Ferry, ferry, memory_mb, refused_at_once};
+pub use child::{Ferry, ended_at_once, ferry, memory_mb, refused_at_once};
 pub use laboratory::{Answer, Laboratory};
 pub use plain::{exchange, read_answer};
 pub use recordings::{files, read, tool};

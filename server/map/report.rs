@@ -35,6 +35,16 @@ impl std::fmt::Display for Repair {
     }
 }
 
+/// An element that an older reader read otherwise.
+#[derive(Clone, Debug)]
+pub struct Newer {
+    /// The first version of the reader that reads it as today.
+    pub since: u32,
+    pub place: Place,
+    /// How it was read before.
+    pub what: &'static str,
+}
+
 /// What was changed, or may not be what was meant.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum RepairKind {

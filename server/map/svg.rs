@@ -1,5 +1,5 @@
 //! From SVG to polygons: `plain` computes styles as a browser does and refuses what it does not understand; usvg makes paths
-//! of shapes and transforms; kurbo flattens curves; i_overlay unites overlapping outlines.
+//! of shapes and transforms; kurbo flattens curves; `union` unites overlapping outlines.
 //!
 //! A drawing is untrusted input, so each step has a bound on its work that does not depend on a clock: `plain` before usvg,
 //! `sketch` after it, `contacts` before each union.
@@ -12,20 +12,21 @@ mod fit;
 mod fuzz_tests;
 mod plain;
 mod sketch;
+mod strokes;
 mod style;
 #[cfg(test)]
 mod tests;
+mod union;
 
 use std::collections::HashSet;
 
-use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
-use i_overlay::float::single::SingleFloatOverlay;
+use i_overlay::core::overlay_rule::OverlayRule;
 use usvg::roxmltree;
 use usvg::tiny_skia_path::Transform;
 
-use super::{MAX_SVG_BYTES, MapError, Place, Repair, RepairKind};
+use super::{MAX_SVG_BYTES, MapError, Newer, Repair, RepairKind};
 use crate::geometry::{Polygon, Rect};
-pub use encoding::decoded;
+pub use encoding::{check_format_of, decoded};
 pub use fit::fit;
 
 type Ring = Vec<[f64; 2]>;
@@ -44,8 +45,8 @@ pub(super) struct Drawing {
     pub walls: Vec<Polygon>,
     pub free: Vec<Polygon>,
     pub repairs: Vec<Repair>,
-    /// What the reader of version 1 read otherwise; the first element.
-    pub newer: Option<(Place, &'static str)>,
+    /// What older readers read otherwise: the first element of each version.
+    pub newer: Vec<Newer>,
     /// Whether the map is for the planar stage instead of the arm.
     pub for_stage: bool,
 }
@@ -71,8 +72,8 @@ pub(super) fn read(text: &str) -> Result<Drawing, MapError> {
     sketch.repairs.sort_by_key(|repair| repair.place.line);
 
     let border = vec![view_box.ring_m()];
-    let walls = border.overlay_as::<i64>(&sketch.rings, OverlayRule::Intersect, FillRule::NonZero);
-    let free = border.overlay_as::<i64>(&sketch.rings, OverlayRule::Difference, FillRule::NonZero);
+    let walls = union::overlay(&border, &sketch.rings, OverlayRule::Intersect);
+    let free = union::overlay(&border, &sketch.rings, OverlayRule::Difference);
     if free.is_empty() {
         return Err(MapError::NoFreeSpace { cause: sketch.covers(&view_box) });
     }
@@ -87,7 +88,7 @@ pub(super) fn read(text: &str) -> Result<Drawing, MapError> {
         walls,
         free: polygons(free),
         repairs: sketch.repairs,
-        newer: plain.newer,
+        newer: plain.newer.iter().cloned().chain(sketch.newer).collect(),
         for_stage,
     })
 }

@@ -78,3 +78,28 @@ fn an_unknown_name_lists_the_known_ones() {
     let message = Map::shipped("nowhere").unwrap_err().to_string();
     assert!(message.contains("nowhere") && message.contains("colon"), "{message}");
 }
+
+#[test]
+fn a_kept_drawing_is_opened_where_its_reader_made_the_same_walls() {
+    let kept = |body: &str, reader| {
+        let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-100 200 200 200">{body}</svg>"#);
+        let read = Map::from_svg("kept", &svg).unwrap().as_read_by(reader);
+        read.map(drop).map_err(|error| error.to_string())
+    };
+    let plain = r#"<rect x="-20" y="280" width="40" height="40"/>"#;
+    let styled = r#"<rect id="a" y="280" width="40" height="40" style="x: -20px"/>"#;
+    let doubled = r#"<path id="b" d="M0 300v0h30v30" fill="none" stroke="red" stroke-linecap="round"/>"#;
+    for (body, since, place) in
+        [(plain, 1, ""), (styled, 2, "<rect> id=\"a\" at line 1"), (doubled, 3, "<path> id=\"b\"")]
+    {
+        for reader in 1..=READER {
+            match kept(body, reader) {
+                Ok(()) => assert!(reader >= since, "{body}: {reader}"),
+                Err(said) => assert!(reader < since && said.contains(place), "{body}: {reader}: {said}"),
+            }
+        }
+        assert!(kept(body, READER + 1).unwrap_err().contains(&format!("its reader is {}", READER + 1)));
+    }
+    let no_caps = doubled.replace("round", "butt");
+    assert_eq!(kept(&no_caps, 2), Ok(()));
+}

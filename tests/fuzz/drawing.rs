@@ -1,6 +1,7 @@
 //! Small drawings made of any bytes, and whether Ferry's walls lie where usvg draws.
 
 use ferry::map::Map;
+use usvg::tiny_skia_path::{PathSegment, Point};
 
 const NUMBERS: [&str; 12] = ["0", "5", "10", "-10", "33.3", "100", "-200", "7e1", "250", "1.5", "-.5", "400"];
 /// Shapes; those with an id have an area whatever their numbers, or none.
@@ -101,6 +102,7 @@ pub fn text(bytes: &[u8]) -> String {
 
 /// Left, top, right, bottom.
 type Bounds = [f64; 4];
+const EVERYTHING: Bounds = [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY];
 const NOTHING: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 fn join(one: &mut Bounds, [left, top, right, bottom]: Bounds) {
@@ -121,12 +123,39 @@ fn tight(path: &usvg::Path) -> Bounds {
     all
 }
 
+/// Whether a line has no length, or a cubic curve is straight: tiny-skia draws some of these otherwise than browsers.
+fn is_odd(path: &usvg::Path) -> bool {
+    let mut at = Point::zero();
+    path.data().segments().any(|segment| {
+        let from = at;
+        let beside = |p: Point, end: Point| (p.x - from.x) * (end.y - from.y) - (p.y - from.y) * (end.x - from.x);
+        at = match segment {
+            PathSegment::MoveTo(p) | PathSegment::LineTo(p) => p,
+            PathSegment::QuadTo(_, p) | PathSegment::CubicTo(_, _, p) => p,
+            PathSegment::Close => from,
+        };
+        match segment {
+            PathSegment::LineTo(p) => p == from,
+            PathSegment::CubicTo(a, b, p) => {
+                let size =
+                    [a, b, p].map(|q| (q.x - from.x).abs().max((q.y - from.y).abs())).into_iter().fold(0.0, f32::max);
+                [(a, b), (a, p), (b, p)].iter().all(|&(p, q)| beside(p, q).abs() <= 1e-4 * size * size)
+            }
+            _ => false,
+        }
+    })
+}
+
 /// What usvg draws at most, and at least: a path without area draws nothing, and what the border cuts has another box.
 fn drawn(group: &usvg::Group, most: &mut Bounds, least: &mut Bounds) {
     for node in group.children() {
         match node {
             usvg::Node::Group(inner) => drawn(inner, most, least),
             usvg::Node::Path(path) if path.is_visible() => {
+                if path.stroke().is_some() && is_odd(path) {
+                    join(most, EVERYTHING);
+                    continue;
+                }
                 let bounds = tight(path);
                 join(most, bounds.map(|side| side.clamp(-BORDER_MM, BORDER_MM)));
                 let is_whole = bounds.iter().all(|side| side.abs() <= BORDER_MM);

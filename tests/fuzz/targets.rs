@@ -380,7 +380,7 @@ impl ImageSource for Spots {
             let rgba = (0..SIDE_PX * SIDE_PX).flat_map(|i| [gray(i), gray(i), gray(i), 255]).collect();
             Picture { width_px: SIDE_PX, height_px: SIDE_PX, rgba }
         });
-        let pinhole = subject.mount.over(ferry::geometry::Point2::new(subject.tool_m[0], subject.tool_m[1]));
+        let pinhole = subject.mount.over(ferry::geometry::Point2::new(subject.tool_m[0], subject.tool_m[1]), 0.0);
         Ok(CameraFrame { picture: PICTURE.clone(), tick: subject.tick, pinhole })
     }
 }

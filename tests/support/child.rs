@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Seek};
 use std::net::SocketAddr;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 pub fn ferry(arguments: &[&str]) -> Command {
@@ -21,6 +21,13 @@ pub fn memory_mb(child: &Child, name: &str) -> Option<u64> {
 
 /// What a command says when it refuses, which takes less than a second and 200 MB.
 pub fn refused_at_once(arguments: &[&str]) -> String {
+    let (status, text) = ended_at_once(arguments);
+    assert!(!status.success(), "{arguments:?}: {text}");
+    text
+}
+
+/// How a command ends, which takes less than a second and 200 MB, and its errors.
+pub fn ended_at_once(arguments: &[&str]) -> (ExitStatus, String) {
     let said = tempfile::tempfile().unwrap();
     let begun = Instant::now();
     let mut child = ferry(arguments).stdout(Stdio::null()).stderr(said.try_clone().unwrap()).spawn().unwrap();
@@ -39,11 +46,8 @@ pub fn refused_at_once(arguments: &[&str]) -> String {
         said
     });
     let text = text.unwrap();
-    assert!(
-        status.is_some_and(|status| !status.success()),
-        "{arguments:?}: {status:?}, {took:?}, {most_mb} MB: {text}"
-    );
-    text
+    let status = status.unwrap_or_else(|| panic!("{arguments:?}: {took:?}, {most_mb} MB: {text}"));
+    (status, text)
 }
 
 /// A server that is killed at the end of its test.

@@ -1,6 +1,8 @@
 //! From the bytes of a file to text: encodings as browsers know them, and compressed drawings.
 
+use std::fs::File;
 use std::io::Read;
+use std::path::Path;
 
 use encoding_rs::{Encoding, UTF_8};
 use flate2::read::MultiGzDecoder;
@@ -14,6 +16,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// # Errors
 /// [`MapError::TooLarge`], [`MapError::Svg`]: the encoding is unknown, or the bytes do not agree with it.
 pub fn decoded(bytes: &[u8]) -> Result<String, MapError> {
+    check_format(bytes)?;
     if !bytes.starts_with(&GZIP) {
         return text(bytes);
     }
@@ -25,6 +28,38 @@ pub fn decoded(bytes: &[u8]) -> Result<String, MapError> {
         return Err(MapError::TooLarge { bytes: unpacked.len() });
     }
     text(&unpacked)
+}
+
+/// Refuses a file of another format, whatever its size.
+pub fn check_format_of(path: &Path) -> Result<(), MapError> {
+    let mut head = Vec::new();
+    match File::open(path).and_then(|file| file.take(16).read_to_end(&mut head)) {
+        Ok(_) => check_format(&head),
+        Err(error) => Err(MapError::Io { path: path.display().to_string(), error }),
+    }
+}
+
+/// Refuses a file of another format, by its first bytes.
+fn check_format(head: &[u8]) -> Result<(), MapError> {
+    let reason = match head {
+        [0x89, b'P', b'N', b'G', ..]
+        | [0xff, 0xd8, 0xff, ..]
+        | [b'G', b'I', b'F', b'8', ..]
+        | [b'R', b'I', b'F', b'F', ..]
+        | [b'B', b'M', ..]
+        | [b'I', b'I', 0x2a, 0, ..]
+        | [b'M', b'M', 0, 0x2a, ..]
+        | [_, _, _, _, b'f', b't', b'y', b'p', ..] => {
+            "it is an image of pixels, not a drawing; draw its walls over it in a drawing program, or on the page with Draw, \
+             and save them without it as SVG"
+        }
+        [b'%', b'P', b'D', b'F', ..] | [b'%', b'!', b'P', b'S', ..] => {
+            "it is a PDF or PostScript file; open it in a drawing program and save it as plain SVG"
+        }
+        [b'P', b'K', 3, 4, ..] => "it is an archive or a document of an office program; save the drawing as plain SVG",
+        _ => return Ok(()),
+    };
+    Err(MapError::Svg(reason.to_owned()))
 }
 
 fn text(bytes: &[u8]) -> Result<String, MapError> {
@@ -95,6 +130,22 @@ mod tests {
         ] {
             let error = decoded(&bytes).unwrap_err().to_string();
             assert!(error.contains(part), "{error}");
+        }
+    }
+
+    #[test]
+    fn files_of_other_formats_are_named() {
+        for (head, part) in [
+            (&b"\x89PNG\r\n\x1a\n"[..], "an image of pixels"),
+            (b"\xff\xd8\xff\xe0\0\x10JFIF", "an image of pixels"),
+            (b"RIFF\x24\0\0\0WEBP", "an image of pixels"),
+            (b"\0\0\0\x18ftypheic", "an image of pixels"),
+            (b"GIF89a", "an image of pixels"),
+            (b"%PDF-1.7\n", "a PDF"),
+            (b"PK\x03\x04\x14\0", "an archive"),
+        ] {
+            let error = decoded(head).unwrap_err().to_string();
+            assert!(error.contains(part) && error.contains("SVG"), "{error}");
         }
     }
 }

@@ -16,7 +16,7 @@ use selectors::context::SelectorCaches;
 use usvg::roxmltree::{Document, Node, NodeId};
 
 use self::paints::PaintUnits;
-use super::super::{MapError, Place, Repair, RepairKind};
+use super::super::{MapError, Newer, Place, Repair, RepairKind};
 use super::css::Sheet;
 use super::style::{self, Inherited, Origin, PRESENTATION, SIZES, Style, Wrong};
 use super::{own, short};
@@ -84,7 +84,7 @@ pub struct Plain {
     pub boxed: HashSet<String>,
     pub notes: Vec<Repair>,
     /// What the reader of version 1 read otherwise; the first element.
-    pub newer: Option<(Place, &'static str)>,
+    pub newer: Option<Newer>,
 }
 
 pub fn plain(xml: &Document<'_>, view_box: &str) -> Result<Plain, MapError> {
@@ -146,7 +146,7 @@ struct Writer<'a, 'input> {
     boxed: HashSet<String>,
     notes: Vec<Repair>,
     noted: HashSet<Repair>,
-    newer: Option<(Place, &'static str)>,
+    newer: Option<Newer>,
 }
 
 /// A root without a namespace is taken for one of SVG.
@@ -181,7 +181,7 @@ impl<'a, 'input> Writer<'a, 'input> {
 
     fn is_newer(&mut self, node: Node<'_, '_>, what: &'static str) {
         if self.newer.is_none() {
-            self.newer = Some((self.place(node), what));
+            self.newer = Some(Newer { since: 2, place: self.place(node), what });
         }
     }
 

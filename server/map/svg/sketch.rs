@@ -4,16 +4,16 @@ use std::cell::Cell;
 use std::collections::HashSet;
 
 use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
-use i_overlay::float::simplify::SimplifyShape;
-use i_overlay::float::single::SingleFloatOverlay;
 use kurbo::{BezPath, PathEl};
 use usvg::tiny_skia_path::{Path, PathSegment, PathStroker, Point, Transform};
 
-use super::super::{MapError, Place, Repair, RepairKind};
+use super::super::{MapError, Newer, Place, Repair, RepairKind};
 use super::Ring;
 use super::ViewBox;
 use super::contacts::Budget;
 use super::plain::Plain;
+use super::strokes;
+use super::union::{overlay, simple};
 use crate::geometry::Rect;
 
 /// Largest distance between a curve and the chords that replace it.
@@ -43,16 +43,15 @@ pub(super) struct Sketch<'a> {
     /// The element of each ring.
     places: Vec<&'a Place>,
     pub repairs: Vec<Repair>,
+    pub newer: Option<Newer>,
 }
 
 impl Sketch<'_> {
     /// The first element that covers the whole workspace.
     pub fn covers(&self, view_box: &ViewBox) -> Option<Place> {
-        let border = vec![view_box.ring_m()];
-        let leaves_nothing = |ring: &&Ring| {
-            border.overlay_as::<i64>(&vec![(*ring).clone()], OverlayRule::Difference, FillRule::NonZero).is_empty()
-        };
-        let ring = self.rings.iter().position(|ring| leaves_nothing(&ring))?;
+        let border = [view_box.ring_m()];
+        let leaves_nothing = |ring| overlay(&border, std::slice::from_ref(ring), OverlayRule::Difference).is_empty();
+        let ring = self.rings.iter().position(leaves_nothing)?;
         Some(self.places[ring].clone())
     }
 }
@@ -72,6 +71,7 @@ pub(super) fn sketch<'a>(tree: &'a usvg::Tree, view_box: &ViewBox, plain: &'a Pl
         drawn: HashSet::new(),
         repairs: plain.notes.clone(),
         reported: HashSet::new(),
+        newer: None,
     };
     pen.group(tree.root(), "")?;
     for id in &plain.shown {
@@ -81,7 +81,7 @@ pub(super) fn sketch<'a>(tree: &'a usvg::Tree, view_box: &ViewBox, plain: &'a Pl
     }
     // Outlines of different elements meet in the union of all.
     pen.budget.spend(&pen.rings).map_err(|ring| tangled(pen.places[ring]))?;
-    Ok(Sketch { rings: pen.rings, places: pen.places, repairs: pen.repairs })
+    Ok(Sketch { rings: pen.rings, places: pen.places, repairs: pen.repairs, newer: pen.newer })
 }
 
 struct Pen<'a> {
@@ -102,6 +102,7 @@ struct Pen<'a> {
     repairs: Vec<Repair>,
     /// Repairs that were already reported: copies by `<use>` are reported once.
     reported: HashSet<Repair>,
+    newer: Option<Newer>,
 }
 
 impl<'a> Pen<'a> {
@@ -158,12 +159,11 @@ impl<'a> Pen<'a> {
                 }
             }
         }
-        let content = self.rings[first..].to_vec();
-        let all = [content.clone(), window.clone()].concat();
-        self.budget.spend(&all).map_err(|_| tangled(place))?;
-        let rest = content.overlay_as::<i64>(&window, OverlayRule::Difference, FillRule::NonZero);
+        let content = &self.rings[first..];
+        self.budget.spend(&[content, &window].concat()).map_err(|_| tangled(place))?;
+        let rest: Vec<Ring> = overlay(content, &window, OverlayRule::Difference).into_iter().flatten().collect();
         // What lies outside of the workspace is no wall anyway.
-        let rest = rest.overlay_as::<i64>(&vec![self.border_m.clone()], OverlayRule::Intersect, FillRule::NonZero);
+        let rest = overlay(&rest, std::slice::from_ref(&self.border_m), OverlayRule::Intersect);
         Ok(rest.iter().flatten().any(|ring| area_m2(ring).abs() > CUT_MOST_M2))
     }
 
@@ -209,7 +209,11 @@ impl<'a> Pen<'a> {
                 let reason = "its gradient or pattern needs a box, which a straight line has not; use a colour";
                 return Err(refused(place, reason));
             }
-            if let Some(outline) = path.data().stroke(&stroke.to_tiny_skia(), 8.0 * scale.max(1.0)) {
+            let drawn = strokes::outline(path.data(), stroke, 8.0 * scale.max(1.0));
+            if let Some(what) = drawn.newer {
+                self.newer.get_or_insert(Newer { since: 3, place: place.clone(), what });
+            }
+            for outline in drawn.outlines {
                 let outline = self.flatten(&outline, transform, place)?;
                 self.budget.spend(&outline.rings_mm).map_err(|_| tangled(place))?;
                 self.append(&outline, FillRule::NonZero, place);
@@ -280,10 +284,10 @@ struct Flat {
 
 impl Flat {
     /// Rings that do not cross, in metres, y up.
-    fn simple_m(&self, rule: FillRule) -> impl Iterator<Item = Ring> {
+    fn simple_m(&self, rule: FillRule) -> Vec<Ring> {
         let metres = |ring: &Ring| ring.iter().map(|[x, y]| [x / 1000.0, -y / 1000.0]).collect();
         let contours: Vec<Ring> = self.rings_mm.iter().map(metres).collect();
-        contours.simplify_shape_as::<i64>(rule).into_iter().flatten()
+        simple(&contours, rule)
     }
 
     fn last_is_open(&self) -> bool {

@@ -347,3 +347,19 @@ fn refuses_drawings_with_excessive_cost() {
     assert!(draw(&nested(60)).is_ok());
     assert!(draw(&path(&hatch(500, 200.0))).is_ok());
 }
+
+/// It took seven seconds. Found by fuzzing.
+#[test]
+fn strokes_that_nearly_coincide_are_united_at_once() {
+    let begun = std::time::Instant::now();
+    let ends = ["t100 5s5 5 5 5", "t5 5s5 5 5 5", "t5 5s7e1 7e1 7e1 7e1"];
+    let stroke = |end| format!("<path d=\"m5 5h5v5q5 5 5 5{end}\" transform=\"scale(1.5 -.5)\"/>");
+    let svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-2000 -2000 4000 4000\"><g style=\"stroke: red; \
+         stroke-linecap: round; stroke-width: 4px\" transform=\"scale(1.5 -.5)\">{}</g></svg>",
+        ends.map(stroke).concat()
+    );
+    let map = Map::from_svg("case", &svg).unwrap();
+    assert_eq!(map.walls().len(), 1);
+    assert!(begun.elapsed().as_secs_f64() < 1.0, "{:?}", begun.elapsed());
+}

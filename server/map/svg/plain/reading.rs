@@ -56,6 +56,9 @@ impl<'a, 'input> Writer<'a, 'input> {
                 "style" | "link" if is_html => "a style sheet of HTML; use <style>",
                 "script" if is_html || is_svg(node) => "scripts do not run; draw what they would draw",
                 _ if !is_svg(node) => continue,
+                _ if own(node, "onload").is_some_and(|script| !script.trim().is_empty()) => {
+                    "scripts do not run, such as that of onload; draw what it would draw"
+                }
                 "link" => "it refers to another file; copy its content here",
                 "animate" | "animateTransform" | "animateMotion" | "set" | "discard" => {
                     "animations are not supported; walls are static"
