@@ -5,7 +5,7 @@
 //! - [`script`], [`control_script`]: programs that are sent to the robot.
 //! - [`model`]: the arm that the controller takes its own for.
 //! - [`controller`], [`robot`]: who is connected, what runs, the protective stop; shared by the session and the sockets.
-//! - [`news`]: what the session reports of them.
+//! - [`news`], [`refusals`]: what the session reports of them, and what clients are told.
 //! - [`rtde`]: frames of the Real-Time Data Exchange; recipes.
 //! - [`dashboard`]: lines and their answers.
 //!
@@ -27,6 +27,7 @@ pub mod model;
 pub mod mover;
 pub mod news;
 pub mod peer;
+pub mod refusals;
 pub mod registers;
 pub mod robot;
 pub mod rtde;

@@ -85,7 +85,7 @@ impl From<&Standing> for RobotStanding {
             from: one.from.clone(),
             speech: one.port.to_owned(),
         };
-        let refused = |one: &crate::ur::controller::Refused| RobotRefusal {
+        let refused = |one: &crate::ur::refusals::Refused| RobotRefusal {
             tick: one.tick,
             what: one.what.clone(),
             why: one.why.clone(),

@@ -58,6 +58,15 @@ async fn clients_are_limited_and_leave_their_places() {
         clients.push(client);
     }
     assert!(read(&mut connect(address, 29_999).await).await.is_empty(), "one too many");
+    // The one that is silent longest leaves, when others have been heard of.
+    for client in &mut clients[1..] {
+        tokio::time::sleep(SILENT_AFTER / CLIENTS_MOST as u32).await;
+        client.write_all(b"running\n").await.unwrap();
+        assert!(!read(client).await.is_empty());
+    }
+    tokio::time::sleep(SILENT_AFTER / CLIENTS_MOST as u32).await;
+    assert!(!read(&mut connect(address, 29_999).await).await.is_empty());
+    assert!(read(&mut clients[0]).await.is_empty());
     clients.pop().unwrap().write_all(b"quit\n").await.unwrap();
     let begun = std::time::Instant::now();
     while read(&mut connect(address, 29_999).await).await.is_empty() {
@@ -70,6 +79,8 @@ async fn clients_are_limited_and_leave_their_places() {
 async fn rtde_sends_also_while_the_session_is_paused_and_survives_any_bytes() {
     let (address, stop, served) = started(3).await;
     let mut socket = connect(address, 30_004).await;
+    socket.write_all(&[0, 5, b'V', 0, 2]).await.unwrap();
+    assert_eq!(read(&mut socket).await, [0, 4, b'V', 1]);
     let outputs = [&[0, 0, b'O'][..], &125f64.to_be_bytes(), b"timestamp,robot_mode"].concat();
     let size = (outputs.len() as u16).to_be_bytes();
     socket.write_all(&[&size, &outputs[2..]].concat()).await.unwrap();
@@ -123,4 +134,50 @@ async fn programs_at_the_script_ports_are_refused_without_an_arm_and_noted() {
     }
     stop.send(true).unwrap();
     served.await.unwrap();
+}
+
+#[tokio::test]
+async fn what_cannot_be_read_is_refused_to_all_clients_and_the_connection_goes_on() {
+    let (address, _stop, _served) = started(6).await;
+    let (mut script, mut rtde) = (connect(address, 30_002).await, connect(address, 30_004).await);
+    rtde.write_all(&[0, 5, b'V', 0, 2]).await.unwrap();
+    assert_eq!(read(&mut rtde).await, [0, 4, b'V', 1]);
+    let long = [&b"def a():\r\n  # "[..], &vec![b'x'; 70_000], b"\r\nend\r\n"].concat();
+    let no_end = b"def c():\r  stopl(1)\r".to_vec();
+    for (sent, why) in [
+        (long, "a program: the program has more than 262144 bytes, or a line of more than 65536"),
+        // Latin-1, and old ends of lines. Without a session there is no arm.
+        (b"def b():\r  # zur\xfcck\rend\r".to_vec(), "a program: the session has a planar stage and no arm"),
+        (no_end, "a program: the program has no end: the connection ended after 2 lines of it"),
+    ] {
+        script.write_all(&sent).await.unwrap();
+        if why.contains("has no end") {
+            script.shutdown().await.unwrap();
+        }
+        let frame = read(&mut rtde).await;
+        assert_eq!(frame[2..4], [b'M', why.len() as u8], "{why}");
+        assert_eq!(frame[4..4 + why.len()], *why.as_bytes());
+        let said = read(&mut script).await;
+        if !why.contains("has no end") {
+            assert_eq!(said[..5], [0, 0, 0, said.len() as u8, 20], "{said:?}");
+            assert_eq!(said[15..], *why.as_bytes());
+        }
+    }
+}
+
+#[tokio::test]
+async fn a_silent_client_leaves_its_inputs() {
+    let (address, _stop, _served) = started(7).await;
+    let mut first = connect(address, 30_004).await;
+    let name = b"input_int_register_24";
+    let claim = [&[0, 3 + name.len() as u8, b'I'][..], name].concat();
+    first.write_all(&claim).await.unwrap();
+    assert_eq!(read(&mut first).await, b"\x00\x09I\x01INT32");
+    let mut second = connect(address, 30_004).await;
+    second.write_all(&claim).await.unwrap();
+    assert_eq!(read(&mut second).await, b"\x00\x0aI\x00IN_USE");
+    assert!(read(&mut first).await.is_empty(), "it is disconnected");
+    let mut third = connect(address, 30_004).await;
+    third.write_all(&claim).await.unwrap();
+    assert_eq!(read(&mut third).await, b"\x00\x09I\x01INT32");
 }

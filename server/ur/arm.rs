@@ -29,6 +29,8 @@ pub struct Arm {
     pub actual_tool_speed: Spatial,
     pub target_tool: Spatial,
     pub target_tool_speed: Spatial,
+    pub elbow_m: [f64; 3],
+    pub elbow_m_s: [f64; 3],
     /// What the bead pulls the magnet with, N.
     pub tool_force: Spatial,
 }
@@ -51,6 +53,7 @@ impl Arm {
         let [actual, target] = [model.tool(&actual_q_rad), model.tool(&target_q_rad)];
         let speed =
             |now: &Isometry3<f64>, before: &Joints| if is_new { [0.0; 6] } else { speed(now, &model.tool(before)) };
+        let [elbow_m, elbow_before_m] = [&actual_q_rad, &self.actual_q_rad].map(|joints| model.elbow_m(joints));
         let load = trial.load();
         Self {
             tick,
@@ -65,6 +68,10 @@ impl Arm {
             actual_tool_speed: speed(&actual, &self.actual_q_rad),
             target_tool: pose(&target),
             target_tool_speed: speed(&target, &self.target_q_rad),
+            elbow_m,
+            elbow_m_s: std::array::from_fn(|i| {
+                if is_new { 0.0 } else { (elbow_m[i] - elbow_before_m[i]) / SERVO_PERIOD_S }
+            }),
             tool_force: [-load.lateral_n.x, -load.lateral_n.y, -load.vertical_n, 0.0, 0.0, 0.0],
         }
     }

@@ -12,13 +12,12 @@ use super::inputs::Input;
 use super::model::Model;
 use super::mover::Mover;
 use super::news::{Item, News};
+use super::refusals::{Refusals, Refused};
 use super::registers::Registers;
 use super::script::{self, Line, ScriptError};
 use crate::control::limits::Limits;
 use crate::robot::{Joints, ur5::SERVO_PERIOD_S};
 
-/// Refusals that the page shows.
-const REFUSALS_MOST: usize = 20;
 /// Values of `safety_mode`.
 const NORMAL: i32 = 1;
 const PROTECTIVE_STOP: i32 = 3;
@@ -34,14 +33,6 @@ pub struct Connected {
     pub from: String,
     /// What it speaks.
     pub port: &'static str,
-}
-
-/// What was refused, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refused {
-    pub tick: u64,
-    pub what: String,
-    pub why: String,
 }
 
 /// What the page shows.
@@ -76,6 +67,23 @@ enum Program {
     Lines { lines: VecDeque<Line>, wait_ticks: u64 },
 }
 
+impl Program {
+    /// The functions in it that change nothing, each once, except those that never do.
+    fn without_effect(&self) -> Vec<&'static str> {
+        let Self::Lines { lines, .. } = self else { return Vec::new() };
+        let mut names = Vec::new();
+        for line in lines {
+            match line {
+                Line::Nothing(name) if !["set_tcp", "sync", "textmsg"].contains(name) && !names.contains(name) => {
+                    names.push(*name);
+                }
+                _ => {}
+            }
+        }
+        names
+    }
+}
+
 #[derive(Clone, Debug)]
 struct Running {
     name: String,
@@ -99,7 +107,7 @@ pub struct Controller {
     mover: Mover,
     command: Option<&'static str>,
     stop: Option<String>,
-    refused: VecDeque<Refused>,
+    refusals: Refusals,
     news: News,
     /// The last tick that was asked for, and how long no client has written.
     tick: u64,
@@ -138,7 +146,7 @@ impl Controller {
             program: self.running.as_ref().map(|running| running.name.clone()),
             command: self.command.filter(|_| self.mover.is_busy()),
             stop: self.stop.clone(),
-            refused: self.refused.iter().cloned().collect(),
+            refused: self.refusals.since(0).cloned().collect(),
         }
     }
 
@@ -201,7 +209,10 @@ impl Controller {
         self.mover.rest();
         self.outputs.int = Registers::default().int;
         self.silent_ticks = 0;
-        self.news.tell(format!("the program {name} begins"));
+        self.news.tell(match program.without_effect()[..] {
+            [] => format!("the program {name} begins"),
+            ref names => format!("the program {name} begins; without an effect here: {}", names.join(", ")),
+        });
         self.running = Some(Running { name, program, has_arm: false, has_asked: false });
         Ok(())
     }
@@ -256,10 +267,16 @@ impl Controller {
 
     fn note(&mut self, what: &str, why: &str) {
         self.news.refuse(format!("{what}: {why}"));
-        if self.refused.len() >= REFUSALS_MOST {
-            self.refused.pop_front();
-        }
-        self.refused.push_back(Refused { tick: self.tick, what: what.to_owned(), why: why.to_owned() });
+        self.refusals.push(Refused { tick: self.tick, what: what.to_owned(), why: why.to_owned() });
+    }
+
+    pub fn refusals(&self) -> &Refusals {
+        &self.refusals
+    }
+
+    /// A program that cannot be read does not begin.
+    pub fn refuse_program(&mut self, error: &ScriptError) {
+        self.note("a program", &error.to_string());
     }
 
     /// A limit is violated: the arm stands still at once.
@@ -333,7 +350,8 @@ impl Controller {
                 }
                 match lines.pop_front() {
                     None => self.end("it is over"),
-                    Some(Line::Nothing) => {}
+                    Some(Line::Nothing(_)) => {}
+                    Some(Line::Halt) => self.end("it halts"),
                     Some(Line::Sleep { time_s }) => *wait_ticks = (time_s / SERVO_PERIOD_S).round() as u64,
                     Some(Line::WriteInt { register, value }) => self.outputs.int[register] = value,
                     Some(Line::Motion(command)) => self.begin(&command, here_rad),

@@ -86,6 +86,12 @@ impl Model {
         Ok(Self { name, tcp_m, rows })
     }
 
+    /// Where the elbow is in `base`: the frame of the second link's end.
+    pub fn elbow_m(&self, joints: &Joints) -> [f64; 3] {
+        let [first, second] = [0, 1].map(|joint| forward::link(&self.rows[joint], joints[joint]));
+        (first * second).translation.vector.into()
+    }
+
     /// `base_from_flange`.
     pub fn flange(&self, joints: &Joints) -> Isometry3<f64> {
         let links = self.rows.iter().zip(joints).map(|(row, &angle_rad)| forward::link(row, angle_rad));
@@ -106,6 +112,9 @@ mod tests {
     fn the_default_is_the_arm_that_ferry_computes_with() {
         let joints = [-1.6, -1.7, -1.5, -1.4, 1.6, 0.3];
         assert_eq!(Model::default().flange(&joints), forward::flange(&joints));
+        // An upper arm of .425 m that points straight up.
+        let [x_m, y_m, z_m] = Model::default().elbow_m(&[0.0, -std::f64::consts::FRAC_PI_2, 1.0, 2.0, 3.0, 4.0]);
+        assert!(x_m.abs() < 1e-12 && y_m.abs() < 1e-12 && (z_m - 0.514159).abs() < 1e-12);
         let text = r#"{"name": "UR5", "d_m": [0.089159, 0, 0, 0.10915, 0.09465, 0.0823], "a_m": [0, -0.425, -0.39225, 0, 0, 0],
             "alpha_rad": [1.5707963267948966, 0, 0, 1.5707963267948966, -1.5707963267948966, 0]}"#;
         let read = Model::read(text).unwrap().flange(&joints);

@@ -305,7 +305,9 @@ mod tests {
         assert_eq!(peer.report(b"M\x01a\x01b\x03"), Ok(None));
         assert_eq!(peer.report(b"U\x01"), Err(PeerError::Short { kind: b'U', bytes: 1 }));
         assert!(matches!(peer.report(&[0, 99, 1]), Err(PeerError::Unexpected { found: 0, .. })));
-        client.answer(&peer.request(Step::Outputs), &mut Controller::default()).unwrap();
+        for step in [Step::Version, Step::Outputs] {
+            client.answer(&peer.request(step), &mut Controller::default()).unwrap();
+        }
         let report = peer.report(&client.data(&nowhere, &Controller::default()).unwrap());
         assert!(matches!(report, Err(PeerError::Angle { joint: 1, .. })));
     }

@@ -1,5 +1,6 @@
 //! The Real-Time Data Exchange: frames, and the recipes by which a client chooses what it gets. Big-endian; protocol
-//! version 2.
+//! versions 1 and 2. Version 1, which a client speaks until it asks for another, has no rate and no recipe's number for
+//! outputs.
 
 mod outputs;
 
@@ -13,12 +14,15 @@ use super::controller::{ClientId, Controller};
 use super::dashboard::VERSION;
 use super::inputs::Input;
 
-/// The protocol version that is spoken.
+/// The newest protocol version.
 pub(super) const PROTOCOL: u16 = 2;
 /// The rate of a CB3 controller.
 pub const RATE_MOST_HZ: f64 = 125.0;
 /// Names in a recipe.
 const NAMES_MOST: usize = 256;
+/// Bytes of a message for people; its length is one byte.
+const TEXT_BYTES_MOST: usize = 255;
+const WARNING: u8 = 2;
 /// Input recipes of a client.
 const RECIPES_MOST: usize = 64;
 
@@ -60,6 +64,7 @@ pub fn framing() -> LengthDelimitedCodec {
 #[derive(Debug, Default)]
 pub struct Client {
     id: ClientId,
+    is_version_2: bool,
     outputs: Option<Recipe>,
     /// What it writes, by the recipe's number, from 1; empty ones were refused.
     inputs: Vec<Vec<Input>>,
@@ -93,11 +98,19 @@ impl Client {
         Ok(Some(match kind {
             kind::PROTOCOL_VERSION => {
                 let wanted = payload.try_get_u16().map_err(|_| short)?;
-                frame(kind, &[u8::from(wanted == PROTOCOL)])
+                let is_spoken = (1..=PROTOCOL).contains(&wanted);
+                if is_spoken {
+                    self.is_version_2 = wanted == 2;
+                    (self.outputs, self.is_started) = (None, false);
+                }
+                frame(kind, &[u8::from(is_spoken)])
             }
             kind::CONTROLLER_VERSION => frame(kind, &VERSION.map(u32::to_be_bytes).concat()),
             kind::OUTPUTS => {
-                let rate_hz = payload.try_get_f64().map_err(|_| short)?;
+                let rate_hz = match self.is_version_2 {
+                    true => payload.try_get_f64().map_err(|_| short)?,
+                    false => RATE_MOST_HZ,
+                };
                 self.choose(rate_hz, &names(payload))
             }
             kind::INPUTS => self.claim(&names(payload), robot),
@@ -115,8 +128,18 @@ impl Client {
                 return Ok(None);
             }
             kind::TEXT_MESSAGE => return Ok(None),
-            _ => frame(kind::TEXT_MESSAGE, &text(&format!("Ferry does not know the type {kind}"))),
+            _ => self.message(&format!("Ferry does not know the type {kind}")),
         }))
+    }
+
+    /// A message for people, as a frame: a warning.
+    pub fn message(&self, text: &str) -> Vec<u8> {
+        let (text, source) = (&text[..text.floor_char_boundary(TEXT_BYTES_MOST)], "Ferry");
+        let parts = match self.is_version_2 {
+            true => [&[text.len() as u8][..], text.as_bytes(), &[source.len() as u8], source.as_bytes(), &[WARNING]],
+            false => [&[WARNING][..], text.as_bytes(), &[], &[], &[]],
+        };
+        frame(kind::TEXT_MESSAGE, &parts.concat())
     }
 
     fn choose(&mut self, rate_hz: f64, names: &[String]) -> Vec<u8> {
@@ -127,7 +150,8 @@ impl Client {
         self.is_started = false;
         self.outputs =
             outputs.filter(|_| is_usable).map(|outputs| Recipe { outputs, rate_hz: rate_hz.min(RATE_MOST_HZ) });
-        frame(kind::OUTPUTS, &recipe_answer(u8::from(self.outputs.is_some()), &types))
+        let answer = recipe_answer(u8::from(self.outputs.is_some()), &types);
+        frame(kind::OUTPUTS, if self.is_version_2 { &answer } else { &answer[1..] })
     }
 
     /// Sets up an input recipe. Its number is taken also if it is refused, so that those that follow keep theirs.
@@ -174,7 +198,7 @@ impl Client {
     /// A frame with the values that the client has chosen; `None` without a recipe.
     pub fn data(&self, arm: &Arm, robot: &Controller) -> Option<Vec<u8>> {
         let recipe = self.outputs.as_ref()?;
-        let mut payload = vec![1];
+        let mut payload = if self.is_version_2 { vec![1] } else { Vec::new() };
         recipe.outputs.iter().for_each(|output| output.write(arm, robot, &mut payload));
         Some(frame(kind::DATA, &payload))
     }
@@ -191,12 +215,6 @@ fn recipe_answer(id: u8, types: &[&str]) -> Vec<u8> {
     [&[id][..], types.join(",").as_bytes()].concat()
 }
 
-/// A text message's payload: message and source, each after its length; then the level "warning".
-fn text(message: &str) -> Vec<u8> {
-    let source = "Ferry";
-    [&[message.len() as u8][..], message.as_bytes(), &[source.len() as u8], source.as_bytes(), &[2]].concat()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -208,6 +226,10 @@ mod tests {
         [&rate_hz.to_be_bytes()[..], names.as_bytes()].concat()
     }
 
+    fn version_2() -> Client {
+        Client { is_version_2: true, ..Client::default() }
+    }
+
     fn answered(client: &mut Client, kind: u8, payload: &[u8]) -> Vec<u8> {
         let answer = client.answer(&frame(kind, payload), &mut Controller::default()).unwrap().unwrap();
         assert_eq!(answer[0], kind);
@@ -217,8 +239,8 @@ mod tests {
     #[test]
     fn a_client_gets_what_it_has_chosen() {
         let mut client = Client::default();
+        assert_eq!(answered(&mut client, b'V', &[0, 3]), [0]);
         assert_eq!(answered(&mut client, b'V', &[0, 2]), [1]);
-        assert_eq!(answered(&mut client, b'V', &[0, 1]), [0]);
         assert_eq!(answered(&mut client, b'v', &[]), [0, 0, 0, 3, 0, 0, 0, 15, 0, 0, 0, 8, 0, 0, 0, 0]);
         assert_eq!(answered(&mut client, b'S', &[]), [0], "nothing is chosen");
         assert_eq!(client.data(&Arm::default(), &Controller::default()), None);
@@ -238,8 +260,27 @@ mod tests {
     }
 
     #[test]
-    fn unknown_names_and_rates_leave_nothing_chosen() {
+    fn version_1_has_no_rate_and_no_number_of_the_recipe() {
         let mut client = Client::default();
+        for _ in 0..2 {
+            assert_eq!(answered(&mut client, b'O', b"robot_mode,wings"), b"INT32,NOT_FOUND");
+            assert_eq!(answered(&mut client, b'O', b"timestamp,robot_mode"), b"DOUBLE,INT32");
+            assert_eq!(answered(&mut client, b'S', &[]), [1]);
+            assert_eq!(client.every_ticks(), Some(1));
+            let arm = Arm { time_s: 1.5, has_joints: true, ..Arm::default() };
+            let data = client.data(&arm, &Controller::default()).unwrap();
+            assert_eq!(data, [&b"U"[..], &1.5_f64.to_be_bytes(), &7_i32.to_be_bytes()].concat());
+            assert_eq!(client.message("no"), b"M\x02no");
+            assert_eq!(answered(&mut client, b'V', &[0, 1]), [1]);
+            assert_eq!(client.data(&arm, &Controller::default()), None, "another version, another recipe");
+        }
+        let long = "é".repeat(200);
+        assert_eq!(version_2().message(&long), [&b"M\xfe"[..], "é".repeat(127).as_bytes(), b"\x05Ferry\x02"].concat());
+    }
+
+    #[test]
+    fn unknown_names_and_rates_leave_nothing_chosen() {
+        let mut client = version_2();
         let chosen = answered(&mut client, b'O', &outputs(125.0, "actual_q,wings"));
         assert_eq!(chosen, [&[0], "VECTOR6D,NOT_FOUND".as_bytes()].concat());
         for rate_hz in [0.0, -1.0, f64::NAN] {

@@ -1,23 +1,63 @@
-//! URScript as far as it is carried out: lines of these functions with literal arguments.
+//! URScript as far as it is carried out: calls of these functions with literal arguments.
 //!
-//! `movej`, `movel`, `servoj`, `speedj`, `speedl`, `stopj`, `stopl`, `sleep`, `sync`, `textmsg` and
-//! `write_output_integer_register`; alone, or in a program between `def name():` and `end`. Names and defaults are those of
-//! "The URScript Programming Language", version 3.15.
+//! `movej`, `movel`, `servoj`, `speedj`, `speedl`, `stopj`, `stopl`, `sleep`, `write_output_integer_register`, `set_tcp` with
+//! Ferry's tool, `halt`, and functions [without an effect](WITHOUT_EFFECT); alone, or in a program between `def name():` or
+//! `sec name():` and `end`. Names and defaults are those of "The URScript Programming Language", version 3.15.
 
-use winnow::ascii::{float, multispace0, space0};
+mod reader;
+#[cfg(test)]
+mod tests;
+
+pub use reader::Reader;
+
+use winnow::ascii::{float, multispace0, space0, space1};
 use winnow::combinator::{alt, delimited, opt, preceded, separated};
 use winnow::prelude::*;
 use winnow::token::take_while;
 
 use super::command::{Command, Target};
 use super::registers::REGISTERS;
+use crate::plant::TOOL_LENGTH_M;
+use reader::Statements;
 
 /// Longest program.
 pub const PROGRAM_BYTES_MOST: usize = 256 << 10;
 /// Longest line.
 pub const LINE_BYTES_MOST: usize = 64 << 10;
-/// Lines of a program that is carried out.
-const LINES_MOST: usize = 10_000;
+/// Statements of a program that is carried out.
+const STATEMENTS_MOST: usize = 10_000;
+/// Longest name of a program.
+const NAME_MOST: usize = 80;
+/// How far the tool of `set_tcp` may be from Ferry's: m and rad.
+const TOOL_DIFFERENCE_MOST: f64 = 1e-3;
+
+/// Functions that change nothing here: Ferry has no other payload, gravity, signals, or people at a teach pendant.
+const WITHOUT_EFFECT: [&str; 24] = [
+    "popup",
+    "set_analog_out",
+    "set_analog_outputdomain",
+    "set_configurable_digital_out",
+    "set_digital_out",
+    "set_gravity",
+    "set_input_actions_to_default",
+    "set_payload",
+    "set_payload_cog",
+    "set_payload_mass",
+    "set_runstate_configurable_digital_output_to_value",
+    "set_runstate_standard_analog_output_to_value",
+    "set_runstate_standard_digital_output_to_value",
+    "set_runstate_tool_digital_output_to_value",
+    "set_safety_mode_transition_hardness",
+    "set_standard_analog_input_domain",
+    "set_standard_analog_out",
+    "set_standard_digital_out",
+    "set_target_payload",
+    "set_tool_analog_input_domain",
+    "set_tool_digital_out",
+    "set_tool_voltage",
+    "sync",
+    "textmsg",
+];
 
 /// One line.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +70,9 @@ pub enum Line {
         register: usize,
         value: i32,
     },
-    /// Without an effect.
-    Nothing,
+    /// By its name, without an effect.
+    Nothing(&'static str),
+    Halt,
 }
 
 /// Why a program is not carried out. Nothing of it was.
@@ -41,85 +82,62 @@ pub enum ScriptError {
     Unknown { line: usize, text: String },
     #[error("line {line}: {name}: {why}")]
     Argument { line: usize, name: String, why: String },
-    #[error("the program has more than {LINES_MOST} lines")]
+    #[error("line {line}: a bracket is not closed")]
+    Bracket { line: usize },
+    #[error("line {line}: the program's name has {characters} characters, the limit is {NAME_MOST}")]
+    Name { line: usize, characters: usize },
+    #[error("line {line}: a statement stands behind the program's end")]
+    Behind { line: usize },
+    #[error("the program has no end: the connection ended after {lines} lines of it")]
+    Unfinished { lines: usize },
+    #[error("the program has more than {STATEMENTS_MOST} statements")]
     Long,
-    #[error("the program has more than {PROGRAM_BYTES_MOST} bytes")]
+    #[error("the program has more than {PROGRAM_BYTES_MOST} bytes, or a line of more than {LINE_BYTES_MOST}")]
     Large,
 }
 
-/// Puts lines together to programs.
-#[derive(Debug, Default)]
-pub struct Reader {
-    /// A program that has begun.
-    text: Option<String>,
-}
-
-impl Reader {
-    /// Takes a line; returns a program, or a line alone, when it is complete.
-    ///
-    /// # Errors
-    /// The program is too large.
-    pub fn take(&mut self, line: &str) -> Result<Option<String>, ScriptError> {
-        let is_begin = line.starts_with("def ") || line.starts_with("sec ");
-        let Some(text) = &mut self.text else {
-            if is_begin {
-                self.text = Some(format!("{line}\n"));
-                return Ok(None);
-            }
-            return Ok((!is_empty(line)).then(|| line.to_owned()));
-        };
-        if text.len() + line.len() > PROGRAM_BYTES_MOST {
-            return Err(ScriptError::Large);
-        }
-        text.push_str(line);
-        text.push('\n');
-        // The end of the program begins its line; ends of blocks are indented.
-        Ok(if line.trim_end() == "end" { self.text.take() } else { None })
-    }
-}
-
-fn is_empty(line: &str) -> bool {
-    let line = line.trim();
-    line.is_empty() || line.starts_with('#')
-}
-
-/// The name of a program, and its lines.
+/// The name of a program, and what it does.
 ///
 /// # Errors
-/// [`ScriptError`] names the first line that is not understood.
+/// [`ScriptError`] names the first statement that is not understood.
 pub fn parse(text: &str) -> Result<(String, Vec<Line>), ScriptError> {
-    let mut lines = Vec::new();
-    let mut name = None;
-    for (number, line) in text.lines().enumerate() {
-        let is_last = line.trim_end() == "end" && name.is_some();
-        if is_empty(line) || is_last {
-            continue;
-        }
-        if let (0, Some(head)) = (number, line.strip_prefix("def ")) {
-            name = Some(head.trim_end().trim_end_matches("():").to_owned());
-            continue;
-        }
-        if lines.len() >= LINES_MOST {
-            return Err(ScriptError::Long);
-        }
-        let statement = line.trim();
-        let number = number + 1;
-        let Ok((function, arguments)) = call.parse(statement) else {
-            let text = statement.chars().take(80).collect();
-            return Err(ScriptError::Unknown { line: number, text });
-        };
-        let parsed = Arguments { arguments: &arguments }.line(function);
-        let why = |why| ScriptError::Argument { line: number, name: function.to_owned(), why };
-        match parsed {
-            Ok(Some(line)) => lines.push(line),
-            Ok(None) => {
-                let text = statement.chars().take(80).collect();
-                return Err(ScriptError::Unknown { line: number, text });
+    let statements = Statements::of(text)?;
+    let unknown = |&(line, ref statement): &(usize, String)| {
+        let text = statement.chars().take(80).collect();
+        ScriptError::Unknown { line, text }
+    };
+    let mut behind = None;
+    let (name, body) = match statements.split_first() {
+        Some(((line, statement), rest)) if head.parse(statement).is_ok() => {
+            let name = head.parse(statement).unwrap_or_default();
+            let characters = name.chars().count();
+            if characters > NAME_MOST {
+                return Err(ScriptError::Name { line: *line, characters });
             }
-            Err(error) => return Err(why(error)),
+            let end = rest.iter().position(|(_, statement)| statement == "end").unwrap_or(rest.len());
+            behind = rest.get(end + 1);
+            (name, &rest[..end])
         }
+        _ => ("a line", &statements[..]),
+    };
+    if body.len() > STATEMENTS_MOST {
+        return Err(ScriptError::Long);
     }
-    Ok((name.unwrap_or_else(|| "a line".to_owned()), lines))
+    let line = |statement: &(usize, String)| {
+        if statement.1 == "halt" {
+            return Ok(Line::Halt);
+        }
+        let (function, arguments) = call.parse(&statement.1).map_err(|_| unknown(statement))?;
+        let understood = Arguments { arguments: &arguments }.line(function);
+        let understood =
+            understood.map_err(|why| ScriptError::Argument { line: statement.0, name: function.to_owned(), why })?;
+        understood.ok_or_else(|| unknown(statement))
+    };
+    let lines = body.iter().map(line).collect::<Result<_, _>>()?;
+    match behind {
+        Some((line, _)) => Err(ScriptError::Behind { line: *line }),
+        None => Ok((name.to_owned(), lines)),
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -128,12 +146,19 @@ enum Value<'a> {
     List(Vec<f64>),
     Pose(Vec<f64>),
     Text(&'a str),
+    Truth(bool),
 }
 
 type Argument<'a> = (Option<&'a str>, Value<'a>);
 
 fn name<'a>(input: &mut &'a str) -> ModalResult<&'a str> {
     take_while(1.., |c: char| c.is_ascii_alphanumeric() || c == '_').parse_next(input)
+}
+
+/// The name of a program, from its first statement.
+fn head<'a>(input: &mut &'a str) -> ModalResult<&'a str> {
+    let empty = ((space0, '(', space0), (')', space0, ':'));
+    delimited((alt(("def", "sec")), space1), name, empty).parse_next(input)
 }
 
 fn comma(input: &mut &str) -> ModalResult<()> {
@@ -155,6 +180,9 @@ fn value<'a>(input: &mut &'a str) -> ModalResult<Value<'a>> {
         preceded('p', list).map(Value::Pose),
         list.map(Value::List),
         delimited('"', take_while(0.., |c: char| c != '"'), '"').map(Value::Text),
+        delimited('\'', take_while(0.., |c: char| c != '\''), '\'').map(Value::Text),
+        "True".value(Value::Truth(true)),
+        "False".value(Value::Truth(false)),
         number.map(Value::Number),
     ))
     .parse_next(input)
@@ -277,81 +305,23 @@ impl Arguments<'_> {
                 }
                 Ok(Some(Line::WriteInt { register: register as usize, value: value as i32 }))
             }
-            "sync" | "textmsg" => Ok(Some(Line::Nothing)),
-            _ => Ok(None),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn one(text: &str) -> Line {
-        let (_, lines) = parse(text).unwrap();
-        assert_eq!(lines.len(), 1, "{text}");
-        lines[0].clone()
-    }
-
-    fn refused(text: &str) -> String {
-        parse(text).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn lines_with_literal_arguments_are_understood() {
-        let pose = [0.1, -0.4, 0.1, 2.182, -2.182, 0.0];
-        let to = Command::MoveL { to: Target::Pose(pose), speed: 0.04, acceleration: 1.2 };
-        assert_eq!(one("movel(p[0.1,-0.4,0.1,2.182,-2.182,0], a=1.2, v=.04)"), Line::Motion(to));
-        assert_eq!(one("  movel( p[ 0.1 , -0.4, 0.1, 2.182, -2.182, 0 ], 1.2, 0.04, 0, 0 )"), Line::Motion(to));
-        let to = Command::MoveJ { to: Target::Joints([1.0; 6]), speed: 1.05, acceleration: 1.4 };
-        assert_eq!(one("movej([1,1,1,1,1,1])"), Line::Motion(to));
-        let speed = Command::SpeedL { velocity: [0.02, 0.0, 0.0, 0.0, 0.0, 0.0], acceleration: 0.5, time_s: 0.1 };
-        assert_eq!(one("speedl([0.02,0,0,0,0,0], 0.5, 0.1)"), Line::Motion(speed));
-        let servo = Command::ServoJ { to: [0.5; 6], lookahead_s: 0.05 };
-        let line = "servoj([.5,.5,.5,.5,.5,.5], t=0.008, lookahead_time=0.05, gain=300)";
-        assert_eq!(one(line), Line::Motion(servo));
-        assert_eq!(one("stopl(1.5)"), Line::Motion(Command::StopL { deceleration: 1.5 }));
-        assert_eq!(one("write_output_integer_register(0 +24, 2)"), Line::WriteInt { register: 24, value: 2 });
-        let (name, lines) = parse("def mine():\n\t# a note\n\tsleep(0.5)\n\ttextmsg(\"hello\")\nend\n").unwrap();
-        assert_eq!((name.as_str(), lines), ("mine", vec![Line::Sleep { time_s: 0.5 }, Line::Nothing]));
-    }
-
-    #[test]
-    fn what_is_not_understood_is_named_and_nothing_is_carried_out() {
-        assert!(refused("movel(get_target_tcp_pose())").starts_with("line 1: \"movel(get_target"));
-        assert!(refused("def a():\n  stopl(1)\n  while True:\n  end\nend\n").starts_with("line 3: \"while True:\""));
-        assert_eq!(refused("movel(p[0,0,0], v=1)"), "line 1: movel: pose must have six numbers");
-        assert_eq!(refused("movej([0,0,0,0,0,0], r=0.1)"), "line 1: movej: a blend radius r is not carried out");
-        assert_eq!(refused("movej([0,0,0,0,0,0], t=2)"), "line 1: movej: a duration t is not carried out; use v");
-        assert_eq!(refused("stopl(-1)"), "line 1: stopl: a is -1, it must be above 0, at most 150");
-        assert_eq!(refused("speedl(p[0,0,0,0,0,0], 1)"), "line 1: speedl: xd is a pose, it must be a list");
-        assert_eq!(refused("stopl(1, b=2)"), "line 1: stopl: argument 2 is not known");
-        assert!(refused("set_digital_out(0, True)").contains("set_digital_out"));
-        assert!(refused("sleep(1e9)").contains("t is 1000000000"));
-    }
-
-    #[test]
-    fn programs_are_put_together_from_lines() {
-        let mut reader = Reader::default();
-        assert_eq!(reader.take("stopl(1)"), Ok(Some("stopl(1)".to_owned())));
-        for line in ["", "# nothing", "def a():", "  while True:", "  end"] {
-            assert_eq!(reader.take(line), Ok(None), "{line}");
-        }
-        assert_eq!(reader.take("end"), Ok(Some("def a():\n  while True:\n  end\nend\n".to_owned())));
-        reader.take("def b():").unwrap();
-        let long = "x".repeat(60_000);
-        assert!((0..6).any(|_| reader.take(&long) == Err(ScriptError::Large)));
-    }
-
-    proptest! {
-        #[test]
-        fn any_text_is_parsed_or_refused(text in "\\PC{0,200}", words in "(movej|servoj|stopl)\\([p\\[\\]0-9,.a-z= -]{0,60}\\)") {
-            for text in [text, words] {
-                if let Ok((_, lines)) = parse(&text) {
-                    prop_assert!(lines.iter().all(|line| !matches!(line, Line::Motion(command) if command.check().is_err())));
+            "set_tcp" => {
+                let Target::Pose(pose) = self.six("pose")? else {
+                    return Err("pose is a list, it must be a pose".to_owned());
+                };
+                let tool = [0.0, 0.0, TOOL_LENGTH_M, 0.0, 0.0, 0.0];
+                match pose.iter().zip(tool).all(|(one, own)| (one - own).abs() <= TOOL_DIFFERENCE_MOST) {
+                    true => Ok(Some(Line::Nothing("set_tcp"))),
+                    false => Err(format!(
+                        "pose is p{pose:?}, Ferry's tool is p{tool:?}; leave it out, and command that tool"
+                    )),
                 }
             }
+            "popup" if self.find(4, "blocking") == Some(&Value::Truth(true)) => {
+                Err("blocking is True, and nothing closes it here".to_owned())
+            }
+            "halt" if self.arguments.is_empty() => Ok(Some(Line::Halt)),
+            _ => Ok(WITHOUT_EFFECT.iter().find(|name| **name == function).map(|name| Line::Nothing(name))),
         }
     }
 }

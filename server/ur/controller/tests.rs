@@ -44,7 +44,7 @@ impl Bench {
     }
 
     fn last_refusal(&self) -> String {
-        self.robot.refused.back().map(|refused| format!("{}: {}", refused.what, refused.why)).unwrap_or_default()
+        self.robot.refusals.since(0).last().map(ToString::to_string).unwrap_or_default()
     }
 }
 
@@ -152,6 +152,18 @@ fn lines_are_carried_out_one_after_the_other() {
     assert_eq!(bench.run(10), 0.0);
     assert!(bench.last_refusal().contains("while True"), "{}", bench.last_refusal());
     assert_eq!(bench.robot.load("stopl(1)", false), Err(LoadError::NoArm));
+}
+
+#[test]
+fn a_program_that_halts_ends_and_tells_what_has_no_effect() {
+    let mut bench = Bench::new();
+    bench.robot.load("def a():\n set_gravity([0,0,9.82]); popup('hi')\n halt\n stopl(1)\nend\n", true).unwrap();
+    bench.run(6);
+    let said: Vec<_> = bench.robot.take_news().into_iter().map(|item| item.text).collect();
+    assert_eq!(
+        said,
+        ["the program a begins; without an effect here: set_gravity, popup", "the program a ends: it halts"]
+    );
 }
 
 #[test]

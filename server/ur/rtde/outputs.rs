@@ -20,6 +20,7 @@ pub enum Output {
 /// A value with one of RTDE's types.
 enum Value {
     Bool(bool),
+    Uint8(u8),
     Uint32(u32),
     Uint64(u64),
     Int32(i32),
@@ -34,6 +35,8 @@ const DISCONNECTED: i32 = 0;
 /// A joint that follows its controller.
 const JOINT_RUNNING: i32 = 255;
 const JOINT_POWER_OFF: i32 = 239;
+/// Of `tool_mode`: the tool's electronics run.
+const TOOL_RUNNING: u32 = 253;
 
 type Read = fn(&Arm, &Controller) -> Value;
 
@@ -77,6 +80,19 @@ const NAMED: &[(&str, Read)] = &[
     ("standard_analog_input1", |_, _| Value::Double(0.0)),
     ("standard_analog_output0", |_, _| Value::Double(0.0)),
     ("standard_analog_output1", |_, _| Value::Double(0.0)),
+    ("analog_io_types", |_, _| Value::Uint32(0)),
+    ("io_current", |_, _| Value::Double(0.0)),
+    ("tool_mode", |_, _| Value::Uint32(TOOL_RUNNING)),
+    ("tool_analog_input_types", |_, _| Value::Uint32(0)),
+    ("tool_analog_input0", |_, _| Value::Double(0.0)),
+    ("tool_analog_input1", |_, _| Value::Double(0.0)),
+    ("tool_output_mode", |_, _| Value::Uint8(0)),
+    ("tool_output_voltage", |_, _| Value::Int32(0)),
+    ("tool_output_current", |_, _| Value::Double(0.0)),
+    ("tool_temperature", |_, _| Value::Double(0.0)),
+    ("elbow_position", |arm, _| Value::Vector3(arm.elbow_m)),
+    ("elbow_velocity", |arm, _| Value::Vector3(arm.elbow_m_s)),
+    ("script_control_line", |_, _| Value::Uint32(0)),
     ("payload", |_, _| Value::Double(0.0)),
     ("payload_cog", |_, _| Value::Vector3([0.0; 3])),
     ("payload_inertia", |_, _| Value::Vector6([0.0; 6])),
@@ -118,6 +134,7 @@ impl Output {
     pub fn type_name(self) -> &'static str {
         match self.value(&Arm::default(), &Controller::default()) {
             Value::Bool(_) => "BOOL",
+            Value::Uint8(_) => "UINT8",
             Value::Uint32(_) => "UINT32",
             Value::Uint64(_) => "UINT64",
             Value::Int32(_) => "INT32",
@@ -132,6 +149,7 @@ impl Output {
     pub fn write(self, arm: &Arm, robot: &Controller, bytes: &mut Vec<u8>) {
         match self.value(arm, robot) {
             Value::Bool(value) => bytes.push(u8::from(value)),
+            Value::Uint8(value) => bytes.push(value),
             Value::Uint32(value) => bytes.extend(value.to_be_bytes()),
             Value::Uint64(value) => bytes.extend(value.to_be_bytes()),
             Value::Int32(value) => bytes.extend(value.to_be_bytes()),

@@ -228,7 +228,7 @@ fn a_robot_that_cannot_follow_is_not_asked_to() {
     assert!(refused(|bench| bench.report.robot_mode = 3).contains("robot_mode is 3"));
     assert!(refused(|bench| bench.report.safety_mode = 4).contains("safety_mode is 4"));
     assert!(refused(|bench| bench.report.runtime_state = PLAYING).contains("another program"));
-    assert!(refused(|bench| bench.report.joints_rad[5] += 0.2).contains("turned 0.2000 rad"));
+    assert!(refused(|bench| bench.report.joints_rad[4] += 0.2).contains("tilted 0.2000 rad"));
     assert!(refused(|bench| bench.report.joints_rad[1] -= 0.9).contains("not where Ferry may move it"));
     assert!(refused(|bench| bench.twin.connected(Err("no".to_owned()))).contains("not connected"));
     let mut bench = Bench::new(true);
