@@ -109,7 +109,7 @@ pub fn check_mount(mount: &CameraMount, wall_height_m: f64) -> Result<(), Camera
     if height_m <= wall_height_m {
         return Err(CameraError::BelowWalls { height_m, wall_height_m });
     }
-    let seen = mount.over(Point2::origin()).table_corners_m();
+    let seen = mount.over(Point2::origin(), 0.0).table_corners_m();
     match seen.filter(|corners| corners.iter().all(|corner| corner.coords.norm() <= MAX_M)) {
         Some(_) => Ok(()),
         None => Err(CameraError::Horizon { tilt_rad, field_of_view_rad }),
@@ -135,13 +135,15 @@ pub struct Subject {
     pub tick: u64,
     /// Tool point: the centre of the block's lower face.
     pub tool_m: [f64; 3],
+    /// How far block, gripper and camera are turned about the vertical.
+    pub turn_rad: f64,
     pub bead_m: [f64; 3],
     /// The goal on the table; not drawn in the controllers' view.
     pub goal_m: Option<[f64; 2]>,
     /// `base_from_link` for the Denavit–Hartenberg frames 1 to 6; the last is the flange. `None` for the planar
     /// stage, which has no arm.
     pub link_frames: Option<[Isometry3<f64>; 6]>,
-    /// Edge lengths of the magnet along x, y and z of `base`.
+    /// Edge lengths of the magnet along x, y and z of `base`, if it is not turned.
     pub block_size_m: [f64; 3],
     pub mount: CameraMount,
     /// What the walls cover beyond their drawn place; `None` if they are rigid.
@@ -157,6 +159,7 @@ impl Subject {
         });
         let fields = [
             ("tool_m", finite(&self.tool_m)),
+            ("turn_rad", self.turn_rad.is_finite()),
             ("bead_m", finite(&self.bead_m)),
             ("goal_m", self.goal_m.is_none_or(|goal_m| finite(&goal_m))),
             ("block_size_m", finite(&self.block_size_m)),

@@ -275,7 +275,7 @@ pub(crate) use tests::frame as test_frame;
 
 /// Side of the square of table that the default camera sees over a tool.
 fn default_side_m(tool_m: Point2<f64>) -> f64 {
-    let pinhole = CameraMount::default().over(tool_m);
+    let pinhole = CameraMount::default().over(tool_m, 0.0);
     let [_, _, height_m] = pinhole.position_m;
     2.0 * height_m * pinhole.tangent()
 }
@@ -287,7 +287,7 @@ mod tests {
 
     /// A frame whose pixels are given by a rule on table coordinates.
     pub(crate) fn frame(center: Point2<f64>, wall: impl Fn(Point2<f64>) -> bool) -> CameraFrame {
-        let pinhole = CameraMount::default().over(center);
+        let pinhole = CameraMount::default().over(center, 0.0);
         let m_per_px = 2.0 * 0.3 * pinhole.tangent() / 480.0;
         let calibration = Calibration { center_m: center, m_per_px, size_px: 480, foot_m: center };
         let rgba = (0..480 * 480)

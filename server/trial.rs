@@ -211,6 +211,7 @@ impl Trial {
         Subject {
             tick: world.tick - age_ticks,
             tool_m: tool.coords.into(),
+            turn_rad: positioner.turn_rad(),
             bead_m: [bead.position_m.x, bead.position_m.y, bead.height_m(tool)],
             goal_m: world.goal_m.map(|goal| [goal.x, goal.y]),
             link_frames: positioner.link_frames(),

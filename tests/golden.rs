@@ -63,6 +63,7 @@ fn subject() -> Subject {
     Subject {
         tick: 0,
         tool_m: tool_m.coords.into(),
+        turn_rad: 0.0,
         bead_m: [0.06, -0.475, BEAD_RADIUS_M],
         goal_m: Some([-0.19, -0.48]),
         link_frames: arm.link_frames(),

@@ -11,6 +11,7 @@ use ferry::geometry::{Isometry3, Matrix6, UnitQuaternion, Vector3};
 use ferry::magnetics::cuboid::Cuboid;
 use ferry::magnetics::dipole::{self, BLOCK_REMANENCE_T};
 use ferry::magnetics::force::{self, Orientation};
+use ferry::magnetics::posed::PosedBlock;
 use ferry::robot::{Joints, forward, inverse, jacobian};
 use nalgebra::{Quaternion, SVector, Translation3};
 use num_dual::DualNumCopy;
@@ -206,9 +207,22 @@ struct ForceCase {
 }
 
 #[derive(Deserialize)]
+struct TurnedCase {
+    size: [f64; 3],
+    polarization: [f64; 3],
+    /// Centre, m.
+    position: [f64; 3],
+    /// About z.
+    turn: f64,
+    point: [f64; 3],
+    field: [f64; 3],
+}
+
+#[derive(Deserialize)]
 struct MagneticCases {
     fields: Vec<FieldCase>,
     forces: Vec<ForceCase>,
+    turned: Vec<TurnedCase>,
 }
 
 fn magnetic_cases() -> MagneticCases {
@@ -236,6 +250,19 @@ fn field_is_that_of_magpylib() {
         worst = worst.max(error);
     }
     println!("field and magpylib: {worst:.1e}");
+}
+
+#[test]
+fn field_of_a_turned_block_is_that_of_magpylib() {
+    let cases = magnetic_cases().turned;
+    assert_eq!(cases.len(), 40);
+    for case in cases {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), case.turn);
+        let base_from_block = Isometry3::from_parts(Translation3::from(Vector3::from(case.position)), turn);
+        let block = PosedBlock { block: cuboid(case.size, case.polarization), base_from_block };
+        let error = relative(block.field_t(&Vector3::from(case.point).into()), case.field.into());
+        assert!(error <= 1e-9, "{:?}: {error}", case.point);
+    }
 }
 
 #[test]

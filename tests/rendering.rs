@@ -24,6 +24,7 @@ fn subject(tool: Point2<f64>, bead: Point2<f64>, mount: CameraMount) -> Subject 
     Subject {
         tick: 0,
         tool_m: [tool.x, tool.y, 0.1],
+        turn_rad: 0.0,
         bead_m: [bead.x, bead.y, BEAD_RADIUS_M],
         goal_m: None,
         link_frames: None,

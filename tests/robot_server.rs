@@ -129,6 +129,37 @@ async fn ur_rtde_commands_the_arm_within_the_limits_until_the_operator_takes_it(
     assert_eq!((&after["controller"], &after["robot"]["program"]), (&json!("errt"), &Value::Null));
 }
 
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "long"]
+async fn ur_rtde_turns_the_tool_with_block_bead_and_camera() {
+    const ADDRESS: &str = "127.0.28.104";
+    let data = tempfile::tempdir().unwrap();
+    let (server, mut browser) = started(ADDRESS, data.path()).await;
+    let page = format!("http://{}", server.address);
+    let mut turned = async |map: &str, part: &str| {
+        browser.send(json!({"type": "load_scenario", "map": map, "start_m": [0.0, -0.35]})).await;
+        browser.state("the start", |state| number(&state["tool_m"][0]).abs() < 1e-3).await;
+        let turn = tokio::spawn(python("tests/turn_robot.py", vec![ADDRESS.to_owned(), page.clone(), part.to_owned()]));
+        browser.whenever("a client", |m| m["robot"]["program"] == "rtde_control").await;
+        browser.whenever("it has left", |m| m["type"] == "state" && m["robot"]["clients"] == json!([])).await;
+        serde_json::from_str::<Value>(&turn.await.unwrap()).unwrap()
+    };
+    let did = turned("open", "arc").await;
+    assert!(did["aside"] == true && did["safe"] == 1, "{did}");
+    for (motion, turned_rad) in [("moveJ", 0.5), ("back", -0.5)] {
+        assert!(did[motion][0] == true && (number(&did[motion][1]) - turned_rad).abs() < 1e-2, "{motion}: {did}");
+    }
+    assert_eq!([&did["servoJ"][0], &did["servoJ"][1]], [true, true], "{did}");
+    let bead_beside_m = [&did["moveJ"][2], &did["back"][2], &did["servoJ"][2]].map(number);
+    assert!(bead_beside_m.iter().all(|&m| m < 0.03), "{did}");
+
+    // Seen from above, joint 6 turns clockwise, and the picture's content the other way.
+    let did = turned("posts", "quarter").await;
+    assert!(did["quarter"] == true && did["safe"] == 1, "{did}");
+    let same = |quarters: &str| number(&did["same"][quarters]);
+    assert!(same("1") > 0.97 && ["0", "2", "3"].iter().all(|other| same(other) < 0.9), "{did}");
+}
+
 /// The example in the documentation delivers the bead, with what the robot, the camera and the tracker say.
 async fn deliver(address: &str, map: &str, start_m: [f64; 2], goal_m: [f64; 2]) {
     let data = tempfile::tempdir().unwrap();

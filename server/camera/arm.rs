@@ -73,7 +73,19 @@ pub(super) fn tool_parts(subject: &Subject) -> Vec<Part> {
 
 pub(super) fn block(subject: &Subject) -> Part {
     let size = Vector3::from(subject.block_size_m);
-    cuboid(Point3::from(subject.tool_m) + Vector3::z() * (0.5 * size.z), size, MAGNET)
+    turned(subject, cuboid(Point3::from(subject.tool_m) + Vector3::z() * (0.5 * size.z), size, MAGNET))
+}
+
+/// A part of the tool, turned with it about the vertical.
+fn turned(subject: &Subject, part: Part) -> Part {
+    let tool_m = Vector3::from(subject.tool_m);
+    let turn = Matrix4::new_translation(&tool_m)
+        * Matrix4::from_axis_angle(&Vector3::z_axis(), subject.turn_rad)
+        * Matrix4::new_translation(&-tool_m);
+    match subject.turn_rad {
+        0.0 => part,
+        _ => Part { base_from_solid: turn * part.base_from_solid, ..part },
+    }
 }
 
 /// The planar stage's column, which holds the block if there is no arm.
@@ -86,8 +98,8 @@ fn column(parts: &mut Vec<Part>, subject: &Subject) {
     lid(parts, upright, [COLUMN_M, COLUMN_M + 0.01], 0.014, LID);
 }
 
-/// From the flange to the block. The edges of block and fingers are along `base`; the fingers hold the block across
-/// its narrower side.
+/// From the flange to the block. The edges of block and fingers are along `base` if the tool is not turned; the fingers
+/// hold the block across its narrower side.
 fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry3<f64>) {
     let tool = Point3::from(subject.tool_m);
     let size = Vector3::from(subject.block_size_m);
@@ -110,17 +122,17 @@ fn gripper(parts: &mut Vec<Part>, subject: &Subject, base_from_flange: &Isometry
     };
     let (finger_m, pad_m) = (0.011, 0.004);
     let knuckles = solid(size[across] + 2.0 * (finger_m + pad_m) + 0.010, 0.032, 0.15 * length_m);
-    parts.push(cuboid(line.at(0.57), knuckles, FINGER));
+    parts.push(turned(subject, cuboid(line.at(0.57), knuckles, FINGER)));
     // Fingers reach from the knuckles down to the block's lower edge, with a pad on the inside.
     let finger = solid(finger_m, 0.018, 0.38 * length_m + 0.8 * size.z);
     let pad = solid(pad_m, 0.021, size.z + 0.012);
     for side in [-0.5, 0.5] {
         let mut offset = Vector3::z() * (-0.4 * size.z);
         offset[across] = side * (size[across] + 2.0 * pad_m + finger_m);
-        parts.push(cuboid(line.at(0.81) + offset, finger, FINGER));
+        parts.push(turned(subject, cuboid(line.at(0.81) + offset, finger, FINGER)));
         let mut offset = Vector3::z() * (-0.4 * size.z + 0.006);
         offset[across] = side * (size[across] + pad_m);
-        parts.push(cuboid(line.at(1.0) + offset, pad, PAD));
+        parts.push(turned(subject, cuboid(line.at(1.0) + offset, pad, PAD)));
     }
 }
 

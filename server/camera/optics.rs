@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn the_pinhole_puts_table_metres_on_pixels() {
-        let clip_from_base = pinhole(&CameraMount::default().over(Point2::new(0.1, -0.3)));
+        let clip_from_base = pinhole(&CameraMount::default().over(Point2::new(0.1, -0.3), 0.0));
         let ndc = |x, y, z| clip_from_base.transform_point(&Point3::new(x, y, z));
         assert!((ndc(0.2, -0.3, 0.0).xy() - nalgebra::point![1.0, 0.0]).norm() < 1e-5);
         assert!((ndc(0.1, -0.2, 0.0).xy() - nalgebra::point![0.0, 1.0]).norm() < 1e-5);
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn a_tilted_pinhole_projects_like_image_from_point() {
         let mount = CameraMount { tilt_rad: [0.2, -0.3], offset_m: [0.05, 0.1], ..CameraMount::default() };
-        let camera = mount.over(Point2::new(0.1, -0.3));
+        let camera = mount.over(Point2::new(0.1, -0.3), 0.0);
         let clip_from_base = pinhole(&camera);
         for (x, y, z) in [(0.2, -0.3, 0.0), (0.1, -0.25, 0.05), (0.3, -0.4, 0.005)] {
             let point = Point3::new(x, y, z);

@@ -55,6 +55,7 @@ pub fn subject(tool_m: [f64; 3], bead_m: [f64; 3]) -> Subject {
     Subject {
         tick: 7,
         tool_m,
+        turn_rad: 0.0,
         bead_m,
         goal_m: Some([0.19, -0.28]),
         link_frames: Some(forward(tool_down(flange_m))),

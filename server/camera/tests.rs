@@ -10,10 +10,9 @@ fn ground(frame: &CameraFrame, column: u32, row: u32, z_m: f64) -> Point2<f64> {
     let [x_m, y_m, height_m] = frame.pinhole.position_m;
     let pixel_m = 0.2 / 480.0;
     let closer = (height_m - z_m) / height_m;
-    Point2::new(
-        x_m + (f64::from(column) + 0.5 - 240.0) * pixel_m * closer,
-        y_m - (f64::from(row) + 0.5 - 240.0) * pixel_m * closer,
-    )
+    let [right_m, up_m] = [f64::from(column) - 239.5, 239.5 - f64::from(row)].map(|px| px * pixel_m * closer);
+    let (sin, cos) = frame.pinhole.turn_rad.sin_cos();
+    Point2::new(x_m + right_m * cos - up_m * sin, y_m + right_m * sin + up_m * cos)
 }
 
 fn pixels(gray: &GrayImage) -> impl Iterator<Item = (u32, u32, u8)> {
@@ -33,9 +32,10 @@ fn a_post_covers_the_pixels_computed_from_geometry() {
             (x0..=x1).contains(&at.x) && (y0..=y1).contains(&at.y)
         })
     };
-    for tool_m in [[0.0, -0.37, 0.1], [0.06, -0.41, 0.1], [-0.0601, -0.3333, 0.1]] {
+    for (tool_m, turn_rad) in [([0.0, -0.37, 0.1], 0.0), ([0.06, -0.41, 0.1], 0.7), ([-0.0601, -0.3333, 0.1], -3.0)] {
         // The bead is out of sight.
-        let frame = camera.capture(&subject(tool_m, [0.2, -0.5, 0.0025])).unwrap();
+        let subject = Subject { turn_rad, ..subject(tool_m, [0.2, -0.5, 0.0025]) };
+        let frame = camera.capture(&subject).unwrap();
         assert_eq!(frame.pinhole.position_m, [tool_m[0], tool_m[1], 0.3]);
         let gray = frame.picture.to_gray();
         let inside = |column, row| WORKSPACE.contains(ground(&frame, column, row, 0.0));

@@ -82,7 +82,7 @@ impl ViewRenderer {
     /// `subject` must already be checked.
     pub fn draw(&mut self, gpu: &Gpu, subject: &Subject) -> Result<CameraFrame, CameraError> {
         let [x_m, y_m, _] = subject.tool_m;
-        let pinhole = subject.mount.over(Point2::new(x_m, y_m));
+        let pinhole = subject.mount.over(Point2::new(x_m, y_m), subject.turn_rad);
         let clip_from_base = optics::pinhole(&pinhole);
         let encoder = gpu.checked("the controllers' view", || {
             let view = View { clip_from_base: clip_from_base.cast::<f32>().into() };

@@ -123,6 +123,7 @@ fn frame(at: Point2<f64>, arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let subject = Subject {
         tick: 0,
         tool_m: tool_m.coords.into(),
+        turn_rad: 0.0,
         bead_m: [bead.x, bead.y, BEAD_RADIUS_M],
         goal_m: None,
         link_frames: positioner.link_frames(),

@@ -5,7 +5,7 @@ mod joints;
 pub use joints::{JointRefusal, TILT_MOST_RAD, TOOL_HEIGHT_M};
 
 use super::{CONTROL_PERIOD_S, Refusal, TargetStep};
-use crate::geometry::{Point2, Point3, Rect};
+use crate::geometry::{Isometry3, Point2, Point3, Rect, Vector3};
 use crate::perception::Percept;
 use crate::plant::{Positioner, TOOL_LENGTH_M, ToolOrientation};
 use crate::robot::ur5::SERVO_PERIOD_S;
@@ -91,6 +91,14 @@ impl Limits {
             return Ok((next_m, next));
         }
         let share = (TURN_SPEED_RAD_S * SERVO_PERIOD_S / tilt_rad).min(1.0);
+        if tilt_rad > TILT_MOST_RAD {
+            // Turned about the vertical: it turns back on its way.
+            let rotation = upright.rotation_to(&forward::flange(&from_rad).rotation).powf(1.0 - share) * upright;
+            let flange_m = next_m.coords - rotation * Vector3::new(0.0, 0.0, TOOL_LENGTH_M);
+            let joints_rad = inverse::nearest(&Isometry3::from_parts(flange_m.into(), rotation), &from_rad)
+                .map_err(|error| Refusal::NoInverse(error.to_string()))?;
+            return Ok((next_m, Positioner::Arm(joints_rad)));
+        }
         self.keep_joints_in(std::array::from_fn(|i| from_rad[i] + share * (to_rad[i] - from_rad[i])))
     }
 
@@ -211,6 +219,30 @@ mod tests {
             assert!(ticks < 200, "{from_m}");
         }
         assert!(ticks > 30, "3.2 degrees in .28 s");
+    }
+
+    #[test]
+    fn a_turned_tool_turns_back_on_its_way() {
+        for turn_rad in [-3.0, 0.1, 1.5] {
+            let (mut from_m, goal_m) = (Point3::new(0.0, -0.4, 0.1), Point3::new(0.1, -0.35, 0.1));
+            let mut joints = limits().position(from_m, &HOME).unwrap().joints_rad().unwrap();
+            joints[5] -= turn_rad;
+            let mut reference = Positioner::Arm(joints);
+            assert!((reference.turn_rad() - turn_rad).abs() < 1e-9, "{}", reference.turn_rad());
+            let mut ticks = 0;
+            while reference.turn_rad() != 0.0 || (from_m - goal_m).norm() > 1e-9 {
+                let before = (reference.turn_rad(), from_m);
+                (from_m, reference) = limits().advance(from_m, goal_m, &reference).unwrap();
+                assert!((reference.tool_m() - from_m).norm() < 1e-9);
+                assert!(
+                    reference.turn_rad().abs() <= before.0.abs() && (before.0 - reference.turn_rad()).abs() < 0.012
+                );
+                let is_on_its_way = ticks > 100 || (from_m - before.1).norm() > 1.9e-3 || from_m == goal_m;
+                assert!(is_on_its_way || reference.turn_rad().abs() < TILT_MOST_RAD, "{from_m}");
+                ticks += 1;
+                assert!(ticks < 2000, "{from_m} {}", reference.turn_rad());
+            }
+        }
     }
 
     #[test]

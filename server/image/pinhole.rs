@@ -3,12 +3,12 @@
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Pose of a camera relative to the tool. Its orientation in `base` does not depend on the tool's rotation.
+/// Pose of a camera relative to the tool: it turns with the tool about the vertical, and does not tilt with it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraMount {
     /// Optical centre above the table.
     pub height_m: f64,
-    /// From the tool's axis to the optical centre, along x and y of `base`.
+    /// From the tool's axis to the optical centre, along x and y of a tool that is not turned, which are those of `base`.
     pub offset_m: [f64; 2],
     /// Tilt of the optical axis from straight down toward +x and +y. Its direction is
     /// (tan `tilt_rad[0]`, tan `tilt_rad[1]`, −1).
@@ -29,11 +29,12 @@ impl Default for CameraMount {
 }
 
 impl CameraMount {
-    /// The camera of a tool at this point.
-    pub fn over(&self, tool_m: Point2<f64>) -> Pinhole {
+    /// The camera of a tool at this point that is turned about the vertical.
+    pub fn over(&self, tool_m: Point2<f64>, turn_rad: f64) -> Pinhole {
         let [x_m, y_m] = self.offset_m;
-        let position_m = [tool_m.x + x_m, tool_m.y + y_m, self.height_m];
-        Pinhole { position_m, tilt_rad: self.tilt_rad, field_of_view_rad: self.field_of_view_rad }
+        let (sin, cos) = turn_rad.sin_cos();
+        let position_m = [tool_m.x + (x_m * cos - y_m * sin), tool_m.y + (x_m * sin + y_m * cos), self.height_m];
+        Pinhole { position_m, tilt_rad: self.tilt_rad, turn_rad, field_of_view_rad: self.field_of_view_rad }
     }
 }
 
@@ -43,8 +44,11 @@ impl CameraMount {
 pub struct Pinhole {
     /// Optical centre in `base`.
     pub position_m: [f64; 3],
-    /// See [`CameraMount::tilt_rad`].
+    /// See [`CameraMount::tilt_rad`], before it is turned.
     pub tilt_rad: [f64; 2],
+    /// Turn about the vertical.
+    #[serde(default)]
+    pub turn_rad: f64,
     /// Angle across the image.
     pub field_of_view_rad: f64,
 }
@@ -55,7 +59,13 @@ impl Pinhole {
         let [x, y] = self.tilt_rad.map(f64::tan);
         let forward = Vector3::new(x, y, -1.0).normalize();
         let right = forward.cross(&Vector3::y()).normalize();
-        [right, right.cross(&forward), forward]
+        [right, right.cross(&forward), forward].map(|axis| turned(axis, self.turn_rad))
+    }
+
+    /// From the foot to where the optical axis meets the table, for a camera at height 1.
+    pub fn lean(&self) -> Vector2<f64> {
+        let [x, y] = self.tilt_rad.map(f64::tan);
+        turned(Vector3::new(x, y, 0.0), self.turn_rad).xy()
     }
 
     /// Tangent of half the field of view.
@@ -108,6 +118,12 @@ impl Pinhole {
     }
 }
 
+/// A direction turned about the vertical.
+fn turned(axis: Vector3<f64>, turn_rad: f64) -> Vector3<f64> {
+    let (sin, cos) = turn_rad.sin_cos();
+    Vector3::new(axis.x * cos - axis.y * sin, axis.x * sin + axis.y * cos, axis.z)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,7 +132,7 @@ mod tests {
     #[test]
     fn the_default_camera_sees_20_cm_of_table_below_the_tool() {
         let mount = CameraMount::default();
-        let corners = mount.over(Point2::new(0.05, -0.3)).table_corners_m().unwrap();
+        let corners = mount.over(Point2::new(0.05, -0.3), 0.0).table_corners_m().unwrap();
         let expected = [(-0.05, -0.4), (0.15, -0.4), (0.15, -0.2), (-0.05, -0.2)];
         for (corner, (x, y)) in corners.iter().zip(expected) {
             assert!((corner - Point2::new(x, y)).norm() < 1e-6, "{corner}");
@@ -126,7 +142,7 @@ mod tests {
     #[test]
     fn a_tilted_camera_points_along_its_tilt() {
         let mount = CameraMount { offset_m: [0.08, -0.02], tilt_rad: [-0.2, 0.1], ..CameraMount::default() };
-        let camera = mount.over(Point2::new(0.1, -0.3));
+        let camera = mount.over(Point2::new(0.1, -0.3), 0.0);
         let middle = camera.table_from_image(Vector2::zeros()).unwrap();
         let expected = Point2::new(0.18 - 0.3 * 0.2_f64.tan(), -0.32 + 0.3 * 0.1_f64.tan());
         assert!((middle - expected).norm() < 1e-15);
@@ -143,10 +159,10 @@ mod tests {
     proptest! {
         #[test]
         fn image_and_table_conversions_are_inverse(
-            tilt_rad in prop::array::uniform2(-0.4..0.4), field_of_view_rad in 0.05..1.2,
+            tilt_rad in prop::array::uniform2(-0.4..0.4), turn_rad in -3.0..3.0, field_of_view_rad in 0.05..1.2,
             (x, y) in (-1.0..1.0, -1.0..1.0), height_m in 0.1..1.0,
         ) {
-            let camera = Pinhole { position_m: [0.2, -0.4, height_m], tilt_rad, field_of_view_rad };
+            let camera = Pinhole { position_m: [0.2, -0.4, height_m], tilt_rad, turn_rad, field_of_view_rad };
             let place = Vector2::new(x, y);
             let point = camera.table_from_image(place).unwrap();
             let back = camera.image_from_point(Point3::new(point.x, point.y, 0.0)).unwrap();

@@ -276,6 +276,7 @@ fn take_view(
     let subject = Subject {
         tick: 0,
         tool_m: tool_m.coords.into(),
+        turn_rad: 0.0,
         bead_m: [OUT_OF_SIGHT_M, OUT_OF_SIGHT_M, BEAD_RADIUS_M],
         goal_m: None,
         link_frames: None,

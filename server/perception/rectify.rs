@@ -1,12 +1,13 @@
-//! Rectifies a tilted camera's image to a view of the table from straight above (inverse perspective mapping: Mallot et
+//! Rectifies a tilted or turned camera's image to a view of the table from straight above (inverse perspective mapping: Mallot et
 //! al. 1991, Biological Cybernetics 64, 177–185).
 
 use super::Calibration;
-use crate::geometry::{Point3, Vector2, Vector3};
+use crate::geometry::{Point3, Vector3};
 use crate::image::{GrayImage, Pinhole};
 
 /// The largest square of the table around the optical axis that is completely in view, with as many pixels as the
-/// image. The image of a camera that looks straight down is returned unchanged.
+/// image. The image of a camera that looks straight down and is not turned is returned
+/// unchanged.
 ///
 /// Each pixel is a copy of the nearest image pixel, so dark stays dark and bright stays bright; an edge moves by at
 /// most half a pixel. The camera must see only the table, which is checked when the image is drawn.
@@ -14,14 +15,14 @@ pub(super) fn from_above(gray: GrayImage, pinhole: &Pinhole) -> (GrayImage, Cali
     let size_px = gray.width_px;
     let [_, _, height_m] = pinhole.position_m;
     let foot_m = pinhole.foot_m();
-    if pinhole.tilt_rad == [0.0; 2] {
+    if pinhole.tilt_rad == [0.0; 2] && pinhole.turn_rad == 0.0 {
         let m_per_px = 2.0 * height_m * pinhole.tangent() / size_px as f64;
         return (gray, Calibration { center_m: foot_m, m_per_px, size_px, foot_m });
     }
-    let center_m = foot_m + Vector2::from(pinhole.tilt_rad.map(f64::tan)) * height_m;
+    let [right, up, forward] = pinhole.axes();
+    let center_m = foot_m + pinhole.lean() * height_m;
     let half_side_m = half_side_m(pinhole);
     let calibration = Calibration { center_m, m_per_px: 2.0 * half_side_m / size_px as f64, size_px, foot_m };
-    let [right, up, forward] = pinhole.axes();
     let half_px = 0.5 * size_px as f64;
     let scale_px = half_px / pinhole.tangent();
     let mut pixels = Vec::with_capacity(size_px * size_px);
@@ -59,7 +60,7 @@ fn half_side_m(pinhole: &Pinhole) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point2;
+    use crate::geometry::{Point2, Vector2};
     use crate::image::CameraMount;
     use proptest::prelude::*;
 
@@ -76,7 +77,7 @@ mod tests {
 
     #[test]
     fn leaves_an_image_from_above_unchanged() {
-        let pinhole = CameraMount { offset_m: [0.03, 0.0], ..CameraMount::default() }.over(Point2::new(0.1, -0.3));
+        let pinhole = CameraMount { offset_m: [0.03, 0.0], ..CameraMount::default() }.over(Point2::new(0.1, -0.3), 0.0);
         let seen = image(&pinhole, 48, |p| p.x > 0.13);
         let (gray, calibration) = from_above(seen.clone(), &pinhole);
         assert_eq!(gray, seen);
@@ -87,10 +88,11 @@ mod tests {
         #[test]
         fn a_rectified_view_shows_the_table_at_its_place(
             tilt_rad in prop::array::uniform2(-0.4..0.4), field_of_view_rad in 0.1..1.2,
+            turn_rad in prop_oneof![Just(0.0), -3.0..3.0],
             (edge, turn) in (-0.5..0.5, 0.0..std::f64::consts::TAU),
         ) {
             let mount = CameraMount { tilt_rad, field_of_view_rad, ..CameraMount::default() };
-            let pinhole = mount.over(Point2::new(0.1, -0.3));
+            let pinhole = mount.over(Point2::new(0.1, -0.3), turn_rad);
             let size_px = 96;
             let (_, known) = from_above(image(&pinhole, size_px, |_| false), &pinhole);
             // Half of the table is dark, up to a line across the square.
@@ -112,10 +114,10 @@ mod tests {
 
         #[test]
         fn the_square_is_the_largest_in_view(
-            tilt_rad in prop::array::uniform2(-0.4..0.4), field_of_view_rad in 0.1..1.2,
+            tilt_rad in prop::array::uniform2(-0.4..0.4), turn_rad in -3.0..3.0, field_of_view_rad in 0.1..1.2,
         ) {
             let mount = CameraMount { tilt_rad, field_of_view_rad, ..CameraMount::default() };
-            let pinhole = mount.over(Point2::new(0.1, -0.3));
+            let pinhole = mount.over(Point2::new(0.1, -0.3), turn_rad);
             let half_m = half_side_m(&pinhole);
             let middle = pinhole.table_from_image(Vector2::zeros()).unwrap();
             let farthest = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| {

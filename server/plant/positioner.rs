@@ -2,7 +2,7 @@
 //!
 //! The paper's attractor examples are beyond the arm's reach; they run on the planar stage.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,9 @@ const STAGE_SPEED_LIMIT_M_S: f64 = 0.5;
 const HOME_RAD: Joints = [-FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, FRAC_PI_2, 0.0];
 /// The paper's rotation vector of the flange, 3.2° off the vertical.
 const PAPER_ROTATION_RAD: [f64; 3] = [2.182, -2.182, 0.0];
+
+/// A tool that is turned by less counts as not turned: joints that lag behind turn it a little.
+const LEAST_TURN_RAD: f64 = 0.01;
 
 /// The kind of positioner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -150,6 +153,16 @@ impl Positioner {
             Self::Arm(joints) => forward::flange(joints) * Self::flange_from_tool(),
             Self::PlanarStage(tool_m) => Isometry3::from_parts((*tool_m).into(), UnitQuaternion::identity()),
         }
+    }
+
+    /// How far the tool is turned about the vertical, which is the twist of its rotation; 0 if it is less than
+    /// [`LEAST_TURN_RAD`].
+    pub fn turn_rad(&self) -> f64 {
+        let [_, _, z, w]: [f64; 4] = self.base_from_tool().rotation.coords.into();
+        let turn_rad = 2.0 * z.atan2(w);
+        // The same rotation, less than half a turn away.
+        let turn_rad = turn_rad - TAU * (turn_rad / TAU).round();
+        if turn_rad.abs() < LEAST_TURN_RAD { 0.0 } else { turn_rad }
     }
 
     /// The tool point: the middle of the block's lower face.

@@ -326,7 +326,7 @@ impl From<&Scenery> for SceneMessage {
 
 /// Corners of the visible part of the table, relative to the tool.
 fn camera_sees_m(p: &Parameters) -> Vec<[f64; 2]> {
-    let corners = p.camera_mount().over(Point2::origin()).table_corners_m();
+    let corners = p.camera_mount().over(Point2::origin(), 0.0).table_corners_m();
     corners.into_iter().flatten().map(|corner| corner.coords.into()).collect()
 }
 

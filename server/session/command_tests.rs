@@ -54,7 +54,7 @@ impl ImageSource for MadeUp {
         let [x_m, y_m, _] = subject.tool_m;
         let cell = (x_m * 20.0).floor() as i64 * 31 + (y_m * 20.0).floor() as i64;
         let picture = self.0[cell.rem_euclid(self.0.len() as i64) as usize].clone();
-        Ok(CameraFrame { picture, tick: subject.tick, pinhole: subject.mount.over(Point2::new(x_m, y_m)) })
+        Ok(CameraFrame { picture, tick: subject.tick, pinhole: subject.mount.over(Point2::new(x_m, y_m), 0.0) })
     }
 }
 

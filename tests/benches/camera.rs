@@ -25,6 +25,7 @@ pub fn benches(c: &mut Criterion) {
         Subject {
             tick: 0,
             tool_m: tool_m.coords.into(),
+            turn_rad: 0.0,
             bead_m: [tool_m.x - 0.015, tool_m.y, BEAD_RADIUS_M],
             goal_m: Some([0.19, -0.28]),
             link_frames: arm.link_frames(),

@@ -20,6 +20,7 @@ import numpy as np
 
 FIELD_CASES = 300
 FORCE_CASES = 60
+TURNED_CASES = 40
 MOMENT_A_M2 = 0.0677
 random = np.random.default_rng(20240608)
 
@@ -93,14 +94,28 @@ def force_case():
     return found | {"moment": MOMENT_A_M2, "force": force.tolist()}
 
 
+def turned_case():
+    """A cuboid with its centre at `position`, turned about z."""
+    kind = random.choice(["near", "far", "inside", "corner line"])
+    magnet, found = case(kind)
+    turn = random.uniform(-np.pi, np.pi)
+    position = random.uniform(-0.4, 0.4, 3)
+    magnet.rotate_from_rotvec([0.0, 0.0, turn], degrees=False)
+    point = magnet.orientation.apply(found["point"]) + position
+    magnet.position = position
+    found |= {"position": position.tolist(), "turn": turn, "point": point.tolist()}
+    return found | {"field": magnet.getB(point).tolist()}
+
+
 kinds = ["near", "far", "face", "face plane", "edge line", "beside edge line", "corner line", "inside"]
 fields = [case(kinds[i % len(kinds)])[1] for i in range(FIELD_CASES)]
 forces = [force_case() for _ in range(FORCE_CASES)]
+turned = [turned_case() for _ in range(TURNED_CASES)]
 
 
 def lines(cases):
     return ",\n".join(json.dumps(case, separators=(",", ":")) for case in cases)
 
 
-text = f'{{"fields":[\n{lines(fields)}\n],"forces":[\n{lines(forces)}\n]}}\n'
+text = f'{{"fields":[\n{lines(fields)}\n],"forces":[\n{lines(forces)}\n],"turned":[\n{lines(turned)}\n]}}\n'
 Path(__file__).with_name("magnetics.json").write_text(text)

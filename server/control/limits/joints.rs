@@ -1,15 +1,14 @@
 //! Limits of joint angles that a program for a UR5 commands.
 
 use super::{LIFT_SPEED_M_S, Limits, MIN_MANIPULABILITY_M3};
-use crate::geometry::Point3;
+use crate::geometry::{Point3, Vector3};
 use crate::plant::Positioner;
 use crate::robot::ur5::{JOINT_LIMIT_RAD, JOINT_SPEED_LIMIT_RAD_S, SERVO_PERIOD_S};
-use crate::robot::{self, Joints, forward, jacobian};
+use crate::robot::{Joints, forward, jacobian};
 
 /// The tool point's height above the table. Below, the block would touch the walls.
 pub const TOOL_HEIGHT_M: [f64; 2] = [0.09, 0.5];
-/// Largest angle between the flange and straight down. The camera does not turn with the tool, so this is also how far it
-/// may turn about the vertical.
+/// Largest angle between the flange and straight down. It may turn about the vertical, with block and camera.
 pub const TILT_MOST_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 /// For rounding.
 const SPARE: f64 = 1.0 + 1e-6;
@@ -29,9 +28,7 @@ pub enum JointRefusal {
     OutsideWorkspace { x_m: f64, y_m: f64 },
     #[error("the tool would be {height_m:.4} m above the table, it must be {least_m} to {most_m} m", least_m = TOOL_HEIGHT_M[0], most_m = TOOL_HEIGHT_M[1])]
     Height { height_m: f64 },
-    #[error(
-        "the tool would be turned {tilt_rad:.4} rad from its orientation in Ferry (straight down, without a turn about the vertical); the limit is {TILT_MOST_RAD:.4} rad"
-    )]
+    #[error("the tool would be tilted {tilt_rad:.4} rad from straight down, the limit is {TILT_MOST_RAD:.4} rad")]
     Tilted { tilt_rad: f64 },
     #[error("the tool would move at {speed_m_s:.3} m/s, the limit is {limit_m_s:.3} m/s")]
     ToolSpeed { speed_m_s: f64, limit_m_s: f64 },
@@ -70,7 +67,7 @@ impl Limits {
         if !(TOOL_HEIGHT_M[0]..=TOOL_HEIGHT_M[1]).contains(&height_m) {
             return Err(JointRefusal::Height { height_m });
         }
-        let tilt_rad = forward::flange(to_rad).rotation.angle_to(&robot::tool_down());
+        let tilt_rad = (forward::flange(to_rad).rotation * Vector3::z()).angle(&-Vector3::z());
         if tilt_rad > TILT_MOST_RAD {
             return Err(JointRefusal::Tilted { tilt_rad });
         }
@@ -133,10 +130,12 @@ mod tests {
         ));
         assert!(matches!(stays(at(0.0, -0.4, 0.08, ToolOrientation::Vertical)), Err(JointRefusal::Height { .. })));
         let mut turned = here;
-        turned[5] += 0.1;
+        turned[5] += 3.0;
+        assert_eq!(stays(turned), Ok(()), "about the vertical");
+        turned[4] += 0.1;
         assert!(matches!(stays(turned), Err(JointRefusal::Tilted { tilt_rad }) if (tilt_rad - 0.1).abs() < 1e-9));
         let far = Limits { workspace: Rect { y_min_m: -1.2, ..limits.workspace }, ..limits };
-        let (_, max_m) = robot::reach(0.1 + crate::plant::TOOL_LENGTH_M).unwrap();
+        let (_, max_m) = crate::robot::reach(0.1 + crate::plant::TOOL_LENGTH_M).unwrap();
         let stretched = at(0.0, 1e-6 - max_m, 0.1, ToolOrientation::Vertical);
         assert!(matches!(far.joints(&stretched, &stretched), Err(JointRefusal::Singular { .. })));
     }

@@ -219,8 +219,7 @@ export class SceneView {
     const { table, tool, marks, bead } = setting;
     table.move(now.walls);
     this.arm.group.visible = state.joints_rad !== null;
-    if (state.joints_rad) this.arm.pose(state.joints_rad);
-    tool.place(state.tool_m);
+    tool.place(state.tool_m, state.joints_rad ? this.arm.pose(state.joints_rad) : 0);
     for (const sheet of this.sheets) sheet.place(state.tool_m);
     marks.place(state, now.history, now.layers);
     marks.placeCursor(now.cursor);

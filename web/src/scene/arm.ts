@@ -2,7 +2,7 @@
 
 import { Group, Matrix4 } from 'three';
 import { ARM_SOLIDS, TOOL_LENGTH_M } from '../net/arm.gen';
-import { linkFrames } from './kinematics';
+import { linkFrames, toolTurn } from './kinematics';
 import type { Paints } from './paints';
 import { type Line, Solids } from './solids';
 
@@ -47,8 +47,11 @@ export class Arm {
     }
   }
 
-  pose(joints_rad: readonly number[]): void {
+  /** Returns how far the tool is turned about the vertical. */
+  pose(joints_rad: readonly number[]): number {
     linkFrames(joints_rad, this.frames);
     for (const link of this.group.children) link.matrixWorldNeedsUpdate = true;
+    const flange = this.frames[5];
+    return flange ? toolTurn(flange) : 0;
   }
 }

@@ -1,6 +1,6 @@
 import { Matrix4 } from 'three';
 import { expect, test } from 'vitest';
-import { linkFrames } from './kinematics';
+import { linkFrames, toolTurn } from './kinematics';
 
 /** Joint angles, and the flange that `POST /api/kinematics/forward` of the server returns. */
 const FLANGES: { joints_rad: number[]; position_m: number[]; rotation: number[][] }[] = [
@@ -63,4 +63,16 @@ test('the frames depend only on the given joint angles, not on earlier ones', ()
   linkFrames([0, 0, 0, 0, 0, 0], frames);
   linkFrames([1, 2, 3, 4, 5, 6], frames);
   expect(frames).toEqual(first);
+});
+
+test('the tool turns with joint 1 and against joint 6', () => {
+  const frames = Array.from({ length: 6 }, () => new Matrix4());
+  const turnOf = (first: number, last: number): number => {
+    linkFrames([first - 1.6, -Math.PI / 2, -Math.PI / 2, -Math.PI / 2, Math.PI / 2, last], frames);
+    return toolTurn(frames[5] ?? new Matrix4());
+  };
+  const before_rad = turnOf(0, 0);
+  expect(turnOf(0.5, 0) - before_rad).toBeCloseTo(0.5, 9);
+  expect(turnOf(0, 0.5) - before_rad).toBeCloseTo(-0.5, 9);
+  expect(turnOf(0, before_rad)).toBeCloseTo(0, 9);
 });

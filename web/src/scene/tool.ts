@@ -132,8 +132,9 @@ export class Tool {
     }
   }
 
-  place(at: At): void {
+  place(at: At, turn_rad: number): void {
     this.held.position.set(...at);
+    this.held.rotation.z = turn_rad;
     this.portal?.place(at);
   }
 
