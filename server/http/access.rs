@@ -95,7 +95,7 @@ impl Access {
         Ok(Self {
             token,
             cookie_key,
-            origins: Origins::new(&all),
+            origins: Origins::new(&all, address.ip().is_loopback()),
             rates: Rates::default(),
             logged_out: login::LoggedOut::default(),
         })
@@ -109,8 +109,8 @@ impl Access {
     /// Admits a request, or returns the reason for its refusal.
     fn admit(&self, request: &Request, address: IpAddr) -> Result<Client, Problem> {
         let headers = request.headers();
-        self.check_host(request)?;
-        let origin = self.check_origin(headers)?;
+        let host = self.check_host(request)?;
+        let origin = self.check_origin(headers, host)?;
         check_site(headers, request.method())?;
         let by_address = Client::at(address);
         let (client, is_authenticated) = match (&self.token, bearer(headers)) {
@@ -143,22 +143,23 @@ impl Access {
     }
 
     /// A request must have exactly one Host, and it must be allowed. The host in the request line must be allowed, too.
-    fn check_host(&self, request: &Request) -> Result<(), Problem> {
+    fn check_host<'a>(&self, request: &'a Request) -> Result<&'a str, Problem> {
         let mut hosts = request.headers().get_all(header::HOST).iter();
         let host = hosts.next().and_then(|value| value.to_str().ok()).unwrap_or_default();
         let named = request.uri().authority().map_or(host, |authority| authority.as_str());
         if hosts.next().is_none() && self.origins.has_host(host) && self.origins.has_host(named) {
-            return Ok(());
+            return Ok(host);
         }
-        let detail = format!("host {named:?} is not an allowed host of this server");
+        let detail =
+            format!("host {named:?} is not an allowed host of this server; start it with --origin http://{named}");
         Err(Problem::new(StatusCode::MISDIRECTED_REQUEST, "foreign_host", detail).field("Host"))
     }
 
-    fn check_origin<'a>(&self, headers: &'a HeaderMap) -> Result<Option<&'a str>, Problem> {
+    fn check_origin<'a>(&self, headers: &'a HeaderMap, host: &str) -> Result<Option<&'a str>, Problem> {
         let mut origins = headers.get_all(header::ORIGIN).iter();
         let Some(origin) = origins.next() else { return Ok(None) };
         let origin = origin.to_str().unwrap_or_default();
-        if origins.next().is_none() && self.origins.has_origin(origin) {
+        if origins.next().is_none() && self.origins.has_origin(origin, host) {
             return Ok(Some(origin));
         }
         let detail = format!("origin {origin:?} is not an allowed origin of this server");
@@ -287,11 +288,16 @@ mod tests {
     }
 
     #[test]
-    fn loopback_has_three_names_with_its_port() {
+    fn loopback_has_three_names_with_any_port() {
         let access = access("127.0.0.1:8080", false, &[]).unwrap();
         for host in ["127.0.0.1:8080", "localhost:8080", "[::1]:8080"] {
-            assert!(access.origins.has_host(host) && access.origins.has_origin(&format!("http://{host}")), "{host}");
+            assert!(
+                access.origins.has_host(host) && access.origins.has_origin(&format!("http://{host}"), host),
+                "{host}"
+            );
         }
-        assert!(!access.origins.has_host("localhost:8081") && !access.origins.has_host("localhost"));
+        // As forwarded ports.
+        assert!(access.origins.has_host("localhost:8081") && access.origins.has_host("localhost"));
+        assert!(!access.origins.has_origin("http://localhost:8081", "localhost:8080"));
     }
 }

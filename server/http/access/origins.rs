@@ -72,7 +72,13 @@ impl FromStr for Origin {
         if !matches!(uri.path(), "" | "/") || uri.query().is_some() {
             return Err(wrong());
         }
-        let port = authority.port_u16().unwrap_or(if is_https { 443 } else { 80 });
+        let port = match authority.port_u16() {
+            Some(port) => port,
+            // What follows the host is no port.
+            None if authority.as_str() != authority.host() => return Err(wrong()),
+            None if is_https => 443,
+            None => 80,
+        };
         Ok(Self { is_https, host: authority.host().to_ascii_lowercase(), port })
     }
 }
@@ -80,20 +86,28 @@ impl FromStr for Origin {
 /// Lists of allowed hosts and origins, compared exactly.
 #[derive(Debug)]
 pub struct Origins {
+    /// Any port of a loopback name is allowed, because ports are forwarded: by SSH, editors and containers. A page is then
+    /// allowed at the address that it asks, and not at other ports of this machine.
+    any_loopback: bool,
     hosts: BTreeSet<String>,
     origins: BTreeSet<String>,
 }
 
 impl Origins {
-    pub fn new(all: &[Origin]) -> Self {
+    pub fn new(all: &[Origin], any_loopback: bool) -> Self {
         Self {
+            any_loopback,
             hosts: all.iter().flat_map(Origin::hosts).collect(),
             origins: all.iter().map(ToString::to_string).collect(),
         }
     }
 
     pub fn has_host(&self, host: &str) -> bool {
-        self.hosts.contains(&host.to_ascii_lowercase())
+        self.hosts.contains(&host.to_ascii_lowercase()) || self.is_forwarded(host)
+    }
+
+    fn is_forwarded(&self, host: &str) -> bool {
+        self.any_loopback && format!("http://{host}").parse::<Origin>().is_ok_and(|origin| origin.is_loopback())
     }
 
     /// The page's address for `host`; if the name is known with and without TLS, the address with TLS.
@@ -103,8 +117,10 @@ impl Origins {
         if self.origins.contains(&secure) { secure } else { format!("http://{host}") }
     }
 
-    pub fn has_origin(&self, origin: &str) -> bool {
-        self.origins.contains(&origin.to_ascii_lowercase())
+    /// Whether a page of `origin` may ask `host`.
+    pub fn has_origin(&self, origin: &str, host: &str) -> bool {
+        let is_own = origin.strip_prefix("http://").is_some_and(|asked| asked.eq_ignore_ascii_case(host));
+        self.origins.contains(&origin.to_ascii_lowercase()) || self.is_forwarded(host) && is_own
     }
 }
 
@@ -127,16 +143,27 @@ mod tests {
         ] {
             assert_eq!(origin(text).to_string(), written);
         }
-        for bad in
-            ["", "lab", "lab:80", "ftp://lab", "http://lab/a", "http://lab/?a", "http://a@lab", "http://", "null"]
-        {
+        for bad in [
+            "",
+            "lab",
+            "lab:80",
+            "http://lab:80.example.org",
+            "http://lab:",
+            "http://lab:99999",
+            "ftp://lab",
+            "http://lab/a",
+            "http://lab/?a",
+            "http://a@lab",
+            "http://",
+            "null",
+        ] {
             assert!(bad.parse::<Origin>().is_err(), "{bad}");
         }
     }
 
     #[test]
     fn hosts_and_origins_are_exact() {
-        let lists = Origins::new(&[origin("http://127.0.0.1:8080"), origin("https://lab.example.org")]);
+        let lists = Origins::new(&[origin("http://127.0.0.1:8080"), origin("https://lab.example.org")], false);
         for good in ["127.0.0.1:8080", "lab.example.org", "lab.example.org:443", "LAB.example.org"] {
             assert!(lists.has_host(good), "{good}");
         }
@@ -152,10 +179,29 @@ mod tests {
         ] {
             assert!(!lists.has_host(bad), "{bad}");
         }
-        assert!(lists.has_origin("http://127.0.0.1:8080") && lists.has_origin("https://lab.example.org"));
+        let has_origin = |origin| lists.has_origin(origin, "127.0.0.1:8080");
+        assert!(has_origin("http://127.0.0.1:8080") && has_origin("https://lab.example.org"));
         for bad in ["", "null", "https://127.0.0.1:8080", "http://lab.example.org", "http://127.0.0.1", "*"] {
-            assert!(!lists.has_origin(bad), "{bad}");
+            assert!(!has_origin(bad), "{bad}");
         }
+        // As a forwarded port is asked.
+        let local = Origins::new(&[origin("http://127.0.0.1:8080")], true);
+        for good in ["localhost:9000", "127.0.0.1:9000", "[::1]:1", "LOCALHOST:80", "localhost"] {
+            assert!(local.has_host(good) && local.has_origin(&format!("http://{good}"), good), "{good}");
+        }
+        for bad in [
+            "lab.example.org",
+            "localhost.example.org:9000",
+            "127.0.0.1:80.example.org",
+            "a@localhost:9000",
+            "localhost/a",
+            "10.0.0.7:9000",
+            "",
+        ] {
+            assert!(!local.has_host(bad), "{bad}");
+        }
+        assert!(!local.has_origin("http://localhost:3000", "localhost:8080"), "another page of this machine");
+        assert!(!local.has_origin("http://evil.example.org", "evil.example.org"));
         assert!(origin("http://localhost:1").is_loopback() && origin("http://[::1]:1").is_loopback());
         assert!(!origin("http://localhost.example.org").is_loopback());
     }
