@@ -29,7 +29,7 @@ pub use environment::Ending;
 pub use error::TrainingError;
 pub use examine::{EXAMINATION_SEED, Marks};
 pub use goals::GoalSet;
-pub use lanes::{Lanes, LanesError};
+pub use lanes::{Lane, Lanes, LanesError};
 pub use point::{Point, Spread, WINDOW};
 pub use recipe::{Recipe, RecipeError, RecipeName};
 pub use run::{Run, Saving, drive};

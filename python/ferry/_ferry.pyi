@@ -6,6 +6,9 @@ from numpy.typing import NDArray
 
 __version__: str
 
+_Place = tuple[float, float] | None
+"""Drawn at random where it is not given."""
+
 def run(arguments: Sequence[str]) -> int:
     """Run the command ``ferry``; the first argument is the program's name. Return its exit status."""
 
@@ -20,9 +23,28 @@ def observation(
 class Lattice:
     """Training's episodes side by side on one map. Each lane is one episode."""
 
-    def __new__(cls, map: str, lanes: int, settings: str, sweeps: str | PathLike[str], seed: int) -> Lattice: ...
+    MOST: int
+    """Largest number of lanes."""
+
+    def __new__(
+        cls,
+        map: str,
+        lanes: int,
+        *,
+        progress_reward: float,
+        step_penalty: float,
+        clearance_m: float,
+        sweeps: str | PathLike[str],
+    ) -> Lattice: ...
+    @classmethod
+    def from_pickle(cls, kept: bytes) -> Lattice: ...
     def cells(self) -> int: ...
-    def start(self, mask: NDArray[np.bool_], seeds: Sequence[int | None] | None = None) -> None: ...
+    def start(
+        self,
+        mask: NDArray[np.bool_],
+        seeds: Sequence[int | None] | None = None,
+        wishes: Sequence[tuple[_Place, _Place]] | None = None,
+    ) -> None: ...
     def step(
         self, actions: NDArray[np.int64], mask: NDArray[np.bool_]
     ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]: ...
@@ -34,8 +56,17 @@ class Lattice:
 class Mazes:
     """Trials of the full system side by side on one map. Each lane is one trial."""
 
+    MOST: int
+    """Largest number of lanes."""
+
     def __new__(cls, map: str, lanes: int, changes: Sequence[str], disturbances: int) -> Mazes: ...
-    def start(self, seeds: Sequence[int | None]) -> None: ...
+    @classmethod
+    def from_pickle(cls, kept: bytes) -> Mazes: ...
+    def start(
+        self,
+        seeds: Sequence[int | None],
+        wishes: Sequence[tuple[_Place, _Place, Sequence[str], int | None]],
+    ) -> None: ...
     def step(self, targets_m: NDArray[np.float64], mask: NDArray[np.bool_]) -> None: ...
     def images(self) -> NDArray[np.uint8]: ...
     def vectors(self) -> NDArray[np.float32]: ...

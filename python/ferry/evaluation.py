@@ -12,9 +12,11 @@ from dataclasses import dataclass
 from os import PathLike, fspath
 from typing import Any, Literal
 
+import numpy as np
 from tqdm import tqdm
 
 from ferry import _ferry
+from ferry.checks import changes, seed_of, whole
 from ferry.controllers import Controller, Trials
 
 TRIALS_A_TASK = 16
@@ -23,16 +25,23 @@ RETRIES = 5
 """How often a task of Ray is run again when its worker is lost."""
 SHARDS_MOST = 10_000
 LOOK_S = 0.2
+ROWS_SHOWN = 20
 
 Kind = Literal["evaluation", "recovery"]
 Controllers = Controller | str | Sequence[Controller | str] | Mapping[str, Controller | str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Evaluation:
     """The results, as ``ferry evaluate --json`` prints them."""
 
     report: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        lines = [_summary(row) for row in self.rows[:ROWS_SHOWN]]
+        if more := len(self.rows) - len(lines):
+            lines.append(f"… and {more} more rows")
+        return "\n".join([f"Evaluation with seed {self.report['seed']} (rates with 95% intervals)", *lines])
 
     @property
     def rows(self) -> list[dict[str, Any]]:
@@ -48,6 +57,19 @@ class Evaluation:
     def failures(self) -> list[dict[str, Any]]:
         """The trials that did not deliver, each with its seed, start and goal."""
         return list(self.report["failures"])
+
+
+def _summary(row: Mapping[str, Any]) -> str:
+    varied = "".join(f", {one['name']} {one['value']:g}" for one in row["varied"])
+    disturbed = f"{row['disturbances']} disturbance{'' if row['disturbances'] == 1 else 's'}"
+    counts = f"{row['delivered']} of {row['episodes']} delivered"
+    rate = with_interval(row["delivered"] / row["episodes"], row["wilson95"])
+    return f"{row['controller']} on {row['map']}, {disturbed}{varied}: {counts}, {rate}"
+
+
+def with_interval(share: float, interval: Sequence[float]) -> str:
+    least, most = interval
+    return f"{share:.1%} ({least:.1%} to {most:.1%})"
 
 
 def evaluate(
@@ -94,14 +116,14 @@ def evaluate(
     check_engine(engine)
     named = with_names(controllers)
     maps = [fspath(one) for one in ([map] if isinstance(map, str | PathLike) else map)]
-    counts = [disturbances] if isinstance(disturbances, int) else list(disturbances)
+    counts = [whole("disturbances", count) for count in np.atleast_1d(np.asarray(disturbances)).tolist()]
     varied = vary or {}
     settings = {
         "controllers": [(name, isinstance(one, Controller)) for name, one in named],
         "maps": maps,
         "disturbances": counts,
-        "episodes": episodes,
-        "seed": seed,
+        "episodes": whole("episodes", episodes),
+        "seed": seed_of(seed),
         "changes": changes(parameters),
         "vary": [f"{name}={first}:{last}:{count}" for name, (first, last, count) in varied.items()],
         "by_hand": by_hand,
@@ -122,14 +144,6 @@ def evaluate(
 def check_engine(engine: str | None) -> None:
     if engine not in (None, "ray"):
         raise ValueError(f'engine is {engine!r}, it must be "ray" or None')
-
-
-def changes(parameters: Mapping[str, Any] | None) -> list[str]:
-    """Parameters as ``NAME=VALUE``."""
-    return [
-        f"{name}={json.dumps(value) if isinstance(value, bool) else value}"
-        for name, value in (parameters or {}).items()
-    ]
 
 
 def with_names(controllers: Controllers) -> list[tuple[str, Controller | str]]:

@@ -11,15 +11,25 @@ from typing import Any, Literal
 from tqdm import tqdm
 
 from ferry import _ferry
+from ferry.checks import changes, seed_of, whole
 from ferry.controllers import Controller
-from ferry.evaluation import Controllers, changes, check_engine, in_shards, part, with_names
+from ferry.evaluation import Controllers, check_engine, in_shards, part, with_interval, with_names
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RecoveryMap:
     """The results, as ``ferry recovery --json`` prints them."""
 
     report: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        head = f"RecoveryMap of {self.report['map']}, kind {self.report['kind']}, seed {self.report['seed']}"
+        lines = [
+            f"{one['controller']}: {one['delivered']} of {one['trials']} delivered, "
+            f"share {with_interval(one['share'], one['share95'])}"
+            for one in self.basins
+        ]
+        return "\n".join([f"{head} (shares with 95% intervals)", *lines])
 
     @property
     def cells(self) -> list[dict[str, Any]]:
@@ -80,9 +90,9 @@ def recovery(
         "scenario": None if scenario is None else fspath(scenario),
         "at_s": at_s,
         "kind": kind,
-        "grid": grid,
-        "repeats": repeats,
-        "seed": seed,
+        "grid": whole("grid", grid),
+        "repeats": whole("repeats", repeats),
+        "seed": seed_of(seed),
         "within_s": within_s,
         "full": full or engine is not None,
         "changes": changes(parameters),

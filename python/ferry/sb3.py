@@ -40,10 +40,13 @@ class FerryVecEnv(VecEnv):
             image = spaces.Box(0, 255, (1, *space["image"].shape), np.uint8)
             space = spaces.Dict({**space.spaces, "image": image})
         super().__init__(env.num_envs, space, env.single_action_space)
+        self.metadata["render_fps"] = env.metadata["render_fps"]
 
     def reset(self) -> VecEnvObs:
         seeds = None if all(seed is None for seed in self._seeds) else list(self._seeds)
-        observed, _ = self.env.reset(seed=seeds)
+        names = {name for options in self._options for name in options}
+        options = {name: [one.get(name) for one in self._options] for name in names}
+        observed, _ = self.env.reset(seed=seeds, options=options)
         self._reset_seeds()
         self._reset_options()
         return _with_channel(observed)
@@ -79,7 +82,8 @@ class FerryVecEnv(VecEnv):
         return [False for _ in self._get_indices(indices)]
 
     def get_images(self) -> Sequence[np.ndarray | None]:
-        return [None] * self.num_envs
+        frames = self.env.render()
+        return [None] * self.num_envs if frames is None else list(frames)
 
 
 def _with_channel(observed: Any) -> Any:

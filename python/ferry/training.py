@@ -13,8 +13,9 @@ from typing import Any, Literal
 
 from tqdm import tqdm
 
+from ferry.checks import changes, seed_of, whole
 from ferry.environments import default_sweeps
-from ferry.evaluation import changes, check_engine, in_parallel
+from ferry.evaluation import check_engine, in_parallel
 
 OUT = "seed-{}.safetensors"
 
@@ -49,7 +50,8 @@ def train(
     check_engine(engine)
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
-    where = (fspath(map), recipe, episodes, changes(settings))
+    where = (fspath(map), recipe, whole("episodes", episodes), changes(settings, "settings"))
+    seeds = [seed_of(seed) for seed in seeds]
     files = [out / OUT.format(seed) for seed in seeds]
     with tqdm(total=len(files), unit=" trainings", disable=None) as bar:
         if engine:

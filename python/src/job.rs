@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use ferry::camera::Gpu;
 use ferry::evaluate::{
@@ -20,7 +20,7 @@ use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::{bad, failed, open_gpu, threads};
+use crate::{bad, failed, locked, open_gpu, threads};
 
 /// A controller written in Python.
 struct Own {
@@ -50,10 +50,6 @@ impl Drop for Job {
             std::mem::forget(self.gpu.clone());
         }
     }
-}
-
-fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Controllers with their names, and Python's own among them in their order.

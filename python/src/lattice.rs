@@ -1,43 +1,86 @@
 //! Training's fast environment.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ferry::learn::sweep::{STEP_M, Sweep};
-use ferry::learn::{Ending, Lanes, Recipe, Terrain};
-use ferry::trial::Arena;
+use ferry::learn::{Ending, Lane, Lanes, Recipe, Terrain};
+use ferry::trial::{Arena, LoggedMap};
 use numpy::{PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyType};
 
-use crate::{Array, array, bad, failed, open_gpu};
+use crate::{Array, Reduced, array, bad, failed, open_gpu, packed, unpacked};
 
 /// Side of an image.
 const SIDE_PX: usize = 84;
 
 /// Episodes side by side on one map.
-#[pyclass]
+#[pyclass(module = "ferry._ferry")]
 pub struct Lattice {
+    arena: Arc<Arena>,
+    recipe: Recipe,
+    /// The folder that keeps the camera's images of maps.
+    sweeps: PathBuf,
     lanes: Lanes,
 }
 
+/// What a pickle has. The number of cells is that of the terrain, which is made again.
+type Kept = (LoggedMap, Recipe, PathBuf, usize, Vec<Lane>);
+
+/// Start and goal of an episode; random where they are not given.
+type Wish = (Option<[f64; 2]>, Option<[f64; 2]>);
+
 #[pymethods]
 impl Lattice {
-    /// `settings`: fields of a recipe as JSON. `sweeps`: the folder that keeps the camera's images of the map.
+    #[classattr]
+    const MOST: usize = Lanes::MOST;
+
+    /// `sweeps`: the folder that keeps the camera's images of the map.
     #[new]
-    fn new(py: Python<'_>, map: &str, lanes: usize, settings: &str, sweeps: PathBuf, seed: u64) -> PyResult<Self> {
+    #[pyo3(signature = (map, lanes, *, progress_reward, step_penalty, clearance_m, sweeps))]
+    fn new(
+        py: Python<'_>,
+        map: &str,
+        lanes: usize,
+        progress_reward: f64,
+        step_penalty: f64,
+        clearance_m: f64,
+        sweeps: PathBuf,
+    ) -> PyResult<Self> {
         py.detach(|| {
-            let recipe: Recipe = serde_json::from_str(settings).map_err(bad)?;
+            let recipe = Recipe { progress_reward, step_penalty, clearance_m, ..Recipe::default() };
             recipe.check().map_err(bad)?;
-            let arena = Arena::open(map).map_err(bad)?;
-            // Without a camera there are no threads, so that processes can be forked.
-            let sweep = match Sweep::kept(&arena, &sweeps, STEP_M, &[]) {
-                Some(kept) => kept,
-                None => Sweep::open(&arena, &open_gpu()?, &sweeps, STEP_M, &[], &|| ControlFlow::Continue(()))
-                    .map_err(failed)?,
-            };
-            let workspace = arena.map.workspace();
-            let terrain = Terrain::new(arena.map.name(), workspace, &sweep, recipe.clearance_m).map_err(bad)?;
-            Ok(Self { lanes: Lanes::new(terrain, recipe, lanes, seed).map_err(bad)? })
+            Self::on(Arena::open(map).map_err(bad)?, recipe, sweeps, lanes)
+        })
+    }
+
+    /// A copy that shares the images.
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        let Self { arena, recipe, sweeps, lanes } = self;
+        Self { arena: arena.clone(), recipe: recipe.clone(), sweeps: sweeps.clone(), lanes: lanes.clone() }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let this = slf.borrow();
+        let map = LoggedMap::from(&this.arena.map);
+        let lanes = this.lanes.states();
+        packed(slf, &(map, &this.recipe, &this.sweeps, this.lanes.cells(), lanes))
+    }
+
+    #[classmethod]
+    fn from_pickle(_class: &Bound<'_, PyType>, py: Python<'_>, kept: &Bound<'_, PyBytes>) -> PyResult<Self> {
+        let (map, recipe, sweeps, cells, states): Kept = unpacked(kept)?;
+        py.detach(|| {
+            let mut lattice = Self::on(map.arena().map_err(bad)?, recipe, sweeps, states.len())?;
+            let found = lattice.lanes.cells();
+            if found != cells {
+                let text = format!("the map had {cells} cells where this was pickled, and has {found} here");
+                return Err(failed(text + ": the graphics adapters see different images"));
+            }
+            lattice.lanes.restore(states).map_err(bad)?;
+            Ok(lattice)
         })
     }
 
@@ -46,16 +89,33 @@ impl Lattice {
         self.lanes.cells()
     }
 
-    /// Begins an episode in each lane of `mask`; `seeds` has a seed or `None` for each lane.
-    fn start(&mut self, mask: PyReadonlyArray1<'_, bool>, seeds: Option<Vec<Option<u64>>>) -> PyResult<()> {
+    /// Begins an episode in each lane of `mask`, with its seed or else from its own random numbers. If an episode is
+    /// impossible, no lane changes.
+    #[pyo3(signature = (mask, seeds=None, wishes=None))]
+    fn start(
+        &mut self,
+        mask: PyReadonlyArray1<'_, bool>,
+        seeds: Option<Vec<Option<u64>>>,
+        wishes: Option<Vec<Wish>>,
+    ) -> PyResult<()> {
         self.check_length("mask", mask.len())?;
         let seeds = seeds.unwrap_or_else(|| vec![None; self.lanes.len()]);
         self.check_length("seed", seeds.len())?;
-        for (lane, (&starts, seed)) in mask.as_array().iter().zip(seeds).enumerate() {
-            if starts {
-                self.lanes.start(lane, seed);
+        let mask = mask.as_array();
+        let starting = (0..seeds.len()).filter(|&lane| mask[lane]);
+        let Some(wishes) = wishes else {
+            for lane in starting {
+                self.lanes.start(lane, seeds[lane], None, None).map_err(bad)?;
             }
+            return Ok(());
+        };
+        self.check_length("options", wishes.len())?;
+        let mut lanes = self.lanes.clone();
+        for lane in starting {
+            let (start_m, goal_m) = wishes[lane];
+            lanes.start(lane, seeds[lane], start_m.map(Into::into), goal_m.map(Into::into)).map_err(bad)?;
         }
+        self.lanes = lanes;
         Ok(())
     }
 
@@ -122,8 +182,24 @@ impl Lattice {
 }
 
 impl Lattice {
+    fn on(arena: Arc<Arena>, recipe: Recipe, sweeps: PathBuf, lanes: usize) -> PyResult<Self> {
+        let sweep = sweep(&arena, &sweeps)?;
+        let workspace = arena.map.workspace();
+        let terrain = Terrain::new(arena.map.name(), workspace, &sweep, recipe.clearance_m).map_err(bad)?;
+        let lanes = Lanes::new(terrain, recipe.clone(), lanes, 0).map_err(bad)?;
+        Ok(Self { arena, recipe, sweeps, lanes })
+    }
+
     fn check_length(&self, field: &str, found: usize) -> PyResult<()> {
         let lanes = self.lanes.len();
         if found == lanes { Ok(()) } else { Err(bad(format!("{field} has {found} entries, it must have {lanes}"))) }
     }
+}
+
+/// The images of a map. Without a camera there are no threads, so that processes can be forked.
+fn sweep(arena: &Arena, folder: &Path) -> PyResult<Sweep> {
+    if let Some(kept) = Sweep::kept(arena, folder, STEP_M, &[]) {
+        return Ok(kept);
+    }
+    Sweep::open(arena, &open_gpu()?, folder, STEP_M, &[], &|| ControlFlow::Continue(())).map_err(failed)
 }

@@ -6,7 +6,7 @@ mod maze;
 mod threads;
 
 use std::ffi::OsString;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ferry::camera::{AdapterChoice, Gpu};
 use ferry::geometry::Rect;
@@ -14,8 +14,12 @@ use ferry::image::GrayImage;
 use ferry::perception::{OBSERVATION_SIZE_PX, Observation};
 use numpy::ndarray::{ArrayD, IxDyn};
 use numpy::{PyArray, PyReadonlyArray2};
+use pyo3::PyTypeInfo;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// As in the command `ferry`.
 #[global_allocator]
@@ -53,11 +57,41 @@ fn observation<'py>(
     Ok((array(py, &[SIDE, SIDE], seen.bytes[..SIDE * SIDE].to_vec()), array(py, &[4], seen.places().to_vec())))
 }
 
+/// The variable that chooses the graphics adapter, as for the command.
+const ADAPTER: &str = "FERRY_ADAPTER";
+
 /// The graphics adapter. With Vulkan, Mesa keeps its LLVM to itself; with OpenGL it does not, and torch's Triton, which has
 /// another LLVM, crashes if it is loaded later.
 fn open_gpu() -> PyResult<Arc<Gpu>> {
     threads::claim()?;
-    Gpu::open(AdapterChoice::Vulkan).or_else(|_| Gpu::open(AdapterChoice::Auto)).map_err(failed)
+    match std::env::var_os(ADAPTER).filter(|name| !name.is_empty()) {
+        Some(name) => {
+            let choice =
+                name.to_string_lossy().parse::<AdapterChoice>().map_err(|error| bad(format!("{ADAPTER}: {error}")))?;
+            Gpu::open(choice).map_err(|error| failed(format!("{ADAPTER} is {name:?}: {error}")))
+        }
+        None => Gpu::open(AdapterChoice::Vulkan).or_else(|_| Gpu::open(AdapterChoice::Auto)).map_err(failed),
+    }
+}
+
+/// What `copyreg` needs: how an object is made again, and its bytes.
+type Reduced<'py> = (Bound<'py, PyAny>, (Bound<'py, PyBytes>,));
+
+/// An object as `__reduce__` returns it: its class has `from_pickle`.
+fn packed<'py>(object: &Bound<'py, impl PyTypeInfo>, state: &impl Serialize) -> PyResult<Reduced<'py>> {
+    let mut bytes = Vec::new();
+    ciborium::into_writer(state, &mut bytes).map_err(failed)?;
+    Ok((object.as_any().get_type().getattr("from_pickle")?, (PyBytes::new(object.py(), &bytes),)))
+}
+
+/// The state in a pickle.
+fn unpacked<S: DeserializeOwned>(bytes: &Bound<'_, PyBytes>) -> PyResult<S> {
+    ciborium::from_reader(bytes.as_bytes())
+        .map_err(|error| bad(format!("the pickle is damaged or of another version of Ferry: {error}")))
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Bad input.

@@ -1,28 +1,40 @@
 //! The full system, one control step at a time.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
-use ferry::camera::Camera;
+use ferry::camera::{Camera, Gpu};
 use ferry::geometry::Point2;
 use ferry::perception::OBSERVATION_SIZE_PX;
-use ferry::scenario::{ControllerName, Parameters, Scenario};
-use ferry::trial::{Arena, Input, Phase, Question, Seen, Source, StopReason, Trial};
+use ferry::scenario::{ControllerName, LEAST_DISTANCE_M, Parameters, Scenario};
+use ferry::trial::{Arena, Input, LoggedMap, Phase, Question, Seen, Source, StopReason, Trial, TrialState};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyType};
 use rayon::prelude::*;
 
-use crate::{Array, array, bad, failed, open_gpu, threads};
+use crate::{Array, Reduced, array, bad, failed, locked, open_gpu, packed, threads, unpacked};
 
-/// One trial that waits for an answer.
+/// Draws of a start or a goal for a given one.
+const DRAWS: u64 = 100;
+
+/// One trial that waits for an answer. Copies share the camera.
+#[derive(Clone)]
 struct Lane {
     trial: Trial,
-    camera: Camera,
+    camera: Arc<Mutex<Camera>>,
     seen: Seen,
     question: Option<Question>,
 }
 
+/// Start, goal, changed parameters and number of disturbances of a trial; as in the other trials where they are not
+/// given.
+type Wish = (Option<[f64; 2]>, Option<[f64; 2]>, Vec<String>, Option<u32>);
+
+/// What a pickle has.
+type Kept = (String, LoggedMap, Parameters, u32, usize, Vec<(Scenario, TrialState)>);
+
 /// Trials side by side on one map.
-#[pyclass]
+#[pyclass(module = "ferry._ferry")]
 pub struct Mazes {
     arena: Arc<Arena>,
     map: String,
@@ -44,42 +56,76 @@ impl Drop for Mazes {
 
 #[pymethods]
 impl Mazes {
+    #[classattr]
+    const MOST: usize = 256;
+
     /// `changes`: parameters as `NAME=VALUE`.
     #[new]
     fn new(py: Python<'_>, map: String, lanes: usize, changes: Vec<String>, disturbances: u32) -> PyResult<Self> {
         py.detach(|| {
-            if !(1..=256).contains(&lanes) {
-                return Err(bad(format!("lanes is {lanes}, it must be 1 to 256")));
-            }
             let parameters = Parameters::default().with(&changes).map_err(bad)?;
             let arena = Arena::open(&map).map_err(bad)?;
             let mazes = Self { arena, map, parameters, disturbances, count: lanes, lanes: Vec::new() };
-            mazes.trial(0)?;
+            mazes.trial(0, &Wish::default())?;
             Ok(mazes)
         })
     }
 
-    /// Begins a trial in each lane that has a seed; the first time, in all lanes.
-    fn start(&mut self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<()> {
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        let Self { arena, map, parameters, disturbances, count, lanes } = self;
+        let (arena, map, parameters, lanes) = (arena.clone(), map.clone(), parameters.clone(), lanes.clone());
+        Self { arena, map, parameters, disturbances: *disturbances, count: *count, lanes }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let this = slf.borrow();
+        let drawing = LoggedMap::from(&this.arena.map);
+        let lanes: Vec<_> = this.lanes.iter().map(|Lane { trial, .. }| (trial.scenario(), trial.state())).collect();
+        packed(slf, &(&this.map, drawing, &this.parameters, this.disturbances, this.count, lanes))
+    }
+
+    #[classmethod]
+    fn from_pickle(_class: &Bound<'_, PyType>, py: Python<'_>, kept: &Bound<'_, PyBytes>) -> PyResult<Self> {
+        let (map, drawing, parameters, disturbances, count, states): Kept = unpacked(kept)?;
+        py.detach(|| {
+            let arena = drawing.arena().map_err(bad)?;
+            let mut mazes = Self { arena, map, parameters, disturbances, count, lanes: Vec::new() };
+            if !states.is_empty() {
+                mazes.check_length("state", states.len())?;
+                let gpu = open_gpu()?;
+                let go_on = |(scenario, state)| {
+                    let mut trial = Trial::new(scenario, mazes.arena.clone()).map_err(bad)?;
+                    trial.resume(state).map_err(bad)?;
+                    mazes.lane(trial, &gpu)
+                };
+                mazes.lanes = states.into_iter().map(go_on).collect::<PyResult<_>>()?;
+            }
+            Ok(mazes)
+        })
+    }
+
+    /// Begins a trial in each lane that has a seed; the first time, in all lanes. If a trial is impossible, no lane changes.
+    fn start(&mut self, py: Python<'_>, seeds: Vec<Option<u64>>, wishes: Vec<Wish>) -> PyResult<()> {
         self.check_length("seed", seeds.len())?;
+        self.check_length("options", wishes.len())?;
         threads::claim()?;
         py.detach(|| {
-            if self.lanes.is_empty() {
+            let is_first = self.lanes.is_empty();
+            let begin = |(index, (seed, wish)): (usize, (Option<u64>, Wish))| {
+                let seed = seed.or(is_first.then_some(index as u64))?;
+                Some(self.trial(seed, &wish))
+            };
+            let trials = seeds.into_iter().zip(wishes).enumerate().map(begin);
+            let trials = trials.map(Option::transpose).collect::<PyResult<Vec<_>>>()?;
+            if is_first {
                 let gpu = open_gpu()?;
-                let begin = |(index, seed): (usize, &Option<u64>)| {
-                    let trial = self.trial(seed.unwrap_or(index as u64))?;
-                    let mut camera = self.arena.camera(&gpu).map_err(failed)?;
-                    let (seen, question) = look(&trial, &mut camera)?;
-                    Ok(Lane { trial, camera, seen, question })
-                };
-                self.lanes = seeds.iter().enumerate().map(begin).collect::<PyResult<_>>()?;
+                let lanes = trials.into_iter().flatten().map(|trial| self.lane(trial, &gpu));
+                self.lanes = lanes.collect::<PyResult<_>>()?;
                 return Ok(());
             }
-            for (index, seed) in seeds.into_iter().enumerate() {
-                let Some(seed) = seed else { continue };
-                let trial = self.trial(seed)?;
-                let lane = &mut self.lanes[index];
-                (lane.seen, lane.question) = look(&trial, &mut lane.camera)?;
+            for (lane, trial) in self.lanes.iter_mut().zip(trials) {
+                let Some(trial) = trial else { continue };
+                (lane.seen, lane.question) = look(&trial, &mut locked(&lane.camera))?;
                 lane.trial = trial;
             }
             Ok(())
@@ -198,31 +244,46 @@ impl Mazes {
     }
 
     /// `[height, width, 3]`: the table of a lane from above.
-    fn picture<'py>(
-        &mut self,
-        py: Python<'py>,
-        lane: usize,
-        width_px: u32,
-        height_px: u32,
-    ) -> PyResult<Array<'py, u8>> {
+    fn picture<'py>(&self, py: Python<'py>, lane: usize, width_px: u32, height_px: u32) -> PyResult<Array<'py, u8>> {
         threads::claim()?;
         self.check_begun()?;
         let count = self.lanes.len();
-        let lane =
-            self.lanes.get_mut(lane).ok_or_else(|| bad(format!("lane is {lane}, it must be 0 to {}", count - 1)))?;
+        let lane = self.lanes.get(lane).ok_or_else(|| bad(format!("lane is {lane}, it must be 0 to {}", count - 1)))?;
         let Lane { trial, camera, .. } = lane;
-        let picture = py.detach(|| camera.plan(&trial.subject(), width_px, height_px)).map_err(failed)?;
+        let picture = py.detach(|| locked(camera).plan(&trial.subject(), width_px, height_px)).map_err(failed)?;
         let colours = picture.rgba.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec()).collect();
         Ok(array(py, &[height_px as usize, width_px as usize, 3], colours))
     }
 }
 
 impl Mazes {
-    fn trial(&self, seed: u64) -> PyResult<Trial> {
-        let Self { arena, map, disturbances, .. } = self;
-        let random = arena.random(map, ControllerName::Program, *disturbances, seed, 0);
-        let scenario = Scenario { parameters: self.parameters.clone(), ..random.map_err(bad)? };
-        Trial::new(scenario, arena.clone()).map_err(bad)
+    /// The trial of a seed. If only its start or its goal is given, a path of a random trial's length leads between them.
+    fn trial(&self, seed: u64, (start_m, goal_m, changes, disturbances): &Wish) -> PyResult<Trial> {
+        let Self { arena, map, .. } = self;
+        let parameters = self.parameters.with(changes).map_err(bad)?;
+        let disturbances = disturbances.unwrap_or(self.disturbances);
+        let places = [start_m, goal_m].map(|place| place.map(Point2::from));
+        let is_one_given = places[0].is_some() != places[1].is_some();
+        for index in 0..DRAWS {
+            let random = arena.random(map, ControllerName::Program, disturbances, seed, index).map_err(bad)?;
+            let (start_m, goal_m) = (places[0].or(random.start_m), places[1].or(random.goal_m));
+            let scenario = Scenario { parameters: parameters.clone(), start_m, goal_m, ..random };
+            let trial = Trial::new(scenario, arena.clone()).map_err(bad)?;
+            let length_m = || arena.space.shortest_m(start_m?, goal_m?);
+            if !is_one_given || length_m().is_some_and(|length_m| length_m >= LEAST_DISTANCE_M) {
+                return Ok(trial);
+            }
+        }
+        let given = if places[0].is_some() { "start_m" } else { "goal_m" };
+        let text =
+            format!("{given}: of {DRAWS} random places for the other end, none has a path of {LEAST_DISTANCE_M} m");
+        Err(bad(text + " or more"))
+    }
+
+    fn lane(&self, trial: Trial, gpu: &Arc<Gpu>) -> PyResult<Lane> {
+        let mut camera = self.arena.camera(gpu).map_err(failed)?;
+        let (seen, question) = look(&trial, &mut camera)?;
+        Ok(Lane { trial, camera: Arc::new(Mutex::new(camera)), seen, question })
     }
 
     fn check_begun(&self) -> PyResult<()> {
@@ -260,7 +321,7 @@ impl Lane {
             }
             source = Source::Logged(None);
         }
-        (*seen, *question) = look(trial, camera)?;
+        (*seen, *question) = look(trial, &mut locked(camera))?;
         Ok(())
     }
 }

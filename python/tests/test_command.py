@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -53,6 +54,15 @@ def test_the_page_is_served_and_an_interrupt_ends_it(tmp_path: Path) -> None:
         assert serving.returncode == 0
     finally:
         serving.kill()
+
+
+def test_the_package_names_its_authors_and_has_the_texts_of_its_licences() -> None:
+    package = metadata.distribution("ferry-lab")
+    assert package.metadata["Author"] == "The Ferry developers"
+    assert package.metadata["License-Expression"] == "MIT OR Apache-2.0"
+    files = package.metadata.get_all("License-File") or []
+    text = "".join((package.read_text(f"licenses/{file}") or "") for file in files)
+    assert "THE SOFTWARE IS PROVIDED" in text and "Apache License" in text
 
 
 def test_a_missing_argument_is_no_crash() -> None:

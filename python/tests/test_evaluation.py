@@ -68,6 +68,21 @@ def test_a_varied_parameter_has_rows_for_its_values() -> None:
         ferry.evaluate("attractor", map="open", episodes=1, vary={"friction": (0.5, 1.5, 2)})
 
 
+def test_a_result_is_printed_in_a_few_lines() -> None:
+    done = ferry.evaluate(["attractor", "errt"], map="open", disturbances=[0, 1], episodes=4)
+    lines = str(done).splitlines()
+    assert lines[:2] == [
+        "Evaluation with seed 1 (rates with 95% intervals)",
+        "attractor on open, 0 disturbances: 4 of 4 delivered, 100.0% (51.0% to 100.0%)",
+    ]
+    assert lines[4].startswith("errt on open, 1 disturbance: ") and len(lines) == 5
+    varied = ferry.evaluate("attractor", map="open", disturbances=[0, 1], episodes=1, vary={"friction": (0.1, 0.4, 12)})
+    lines = repr(varied).splitlines()
+    assert ", friction 0.1: 1 of 1 delivered" in lines[1] and lines[-1] == "… and 4 more rows"
+    # It is what it was for programs.
+    assert varied == ferry.Evaluation(varied.report) and len(varied.rows) == 24
+
+
 class Broken(ferry.Controller):
     def act(self, percept: ferry.Percept) -> Any:
         return "left" if percept.leg.trial.endswith("1") else ferry.Step(tuple(percept.goal_m))
@@ -88,6 +103,9 @@ def test_what_act_raises_ends_the_evaluation() -> None:
         ({"controllers": {"Mine!": Straight()}}, "'Mine!' cannot be the name"),
         ({"map": "nowhere"}, "nowhere"),
         ({"episodes": 0}, "episodes is 0"),
+        ({"episodes": -1}, "episodes is -1"),
+        ({"seed": 2**64}, "seed is 18446744073709551616"),
+        ({"disturbances": [0, -1]}, "disturbances is -1"),
         ({"parameters": {"threshold": 1}}, "threshold"),
         ({"engine": "dask"}, "engine is 'dask'"),
     ],

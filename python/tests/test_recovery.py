@@ -24,6 +24,9 @@ def test_a_controller_of_ones_own_is_paired_with_ferrys() -> None:
     assert [basin["controller"] for basin in done.basins] == ["straight", "attractor"]
     assert [basin["share"] for basin in done.basins] == [1.0, 1.0]
     assert {cell["controller"] for cell in done.cells} == {"straight", "attractor"}
+    head, straight, attractor = str(done).splitlines()
+    assert head == "RecoveryMap of open, kind place, seed 4 (shares with 95% intervals)"
+    assert straight.startswith("straight: ") and ", share 100.0% (" in attractor
     assert (done.differences[0]["controller"], done.differences[0]["against"]) == ("straight", "attractor")
 
 
@@ -49,6 +52,9 @@ def test_shards_give_what_the_command_gives(tmp_path: Path) -> None:
 def test_bad_settings_are_refused() -> None:
     for settings, words in [
         ({"grid": 3}, "grid is 3"),
+        ({"grid": -1}, "grid is -1"),
+        ({"repeats": 2**32}, "repeats is 4294967296"),
+        ({"seed": -1}, "seed is -1"),
         ({"kind": "shove"}, 'kind is "shove"'),
         ({"at_s": -1.0}, "at_s is -1"),
         ({"parameters": {"friction": 2}}, "friction is 2"),

@@ -136,6 +136,28 @@ def test_the_same_seed_gives_the_same_lanes() -> None:
     assert lanes.get_attr("num_envs") == [3] * 3 and lanes.get_attr("render_mode", [0, 1]) == [None] * 2
 
 
+def test_options_are_for_the_next_episode() -> None:
+    made = gymnasium.make_vec("ferry/Lattice-v0", 2, map="open", observation="vector", autoreset_mode="SameStep")
+    lanes = FerryVecEnv(made)
+    lanes.set_options([{"goal_m": (0.1, -0.4)}, {"start_m": (-0.1, -0.3), "goal_m": (0.2, -0.3)}])
+    goals = lanes.reset()[:, :2]
+    assert goals == pytest.approx(np.array([[0.4, 0.14], [0.5, 0.24]]) / [0.58, 0.33], abs=0.004)
+    assert not np.allclose(lanes.reset()[:, :2], goals, atol=0.01)
+    lanes.set_options({"gaol_m": (0.1, -0.4)})
+    with pytest.raises(ValueError, match="options has 'gaol_m'"):
+        lanes.reset()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_frames_are_those_of_the_lanes(name: str) -> None:
+    made = gymnasium.make_vec(name, 2, map="posts", render_mode="rgb_array", autoreset_mode="SameStep")
+    lanes = FerryVecEnv(made)
+    lanes.reset()
+    assert lanes.render_mode == "rgb_array" and lanes.metadata["render_fps"] == 4
+    assert equal(list(lanes.get_images()), list(made.render())) and lanes.render().ndim == 3
+    assert FerryVecEnv(gymnasium.make_vec(name, 2, autoreset_mode="SameStep")).get_images() == [None, None]
+
+
 def test_other_ways_to_begin_again_are_refused() -> None:
     with pytest.raises(ValueError, match="autoreset_mode is 'NextStep', it must be 'SameStep'"):
         FerryVecEnv(gymnasium.make_vec("ferry/Lattice-v0", 2, map="posts"))

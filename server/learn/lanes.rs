@@ -1,42 +1,60 @@
 //! Training's episodes side by side, for programs with a learner of their own. Each lane has its own random numbers.
 
+use std::sync::Arc;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
 
-use super::environment::{Ending, Episode};
+use super::environment::{Ending, Episode, Goal};
 use super::goals::GoalSet;
 use super::recipe::{Recipe, RecipeError};
-use super::terrain::Terrain;
+use super::terrain::{GOAL_JITTER_M, Terrain, UNREACHABLE};
 use crate::geometry::Point2;
 
-/// Largest number of lanes.
-const LANES_MOST: usize = 4096;
+/// Far below the size of a cell.
+const ROUNDING_M: f64 = 1e-9;
+/// Draws of a start or a goal for a given one.
+const DRAWS: u32 = 10_000;
 
-#[derive(Clone, Debug)]
-struct Lane {
+/// An episode, and what later ones are drawn from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lane {
     episode: Episode,
     rng: ChaCha8Rng,
 }
 
-/// Lanes on one map.
-#[derive(Debug)]
+/// Lanes on one map. Copies share the terrain.
+#[derive(Clone, Debug)]
 pub struct Lanes {
-    terrain: [Terrain; 1],
+    terrain: Arc<[Terrain; 1]>,
     recipe: Recipe,
     lanes: Vec<Lane>,
 }
 
 #[derive(Debug, thiserror::Error)]
 pub enum LanesError {
-    #[error("lanes is {0}, it must be 1 to {LANES_MOST}")]
+    #[error("lanes is {0}, it must be 1 to {most}", most = Lanes::MOST)]
     Count(usize),
     #[error(transparent)]
     Recipe(#[from] RecipeError),
     #[error("action[{lane}] is {action}, it must be 0 to 3")]
     Action { lane: usize, action: i64 },
+    #[error(
+        "{field} ({:.3}, {:.3}) m is in no cell where the tool may be; the nearest one is at ({:.3}, {:.3}) m",
+        place_m.x, place_m.y, nearest_m.x, nearest_m.y
+    )]
+    Place { field: &'static str, place_m: Point2<f64>, nearest_m: Point2<f64> },
+    #[error("start_m and goal_m: no path leads from one to the other, or it is within 2 cm")]
+    NoPath,
+    #[error("the state of lane {lane} belongs to another map")]
+    State { lane: usize },
 }
 
 impl Lanes {
+    /// Largest number of lanes.
+    pub const MOST: usize = 4096;
+
     /// Lanes with the seeds `seed`, `seed + 1` and so on. Of the recipe, the rewards, the clearance and the goals matter.
     ///
     /// # Errors
@@ -47,13 +65,13 @@ impl Lanes {
             let (value, allowed) = (recipe.wall_amplitude_m.to_string(), "0: the walls are at rest here".to_owned());
             return Err(RecipeError { field: "wall_amplitude_m", value, allowed }.into());
         }
-        if !(1..=LANES_MOST).contains(&lanes) {
+        if !(1..=Self::MOST).contains(&lanes) {
             return Err(LanesError::Count(lanes));
         }
-        let terrain = [terrain];
+        let terrain = Arc::new([terrain]);
         let begin = |lane: usize| {
             let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_add(lane as u64));
-            Lane { episode: Episode::start(&terrain, GoalSet::All, &mut rng), rng }
+            Lane { episode: Episode::start(terrain.as_slice(), GoalSet::All, &mut rng), rng }
         };
         let lanes = (0..lanes).map(begin).collect();
         Ok(Self { terrain, recipe, lanes })
@@ -72,13 +90,73 @@ impl Lanes {
         self.terrain[0].cells()
     }
 
-    /// Begins an episode with a random start and goal, first seeding the lane's random numbers if a seed is given.
-    pub fn start(&mut self, lane: usize, seed: Option<u64>) {
-        let Lane { episode, rng } = &mut self.lanes[lane];
-        if let Some(seed) = seed {
-            *rng = ChaCha8Rng::seed_from_u64(seed);
+    /// Begins an episode, first seeding the lane's random numbers if a seed is given. `start_m` and `goal_m` are random
+    /// where they are not given; the start is the middle of its cell.
+    ///
+    /// # Errors
+    /// [`LanesError::Place`], [`LanesError::NoPath`]; nothing has changed then.
+    pub fn start(
+        &mut self,
+        lane: usize,
+        seed: Option<u64>,
+        start_m: Option<Point2<f64>>,
+        goal_m: Option<Point2<f64>>,
+    ) -> Result<(), LanesError> {
+        let terrain = &self.terrain[0];
+        let start = start_m.map(|place_m| self.cell("start_m", place_m)).transpose()?;
+        let goal = goal_m.map(|place_m| self.goal(place_m)).transpose()?;
+        let mut rng = seed.map_or_else(|| self.lanes[lane].rng.clone(), ChaCha8Rng::seed_from_u64);
+        let draws = if start.is_some() && goal.is_some() { 1 } else { DRAWS };
+        for _ in 0..draws {
+            let drawn = Episode::start(self.terrain.as_slice(), GoalSet::All, &mut rng);
+            let episode = Episode { cell: start.unwrap_or(drawn.cell), goal: goal.unwrap_or(drawn.goal), ..drawn };
+            let leads = terrain.distance(episode.cell, episode.goal.cell) != UNREACHABLE;
+            if leads && !episode.goal.is_reached_from(terrain, episode.cell) {
+                self.lanes[lane] = Lane { episode, rng };
+                return Ok(());
+            }
         }
-        *episode = Episode::start(&self.terrain, GoalSet::All, rng);
+        Err(LanesError::NoPath)
+    }
+
+    /// The cell around a place.
+    fn cell(&self, field: &'static str, place_m: Point2<f64>) -> Result<u16, LanesError> {
+        let terrain = &self.terrain[0];
+        let away_m = |&cell: &u16| (terrain.center_m(cell) - place_m).amax();
+        let nearest = (0..terrain.cells() as u16).min_by(|a, b| away_m(a).total_cmp(&away_m(b))).unwrap_or_default();
+        if away_m(&nearest) <= GOAL_JITTER_M + ROUNDING_M {
+            return Ok(nearest);
+        }
+        Err(LanesError::Place { field, place_m, nearest_m: terrain.center_m(nearest) })
+    }
+
+    fn goal(&self, place_m: Point2<f64>) -> Result<Goal, LanesError> {
+        let cell = self.cell("goal_m", place_m)?;
+        let off_m = place_m - self.terrain[0].center_m(cell);
+        let offset = [off_m.x, off_m.y].map(|off_m| (off_m / GOAL_JITTER_M * 127.0).round().clamp(-127.0, 127.0) as i8);
+        Ok(Goal { cell, offset })
+    }
+
+    /// All that changes in the lanes; see [`Self::restore`].
+    pub fn states(&self) -> &[Lane] {
+        &self.lanes
+    }
+
+    /// Goes on from states of the same map.
+    ///
+    /// # Errors
+    /// [`LanesError::Count`], [`LanesError::State`]; nothing has changed then.
+    pub fn restore(&mut self, states: Vec<Lane>) -> Result<(), LanesError> {
+        if states.len() != self.lanes.len() {
+            return Err(LanesError::Count(states.len()));
+        }
+        let has = |cell: u16| usize::from(cell) < self.cells();
+        let fits = |Episode { terrain, cell, goal, .. }: Episode| terrain == 0 && has(cell) && has(goal.cell);
+        if let Some(lane) = states.iter().position(|state| !fits(state.episode)) {
+            return Err(LanesError::State { lane });
+        }
+        self.lanes = states;
+        Ok(())
     }
 
     /// Takes a step: the reward, and the ending if the episode ends.
@@ -91,7 +169,7 @@ impl Lanes {
         let Lane { episode, .. } = &mut self.lanes[lane];
         let terrain = &self.terrain[0];
         let reward = self.recipe.outcome(terrain, episode.cell, terrain.step(episode.cell, index), episode.goal).reward;
-        Ok((reward, episode.step(&self.terrain, index, &self.recipe).1))
+        Ok((reward, episode.step(self.terrain.as_slice(), index, &self.recipe).1))
     }
 
     /// The image above a lane's tool, `[84 · 84]`.
@@ -101,7 +179,7 @@ impl Lanes {
 
     /// Goal x and y, tool x and y, each 0 to 1 over the workspace.
     pub fn places(&self, lane: usize) -> [f32; 4] {
-        self.lanes[lane].episode.places(&self.terrain)
+        self.lanes[lane].episode.places(self.terrain.as_slice())
     }
 
     /// Tool and goal on the table.
@@ -141,12 +219,12 @@ mod tests {
             assert_eq!(one.step(0, action).unwrap(), (reward, ending));
             many.step(1, 3 - action).unwrap();
             if ending.is_some() {
-                many.start(2, None);
-                one.start(0, None);
+                many.start(2, None, None, None).unwrap();
+                one.start(0, None, None, None).unwrap();
             }
         }
-        many.start(4, Some(5));
-        one.start(0, Some(5));
+        many.start(4, Some(5), None, None).unwrap();
+        one.start(0, Some(5), None, None).unwrap();
         assert_eq!(shown(&many, 4), shown(&one, 0));
     }
 
@@ -163,5 +241,49 @@ mod tests {
             assert_eq!(error, format!("action[1] is {action}, it must be 0 to 3"));
         }
         assert_eq!(shown(&lanes, 1), before);
+    }
+    #[test]
+    fn episodes_begin_at_given_places() {
+        let mut lanes = lanes(1, 1).unwrap();
+        let [start, goal] = [0, 25].map(|cell| lanes.terrain[0].center_m(cell));
+        let off = goal + crate::geometry::Vector2::new(0.002, -0.0049);
+        for seed in 0..50 {
+            lanes.start(0, Some(seed), Some(start), Some(off)).unwrap();
+            let [tool_m, goal_m] = lanes.places_m(0);
+            assert!(tool_m == start && (goal_m - off).norm() < 5e-5, "{goal_m}");
+            lanes.start(0, Some(seed), Some(start), None).unwrap();
+            let [tool_m, goal_m] = lanes.places_m(0);
+            assert!(tool_m == start && (goal_m - start).norm() > 0.02 && lanes.distance(0) != UNREACHABLE);
+            lanes.start(0, None, None, Some(goal)).unwrap();
+            assert!(lanes.places_m(0)[1] == goal && lanes.distance(0) != UNREACHABLE);
+        }
+        let before = lanes.states().to_vec();
+        let refusal = lanes.start(0, Some(1), Some(Point2::new(9.0, 9.0)), None).unwrap_err().to_string();
+        assert!(refusal.starts_with("start_m (9.000, 9.000) m is in no cell where the tool may be"), "{refusal}");
+        assert!(matches!(lanes.start(0, Some(1), Some(start), Some(start)), Err(LanesError::NoPath)));
+        assert_eq!(lanes.states(), before);
+    }
+
+    #[test]
+    fn restored_lanes_go_on_alike() {
+        let mut first = lanes(3, 1).unwrap();
+        let mut other = lanes(3, 9).unwrap();
+        (0..7).for_each(|step| drop(first.step(1, step % 4)));
+        let mut copy = first.clone();
+        other.restore(first.states().to_vec()).unwrap();
+        for step in 0..300 {
+            let results = [&mut first, &mut copy, &mut other].map(|lanes| {
+                let (reward, ending) = lanes.step(1, step * 7 % 4).unwrap();
+                if ending.is_some() {
+                    lanes.start(1, None, None, None).unwrap();
+                }
+                (reward, ending, shown(lanes, 1))
+            });
+            assert!(results[0] == results[1] && results[0] == results[2], "{results:?}");
+        }
+        let mut states = first.states().to_vec();
+        states[2].episode.goal.cell = 26;
+        assert!(matches!(other.restore(states), Err(LanesError::State { lane: 2 })));
+        assert!(matches!(other.restore(Vec::new()), Err(LanesError::Count(0))));
     }
 }
