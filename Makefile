@@ -8,7 +8,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := run
-.PHONY: run dev test test-long dist wheel test-browser test-library test-main check-page test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test
+.PHONY: run dev test test-long dist wheel test-browser test-library test-main check-page test-page test-package test-python test-python-rl results ablations mazes soak fuzz audit system-run system-test system-browsers
 
 # Rerun's Python tools, at the version of the crate, check recordings. schemathesis checks the server against its OpenAPI
 # description. Minari loads exported attempts, with pyarrow, and with Pillow, which it does not list. maturin builds the
@@ -30,6 +30,8 @@ NBCONVERT_VERSION := 7.17.2
 IPYKERNEL_VERSION := 7.4.0
 MATPLOTLIB_VERSION := 3.11.2
 TYPES_TQDM_VERSION := 4.70.0.20261106
+# Writes the videos of Gymnasium.
+MOVIEPY_VERSION := 2.2.1
 TORCH_VERSION := 2.15.0
 STABLE_BASELINES3_VERSION := 2.9.2
 ONNX_VERSION := 1.23.2
@@ -42,7 +44,7 @@ MATURIN := $(VENV)/maturin-$(MATURIN_VERSION)
 # The package is tested where only it is installed, with what it asks for.
 WHEEL_VENV := target/wheel-venv
 RL_VENV := target/rl-venv
-WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)-nbconvert-$(NBCONVERT_VERSION)-types-tqdm-$(TYPES_TQDM_VERSION)
+WHEEL_TOOLS := $(WHEEL_VENV)/ruff-$(RUFF_VERSION)-mypy-$(MYPY_VERSION)-pytest-$(PYTEST_VERSION)-nbconvert-$(NBCONVERT_VERSION)-types-tqdm-$(TYPES_TQDM_VERSION)-moviepy-$(MOVIEPY_VERSION)
 RL_TOOLS := $(RL_VENV)/torch-$(TORCH_VERSION)-stable-baselines3-$(STABLE_BASELINES3_VERSION)-ray-$(RAY_VERSION)
 SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 # Graphics drivers print long warnings when it is not set.
@@ -98,7 +100,7 @@ test-long-rust:
 	$(MAIN_TESTS) --ignored
 	FERRY_COMMANDS=600000 $(LIBRARY_TESTS) command_tests
 	FERRY_SESSIONS=100 FERRY_KILLS=20 FERRY_EXAMPLES=25 $(MAIN_TESTS) contract crashes whatever_an_operator_does
-test-long-browser:
+test-long-browser: system-browsers
 	cargo build --release --quiet
 	cd web && FERRY_BIN=$(CURDIR)/target/release/ferry npm run --silent e2e:long
 test-long-python: test-python-rl
@@ -139,7 +141,7 @@ dist: system-run
 	cargo build --release --locked
 	rm -rf $(DIST) $(DIST).tar.gz && mkdir -p $(DIST)
 	strip -o $(DIST)/ferry target/release/ferry
-	cp LICENSE $(DIST)
+	cp LICENSE-MIT LICENSE-APACHE $(DIST)
 	@needed=$$(objdump -p $(DIST)/ferry | sed -n 's/ *NEEDED *//p' | grep -vxF "$$(printf '%s\n' $(LIBRARIES))" || true); \
 	[ -z "$$needed" ] || { echo "Ferry needs libraries that a bare system lacks:" $$needed; exit 1; }
 	@glibc=$$(objdump -T $(DIST)/ferry | grep -o 'GLIBC_[0-9.]*' | cut -d_ -f2 | sort -Vu | tail -n 1); \
@@ -209,6 +211,14 @@ system-test: system-run
 	/sbin/ldconfig -p | grep -q libEGL.so.1 || packages+=" libegl1 libgl1-mesa-dri"; \
 	$(call install,$$packages)
 
+# Other browsers: Firefox, and WebKitGTK with a driver; both need a display.
+system-browsers:
+	@packages=; \
+	command -v firefox-esr >/dev/null || packages+=" firefox-esr"; \
+	command -v WebKitWebDriver >/dev/null || packages+=" webkit2gtk-driver"; \
+	command -v Xvfb >/dev/null || packages+=" xvfb"; \
+	$(call install,$$packages)
+
 define install
 if [ -n "$(1)" ]; then \
 	command -v apt-get >/dev/null || { echo "Ferry needs$(1): install them with your system's package manager"; exit 1; }; \
@@ -232,7 +242,7 @@ $(WHEEL_TOOLS):
 	python3 -m venv $(WHEEL_VENV)
 	$(WHEEL_VENV)/bin/pip install --quiet --disable-pip-version-check ruff==$(RUFF_VERSION) mypy==$(MYPY_VERSION) \
 		pytest==$(PYTEST_VERSION) nbconvert==$(NBCONVERT_VERSION) ipykernel==$(IPYKERNEL_VERSION) \
-		matplotlib==$(MATPLOTLIB_VERSION) types-tqdm==$(TYPES_TQDM_VERSION)
+		matplotlib==$(MATPLOTLIB_VERSION) types-tqdm==$(TYPES_TQDM_VERSION) moviepy==$(MOVIEPY_VERSION)
 	touch $@
 
 $(TOOLS):

@@ -24,6 +24,22 @@ const compressed = (): Plugin => ({
   },
 });
 
+/**
+ * uPlot asks `Intl` for the browser's language when it is loaded, which throws where that is no language tag: `C`, `de_DE`.
+ * The standard language of the browser is always one.
+ */
+const anyLanguage = (): {
+  name: string;
+  transform: (code: string, id: string) => string | null;
+} => ({
+  name: 'any-language',
+  transform: (code, id) => {
+    if (!/uPlot\.esm\.js/.test(id)) return null;
+    if (!code.includes('nav.language')) throw new Error('uPlot does not ask for a language');
+    return code.replace('nav.language', 'undefined');
+  },
+});
+
 /** Where `make dev` finds the server. */
 const SERVER = process.env.FERRY_SERVER ?? 'http://127.0.0.1:8080';
 /** What the server answers; the rest is the page. */
@@ -47,7 +63,9 @@ const opensSessions = (): Plugin => ({
 });
 
 export default defineConfig({
-  plugins: [solid(), compressed(), opensSessions()],
+  plugins: [solid(), anyLanguage(), compressed(), opensSessions()],
+  // Libraries are bundled beforehand for `make dev` and for tests of components.
+  optimizeDeps: { rolldownOptions: { plugins: [anyLanguage()] } },
   server: {
     // The server takes requests of its own page only.
     proxy: Object.fromEntries(
@@ -62,7 +80,8 @@ export default defineConfig({
   build: {
     outDir: process.env.FERRY_WEB_OUT ?? 'dist',
     emptyOutDir: true,
-    target: 'es2022',
+    // As in index.html and docs/operations.md.
+    target: ['chrome111', 'edge111', 'firefox121', 'safari16.4'],
     // The page's policy is `default-src 'self'`: a `data:` address would be refused.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },

@@ -240,6 +240,42 @@ test('in fog, the page shows nothing that the camera has not seen', async ({ lab
   await lab.reset({ map: 'posts' });
 });
 
+test('a gamepad with an unknown layout rests until its cross was pushed on request', async ({
+  lab,
+}) => {
+  const { page } = lab;
+  // As Firefox on Linux shows it: axes 2 and 5 are triggers, 6 and 7 the cross.
+  await page.evaluate(() => {
+    const axes = [0, 0, -1, 0, 0, -1, 0, 0];
+    const buttons = Array.from({ length: 11 }, () => ({ pressed: false }));
+    const pad = { id: 'Pad', index: 0, mapping: '', axes, buttons };
+    Object.assign(window, { pad });
+    navigator.getGamepads = () => [pad as unknown as Gamepad];
+  });
+  const push = (axis: number, value: number) =>
+    page.evaluate(
+      ([index, to]) => {
+        (window as unknown as { pad: { axes: number[] } }).pad.axes[index] = to;
+      },
+      [axis, value] as const,
+    );
+  await lab.reset();
+  await begin(lab, await goalNear(lab));
+  const hint = page.getByTestId('gamepad');
+  await expect(hint).toContainText('push the stick or the cross to the right');
+  await lab.step(SECOND_TICKS);
+  expect(lab.sent.steer).toBeUndefined();
+  const [x, y] = tool(lab);
+  await push(6, 1);
+  await until('the hand to the right', () => lab.state.steer_m && lab.state.steer_m[0] > x + 0.01);
+  await push(6, 0);
+  await expect(hint).toContainText('up');
+  await push(7, -1);
+  await until('the hand up', () => lab.state.steer_m && lab.state.steer_m[1] > y + 0.01);
+  await push(7, 0);
+  await expect(hint).toHaveText('Gamepad: stick or cross; the first button stops the tool.');
+});
+
 test('a viewer cannot steer, and a refused message changes nothing', async ({ lab, openLab }) => {
   await lab.reset();
   await begin(lab, await goalNear(lab));

@@ -98,6 +98,18 @@ it('keeps the style of a component beside it', () => {
   expect(wrong).toEqual([]);
 });
 
+it('names the same browsers on the page, in the documents and to the compiler', () => {
+  const wanted = /Firefox (\d+), Chrome or\s+Edge (\d+), Safari ([\d.]+)/;
+  const versions = ['index.html', '../docs/operations.md'].map((file) =>
+    wanted.exec(readFileSync(join(SRC, '..', file), 'utf8'))?.slice(1),
+  );
+  expect(versions[0]).toEqual(versions[1]);
+  const [firefox, chrome, safari] = versions[0] ?? [];
+  expect(readFileSync(join(SRC, '../vite.config.ts'), 'utf8')).toContain(
+    `['chrome${chrome}', 'edge${chrome}', 'firefox${firefox}', 'safari${safari}']`,
+  );
+});
+
 it('has the sizes of the window in one file', () => {
   const wrong = sheets.filter(
     (sheet) => sheet !== BREAKPOINTS && /@media[^{]*(width|height|pointer)/.test(read(sheet)),

@@ -5,6 +5,7 @@ import './styles/reset.css';
 import './ui/controls.css';
 import './ui/text.css';
 import './ui/panel.css';
+import type { JSX } from 'solid-js';
 import { render } from 'solid-js/web';
 import { keepFocus } from './app/focus';
 import { Page } from './app/Page';
@@ -37,7 +38,13 @@ const BoardPage = lazyPart<object>(
     </main>
   ),
 );
-render(() => {
+/** What older browsers lack that the page needs; without it they would show a part of the page. */
+const isOld = !('toSorted' in Array.prototype) || !CSS.supports('selector(:has(*))');
+// The message for older browsers is in index.html.
+if (isOld) root.dataset.old = '';
+else root.replaceChildren();
+const show = (): JSX.Element => {
   if (isBoard(window.location)) return <BoardPage />;
   return isDemo(window.location) ? <DemoPage /> : <Page />;
-}, root);
+};
+if (!isOld) render(show, root);

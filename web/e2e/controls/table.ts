@@ -70,9 +70,9 @@ function locate(page: Page, key: string): Locator {
 /** The next number that a field accepts. */
 async function nextNumber(locator: Locator) {
   const { value, step, max } = await locator.evaluate((one: HTMLInputElement) => ({
-    value: one.valueAsNumber,
-    step: one.step === 'any' ? Number(one.max) / 10 : Number(one.step) || 1,
-    max: one.max === '' ? Infinity : Number(one.max),
+    value: Number(one.value),
+    step: Number(one.dataset.step ?? 1),
+    max: Number(one.getAttribute('aria-valuemax') ?? Infinity),
   }));
   const next = value + step <= max + 1e-9 ? value + step : value - step;
   return String(Number(next.toFixed(6)));

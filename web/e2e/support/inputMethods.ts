@@ -212,17 +212,12 @@ class Keyboard extends InputMethod {
     await this.page.keyboard.press(isHigh ? 'ArrowLeft' : 'ArrowRight');
   }
 
-  /** Presses an arrow key once where the field has steps, and types digits elsewhere. */
+  /** Presses an arrow key once in a number field, and types digits elsewhere. */
   async type(locator: Locator, text: string) {
     await focus(locator);
-    const { step, isUp } = await locator.evaluate(
-      (one: HTMLInputElement, wanted) => ({
-        step: one.step,
-        isUp: Number(wanted) > one.valueAsNumber,
-      }),
-      text,
-    );
-    if (step && step !== 'any') await this.page.keyboard.press(isUp ? 'ArrowUp' : 'ArrowDown');
+    const isUp = Number(text) > Number(await locator.inputValue());
+    const isNumber = (await locator.getAttribute('role')) === 'spinbutton';
+    if (isNumber) await this.page.keyboard.press(isUp ? 'ArrowUp' : 'ArrowDown');
     else await replaceText(this, text);
     await this.page.keyboard.press('Enter');
   }

@@ -73,6 +73,7 @@ export async function injectGamepad({ page }: Lab) {
   await page.evaluate(() => {
     const pad = {
       id: 'Test pad',
+      mapping: 'standard',
       axes: [0, 0, 0, 0],
       buttons: Array.from({ length: 17 }, () => ({ pressed: false })),
     };

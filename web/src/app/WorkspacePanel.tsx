@@ -126,10 +126,11 @@ export function WorkspacePanel(props: {
         </Show>
         {props.children}
         <FailureCard lab={lab} />
-        <PlaceNotice lab={lab} place="workspace" />
       </div>
       <For each={menu}>{(layer) => <Show when={layer.isShown()}>{layer.legend?.()}</Show>}</For>
       <footer class="panel-foot">
+        {/* Not above the map, where it would cover the bead. */}
+        <PlaceNotice lab={lab} place="workspace" />
         <p id={HELP_ID} class="hint">
           <WorkspaceHint steers={lab.steering.isActive()} scene={mode() === 'scene'} />
         </p>

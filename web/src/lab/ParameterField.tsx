@@ -15,6 +15,7 @@ import {
 } from './parameters';
 import type { Parameters, SceneMessage } from '../net/protocol.gen';
 import type { Session, Trial } from './slices';
+import { NumberInput } from '../ui/NumberInput';
 import './ParameterField.css';
 
 export interface Form {
@@ -47,7 +48,7 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
   const commit = (value: number): void => {
     batch(() => {
       form.move({});
-      if (Number.isFinite(value)) form.edit(stored(value));
+      form.edit(stored(value));
     });
   };
   const id = createUniqueId();
@@ -60,20 +61,16 @@ function NumberRow(props: { form: Form; field: NumberField }): JSX.Element {
         {field.label}
       </label>
       <span class="with-unit">
-        <input
+        <NumberInput
           id={id}
-          type="number"
-          class="number"
           min={field.min}
           max={max()}
           step={field.step}
+          isWhole={field.whole}
           value={text()}
           disabled={form.disabled()}
-          onChange={(event) => {
-            commit(event.currentTarget.valueAsNumber);
-            // Replace a value that is out of range or not a number.
-            event.currentTarget.value = text();
-          }}
+          // A value out of range becomes the nearest one.
+          onNumber={commit}
         />
         <span class="unit">{field.unit}</span>
       </span>

@@ -7,6 +7,7 @@ import {
   type ControllerName,
   type Parameters,
 } from '../net/protocol.gen';
+import { shownName } from '../ui/name';
 
 export { CONTROLLER_LABELS, CONTROLLERS };
 
@@ -15,7 +16,7 @@ export function controllerLabel(one: {
   readonly controller: ControllerName;
   readonly program: string | null;
 }): string {
-  return one.program ?? CONTROLLER_LABELS[one.controller];
+  return one.program === null ? CONTROLLER_LABELS[one.controller] : shownName(one.program);
 }
 
 /** What each controller does, one or two sentences. */

@@ -4,6 +4,7 @@ import { For, Show, type JSX } from 'solid-js';
 import type { ChallengeSummary } from '../../net/protocol.gen';
 import { counted } from '../../ui/format';
 import { type Chosen, boardAddress, shortTitle } from './entries';
+import { shownName } from '../../ui/name';
 
 export function BoardChoices(props: {
   all: readonly ChallengeSummary[];
@@ -44,7 +45,7 @@ export function BoardChoices(props: {
             <For each={props.classes}>
               {(one) => (
                 <option value={one} selected={one === props.chosen.ofClass}>
-                  {one}
+                  {shownName(one)}
                 </option>
               )}
             </For>

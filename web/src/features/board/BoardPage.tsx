@@ -30,6 +30,7 @@ import {
   rowsOf,
 } from './entries';
 import { createBoard } from './live';
+import { shownName } from '../../ui/name';
 import './board.css';
 
 const LIST_MS = 15_000;
@@ -115,7 +116,7 @@ function headWords(
 ): string {
   if (name === undefined) return 'Board';
   const title = longTitle(name, summary);
-  return ofClass === undefined ? title : `${title}, class ${ofClass}`;
+  return ofClass === undefined ? title : `${title}, class ${shownName(ofClass)}`;
 }
 
 function rulesOf(players: number, report: ChallengeReport | undefined): string {
@@ -192,7 +193,7 @@ function Empty(props: { ofClass: string | undefined }): JSX.Element {
       <h2>
         {props.ofClass === undefined
           ? 'No attempt is on this board yet'
-          : `No attempt of class ${props.ofClass} is on this board yet`}
+          : `No attempt of class ${shownName(props.ofClass)} is on this board yet`}
       </h2>
       <ol>
         <li>Open the address above in a browser.</li>
@@ -201,8 +202,9 @@ function Empty(props: { ofClass: string | undefined }): JSX.Element {
           you.
         </li>
         <li>
-          Enter your name{props.ofClass === undefined ? '' : ` and the class ${props.ofClass}`}, and
-          put your attempt on the board.
+          Enter your name
+          {props.ofClass === undefined ? '' : ` and the class ${shownName(props.ofClass)}`}, and put
+          your attempt on the board.
         </li>
       </ol>
     </section>

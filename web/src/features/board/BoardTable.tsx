@@ -3,6 +3,7 @@
 import { For, createMemo, on, type JSX } from 'solid-js';
 import { seconds } from '../../ui/format';
 import { type Row, when } from './entries';
+import { shownName } from '../../ui/name';
 
 /** The roles are explicit because a phone shows each row as a block, which would remove them. */
 export function BoardTable(props: {
@@ -56,11 +57,11 @@ export function BoardTable(props: {
               <td role="cell" class="number board-place">
                 {place}
               </td>
-              <th role="rowheader" scope="row" class="board-player" title={entry.player}>
-                {entry.player}
+              <th role="rowheader" scope="row" class="board-player" title={shownName(entry.player)}>
+                {shownName(entry.player)}
               </th>
-              <td role="cell" class="board-class" title={entry.class ?? undefined}>
-                {entry.class}
+              <td role="cell" class="board-class" title={shownName(entry.class ?? '')}>
+                {shownName(entry.class ?? '')}
               </td>
               <td role="cell" class="number board-total">
                 {seconds(entry.total_s)}

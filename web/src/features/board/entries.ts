@@ -3,6 +3,7 @@
 import type { BoardEntry, ChallengeReport, ChallengeSummary, Period } from '../../net/protocol.gen';
 import { DIFFICULTY_LABELS, PERIOD_LABELS } from '../../lab/challenges';
 import { seconds } from '../../ui/format';
+import { shownName } from '../../ui/name';
 
 /** What the address chooses. */
 export interface Chosen {
@@ -47,7 +48,7 @@ export function longTitle(name: string, summary: ChallengeSummary | undefined): 
 }
 
 export function pageTitle(name: string | undefined, ofClass: string | undefined): string {
-  const words = ['Board', name, ofClass === undefined ? undefined : `class ${ofClass}`];
+  const words = ['Board', name, ofClass === undefined ? undefined : `class ${shownName(ofClass)}`];
   return `${words.filter((word) => word !== undefined).join(' · ')} – Ferry`;
 }
 
@@ -104,7 +105,7 @@ export function added(
 
 /** `New: Ada, place 3, 21.4 s`. */
 export function newWords({ place, entry }: Row): string {
-  return `New: ${entry.player}, place ${place}, ${seconds(entry.total_s)}`;
+  return `New: ${shownName(entry.player)}, place ${place}, ${seconds(entry.total_s)}`;
 }
 
 /** The local time of a moment of today, otherwise its date. */

@@ -98,8 +98,8 @@ function CameraPictures(props: { lab: Notices & Pictures }): JSX.Element {
                 data-testid="blocks"
                 title="The dark blocks of the quadtree are merged into the smallest possible number of rectangles: N − L − H + C"
               >
-                {counted(layer().rectangles.length, 'rectangle')} (merged from{' '}
-                {counted(layer().dark.length, 'block')})
+                {counted(layer().rectangles.length, 'rectangle')} from{' '}
+                {counted(layer().dark.length, 'block')}
               </span>
             )}
           </Show>

@@ -8,6 +8,7 @@ import type { Challenges, ChallengeSummary, DifficultyName, Period } from '../..
 import { counted, seconds } from '../../ui/format';
 import { OwnSession } from './OwnSession';
 import { challengeTitle, seedFault } from './words';
+import { shownName } from '../../ui/name';
 
 const POLL_MS = 10_000;
 const ORDER: readonly Period[] = ['day', 'week'];
@@ -15,7 +16,7 @@ const ORDER: readonly Period[] = ['day', 'week'];
 /** `Ada 14.2 s · 3 players`. */
 function bestWords({ best, entries }: ChallengeSummary): string {
   return best
-    ? `best: ${best.player} ${seconds(best.total_s)} · ${counted(entries, 'player')}`
+    ? `best: ${shownName(best.player)} ${seconds(best.total_s)} · ${counted(entries, 'player')}`
     : 'no player yet';
 }
 

@@ -15,6 +15,7 @@ import type { ChallengeLab } from './ChallengePanel';
 import { OwnSession } from './OwnSession';
 import { SignForm } from './SignForm';
 import { DIFFICULTY_HELP, challengeTitle, ghostName, lossWords, sumWords, verdict } from './words';
+import { shownName } from '../../ui/name';
 
 const LINES = 5;
 
@@ -84,8 +85,8 @@ function Board(props: { board: readonly BoardEntry[] }): JSX.Element {
           {(line) => (
             <li>
               <span>
-                {line.player}
-                {line.class === null ? '' : ` (${line.class})`}
+                {shownName(line.player)}
+                {line.class === null ? '' : ` (${shownName(line.class)})`}
               </span>
               <span class="number">{seconds(line.total_s)}</span>
             </li>

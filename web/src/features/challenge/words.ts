@@ -12,6 +12,7 @@ import type {
   LossMessage,
 } from '../../net/protocol.gen';
 import { centimetres, counted, seconds } from '../../ui/format';
+import { shownName } from '../../ui/name';
 
 export const DIFFICULTY_HELP: Readonly<Record<DifficultyName, string>> = {
   easy: 'Posts. Nothing disturbs.',
@@ -33,7 +34,7 @@ export const seedFault = (text: string): string | undefined =>
   SEED.test(text) ? undefined : 'Use 1 to 24 of a to z, 0 to 9 and -.';
 
 export const ghostName = ({ controller, player }: GhostMessage): string =>
-  player ?? CONTROLLER_LABELS[controller];
+  player === null ? CONTROLLER_LABELS[controller] : shownName(player);
 
 /** `12.4 s + 2 wall stops × 1 s + 1 lost bead × 5 s`. */
 export function sumWords(attempt: AttemptStanding, rules: ChallengeReport): string {

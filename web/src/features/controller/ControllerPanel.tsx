@@ -19,6 +19,7 @@ import { isLedFromOutside } from '../../lab/outside';
 import { ParameterForm } from './ParameterForm';
 import { SwitchingLaw } from './SwitchingLaw';
 import type { Notices, Session, Trial } from '../../lab/slices';
+import { shownName } from '../../ui/name';
 import './ControllerPanel.css';
 
 /** A choice is shown at once. If the server has not followed by then, its controller is shown again. */
@@ -58,7 +59,7 @@ function ControllerRadio(props: {
           props.onChoose();
         }}
       />
-      {props.choice.program ?? CONTROLLER_LABELS[props.choice.controller]}
+      {shownName(props.choice.program ?? CONTROLLER_LABELS[props.choice.controller])}
     </label>
   );
 }

@@ -16,7 +16,7 @@ async function open() {
   show(() => (
     <Show when={lab.scene()}>{(scene) => <ParameterForm lab={lab} scene={scene()} />}</Show>
   ));
-  await expect.element(threshold).toHaveValue(10);
+  await expect.element(threshold).toHaveValue('10.0');
   return server;
 }
 
@@ -27,11 +27,11 @@ it('sends all parameters, and shows those of the server', async () => {
   const changed = { ...parameters, threshold_m: 0.08 };
   await expect.poll(() => server.command('configure')?.parameters).toEqual(changed);
   server.scene({ parameters: changed });
-  await expect.element(threshold).toHaveValue(8);
+  await expect.element(threshold).toHaveValue('8.0');
   await page.getByRole('button', { name: 'Restore defaults' }).click();
   await expect.poll(() => server.command('configure')?.parameters).toEqual(parameters);
   server.scene({ parameters });
-  await expect.element(threshold).toHaveValue(10);
+  await expect.element(threshold).toHaveValue('10.0');
 });
 
 it('shows the old value again when the server refuses an edit', async () => {
@@ -40,7 +40,25 @@ it('shows the old value again when the server refuses an edit', async () => {
   await userEvent.keyboard('{Enter}');
   await expect.poll(() => server.command('configure')).toBeDefined();
   server.refuse('out_of_range', 'threshold_m is refused');
-  await expect.element(threshold).toHaveValue(10);
+  await expect.element(threshold).toHaveValue('10.0');
+});
+
+it('reads a decimal comma, and keeps what is not a number, with the reason', async () => {
+  const server = await open();
+  await threshold.fill('7,5');
+  await userEvent.keyboard('{Enter}');
+  const changed = { ...parameters, threshold_m: 0.075 };
+  await expect.poll(() => server.command('configure')?.parameters).toEqual(changed);
+  server.scene({ parameters: changed });
+  await expect.element(threshold).toHaveValue('7.5');
+  const { length } = server.sent;
+  await threshold.fill('7,5,1');
+  await userEvent.tab();
+  await expect.element(threshold).toHaveValue('7,5,1');
+  await expect.element(threshold).toBeInvalid();
+  await expect.element(threshold).not.toHaveFocus();
+  await expect.element(threshold).toHaveAccessibleDescription('“7,5,1” is not a number.');
+  expect(server.sent).toHaveLength(length);
 });
 
 it('sends nothing when a slider returns to its start', async () => {
@@ -52,11 +70,34 @@ it('sends nothing when a slider returns to its start', async () => {
     input.dispatchEvent(new InputEvent('input', { bubbles: true }));
   };
   move('12');
-  await expect.element(threshold).toHaveValue(12);
+  await expect.element(threshold).toHaveValue('12.0');
   // Released where it started, the browser reports no change.
   move('10');
-  await expect.element(threshold).toHaveValue(10);
+  await expect.element(threshold).toHaveValue('10.0');
   expect(server.sent).toEqual([]);
+});
+
+it('shows one distance between tool and bead, that of now', async () => {
+  const { lab, server } = fakeLab();
+  show(() => (
+    <Show when={lab.scene()}>
+      {(scene) => (
+        <Show when={lab.state()}>
+          {(state) => <SwitchingLaw scene={scene()} state={state()} />}
+        </Show>
+      )}
+    </Show>
+  ));
+  const reason = page.getByTestId('reason');
+  for (const [text, shown] of [
+    ['fetching: 155 mm away, not yet within 10 mm', 'fetching: not yet within 10 mm'],
+    ['fetching: 155 mm away, but a wall is between', 'fetching, but a wall is between'],
+    ['bead lost: 155 mm away, more than T = 100 mm', 'bead lost: more than T = 100 mm'],
+  ] as const) {
+    server.state({ reason: text, tracked_error_m: 0.133 });
+    await expect.element(reason).toHaveTextContent(new RegExp(`^${shown}$`));
+  }
+  await expect.element(page.getByText('13.3 cm')).toBeVisible();
 });
 
 it('draws T on a fixed scale', async () => {

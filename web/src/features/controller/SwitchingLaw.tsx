@@ -176,6 +176,10 @@ function captureText(capture_m: SceneMessage['capture_m']): string {
   return reaches.length < capture_m.length ? `${text}, some directions` : text;
 }
 
+/** Without the distance at the last control step: e, which is shown above, has changed since. */
+const withoutDistance = (reason: string): string =>
+  reason.replace(/: \d+ mm away, but/, ', but').replace(/ \d+ mm away,/, '');
+
 export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }): JSX.Element {
   return (
     <div class="switching">
@@ -201,7 +205,7 @@ export function SwitchingLaw(props: { state: StateMessage; scene: SceneMessage }
         />
       </dl>
       <p class="reason" data-testid="reason">
-        {props.state.reason}
+        {withoutDistance(props.state.reason)}
       </p>
       <Show when={props.state.refusal}>
         {(refusal) => <p class="refusal">Holding: {withoutHashes(refusal())}</p>}

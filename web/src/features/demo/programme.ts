@@ -10,6 +10,7 @@ import type {
 import { seconds } from '../../ui/format';
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import { MAIN, sessionOf } from '../../net/session';
+import { shownName } from '../../ui/name';
 
 /** Something that happens when a state fits: a caption, and maybe a command. */
 export interface Cue {
@@ -200,7 +201,13 @@ function rival(ghosts: Ghosts | undefined): { name: string; total_s: number } | 
   const all = (ghosts?.ghosts ?? []).flatMap(({ player, controller, total_s }) =>
     total_s === null
       ? []
-      : [{ isPerson: player !== null, name: player ?? CONTROLLER_LABELS[controller], total_s }],
+      : [
+          {
+            isPerson: player !== null,
+            name: player === null ? CONTROLLER_LABELS[controller] : shownName(player),
+            total_s,
+          },
+        ],
   );
   all.sort((a, b) => Number(b.isPerson) - Number(a.isPerson) || a.total_s - b.total_s);
   return all[0];

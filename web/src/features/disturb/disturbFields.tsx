@@ -1,8 +1,10 @@
 // The fields of a disturbance: numbers with units, choices, and places that can be picked in the plan view.
 
-import { For, Show, createEffect, onCleanup, type JSX } from 'solid-js';
+import { For, Show, onCleanup, type JSX } from 'solid-js';
 import type { Picker } from '../../plan/picker';
 import type { Vec2 } from '../../lab/geometry';
+import { numberOf } from '../../ui/number';
+import { NumberInput } from '../../ui/NumberInput';
 
 export function Amount(props: {
   name: string;
@@ -17,29 +19,21 @@ export function Amount(props: {
   disabled: boolean;
   onValue: (value: number) => void;
 }): JSX.Element {
-  let input!: HTMLInputElement;
-  createEffect(() => {
-    // Do not overwrite a field while the user types: it would lose a sign or a decimal point.
-    const { value } = props;
-    if (!Number.isNaN(value) && input.valueAsNumber !== value) input.value = String(value);
-  });
   return (
     <label class="amount">
       <Show when={props.lead}>
         <span class="unit">{props.lead}</span>
       </Show>
-      <input
-        ref={input}
-        type="number"
-        class="number"
-        aria-label={props.name}
+      <NumberInput
+        label={props.name}
         min={props.min ?? 0.01}
         max={props.max}
-        step={props.whole ? 1 : 'any'}
-        required
+        isWhole={props.whole}
+        isStrict
+        value={props.value}
         disabled={props.disabled}
-        onInput={(event) => {
-          props.onValue(event.currentTarget.valueAsNumber);
+        onInput={(text) => {
+          props.onValue(numberOf(text));
         }}
       />
       <Show when={props.unit}>

@@ -12,6 +12,7 @@ import { createPrograms } from '../../lab/programs';
 import type { EvaluationSummary } from '../../net/protocol.gen';
 import { Refusal } from '../../net/requests';
 import { roughly } from '../../ui/format';
+import { NumberInput } from '../../ui/NumberInput';
 import type { EvaluationList } from './evaluations';
 import { draft, setDraft } from './draft';
 import {
@@ -27,6 +28,7 @@ import {
 } from './request';
 import type { Session, Trial } from '../../lab/slices';
 import { VaryFields } from './VaryFields';
+import { shownName } from '../../ui/name';
 import './EvaluationForm.css';
 
 const DISTURBANCES = [0, 3] as const;
@@ -123,18 +125,14 @@ function Whole(props: {
     <div class="whole">
       <div class="field">
         <label for={id}>{props.label}</label>
-        <input
+        <NumberInput
           id={id}
-          class="number"
-          type="number"
-          min="0"
-          step="1"
+          min={0}
+          isWhole
           value={props.value}
-          aria-invalid={props.fault !== undefined}
-          aria-describedby={fault}
-          onInput={({ currentTarget }) => {
-            props.onInput(currentTarget.value);
-          }}
+          isInvalid={props.fault !== undefined}
+          describedBy={fault}
+          onInput={props.onInput}
         />
       </div>
       <Fault id={fault} text={props.fault} />
@@ -194,7 +192,7 @@ export function EvaluationForm(props: {
         legend="Controllers"
         all={[...CONTROLLERS, ...programs()]}
         chosen={[...draft().controllers, draft().program]}
-        label={(name) => LABELS.get(name) ?? name}
+        label={(name) => LABELS.get(name) ?? shownName(name)}
         fault={faults().controllers}
         onChoose={(chosen) => {
           change('controllers', chooseControllers(chosen, draft().program));

@@ -2,6 +2,7 @@
 
 import { For, Show, createUniqueId, type JSX } from 'solid-js';
 import { GROUPS } from '../../lab/parameters';
+import { NumberInput } from '../../ui/NumberInput';
 import type { VariedDraft } from './request';
 import { isNumberName, numberField } from './varied';
 
@@ -68,14 +69,12 @@ function Row(props: {
                       <span class="unit"> {unit()}</span>
                     </Show>
                   </label>
-                  <input
+                  <NumberInput
                     id={`${id}-${part}`}
-                    class="number"
-                    type="number"
-                    step="any"
+                    step={part === 'count' ? 1 : numberField(value().name).step}
                     value={value()[part]}
-                    onInput={({ currentTarget }) => {
-                      props.onChange({ ...value(), [part]: currentTarget.value });
+                    onInput={(text) => {
+                      props.onChange({ ...value(), [part]: text });
                     }}
                   />
                 </div>

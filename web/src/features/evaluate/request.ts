@@ -3,6 +3,7 @@
 import type { ControllerName, EvaluationQuery, EvaluationSummary } from '../../net/protocol.gen';
 import { CONTROLLERS, type NumberName } from '../../lab/parameters';
 import { counted } from '../../ui/format';
+import { numberFault, numberOf } from '../../ui/number';
 import { secondsAnEpisode } from './progress';
 import { numberField } from './varied';
 
@@ -48,11 +49,11 @@ export type Faults = Readonly<Partial<Record<Field | 'form', string | undefined>
 
 const WHOLE = /^\d+$/;
 
-const isNumber = (text: string): boolean => text.trim() !== '' && Number.isFinite(Number(text));
+const isNumber = (text: string): boolean => numberFault(text) === undefined;
 
 /** From the shown unit, without the noise of binary fractions. */
 function stored(name: NumberName, text: string): number {
-  return Number((Number(text) / numberField(name).scale).toPrecision(12));
+  return Number((numberOf(text) / numberField(name).scale).toPrecision(12));
 }
 
 /** The query, or the faults of the draft. The server checks the limits. */

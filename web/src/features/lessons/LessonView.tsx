@@ -247,7 +247,7 @@ export function LessonView(props: Props): JSX.Element {
               type="button"
               class="small primary"
               onClick={() => {
-                store.finish();
+                store.close();
               }}
             >
               Finish

@@ -20,3 +20,25 @@ it('ends the settings of a lesson with it', async () => {
   await button('All lessons').click();
   await expect.poll(() => server.command('configure')?.parameters).toEqual(lab.scene()?.defaults);
 });
+
+it('counts a lesson that was read to its end, whether it is finished or left', async () => {
+  const { lab, server } = fakeLab();
+  show(() => <LessonsPanel lab={lab} />);
+  await expect.poll(() => lab.state()).toBeDefined();
+  server.scene({ maps: ['posts', 'colon', 'open'] });
+  await button(/^Meet the magnet/).click();
+  await page.getByRole('radio').first().click();
+  await button('Next').click();
+  await button('Set it up').click();
+  await expect.poll(() => server.command('load_scenario')).toBeDefined();
+  server.load();
+  await expect.element(page.getByText('0 of 3 done')).toBeVisible();
+  server.state({ tick: 1, sim_time_s: 0.008, tool_m: [0, -0.36, 0.1] });
+  await expect.poll(() => lab.state()?.tick).toBe(1);
+  server.tell({ type: 'event', tick: 1250, sim_time_s: 10, kind: 'delivered', text: 'delivered' });
+  server.state({ tick: 1250, sim_time_s: 10, tool_m: [0.15, -0.36, 0.1] });
+  await expect.element(page.getByText('3 of 3 done')).toBeVisible();
+  await button('Next').click();
+  await button('All lessons').click();
+  await expect.element(button(/^Meet the magnet.*done/i)).toBeVisible();
+});

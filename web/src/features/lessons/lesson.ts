@@ -109,6 +109,13 @@ export const DELIVERED: Task = {
   done: (track) => track.deliveries.length > 0,
 };
 
+/** In a run where the bead is lost: a delivery before that does not count. */
+export const DELIVERED_AFTER_FETCH: Task = {
+  text: 'Fetched and then delivered: bead within 20 mm of the goal',
+  done: ({ deliveries, fetchedAt_s = Infinity }) =>
+    deliveries.some(({ time_s }) => time_s > fetchedAt_s),
+};
+
 /** When the first goal was delivered, as text. */
 export function deliveryWords(track: Track | undefined): string {
   const first = track?.deliveries[0];

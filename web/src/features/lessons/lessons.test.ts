@@ -65,6 +65,17 @@ describe('every lesson', () => {
   });
 });
 
+it.each([
+  ['lose', 0],
+  ['chatter', 1],
+] as const)('%s counts no delivery from before the fetch', (id, run) => {
+  const last = lesson(id).runs[run]?.tasks.at(-1);
+  const before = { losses: 1, lostAt_s: 12, fetchedAt_s: 14 };
+  expect(last?.done(track({ ...before, ...delivered(10) }))).toBe(false);
+  expect(last?.done(track({ ...before, fetchedAt_s: undefined, ...delivered(13) }))).toBe(false);
+  expect(last?.done(track({ ...before, ...delivered(20) }))).toBe(true);
+});
+
 describe('the outcome follows from the measurements', () => {
   it.each<[string, Partial<Track>[], string]>([
     ['magnet', [{ carryingError_m: 0.002 }], 'below'],

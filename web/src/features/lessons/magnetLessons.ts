@@ -27,7 +27,7 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
       layers: ['capture', 'trail'],
       words: [
         'Set it up loads an empty table with the goal 30 cm to the right, and switches on the layer Capture: inside the blue ring around the tool, the magnet’s pull is stronger than friction.',
-        'Press Run and look at e on the right: the distance between tool and bead.',
+        'Press Run and look at e on the right: the distance between tool and bead, as the tracker measures it. Its noise is 1 or 2 mm.',
       ],
       tasks: [
         RUNNING,
@@ -43,12 +43,15 @@ export const MEET_THE_MAGNET: ExperimentLesson = {
     return error_m < 0.03 ? 'behind' : 'edge';
   },
   facts: ([track]) => [
-    ['greatest distance behind', millimetres(track?.carryingError_m ?? 0)],
+    [
+      'greatest distance behind, without the noise of the tracker',
+      millimetres(track?.carryingError_m ?? 0, 1),
+    ],
     ['delivered', deliveryWords(track)],
   ],
   why: [
     `Right below the magnet there is no sideways pull. The pull grows with the distance to the side, up to ${fixed(FACTS.strongest_pull, 2)} of the bead’s weight at ${centimetres(FACTS.strongest_at_m)}. Farther out it becomes weaker again.`,
-    `The moving bead stays at the distance where the pull equals friction plus drag: ${millimetres(FACTS.follows_at_m)} at ${millimetres(FACTS.transport_speed_m_s)}/s. When the magnet stops, there is no drag, and the bead slides to ${millimetres(FACTS.rests_at_m)} from the magnet.`,
+    `The moving bead stays at the distance where the pull equals friction plus drag: ${millimetres(FACTS.follows_at_m, 1)} at ${millimetres(FACTS.transport_speed_m_s)}/s. When the magnet stops, there is no drag, and the bead slides to ${millimetres(FACTS.rests_at_m)} from the magnet.`,
     `Even the strongest pull cannot move the bead faster than ${millimetres(FACTS.greatest_speed_m_s)}/s. A faster magnet would leave it behind.`,
   ],
   paper: 'Section V: the magnets, and the plane 10 cm above the table.',

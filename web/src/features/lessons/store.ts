@@ -10,7 +10,14 @@ import {
   type Accessor,
 } from 'solid-js';
 import { experimentFrom, linkAsSetUp, loadMessage } from '../../lab/experimentLink';
-import { allDone, isTrainingLesson, type Lesson, type Run, type TrainingRun } from './lesson';
+import {
+  allDone,
+  isTrainingLesson,
+  type Lesson,
+  runCount,
+  type Run,
+  type TrainingRun,
+} from './lesson';
 import { createLessonTrainings, type LessonTrainings } from './lessonTrainings';
 import { LESSONS } from './lessons';
 import { NO_PROGRESS, type Progress, storedProgress, storeProgress } from './progress';
@@ -40,12 +47,11 @@ export interface Lessons {
   readonly mayGoOn: Accessor<boolean>;
   open(lesson: Lesson): void;
   close(): void;
+  /** The lesson is done when its last step is shown. */
   go(step: number): void;
   choose(choice: string): void;
   /** Loads the run's experiment. */
   setUp(): void;
-  /** Marks the lesson as done. */
-  finish(): void;
   startOver(): void;
 }
 
@@ -149,7 +155,12 @@ function createLessons(lab: LessonsLab): Lessons {
       setLesson(next);
     },
     close: leave,
-    go: setStep,
+    go(to) {
+      setStep(to);
+      const now = lesson();
+      if (now && to > runCount(now) && !progress().done.includes(now.id))
+        keep({ ...progress(), done: [...progress().done, now.id] });
+    },
     choose(choice) {
       const now = lesson();
       if (now) keep({ ...progress(), choices: { ...progress().choices, [now.id]: choice } });
@@ -167,13 +178,6 @@ function createLessons(lab: LessonsLab): Lessons {
       const off = here.layers.filter((layer) => !lab.layers().has(layer));
       for (const layer of off) lab.showLayer(layer, true);
       lent = [...lent, ...off];
-    },
-    finish() {
-      const now = lesson();
-      if (now && !progress().done.includes(now.id)) {
-        keep({ ...progress(), done: [...progress().done, now.id] });
-      }
-      leave();
     },
     startOver() {
       leave();

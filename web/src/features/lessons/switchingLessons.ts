@@ -2,7 +2,14 @@
 
 import { centimetres, millimetres } from '../../ui/format';
 import { FACTS } from './facts.gen';
-import { DELIVERED, deliveryWords, type ExperimentLesson, type Run, RUNNING } from './lesson';
+import {
+  DELIVERED,
+  DELIVERED_AFTER_FETCH,
+  deliveryWords,
+  type ExperimentLesson,
+  type Run,
+  RUNNING,
+} from './lesson';
 
 const KICKED = '#v=1&map=open&controller=attractor&seed=1&start=-0.2,-0.36&goal=0.2,-0.36';
 const KICKS =
@@ -44,7 +51,7 @@ export const LOSE_THE_BEAD: ExperimentLesson = {
           text: 'Bead fetched: sub-controller 2 moves the arm again',
           done: (track) => track.fetchedAt_s !== undefined,
         },
-        DELIVERED,
+        DELIVERED_AFTER_FETCH,
       ],
       actions: [
         {
@@ -168,7 +175,11 @@ export const TWO_LAWS: ExperimentLesson = {
       words: [
         'The same experiment with Ferry’s default law: sub-controller 1 moves the arm until the tool is within 1 cm of the bead.',
       ],
-      tasks: [RUNNING, { text: 'The bead is lost', done: (track) => track.losses > 0 }, DELIVERED],
+      tasks: [
+        RUNNING,
+        { text: 'The bead is lost', done: (track) => track.losses > 0 },
+        DELIVERED_AFTER_FETCH,
+      ],
       actions: [],
     },
   ],

@@ -28,7 +28,7 @@ it('shows a long seed as a whole', async () => {
   server.scene({ seed: LARGEST_SEED });
   const input = seed.element() as HTMLInputElement;
   input.blur();
-  await expect.element(seed).toHaveValue(LARGEST_SEED);
+  await expect.element(seed).toHaveValue(String(LARGEST_SEED));
   await expect.poll(() => input.scrollWidth - input.clientWidth).toBeLessThanOrEqual(0);
 });
 

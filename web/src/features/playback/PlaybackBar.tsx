@@ -8,6 +8,8 @@ import { speedName, SPEEDS, ticksToControlStep } from './steps';
 import { Achieved } from './Achieved';
 import { PlaceNotice } from '../../lab/PlaceNotice';
 import { Timeline } from './Timeline';
+import { numberFault, numberOf } from '../../ui/number';
+import { NumberInput } from '../../ui/NumberInput';
 import { TruthSelect } from '../../ui/ServerSelect';
 import type { Events, Notices, Session, Trial } from '../../lab/slices';
 import './PlaybackBar.css';
@@ -71,9 +73,10 @@ function RunButtons(props: { lab: Session & Trial & Notices }): JSX.Element {
 
 function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
   const { lab } = props;
-  let input!: HTMLInputElement;
+  // As typed. Leaving the field does not reset the trial.
+  const [typed, setTyped] = createSignal<string>();
   const show = (): void => {
-    input.value = String(props.seed);
+    setTyped(undefined);
   };
   createEffect(on([() => props.seed, lab.refusals], show));
   return (
@@ -81,24 +84,23 @@ function Seed(props: { lab: Session & Notices; seed: number }): JSX.Element {
       class="field"
       onSubmit={(event) => {
         event.preventDefault();
-        const seed = input.valueAsNumber;
-        if (Number.isSafeInteger(seed) && seed >= 0) lab.send({ type: 'reset', seed });
-        else lab.notify('playback', 'The seed must be a whole number, 0 or larger.');
+        lab.send({ type: 'reset', seed: numberOf(typed() ?? String(props.seed)) });
       }}
     >
       <label for="seed">Seed</label>
-      <input
-        ref={input}
+      <NumberInput
         id="seed"
-        class="number"
-        type="number"
-        min="0"
-        step="1"
+        min={0}
+        isWhole
+        isStrict
+        value={typed() ?? props.seed}
         disabled={!lab.canOperate()}
         title="Enter resets the trial with this seed"
         style={{ '--digits': String(props.seed).length }}
-        // Leaving the field does not reset the trial.
-        onBlur={show}
+        onInput={setTyped}
+        onBlur={() => {
+          if (numberFault(typed() ?? '0') === undefined) show();
+        }}
       />
       <button
         type="button"

@@ -2,6 +2,7 @@
 
 import { CONTROLLER_LABELS } from '../../lab/parameters';
 import type { RecordingContent, RecordingFile } from '../../net/protocol.gen';
+import { shownName } from '../../ui/name';
 
 /** A list with more names ends in a number. */
 const MAX_NAMES = 3;
@@ -39,7 +40,7 @@ export function ownName({ content, live, session, id }: RecordingFile): string {
 
 /** The name that the list shows. */
 export function nameOf(file: RecordingFile): string {
-  return file.title ?? ownName(file);
+  return file.title === null ? ownName(file) : shownName(file.title);
 }
 
 /** `1:02`: minutes and seconds. */

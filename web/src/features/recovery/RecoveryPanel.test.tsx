@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { page } from 'vitest/browser';
 import { fakeLab, refusal, show } from '../../lab/testingLab';
-import type { RecoveryQuery } from '../../net/protocol.gen';
+import type { RecoveryQuery, RecoveryReport } from '../../net/protocol.gen';
 import { RecoveryPanel } from './RecoveryPanel';
 
 it('sends what is chosen, and shows why the server refuses it', async () => {
@@ -33,4 +33,47 @@ it('sends what is chosen, and shows why the server refuses it', async () => {
 
   for (const name of ['Try ERRT', 'Try Attractor']) await page.getByLabelText(name).click();
   await expect.element(start).toBeDisabled();
+});
+
+it('shows a recovery map of another map only when it is chosen, and says so', async () => {
+  const report: RecoveryReport = {
+    id: 'recovery-1',
+    stage: 'done',
+    message: null,
+    done: 1,
+    planned: 1,
+    session: 'main',
+    trial: 1,
+    map: 'colon',
+    kind: 'place',
+    controllers: ['rl'],
+    names: ['rl'],
+    grid: 4,
+    repeats: 1,
+    seed: 1,
+    within_s: 60,
+    tick: 250,
+    bead_m: [0, -0.3],
+    goal_m: null,
+    cells: [],
+    basins: [],
+    differences: [],
+  };
+  const { lab, server } = fakeLab({
+    'GET /api/recoveries': () => ({ recoveries: [report] }),
+    'GET /api/recoveries/recovery-1': () => report,
+  });
+  show(() => (
+    <RecoveryPanel lab={lab} theme={() => 'dark'} tools={document.createElement('div')} />
+  ));
+  const choice = page.getByLabelText('Recovery map', { exact: true });
+  await expect.element(choice).toHaveTextContent('1: place, colon, another map');
+  await expect.element(page.getByTestId('recovery-progress')).not.toBeInTheDocument();
+  await choice.selectOptions('recovery-1');
+  const shown = page.getByTestId('recovery-progress');
+  await expect.element(shown).toHaveTextContent('another map than that of the session');
+  server.scene({ map: 'colon' });
+  await expect.element(shown).toHaveTextContent(/^place on colon from/);
+  server.scene({ map: 'posts' });
+  await expect.element(shown).not.toBeInTheDocument();
 });

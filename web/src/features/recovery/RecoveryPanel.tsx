@@ -90,7 +90,7 @@ function Figures(props: { lab: Session & Trial & Notices; report: RecoveryReport
   const { lab } = props;
   const dropped = (): number | undefined => {
     const at = store.dropped();
-    return at && cellAt(props.report, at);
+    return at && lab.scene()?.map === props.report.map ? cellAt(props.report, at) : undefined;
   };
   const drawn = createMemo(() => {
     const arrangement = store.arrangement();
@@ -151,16 +151,25 @@ function Figures(props: { lab: Session & Trial & Notices; report: RecoveryReport
   );
 }
 
-function Earlier(props: { all: readonly RecoverySummary[]; shown: string }): JSX.Element {
+/** A recovery map of another map is shown only if it is chosen here. */
+function Earlier(props: {
+  all: readonly RecoverySummary[];
+  shown: string | undefined;
+  isHere: (one: RecoverySummary) => boolean;
+}): JSX.Element {
+  const options = (): (readonly [string, string])[] => [
+    ...(props.shown === undefined ? [['', 'choose'] as const] : []),
+    ...props.all.map((one) => {
+      const where = props.isHere(one) ? one.map : `${one.map}, another map`;
+      return [one.id, `${one.id.replace('recovery-', '')}: ${one.kind}, ${where}`] as const;
+    }),
+  ];
   return (
-    <Show when={props.all.length > 1}>
+    <Show when={options().length > 1}>
       <TruthSelect
         label="Recovery map"
-        value={props.shown}
-        options={props.all.map(({ id, map, kind }) => [
-          id,
-          `${id.replace('recovery-', '')}: ${kind}, ${map}`,
-        ])}
+        value={props.shown ?? ''}
+        options={options()}
         refusals={0}
         disabled={false}
         onChoose={(id) => {
@@ -175,7 +184,8 @@ function Earlier(props: { all: readonly RecoverySummary[]; shown: string }): JSX
 
 export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHand>): JSX.Element {
   const { lab } = props;
-  const list = createRecoveryList();
+  const map = createMemo(() => lab.scene()?.map);
+  const list = createRecoveryList(map);
   const report = createMemo(() => {
     const now = store.report();
     return now && now.id === list.shown()?.id ? now : undefined;
@@ -183,6 +193,7 @@ export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHa
   return (
     <div class="recovery">
       <RecoveryStart lab={lab} list={list} />
+      <Earlier all={list.all()} shown={list.shown()?.id} isHere={(one) => one.map === map()} />
       <PlaceNotice lab={lab} place="recovery" />
       <Show
         when={lab.sight() === 'all'}
@@ -201,8 +212,12 @@ export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHa
             <>
               <div class="recovery-head">
                 <span data-testid="recovery-progress" role="status">
-                  {report().kind} on {report().map} from{' '}
-                  {clock(report().tick * (lab.scene()?.tick_s ?? 0))}: {progressWords(report())}
+                  {report().kind} on {report().map}
+                  {report().map === map()
+                    ? ''
+                    : ', which is another map than that of the session,'}{' '}
+                  from {clock(report().tick * (lab.scene()?.tick_s ?? 0))}:{' '}
+                  {progressWords(report())}
                 </span>
                 <Show when={isActive(report())}>
                   <progress
@@ -212,7 +227,6 @@ export function RecoveryPanel(props: PanelProps<Session & Trial & Notices & ByHa
                   />
                 </Show>
                 <Arrange report={report()} />
-                <Earlier all={list.all()} shown={report().id} />
                 <Legend isDifference={store.arrangement() !== 'each'} />
                 <a href={`/api/recoveries/${report().id}/map.html`} download="">
                   HTML

@@ -5,6 +5,8 @@ import { ControllerChecks, createOffered } from '../../lab/ControllerChecks';
 import type { Session, Trial } from '../../lab/slices';
 import type { ControllerName, RecoveryKind } from '../../net/protocol.gen';
 import { clock } from '../../ui/format';
+import { numberFault, numberOf } from '../../ui/number';
+import { NumberInput } from '../../ui/NumberInput';
 import { TruthSelect } from '../../ui/ServerSelect';
 import { type RecoveryList, isActive } from './recoveries';
 import { store } from './store';
@@ -30,16 +32,7 @@ function Whole(props: {
   return (
     <label class="recovery-number">
       {props.label}
-      <input
-        type="number"
-        class="number"
-        min="0"
-        step="1"
-        value={props.value}
-        onInput={({ currentTarget }) => {
-          props.onInput(currentTarget.value);
-        }}
-      />
+      <NumberInput min={0} value={props.value} onInput={props.onInput} />
     </label>
   );
 }
@@ -54,18 +47,20 @@ export function RecoveryStart(props: { lab: Session & Trial; list: RecoveryList 
   const start = async (): Promise<void> => {
     const tick = lab.state()?.tick;
     if (tick === undefined) return;
-    setRefusal(undefined);
     const { kind, grid, repeats, within_s, seed } = draft();
+    const wrong = [grid, repeats, within_s, seed].find((text) => numberFault(text) !== undefined);
+    setRefusal(wrong === undefined ? undefined : numberFault(wrong));
+    if (wrong !== undefined) return;
     try {
       await props.list.start({
         session: lab.session,
         tick,
         kind,
         controllers: wanted(),
-        grid: Number(grid),
-        repeats: Number(repeats),
-        seed: Number(seed),
-        within_s: Number(within_s),
+        grid: numberOf(grid),
+        repeats: numberOf(repeats),
+        seed: numberOf(seed),
+        within_s: numberOf(within_s),
         full: false,
       });
     } catch (reason) {

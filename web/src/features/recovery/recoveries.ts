@@ -1,6 +1,6 @@
 // The server's recovery maps, polled: often while one runs.
 
-import { createEffect, createMemo, type Accessor } from 'solid-js';
+import { createEffect, createMemo, on, type Accessor } from 'solid-js';
 import { createDetail } from '../../net/detail';
 import { createPoll } from '../../net/poll';
 import { post, remove } from '../../net/requests';
@@ -30,13 +30,18 @@ export interface RecoveryList {
   cancel(id: string): Promise<void>;
 }
 
-/** The recovery maps; the store gets the cells of the one that is shown. */
-export function createRecoveryList(): RecoveryList {
+/** The recovery maps; the store gets the cells of the one that is shown: the one that was chosen, otherwise the newest on `map`. */
+export function createRecoveryList(map: Accessor<string | undefined>): RecoveryList {
   const poll = createPoll<Recoveries>(PATH, (newest) =>
     newest?.recoveries.some(isActive) ? BUSY_MS : IDLE_MS,
   );
   const all = createMemo(() => poll.data()?.recoveries ?? []);
-  const shown = createMemo(() => all().find(({ id }) => id === store.wanted()) ?? all().at(-1));
+  const shown = createMemo(
+    () =>
+      all().find(({ id }) => id === store.wanted()) ?? all().findLast((one) => one.map === map()),
+  );
+  // What was chosen on another map would be taken for a result on this one.
+  createEffect(on(map, () => store.setWanted(undefined), { defer: true }));
   const detail = createDetail<RecoverySummary, RecoveryReport>(PATH, shown, (summary) =>
     [summary.id, summary.stage, summary.done].join(' '),
   );

@@ -3,6 +3,7 @@
 import { For, Show, type JSX } from 'solid-js';
 import type { RobotStanding } from '../../net/protocol.gen';
 import { clientsWords, motionWords } from './words';
+import { shownName } from '../../ui/name';
 import './robot.css';
 
 /** Refusals that fit into the panel, newest first. */
@@ -30,7 +31,7 @@ export function RobotFacts(props: { robot: RobotStanding }): JSX.Element {
           <For each={refused()}>
             {({ what, why }) => (
               <li>
-                <b>{what}</b>: {why}
+                <b>{shownName(what)}</b>: {why}
               </li>
             )}
           </For>

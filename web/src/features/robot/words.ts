@@ -2,6 +2,7 @@
 
 import type { RobotStanding } from '../../net/protocol.gen';
 import { counted } from '../../ui/format';
+import { shownName } from '../../ui/name';
 
 /** `2 connections from 127.0.0.1: RTDE, URScript`, by the address of the client. */
 export function clientsWords({ clients }: RobotStanding): string[] {
@@ -21,6 +22,6 @@ export function motionWords({ program, command, stop }: RobotStanding): string {
   if (stop !== null) return `Protective stop: ${stop}.`;
   if (program === null) return 'No program runs: the arm rests.';
   return command === null
-    ? `The program ${program} runs; the arm rests.`
-    : `The program ${program} moves the arm: ${command}.`;
+    ? `The program ${shownName(program)} runs; the arm rests.`
+    : `The program ${shownName(program)} moves the arm: ${command}.`;
 }

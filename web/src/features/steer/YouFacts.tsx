@@ -7,10 +7,19 @@ import { IS_TOUCH } from '../../ui/touch';
 import { followGamepads } from './pollGamepad';
 import './steer.css';
 
+const PUSH = { right: 'to the right', up: 'up', left: 'to the left', down: 'down' } as const;
+
 export function YouFacts(props: { lab: ByHand & OpenTab }): JSX.Element {
   const { lab } = props;
   const id = createUniqueId();
   const gamepad = followGamepads(lab);
+  const padHelp = (): string => {
+    const pad = gamepad.pad();
+    if (!pad) return 'Gamepad: press a button to connect it.';
+    return pad.asks === undefined
+      ? 'Gamepad: stick or cross; the first button stops the tool.'
+      : `Gamepad with an unknown layout: push the stick or the cross ${PUSH[pad.asks]}, and release it.`;
+  };
   const help = (): string => SIGHTS.find(([name]) => name === lab.sight())?.[2] ?? '';
   const how = (): string => {
     if (!lab.steering.isActive()) return 'Only the operator steers.';
@@ -25,10 +34,18 @@ export function YouFacts(props: { lab: ByHand & OpenTab }): JSX.Element {
       </p>
       <Show when={lab.steering.isActive()}>
         <p class="hint" data-testid="gamepad">
-          {gamepad() === undefined
-            ? 'Gamepad: press a button to connect it.'
-            : 'Gamepad: stick or cross; the first button stops the tool.'}
+          {padHelp()}
         </p>
+        <Show when={gamepad.pad()?.isKnown === false}>
+          <button
+            type="button"
+            class="small"
+            title="Forget which stick or cross steers, and ask again"
+            onClick={gamepad.relearn}
+          >
+            Choose the stick again
+          </button>
+        </Show>
       </Show>
       <button
         type="button"

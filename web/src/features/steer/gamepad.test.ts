@@ -28,8 +28,8 @@ describe('a gamepad', () => {
 
   it('is the one that is used', () => {
     const [idle, used] = [pad([0.05, 0]), pad([0, -1])];
-    expect(chosenPad([null, idle, used])).toBe(used);
-    expect(chosenPad([null, idle])).toBe(idle);
-    expect(chosenPad([null])).toBeUndefined();
+    expect(chosenPad([null, idle, used], readPad)).toBe(used);
+    expect(chosenPad([null, idle], readPad)).toBe(idle);
+    expect(chosenPad([null], readPad)).toBeUndefined();
   });
 });

@@ -20,7 +20,10 @@ export function stick(x: number, y: number): Vec2 {
   return [x * scale, -y * scale];
 }
 
-/** The direction of a gamepad: its cross, otherwise its left stick, otherwise its right one; `hold` while its first button is pressed. */
+/**
+ * The direction of a gamepad with the standard layout: its cross, otherwise its left stick, otherwise its right one; `hold`
+ * while its first button is pressed.
+ */
 export function readPad({ axes, buttons }: Pad): Vec2 | 'hold' {
   const isPressed = (name: keyof typeof BUTTONS): number =>
     buttons[BUTTONS[name]]?.pressed ? 1 : 0;
@@ -31,12 +34,15 @@ export function readPad({ axes, buttons }: Pad): Vec2 | 'hold' {
   return left[0] !== 0 || left[1] !== 0 ? left : stick(axes[2] ?? 0, axes[3] ?? 0);
 }
 
-/** The first gamepad that does something, otherwise the first one. */
-export function chosenPad<P extends Pad>(pads: readonly (P | null)[]): P | undefined {
+/** The first gamepad that does something by `read`, otherwise the first one. */
+export function chosenPad<P>(
+  pads: readonly (P | null)[],
+  read: (pad: P) => Vec2 | 'hold',
+): P | undefined {
   const there = pads.filter((pad) => pad !== null);
   const isUsed = (pad: P): boolean => {
-    const read = readPad(pad);
-    return read === 'hold' || read[0] !== 0 || read[1] !== 0;
+    const now = read(pad);
+    return now === 'hold' || now[0] !== 0 || now[1] !== 0;
   };
   return there.find(isUsed) ?? there[0];
 }

@@ -2,7 +2,8 @@
 
 import { For, Show, createUniqueId, type JSX } from 'solid-js';
 import { Fault } from './Fault';
-import { stepped, type Steps } from './steps';
+import { NumberInput } from '../../ui/NumberInput';
+import type { Steps } from '../../ui/number';
 
 interface FieldProps {
   readonly label: string;
@@ -87,26 +88,13 @@ export function TextField(
           }
         >
           {(number) => (
-            <input
+            <NumberInput
+              {...number()}
               id={id}
-              class="number"
-              type="number"
               value={props.value}
-              min={number().min}
-              max={number().max}
-              // Every value is valid; `number().step` is only for the arrow keys.
-              step={number().isWhole ? 1 : 'any'}
-              aria-invalid={props.fault !== undefined}
-              aria-describedby={about}
-              onInput={({ currentTarget }) => {
-                props.onInput(currentTarget.value);
-              }}
-              onKeyDown={(event) => {
-                const isUp = event.key === 'ArrowUp';
-                if (!isUp && event.key !== 'ArrowDown') return;
-                event.preventDefault();
-                props.onInput(stepped(event.currentTarget.value, number(), isUp));
-              }}
+              isInvalid={props.fault !== undefined}
+              describedBy={about}
+              onInput={props.onInput}
             />
           )}
         </Show>

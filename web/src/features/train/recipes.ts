@@ -7,6 +7,7 @@ import {
   type TrainingQuery,
 } from '../../net/protocol.gen';
 import { freeName } from '../../lab/maps';
+import { numberFault, numberOf } from '../../ui/number';
 
 export interface Settings {
   readonly updates: number;
@@ -190,9 +191,7 @@ const WHOLE = /^\d+$/;
 
 function settingFault(setting: NumberSetting, text: string): string | undefined {
   const { label, min, max, isWhole } = setting;
-  const value = Number(text);
-  const isRight = text.trim() !== '' && value >= min && value <= max;
-  if (isRight && (!isWhole || Number.isInteger(value))) return undefined;
+  if (numberFault(text, setting) === undefined) return undefined;
   return `${label} must be a ${isWhole ? 'whole ' : ''}number from ${min} to ${max}.`;
 }
 
@@ -214,7 +213,7 @@ export function queryOf(
     const text = draft.settings[setting.name];
     if (setting.kind !== 'number' || text === undefined) continue;
     const wrong = settingFault(setting, text);
-    if (wrong === undefined) changed[setting.name] = Number(text);
+    if (wrong === undefined) changed[setting.name] = numberOf(text);
     else faults[`settings.${setting.name}`] = wrong;
   }
   if (Object.keys(faults).length > 0) return { faults };

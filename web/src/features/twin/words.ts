@@ -1,6 +1,7 @@
 // What the page says about the robot that the arm mirrors. Pure.
 
 import type { TwinStanding } from '../../net/protocol.gen';
+import { shownName } from '../../ui/name';
 
 // Universal Robots' names of the numbers that RTDE reports.
 const MODES = new Map([
@@ -31,7 +32,7 @@ export function connectionWords(twin: TwinStanding): string {
   if (twin.trouble !== null) return `Robot ${twin.address} is not connected: ${twin.trouble}.`;
   const mode = MODES.get(twin.robot_mode) ?? `mode ${String(twin.robot_mode)}`;
   const safety = SAFETY.get(twin.safety_mode) ?? `safety mode ${String(twin.safety_mode)}`;
-  const model = twin.model === null ? '' : ` (${twin.model})`;
+  const model = twin.model === null ? '' : ` (${shownName(twin.model)})`;
   return `Robot ${twin.address}${model}: ${mode}, safety: ${safety}.`;
 }
 
